@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+# The libraries that Piola stands on. All are Debian packages; nothing is fetched. This file is installed and read
+# again by find_package(Piola), so it must not depend on anything of this build.
+
+set(_piola_install_hint "run tools/install_dependencies")
+
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(PNG REQUIRED)
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(muparser REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# Libraries without a CMake description of their own, and HDF5, whose description wants a C compiler to be enabled.
+function(piola_find_plain_library name header)
+  string(TOUPPER ${name} upper)
+  find_path(PIOLA_${upper}_INCLUDE ${header} PATH_SUFFIXES hdf5/serial)
+  find_library(PIOLA_${upper}_LIBRARY NAMES ${ARGN} PATH_SUFFIXES hdf5/serial)
+  if(NOT PIOLA_${upper}_INCLUDE OR NOT PIOLA_${upper}_LIBRARY)
+    message(FATAL_ERROR "Piola needs ${name} (header ${header}, library ${ARGN}) - ${_piola_install_hint}")
+  endif()
+  if(NOT TARGET Piola::${name})
+    add_library(Piola::${name} UNKNOWN IMPORTED)
+    set_target_properties(Piola::${name} PROPERTIES
+      IMPORTED_LOCATION "${PIOLA_${upper}_LIBRARY}"
+      INTERFACE_INCLUDE_DIRECTORIES "${PIOLA_${upper}_INCLUDE}")
+  endif()
+endfunction()
+piola_find_plain_library(hdf5 hdf5.h hdf5_serial hdf5)
+piola_find_plain_library(libdeflate libdeflate.h deflate)
+piola_find_plain_library(udunits2 udunits2.h udunits2)
+
+# toml++ is used as headers only: the compiled Debian library aborts on some malformed files, while the headers let the
+# reader turn such an assertion into an error message.
+find_path(PIOLA_TOML_INCLUDE toml++/toml.h)
+if(NOT PIOLA_TOML_INCLUDE)
+  message(FATAL_ERROR "Piola needs toml++ (header toml++/toml.h) - ${_piola_install_hint}")
+endif()

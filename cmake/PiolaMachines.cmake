@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+# Machines: the hot files, src/piola/formulations/*/machine.cpp, are compiled once per instruction set and chosen from
+# when the program starts. Everything they define lives in an inline namespace named PIOLA_MACHINE.
+
+set(PIOLA_MACHINES "all" CACHE STRING
+    "Instruction sets to build: all, quick (the portable one and one with SIMD), or a list such as scalar;v3")
+set(PIOLA_MACHINE_OPTIMISATION "-O3" CACHE STRING "Optimisation level of the hot files")
+
+set(_flags_scalar "-DPIOLA_SCALAR_LANES=1")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(_known scalar v2 v3 v4)
+  set(_quick scalar v3)
+  list(APPEND _flags_scalar -march=x86-64)
+  set(_flags_v2 -march=x86-64-v2)
+  set(_flags_v3 -march=x86-64-v3)
+  set(_flags_v4 -march=x86-64-v4 -mprefer-vector-width=512)
+else()
+  set(_known scalar native)
+  set(_quick scalar native)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+    set(_flags_native -mcpu=native)
+  else()
+    set(_flags_native -march=native)
+  endif()
+endif()
+
+if(PIOLA_MACHINES STREQUAL "all")
+  set(PIOLA_MACHINES_BUILT ${_known})
+elseif(PIOLA_MACHINES STREQUAL "quick")
+  set(PIOLA_MACHINES_BUILT ${_quick})
+else()
+  set(PIOLA_MACHINES_BUILT ${PIOLA_MACHINES})
+  foreach(machine IN LISTS PIOLA_MACHINES_BUILT)
+    if(NOT machine IN_LIST _known)
+      list(JOIN _known ", " _names)
+      message(FATAL_ERROR "PIOLA_MACHINES: unknown machine '${machine}' (known here: ${_names}, or all, quick)")
+    endif()
+  endforeach()
+endif()
+
+# One object library per formulation and machine, joined into the library piola.
+function(piola_add_machine source machine)
+  get_filename_component(folder "${source}" DIRECTORY)
+  get_filename_component(formulation "${folder}" NAME)
+  string(TOUPPER ${machine} upper)
+  set(target piola_${formulation}_${machine})
+  add_library(${target} OBJECT "${source}")
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_compile_definitions(${target} PRIVATE PIOLA_MACHINE=${machine} PIOLA_MACHINE_IS_${upper}=1)
+  # Math functions need not set errno and nobody unmasks floating-point traps; without these two promises compilers do
+  # not vectorise sqrt and conditional arithmetic. -ffast-math is never used: sums keep their order.
+  target_compile_options(${target} PRIVATE
+    ${PIOLA_MACHINE_OPTIMISATION} -fno-math-errno -fno-trapping-math ${_flags_${machine}})
+  target_link_libraries(${target} PRIVATE piola_options piola_warnings)
+  target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
+endfunction()
+
+file(GLOB _machine_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/piola/formulations/*/machine.cpp")
+foreach(machine IN LISTS PIOLA_MACHINES_BUILT)
+  string(TOUPPER ${machine} _upper)
+  target_compile_definitions(piola PUBLIC PIOLA_HAS_MACHINE_${_upper}=1)
+  foreach(source IN LISTS _machine_sources)
+    piola_add_machine("${source}" ${machine})
+  endforeach()
+endforeach()
+list(JOIN PIOLA_MACHINES_BUILT ", " _names)
+message(STATUS "Piola machines: ${_names}")

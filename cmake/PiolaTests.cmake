@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+# Tests: tests/**/*_test.cpp become one program; *_test.sh and *_test.py run as they are.
+
+include(GoogleTest)
+find_package(GTest REQUIRED)
+find_package(rapidcheck REQUIRED)
+
+file(GLOB_RECURSE _sources CONFIGURE_DEPENDS
+  "${PROJECT_SOURCE_DIR}/tests/*_test.cpp" "${PROJECT_SOURCE_DIR}/tests/support/*.cpp")
+if(_sources)
+  add_executable(piola_tests ${_sources})
+  target_include_directories(piola_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_compile_definitions(piola_tests PRIVATE
+    PIOLA_VERSION="${PROJECT_VERSION}" PIOLA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    $<$<TARGET_EXISTS:piola_app>:PIOLA_PROGRAM="$<TARGET_FILE:piola_app>">)
+  target_link_libraries(piola_tests PRIVATE
+    piola piola_warnings piola_host GTest::gtest GTest::gtest_main rapidcheck
+    Piola::hdf5 PNG::PNG nlohmann_json::nlohmann_json)
+  if(TARGET piola_app)
+    add_dependencies(piola_tests piola_app)
+  endif()
+  gtest_discover_tests(piola_tests DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endif()
+
+set(PIOLA_PYTHON "/usr/bin/python3" CACHE FILEPATH "Python that sees Debian's packages (numpy, h5py)")
+file(GLOB_RECURSE _scripts CONFIGURE_DEPENDS
+  "${PROJECT_SOURCE_DIR}/tests/*_test.sh" "${PROJECT_SOURCE_DIR}/tests/*_test.py")
+foreach(script IN LISTS _scripts)
+  file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/tests" "${script}")
+  if(script MATCHES "\\.py$")
+    add_test(NAME "${name}" COMMAND "${PIOLA_PYTHON}" "${script}")
+  else()
+    add_test(NAME "${name}" COMMAND bash "${script}")
+  endif()
+  set_tests_properties("${name}" PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT
+    "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR};PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>")
+endforeach()
+
+# Every header compiles alone.
+file(GLOB_RECURSE _headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/piola/*.hpp")
+set(_alone "")
+foreach(header IN LISTS _headers)
+  file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}/src" "${header}")
+  string(REGEX REPLACE "\\.hpp$" ".cpp" name "${path}")
+  set(file "${PROJECT_BINARY_DIR}/header_check/${name}")
+  file(CONFIGURE OUTPUT "${file}" CONTENT "#include \"@path@\"\n" @ONLY)
+  list(APPEND _alone "${file}")
+endforeach()
+if(_alone)
+  add_library(header_check OBJECT EXCLUDE_FROM_ALL ${_alone})
+  target_include_directories(header_check PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_compile_options(header_check PRIVATE -O0 -g0)
+  target_link_libraries(header_check PRIVATE piola piola_warnings piola_host Piola::hdf5 PNG::PNG)
+endif()
