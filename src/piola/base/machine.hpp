@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The machine that a translation unit is compiled for: `host` (plain, everything but the loops), `scalar`, `v2`, `v3`,
+/// `v4` (the loops, one instruction set each), `cuda`. All code that may be inlined into loops lives in an inline
+/// namespace of that name, so that the same source compiled for several machines fits in one program.
+#ifndef PIOLA_MACHINE
+#define PIOLA_MACHINE host
+#endif
+
+#if defined(__CUDACC__)
+#define PIOLA_FN __host__ __device__ inline
+#else
+#define PIOLA_FN inline
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace piola {
+
+/// A particle field as it appears in frames, probes and the manual.
+struct FieldInfo {
+  std::string name;  ///< VTK style, e.g. "CauchyStress"
+  std::string unit;  ///< SI, UDUNITS notation
+  int components;    ///< 1 scalar, 3 vector, 6 symmetric tensor (XX YY ZZ XY YZ XZ), 9 tensor (row by row)
+};
+
+/// Integral quantities of the whole system at one time, SI units.
+struct Diagnostics {
+  double kinetic_energy = 0;      ///< J
+  double strain_energy = 0;       ///< J
+  double stabilisation_loss = 0;  ///< J, energy removed by the stabilisation since the start
+  double projection_loss = 0;     ///< J, energy removed by the momentum projections since the start
+  double external_work = 0;       ///< J, work of loads and driven supports since the start
+  std::array<double, 3> linear_momentum{};   ///< kg m/s
+  std::array<double, 3> angular_momentum{};  ///< kg m2/s, about the origin
+  double jacobian_min = 0, jacobian_max = 0;
+  double pressure_min = 0, pressure_max = 0;  ///< Pa, positive in tension
+  double pressure_oscillation = 0;            ///< 1 for a checkerboard, O(dx^2) for a smooth field
+  std::vector<std::pair<std::string, double>> more;  ///< columns of this formulation only
+  double total_energy() const { return kinetic_energy + strain_energy; }
+};
+
+/// The first particle at which the physics left its admissible range.
+struct Failure {
+  std::string what;              ///< e.g. "is inverted", "has a stress that is not a number"
+  std::int64_t particle = -1;    ///< Id
+  std::string body;
+  std::array<double, 3> X{}, x{};  ///< reference and current position, m
+  std::vector<std::pair<std::string, double>> values;  ///< e.g. {"det F", -0.02}, {"neighbours", 27}
+};
+
+/// Receives or returns the evolved state by name, in Id order; bit-exact doubles.
+class StateWriter {
+ public:
+  virtual ~StateWriter() = default;
+  virtual void put(std::string_view name, std::span<double const> values) = 0;
+};
+class StateReader {
+ public:
+  virtual ~StateReader() = default;
+  /// Throws FileError if the name or the length does not fit.
+  virtual void get(std::string_view name, std::span<double> values) = 0;
+};
+
+/// The narrow face of every formulation: called at most a few times per step, holds no data.
+/// Particles are addressed in Id order (the order of the ParticleSet), whatever the formulation uses inside.
+class Formulation {
+ public:
+  virtual ~Formulation() = default;
+
+  virtual double stable_time_step() const = 0;        ///< s, from the current state
+  virtual void step(double time, double dt) = 0;      ///< from time to time + dt
+  virtual std::optional<Failure> failure() const = 0; ///< set once the state is not admissible any more
+  virtual Diagnostics diagnose() const = 0;
+
+  virtual std::vector<FieldInfo> fields() const = 0;
+  /// Values of one field, particle by particle: values[id * components + c].
+  virtual void sample(std::string_view field, std::span<double> values) const = 0;
+
+  virtual void save(StateWriter& writer) const = 0;
+  virtual void load(StateReader& reader) = 0;
+
+  virtual int stages_per_step() const = 0;    ///< right-hand sides per step
+  virtual std::size_t memory_bytes() const = 0;
+};
+
+}  // namespace piola

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/parameter.hpp"
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// A formulation as the case reader, `piola describe` and the manual see it.
+struct FormulationInfo {
+  std::string_view name;   ///< key `formulation.name` of a case file
+  std::string_view about;  ///< one line, with the paper
+  std::span<Parameter const> parameters;  ///< optional numbers; a default of no_default means "set by `scheme`"
+  std::span<Choice const> choices;        ///< optional words
+  std::span<std::string_view const> laws; ///< names of the laws it can use
+};
+
+std::span<FormulationInfo const> formulations();
+std::optional<FormulationInfo> find_formulation(std::string_view name);
+
+/// What a case file says about a formulation: only the keys that were given (checked against FormulationInfo).
+struct FormulationSpec {
+  std::string name;
+  std::map<std::string, double, std::less<>> numbers;
+  std::map<std::string, std::string, std::less<>> words;
+};
+
+}  // namespace piola

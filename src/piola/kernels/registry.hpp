@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/kernels/cubic_spline.hpp"
+#include <span>
+#include <string_view>
+
+namespace piola {
+
+/// A kernel chosen at run time; used where pairs are made, never inside a loop over steps.
+struct Kernel {
+  std::string_view name;
+  std::string_view about;
+  double support;                 ///< in units of h
+  double (*sigma)(int dimension); ///< normalisation
+  double (*w)(double q);
+  double (*dw)(double q);
+};
+
+/// All kernels; adding one is a header and a line in registry.cpp.
+std::span<Kernel const> kernels();
+/// The kernel of that name, or nullptr.
+Kernel const* find_kernel(std::string_view name);
+
+}  // namespace piola

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/elastic_constants.hpp"
+#include "piola/math/tensor.hpp"
+#include <string_view>
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Nearly incompressible neo-Hookean solid: isochoric shear part and quadratic volumetric part.
+///   W = mu/2 (J^(-2/3) F:F - 3) + kappa/2 (J - 1)^2
+///   P = mu J^(-2/3) (F - (F:F)/(3J) H) + p H,   p = kappa (J - 1)
+/// (Lee et al. 2016, Section 2.1 with xi = 0, zeta = mu/2; eqs. 9-12.) Pressure is positive in tension. Valid for J > 0.
+struct NeoHookean : ElasticConstants {
+  static constexpr std::string_view name = "neo_hookean";
+  static constexpr std::string_view about = "nearly incompressible neo-Hookean solid, large elastic strain";
+  static constexpr bool small_strain = false;
+  using ElasticConstants::ElasticConstants;
+  using ElasticConstants::parameters;
+
+  template <class T>
+  PIOLA_FN T pressure(Mat<3, T> const& F) const {
+    return kappa * (determinant(F) - 1.0);
+  }
+  template <class T>
+  PIOLA_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
+    Mat<3, T> const H = cofactor(F);
+    T const J = F(0, 0) * H(0, 0) + F(0, 1) * H(0, 1) + F(0, 2) * H(0, 2);
+    T const a = power_minus_third(J);
+    T const shear = mu * (a * a);
+    T const along_H = kappa * (J - 1.0) - shear * contract(F, F) / (3.0 * J);
+    return shear * F + along_H * H;
+  }
+  template <class T>
+  PIOLA_FN T energy(Mat<3, T> const& F) const {
+    T const J = determinant(F);
+    T const a = power_minus_third(J);
+    return 0.5 * mu * (a * a * contract(F, F) - 3.0) + 0.5 * kappa * ((J - 1.0) * (J - 1.0));
+  }
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/parameter.hpp"
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace piola {
+
+/// A law as the case reader, `piola describe` and the manual see it.
+struct LawInfo {
+  std::string_view name;   ///< key `law` of a case file
+  std::string_view about;  ///< one line
+  std::span<Parameter const> parameters;
+  int index = 0;  ///< position in the registry; goes into MaterialParameters::law
+};
+
+/// A law with the values of its parameters: plain data, so that it may cross to any machine.
+struct MaterialParameters {
+  static constexpr int max_values = 24;
+  int law = 0;                  ///< LawInfo::index
+  double value[max_values]{};   ///< in the order of LawInfo::parameters, SI
+};
+
+std::span<LawInfo const> laws();
+std::optional<LawInfo> find_law(std::string_view name);
+
+}  // namespace piola

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/machine.hpp"
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#if defined(PIOLA_MACHINE_IS_V2) || defined(PIOLA_MACHINE_IS_V3) || defined(PIOLA_MACHINE_IS_V4) || defined(PIOLA_MACHINE_IS_NATIVE)
+#define PIOLA_HAS_PACKS 1
+#include <experimental/simd>
+#else
+#define PIOLA_HAS_PACKS 0
+#endif
+
+namespace piola {
+/// Number of a particle, a slot or a neighbour.
+using Index = std::int32_t;
+}  // namespace piola
+
+/// Functions that physics uses on a value that is either a `double` or a pack of lanes (Lanes); laws and passes call
+/// them unqualified.
+namespace piola::inline PIOLA_MACHINE {
+
+PIOLA_FN double select(bool condition, double yes, double no) { return condition ? yes : no; }
+PIOLA_FN double minimum(double a, double b) { return a < b ? a : b; }
+PIOLA_FN double maximum(double a, double b) { return a > b ? a : b; }
+PIOLA_FN double square_root(double a) { return std::sqrt(a); }
+PIOLA_FN bool any(bool condition) { return condition; }
+PIOLA_FN double power_minus_third_exact(double a) { return 1.0 / std::cbrt(a); }
+
+#if PIOLA_HAS_PACKS
+/// One value for each of several neighbouring particles, as wide as the processor likes it.
+using Lanes = std::experimental::native_simd<double>;
+inline constexpr int lane_count = static_cast<int>(Lanes::size());
+
+PIOLA_FN Lanes select(Lanes::mask_type const& condition, Lanes const& yes, Lanes const& no) {
+  Lanes r = no;
+  where(condition, r) = yes;
+  return r;
+}
+PIOLA_FN Lanes minimum(Lanes const& a, Lanes const& b) { return std::experimental::min(a, b); }
+PIOLA_FN Lanes maximum(Lanes const& a, Lanes const& b) { return std::experimental::max(a, b); }
+PIOLA_FN Lanes square_root(Lanes const& a) { return std::experimental::sqrt(a); }
+PIOLA_FN bool any(Lanes::mask_type const& condition) { return any_of(condition); }
+PIOLA_FN Lanes power_minus_third_exact(Lanes const& a) {
+  Lanes r = a;
+  for (int l = 0; l < lane_count; ++l) r[l] = 1.0 / std::cbrt(static_cast<double>(a[l]));
+  return r;
+}
+PIOLA_FN Lanes load(double const* p, Lanes) { return Lanes(p, std::experimental::element_aligned); }
+PIOLA_FN void store(Lanes const& v, double* p) { v.copy_to(p, std::experimental::element_aligned); }
+PIOLA_FN double lane(Lanes const& v, int l) { return v[l]; }
+#else
+/// One particle at a time: the portable path and the GPU.
+using Lanes = double;
+inline constexpr int lane_count = 1;
+#endif
+
+PIOLA_FN double load(double const* p, double) { return *p; }
+PIOLA_FN void store(double v, double* p) { *p = v; }
+PIOLA_FN double lane(double v, int) { return v; }
+
+/// Values of the lanes that start at p.
+template <class V>
+PIOLA_FN V load(double const* p) {
+  return load(p, V{});
+}
+
+/// How many particles a value of type V stands for.
+template <class V>
+inline constexpr int width = std::is_same_v<V, double> ? 1 : lane_count;
+
+}  // namespace piola::inline PIOLA_MACHINE

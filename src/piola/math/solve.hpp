@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/scalar.hpp"
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Solves A x = b for a small dense system by Gaussian elimination with partial pivoting; A (row by row) and b are
+/// overwritten, b becomes x. Returns the ratio of the smallest to the largest pivot, 0 for a singular system (b is then
+/// meaningless): the caller decides what ratio is too small.
+template <int N>
+PIOLA_FN double solve_in_place(double (&A)[N * N], double (&b)[N]) {
+  double smallest = 0, largest = 0;
+  for (int k = 0; k < N; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < N; ++i)
+      if (std::fabs(A[i * N + k]) > std::fabs(A[pivot * N + k])) pivot = i;
+    double const size = std::fabs(A[pivot * N + k]);
+    if (!(size > 0)) return 0;
+    smallest = k == 0 || size < smallest ? size : smallest;
+    largest = size > largest ? size : largest;
+    for (int j = 0; j < N && pivot != k; ++j) {
+      double const swap = A[k * N + j];
+      A[k * N + j] = A[pivot * N + j];
+      A[pivot * N + j] = swap;
+    }
+    double const swap = b[k];
+    b[k] = b[pivot];
+    b[pivot] = swap;
+    for (int i = k + 1; i < N; ++i) {
+      double const factor = A[i * N + k] / A[k * N + k];
+      for (int j = k; j < N; ++j) A[i * N + j] -= factor * A[k * N + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int k = N - 1; k >= 0; --k) {
+    for (int j = k + 1; j < N; ++j) b[k] -= A[k * N + j] * b[j];
+    b[k] /= A[k * N + k];
+  }
+  return smallest / largest;
+}
+
+}  // namespace piola::inline PIOLA_MACHINE

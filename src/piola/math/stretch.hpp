@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/tensor.hpp"
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Smallest eigenvalue of C = F^T F, i.e. the square of the smallest principal stretch.
+///
+/// With q = tr C / 3, B = C - q I, p = sqrt(B:B / 6), r = det(B / p) / 2 the eigenvalues are q + p t with t^3 - 3 t = 2 r.
+/// The smallest root is t = -1 - d, where d sqrt(3 + d) = sqrt(2 (1 - r)); this form has no multiple root, so a few
+/// Newton steps from d = m / 2 reach round-off for every r in [-1, 1], with no trigonometry.
+template <class T>
+PIOLA_FN T smallest_stretch_squared(Mat<3, T> const& F) {
+  Mat<3, T> B = transpose(F) * F;
+  T const q = trace(B) * (1.0 / 3.0);
+  for (int i = 0; i < 3; ++i) B(i, i) = B(i, i) - q;
+  T const p = square_root(contract(B, B) * (1.0 / 6.0));
+  T const safe = maximum(p, T(1e-150));
+  T const scale = 1.0 / safe;
+  T const r = minimum(maximum(0.5 * determinant(scale * B), T(-1.0)), T(1.0));
+  T const m = square_root(2.0 * (1.0 - r));
+  T d = 0.5 * m;
+  for (int k = 0; k < 4; ++k) {
+    T const s = square_root(3.0 + d);
+    d = d - (d * s - m) / (s + 0.5 * d / s);
+  }
+  return q - p * (1.0 + d);
+}
+
+}  // namespace piola::inline PIOLA_MACHINE

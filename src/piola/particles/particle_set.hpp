@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// A body: a contiguous range of particles of one material, born on a lattice.
+struct Body {
+  std::string name;
+  std::int64_t first = 0, last = 0;  ///< particle ids [first, last)
+  std::array<double, 3> spacing{};   ///< lattice spacing [m]; 1 for dimensions that do not exist
+  std::array<int, 3> lattice{};      ///< lattice points per direction
+  bool regular = true;               ///< positions are exactly on the lattice (no jitter)
+};
+
+/// The particles of a run in Id order, as setup made them. Reference data only: what evolves belongs to a formulation.
+/// All positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
+struct ParticleSet {
+  int dimension = 3;
+  std::vector<Body> bodies;
+  std::vector<std::array<double, 3>> X;           ///< reference position [m]
+  std::vector<std::array<int, 3>> lattice_index;  ///< position in the body's lattice
+  std::vector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
+  std::vector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
+  std::vector<int> body;              ///< index into bodies
+
+  std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
+};
+
+}  // namespace piola
