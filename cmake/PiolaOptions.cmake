@@ -10,8 +10,8 @@ target_compile_features(piola_options INTERFACE cxx_std_20)
 target_compile_definitions(piola_options INTERFACE PIOLA_CONTRACTS=$<BOOL:${PIOLA_CONTRACTS}>)
 target_link_libraries(piola_options INTERFACE OpenMP::OpenMP_CXX Threads::Threads fmt::fmt)
 
-# piola_warnings: only for our own files. Sign conversions are left out on purpose: clang counts them under -Wconversion,
-# g++ does not, and an index type with a sign makes every subscript of a standard container one.
+# piola_warnings: only for our own files. Sign conversions are left out on purpose: clang counts them under
+# -Wconversion, g++ does not, and an index type with a sign makes every subscript of a standard container one.
 add_library(piola_warnings INTERFACE)
 target_compile_options(piola_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
