@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/checkpoint.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
+#include "piola/output/hdf5.hpp"
+#include <algorithm>
+#include <bit>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+constexpr std::int64_t layout_version = 1;
+
+/// FNV-1a over whole doubles: notices a flipped bit that HDF5 itself would not.
+std::int64_t check_sum(std::span<double const> values) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (double v : values) hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 1099511628211ULL;
+  return std::bit_cast<std::int64_t>(hash);
+}
+
+void put_state(hdf5::Image& file, std::string const& group, NamedState const& state) {
+  file.group(group);
+  for (auto const& [name, values] : state.arrays()) {
+    std::string const path = group + "/" + name;
+    file.dataset<double>(path, values);
+    file.attribute(path, "check_sum", std::array{check_sum(values)});
+  }
+}
+
+NamedState get_state(hdf5::Reader const& file, std::string const& group) {
+  NamedState state;
+  for (std::string const& name : file.names(group)) {
+    std::string const path = group + "/" + name;
+    auto const values = file.dataset<double>(path);
+    if (check_sum(values) != file.integer(path, "check_sum")) {
+      throw FileError(fmt::format("{}: '{}' does not have the check sum it was written with - the file is damaged", file.path().string(), path));
+    }
+    state.put(name, values);
+  }
+  return state;
+}
+
+}  // namespace
+
+void NamedState::put(std::string_view name, std::span<double const> values) {
+  arrays_.insert_or_assign(std::string(name), std::vector<double>(values.begin(), values.end()));
+}
+
+std::vector<double> const& NamedState::all(std::string_view name) const {
+  auto const found = arrays_.find(name);
+  if (found == arrays_.end()) {
+    throw FileError(fmt::format("checkpoint: has no '{}' - it was written by another version or formulation; run the case again", name));
+  }
+  return found->second;
+}
+
+void NamedState::get(std::string_view name, std::span<double> values) {
+  auto const& kept = all(name);
+  if (kept.size() != values.size()) {
+    throw FileError(fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name, kept.size(), values.size()));
+  }
+  std::copy(kept.begin(), kept.end(), values.begin());
+}
+
+void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c) {
+  make_folder(path.parent_path());
+  hdf5::Image file;
+  file.attribute("/", "piola_checkpoint", std::array{layout_version});
+  file.attribute("/", "version", c.version);
+  file.attribute("/", "time", c.time);
+  file.attribute("/", "step", std::array{c.step});
+  file.attribute("/", "dt", c.dt);
+  file.attribute("/", "first_dt", c.first_dt);
+  file.attribute("/", "wall_seconds", c.wall_seconds);
+  file.attribute("/", "stepping_seconds", c.stepping_seconds);
+  file.dataset<char>("/case", std::span<char const>(c.source));
+  put_state(file, "/state", c.state);
+  put_state(file, "/observers", c.observers);
+  write_whole_file(path, file.bytes());
+}
+
+Checkpoint read_checkpoint(std::filesystem::path const& path) {
+  hdf5::Reader const file(path);
+  if (file.integer("/", "piola_checkpoint") != layout_version) {
+    throw FileError(fmt::format("{}: was written in another layout of checkpoints - resume with the version that wrote it", path.string()));
+  }
+  Checkpoint c;
+  c.version = file.text("/", "version");
+  c.time = file.number("/", "time");
+  c.step = file.integer("/", "step");
+  c.dt = file.number("/", "dt");
+  c.first_dt = file.number("/", "first_dt");
+  c.wall_seconds = file.number("/", "wall_seconds");
+  c.stepping_seconds = file.number("/", "stepping_seconds");
+  auto const source = file.dataset<char>("/case");
+  c.source.assign(source.begin(), source.end());
+  c.state = get_state(file, "/state");
+  c.observers = get_state(file, "/observers");
+  return c;
+}
+
+std::filesystem::path checkpoint_path(std::filesystem::path const& results, std::int64_t step) {
+  return results / "checkpoints" / fmt::format("{:09}.h5", step);
+}
+
+std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results) {
+  std::vector<std::filesystem::path> found;
+  std::error_code missing_folder;
+  for (auto const& entry : std::filesystem::directory_iterator(results / "checkpoints", missing_folder)) {
+    std::string const stem = entry.path().stem().string();
+    bool const number = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (number && entry.path().extension() == ".h5") found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end(), std::greater<>());
+  return found;
+}
+
+void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint) {
+  write_checkpoint(checkpoint_path(results, checkpoint.step), checkpoint);
+  auto const all = list_checkpoints(results);
+  for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k]);
+}
+
+Checkpoint read_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings) {
+  for (auto const& path : list_checkpoints(results)) {
+    try {
+      return read_checkpoint(path);
+    } catch (FileError const& error) {
+      warnings.push_back(fmt::format("{}; the checkpoint before it is used", error.what()));
+    }
+  }
+  throw InputError(fmt::format("{}: holds no checkpoint that can be read (a run writes checkpoints/*.h5) - run the case again", results.string()));
+}
+
+}  // namespace piola

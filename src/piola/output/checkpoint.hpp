@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// Named arrays of doubles in memory: what a formulation or an observer saves.
+class NamedState : public StateWriter, public StateReader {
+ public:
+  void put(std::string_view name, std::span<double const> values) override;
+  void get(std::string_view name, std::span<double> values) override;
+  /// All values of a name, however many. Throws FileError if there is no such name.
+  std::vector<double> const& all(std::string_view name) const;
+  bool has(std::string_view name) const { return arrays_.find(name) != arrays_.end(); }
+  std::map<std::string, std::vector<double>, std::less<>> const& arrays() const { return arrays_; }
+
+ private:
+  std::map<std::string, std::vector<double>, std::less<>> arrays_;
+};
+
+/// Everything that a run needs to continue bit for bit.
+struct Checkpoint {
+  double time = 0;        ///< s
+  std::int64_t step = 0;
+  double dt = 0;          ///< s, the last step
+  double first_dt = 0;    ///< s, the first stable step: the measure of a collapsed one
+  double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far
+  std::string version;    ///< of the program that wrote it
+  std::string source;     ///< the case as run
+  NamedState state;       ///< of the formulation
+  NamedState observers;   ///< next output times, twist angles, times of frames
+};
+
+/// Writes one file (whole, synced, renamed). Throws FileError.
+void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint);
+/// Reads and verifies one file: layout and the check sum of every array. Throws FileError.
+Checkpoint read_checkpoint(std::filesystem::path const& path);
+
+/// checkpoints/000001234.h5 in a results folder, for this step.
+std::filesystem::path checkpoint_path(std::filesystem::path const& results, std::int64_t step);
+/// Checkpoint files of a results folder, newest first; that of a failed state is not among them.
+std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results);
+/// Writes the checkpoint of its step and removes all but the last two.
+void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint);
+/// The newest checkpoint that is whole. Damaged ones are skipped, each with a line in `warnings`. Throws InputError if none is left.
+Checkpoint read_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings);
+
+/// The name of the last state of a run that failed; it is kept for study, never resumed from.
+inline constexpr char const* failed_checkpoint = "checkpoints/failed.h5";
+
+}  // namespace piola

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/field_cache.hpp"
+#include "piola/formulations/quantity_names.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace piola {
+
+FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& particles)
+    : formulation_(formulation), particles_(particles), fields_(formulation.fields()) {
+  auto const add = [&](FieldInfo info) {
+    if (!knows(info.name)) fields_.push_back(std::move(info));
+  };
+  if (knows("Displacement")) add({"Position", "m", 3});
+  add({"Body", "1", 1});
+  add({"Id", "1", 1});
+}
+
+bool FieldCache::knows(std::string_view field) const {
+  return std::any_of(fields_.begin(), fields_.end(), [&](FieldInfo const& f) { return f.name == field; });
+}
+
+FieldInfo const& FieldCache::info(std::string_view field) const {
+  auto const found = std::find_if(fields_.begin(), fields_.end(), [&](FieldInfo const& f) { return f.name == field; });
+  if (found == fields_.end()) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
+  return *found;
+}
+
+std::vector<double> FieldCache::make(std::string_view field, std::size_t components) {
+  auto const count = static_cast<std::size_t>(particles_.size());
+  std::vector<double> out(count * components);
+  if (field == "Body") {
+    std::transform(particles_.body.begin(), particles_.body.end(), out.begin(), [](int body) { return static_cast<double>(body); });
+  } else if (field == "Id") {
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(i);
+  } else if (field == "Position") {
+    auto const displacement = values("Displacement");
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = particles_.X[i / 3][i % 3] + displacement[i];
+  } else {
+    formulation_.sample(field, out);
+  }
+  return out;
+}
+
+std::span<double const> FieldCache::values(std::string_view field) {
+  auto found = cache_.find(field);
+  if (found == cache_.end()) {
+    auto made = make(field, static_cast<std::size_t>(info(field).components));
+    found = cache_.emplace(std::string(field), std::move(made)).first;
+  }
+  return found->second;
+}
+
+std::vector<double> component_values(FieldCache& cache, std::string_view field, int component) {
+  auto const width = static_cast<std::size_t>(cache.info(field).components);
+  auto const all = cache.values(field);
+  std::vector<double> out(all.size() / width);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (component == FieldQuantity::magnitude) {
+      double sum = 0;
+      for (std::size_t c = 0; c < width; ++c) sum += all[i * width + c] * all[i * width + c];
+      out[i] = std::sqrt(sum);
+    } else {
+      out[i] = all[i * width + static_cast<std::size_t>(component)];
+    }
+  }
+  return out;
+}
+
+}  // namespace piola

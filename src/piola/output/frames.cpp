@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/frames.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
+#include "piola/output/hdf5.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace piola {
+namespace {
+
+using hdf5::Storage;
+
+template <class T>
+std::span<T const> one(T const& value) { return {&value, 1}; }
+
+std::vector<float> to_float(std::span<double const> values) {
+  std::vector<float> out(values.size());
+  std::transform(values.begin(), values.end(), out.begin(), [](double v) { return static_cast<float>(v); });
+  return out;
+}
+
+bool is_integer(std::string_view field) { return field == "Body" || field == "Id"; }
+
+/// Every particle is one cell of type VTK_VERTEX.
+void put_cells(hdf5::Image& file, std::int64_t particles, Storage storage) {
+  auto const n = static_cast<std::size_t>(particles);
+  std::vector<std::int64_t> offsets(n + 1);
+  for (std::size_t i = 0; i <= n; ++i) offsets[i] = static_cast<std::int64_t>(i);
+  constexpr std::uint8_t vtk_vertex = 1;
+  std::vector<std::uint8_t> const types(n, vtk_vertex);
+  for (char const* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
+    file.dataset<std::int64_t>(fmt::format("/VTKHDF/{}", count), one(particles));
+  }
+  file.dataset<std::int64_t>("/VTKHDF/Connectivity", std::span<std::int64_t const>(offsets).first(n), 1, storage);
+  file.dataset<std::int64_t>("/VTKHDF/Offsets", offsets, 1, storage);
+  file.dataset<std::uint8_t>("/VTKHDF/Types", types, 1, storage);
+}
+
+void put_field(hdf5::Image& file, FieldInfo const& info, std::span<double const> values, Storage storage) {
+  std::string const path = "/VTKHDF/PointData/" + info.name;
+  if (is_integer(info.name)) {  // a float would lose ids above 16 million
+    std::vector<std::int64_t> const whole(values.begin(), values.end());
+    file.dataset<std::int64_t>(path, whole, 1, storage);
+  } else {
+    std::vector<float> const single = to_float(values);
+    file.dataset<float>(path, single, info.components, storage);
+  }
+  file.attribute(path, "unit", info.unit);
+}
+
+/// XDMF has its own order for Tensor6, so that six components go as a plain matrix row.
+std::string_view xdmf_kind(int components) {
+  switch (components) {
+    case 1: return "Scalar";
+    case 3: return "Vector";
+    case 9: return "Tensor";
+    default: return "Matrix";
+  }
+}
+
+std::string xdmf_item(std::string const& file, std::string const& path, std::int64_t rows, int columns, bool integer) {
+  std::string const shape = columns == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, columns);
+  return fmt::format(R"(<DataItem Format="HDF" NumberType="{}" Precision="{}" Dimensions="{}">{}:{}</DataItem>)",
+                     integer ? "Int" : "Float", integer ? 8 : 4, shape, file, path);
+}
+
+}  // namespace
+
+std::string frame_name(std::size_t number) { return fmt::format("frames/{:06}.hdf", number); }
+
+FrameWriter::FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress)
+    : folder_(std::move(folder)), fields_(std::move(fields)), compress_(compress) {}
+
+std::vector<FieldInfo> FrameWriter::chosen(FieldCache const& cache) const {
+  std::vector<FieldInfo> list;
+  for (FieldInfo const& info : cache.fields()) {
+    bool const always = info.name == "Id" || info.name == "Body";
+    bool const wanted = fields_.empty() || std::find(fields_.begin(), fields_.end(), info.name) != fields_.end();
+    if (info.name != "Position" && (always || wanted)) list.push_back(info);
+  }
+  return list;
+}
+
+void FrameWriter::write(double time, FieldCache& cache) {
+  make_folder(folder_ / "frames");
+  Storage const storage = compress_ ? Storage::compressed : Storage::contiguous;
+  hdf5::Image file;
+  file.group("/VTKHDF/PointData");
+  file.group("/VTKHDF/CellData");
+  file.group("/VTKHDF/FieldData");
+  file.attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
+  file.attribute("/VTKHDF", "Type", std::string_view("UnstructuredGrid"));
+  file.dataset<float>("/VTKHDF/Points", to_float(cache.values("Position")), 3, storage);
+  put_cells(file, cache.particles().size(), storage);
+  auto const fields = chosen(cache);
+  for (FieldInfo const& info : fields) put_field(file, info, cache.values(info.name), storage);
+  file.dataset<float>("/VTKHDF/PointData/Volume", to_float(cache.particles().volume), 1, storage);
+  file.dataset<double>("/VTKHDF/FieldData/TimeValue", one(time));
+  write_whole_file(folder_ / frame_name(times_.size()), file.bytes());
+  times_.push_back(time);
+  write_series();
+  write_xdmf(fields, cache.particles().size());
+}
+
+void FrameWriter::continue_after(std::vector<double> times) {
+  times_ = std::move(times);
+  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k)); ++k) {}
+}
+
+void FrameWriter::write_series() const {
+  std::vector<std::string> entries;
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    entries.push_back(fmt::format(R"(    {{ "name": "{}", "time": {} }})", frame_name(k), times_[k]));
+  }
+  write_whole_file(folder_ / "frames.hdf.series",
+                   fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", fmt::join(entries, ",\n")));
+}
+
+void FrameWriter::write_xdmf(std::vector<FieldInfo> const& fields, std::int64_t particles) const {
+  std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+                     "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    std::string const file = frame_name(k);
+    text += fmt::format("<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", times_[k]);
+    text += fmt::format("<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"{}\">{}</Topology>\n", particles,
+                        xdmf_item(file, "/VTKHDF/Connectivity", particles, 1, true));
+    text += fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n", xdmf_item(file, "/VTKHDF/Points", particles, 3, false));
+    for (FieldInfo const& info : fields) {
+      text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", info.name, xdmf_kind(info.components),
+                          xdmf_item(file, "/VTKHDF/PointData/" + info.name, particles, info.components, is_integer(info.name)));
+    }
+    text += "</Grid>\n";
+  }
+  write_whole_file(folder_ / "frames.xmf", text + "</Grid>\n</Domain>\n</Xdmf>\n");
+}
+
+Frame read_frame(std::filesystem::path const& path, std::string const& field) {
+  hdf5::Reader const file(path);
+  Frame frame;
+  frame.time = file.dataset<double>("/VTKHDF/FieldData/TimeValue").at(0);
+  auto const points = file.dataset<float>("/VTKHDF/Points");
+  frame.points.resize(points.size() / 3);
+  for (std::size_t i = 0; i < frame.points.size() * 3; ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
+  frame.field_names = file.names("/VTKHDF/PointData");
+  std::string const data = "/VTKHDF/PointData/" + field;
+  if (!file.has(data)) {
+    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field", path.string(), field,
+                                 fmt::join(frame.field_names, ", ")));
+  }
+  auto const shape = file.shape(data);
+  frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"), shape.size() > 1 ? static_cast<int>(shape[1]) : 1};
+  frame.values = file.dataset<double>(data);
+  frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
+  bool const fits = frame.values.size() == frame.points.size() * static_cast<std::size_t>(frame.info.components) &&
+                    frame.volume.size() == frame.points.size();
+  if (!fits) throw FileError(fmt::format("{}: the field '{}' has not one value per point - the frame is damaged", path.string(), field));
+  return frame;
+}
+
+std::vector<std::pair<double, std::filesystem::path>> list_frames(std::filesystem::path const& folder) {
+  std::filesystem::path const index = folder / "frames.hdf.series";
+  auto const document = nlohmann::json::parse(read_text_file(index), nullptr, false);
+  std::vector<std::pair<double, std::filesystem::path>> frames;
+  try {
+    for (auto const& entry : document.at("files")) {
+      frames.emplace_back(entry.at("time").get<double>(), folder / entry.at("name").get<std::string>());
+    }
+  } catch (nlohmann::json::exception const&) {
+    throw FileError(fmt::format("{}: is not an index of frames - run the case again, or open the frames one by one", index.string()));
+  }
+  return frames;
+}
+
+}  // namespace piola

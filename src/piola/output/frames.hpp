@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/field_cache.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// Names of fields as ParaView 5.11 opens them: one HDF5 file per frame in VTKHDF 1.0 layout, frames/000000.hdf and so on,
+/// with two indices over all frames that are renewed after each: frames.hdf.series (JSON) and frames.xmf (XDMF).
+class FrameWriter {
+ public:
+  /// `fields` empty: every field of the formulation. Names that the formulation does not have are left out.
+  FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress);
+  /// Writes the next frame and the indices. Throws FileError; earlier frames stay as they are.
+  void write(double time, FieldCache& cache);
+  /// Times of the frames written so far [s].
+  std::vector<double> const& times() const { return times_; }
+  /// Continues after the frames with these times; later files on the disk are removed.
+  void continue_after(std::vector<double> times);
+
+ private:
+  std::vector<FieldInfo> chosen(FieldCache const& cache) const;
+  void write_series() const;
+  void write_xdmf(std::vector<FieldInfo> const& fields, std::int64_t particles) const;
+  std::filesystem::path folder_;
+  std::vector<std::string> fields_;
+  bool compress_;
+  std::vector<double> times_;
+};
+
+/// Path of frame `number` inside a results folder, "frames/000012.hdf".
+std::string frame_name(std::size_t number);
+
+/// One frame read back, as `piola render` needs it.
+struct Frame {
+  double time = 0;
+  std::vector<std::array<double, 3>> points;    ///< m
+  std::vector<std::string> field_names;
+  FieldInfo info;                               ///< of the field that was asked for; its unit comes from the file
+  std::vector<double> values;                   ///< values[i * components + c]
+  std::vector<double> volume;                   ///< tributary volume, m^Dim
+};
+
+/// Reads points and one field. Throws FileError if the file is damaged, InputError (with the names there are) if the frame
+/// has no such field.
+Frame read_frame(std::filesystem::path const& path, std::string const& field);
+
+/// Frame files and times of a results folder, in order of time, from frames.hdf.series. Throws FileError.
+std::vector<std::pair<double, std::filesystem::path>> list_frames(std::filesystem::path const& folder);
+
+}  // namespace piola

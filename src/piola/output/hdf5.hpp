@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <hdf5.h>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// A thin, owning layer over the C interface of HDF5. Included by output/*.cpp only.
+namespace piola::hdf5 {
+
+/// Owns one HDF5 identifier.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  /// Throws FileError that names `what` if the identifier is not valid.
+  Handle(hid_t id, Close close, std::string_view what);
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(Handle const&) = delete;
+  Handle& operator=(Handle const&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() { if (id_ >= 0) close_(id_); }
+  hid_t id() const { return id_; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// How the numbers of a data set lie on the disk.
+enum class Storage { contiguous, compressed };
+
+/// Builds a file in memory; the caller writes the image in one go. In this way a full disk meets a plain write with a
+/// clear reason and never the inside of the HDF5 library.
+class Image {
+ public:
+  Image();
+  /// Makes a group and those above it; "/" exists already.
+  void group(std::string const& path);
+  /// values[row * columns + c]; columns = 1 gives a one-dimensional data set.
+  template <class T>
+  void dataset(std::string const& path, std::span<T const> values, int columns = 1, Storage storage = Storage::contiguous);
+  void attribute(std::string const& object, std::string const& name, std::string_view text);
+  void attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values);
+  void attribute(std::string const& object, std::string const& name, double value);
+  /// The finished file; the builder cannot be used after this.
+  std::vector<std::byte> bytes();
+
+ private:
+  Handle file_;
+};
+
+/// Reads a file; every question throws FileError with the path if the answer is not there or has another size.
+class Reader {
+ public:
+  explicit Reader(std::filesystem::path const& path);
+  bool has(std::string const& path) const;
+  std::vector<std::string> names(std::string const& group) const;  ///< members, sorted
+  std::vector<std::uint64_t> shape(std::string const& dataset) const;
+  template <class T>
+  std::vector<T> dataset(std::string const& path) const;
+  std::string text(std::string const& object, std::string const& name) const;
+  double number(std::string const& object, std::string const& name) const;
+  std::int64_t integer(std::string const& object, std::string const& name) const;
+  std::filesystem::path const& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail(std::string_view what) const;
+  std::filesystem::path path_;
+  Handle file_;
+};
+
+}  // namespace piola::hdf5

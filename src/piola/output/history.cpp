@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/history.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
+
+namespace piola {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> ends) {
+  return std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return name.ends_with(end); });
+}
+
+/// Columns that only one formulation has are named after what they are.
+std::string unit_of_extra(std::string_view name) {
+  if (ends_with_any(name, {"_energy", "_work", "_loss"})) return "J";
+  if (name.starts_with("pressure") || ends_with_any(name, {"_stress", "_pressure"})) return "Pa";
+  if (ends_with_any(name, {"_force"})) return "N";
+  return "1";
+}
+
+std::string header(std::vector<HistoryColumn> const& columns) {
+  std::string line;
+  for (HistoryColumn const& c : columns) line += (line.empty() ? "" : ",") + c.name;
+  return line + "\n";
+}
+
+std::vector<double> read_row(std::string_view line, std::size_t columns) {
+  std::vector<double> row;
+  while (row.size() < columns) {
+    std::size_t const comma = std::min(line.find(','), line.size());
+    double value = missing;
+    std::from_chars(line.data(), line.data() + comma, value);
+    row.push_back(value);
+    line.remove_prefix(std::min(comma + 1, line.size()));
+  }
+  return row;
+}
+
+}  // namespace
+
+std::optional<std::size_t> HistoryTable::find(std::string_view column) const {
+  auto const found = std::find_if(columns.begin(), columns.end(), [&](HistoryColumn const& c) { return c.name == column; });
+  if (found == columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::vector<double> HistoryTable::values(std::string_view column) const {
+  auto const index = find(column);
+  if (!index) throw std::invalid_argument(fmt::format("history.csv has no column '{}'", column));
+  std::vector<double> out;
+  for (auto const& row : rows) out.push_back(row[*index]);
+  return out;
+}
+
+std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {
+  std::vector<HistoryColumn> columns{
+      {"time", "s"}, {"step", "1"}, {"dt", "s"}, {"kinetic_energy", "J"}, {"strain_energy", "J"}, {"total_energy", "J"},
+      {"stabilisation_loss", "J"}, {"external_work", "J"},
+      {"linear_momentum_x", "kg m/s"}, {"linear_momentum_y", "kg m/s"}, {"linear_momentum_z", "kg m/s"},
+      {"angular_momentum_x", "kg m^2/s"}, {"angular_momentum_y", "kg m^2/s"}, {"angular_momentum_z", "kg m^2/s"},
+      {"jacobian_min", "1"}, {"jacobian_max", "1"}, {"pressure_min", "Pa"}, {"pressure_max", "Pa"}, {"pressure_oscillation", "1"},
+      {"projection_loss", "J"}};
+  for (auto const& extra : diagnostics.more) columns.push_back({extra.first, unit_of_extra(extra.first)});
+  return columns;
+}
+
+std::vector<double> diagnostic_values(double time, std::int64_t step, double dt, Diagnostics const& d) {
+  auto const& p = d.linear_momentum;
+  auto const& l = d.angular_momentum;
+  std::vector<double> row{time, static_cast<double>(step), dt, d.kinetic_energy, d.strain_energy, d.total_energy(),
+                          d.stabilisation_loss, d.external_work, p[0], p[1], p[2], l[0], l[1], l[2],
+                          d.jacobian_min, d.jacobian_max, d.pressure_min, d.pressure_max, d.pressure_oscillation, d.projection_loss};
+  for (auto const& extra : d.more) row.push_back(extra.second);
+  return row;
+}
+
+HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns) : path_(std::move(path)) {
+  table_.columns = std::move(columns);
+  open("w");
+  put(header(table_.columns));
+}
+
+HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time) : path_(std::move(path)) {
+  table_.columns = std::move(columns);
+  std::string const text = read_text_file(path_);
+  std::string const first = header(table_.columns);
+  if (!text.starts_with(first)) {
+    throw FileError(fmt::format("{}: has other columns than this run would write - run the case again in a new folder", path_.string()));
+  }
+  std::size_t kept = first.size();
+  for (std::size_t at = kept, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+    auto row = read_row(std::string_view(text).substr(at, end - at), table_.columns.size());
+    if (!(row[0] <= time)) break;
+    table_.rows.push_back(std::move(row));
+    kept = end + 1;
+  }
+  if (kept != text.size()) write_whole_file(path_, std::string_view(text).substr(0, kept));
+  open("a");
+}
+
+void HistoryFile::open(char const* mode) {
+  file_.reset(std::fopen(path_.c_str(), mode));
+  if (!file_) throw FileError(cannot_write(path_, errno));
+}
+
+void HistoryFile::put(std::string const& line) {
+  bool const written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
+  if (!written || std::fflush(file_.get()) != 0) throw FileError(cannot_write(path_, errno));
+}
+
+std::vector<std::string> HistoryFile::append(std::vector<double> const& row) {
+  std::vector<std::string> bad;
+  fmt::memory_buffer line;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    if (c > 0) line.push_back(',');
+    if (std::isfinite(row[c])) {
+      fmt::format_to(std::back_inserter(line), "{}", row[c]);
+    } else {
+      bad.push_back(table_.columns[c].name);
+    }
+  }
+  line.push_back('\n');
+  put(fmt::to_string(line));
+  table_.rows.push_back(row);
+  return bad;
+}
+
+}  // namespace piola

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/summary.hpp"
+#include "piola/output/files.hpp"
+#include <nlohmann/json.hpp>
+
+namespace piola {
+
+std::string to_json(Summary const& s) {
+  nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
+  for (MeasuredQuantity const& q : s.quantities) quantities[q.name] = {{"value", q.value}, {"unit", q.unit}};
+  nlohmann::ordered_json const document{
+      {"status", s.status},
+      {"title", s.title},
+      {"version", s.version},
+      {"formulation", s.formulation},
+      {"particles", s.particles},
+      {"steps", s.steps},
+      {"end_time", s.end_time},
+      {"wall_seconds", s.wall_seconds},
+      {"stages_per_second", s.stages_per_second},
+      {"threads", s.threads},
+      {"energy", {{"initial", s.energy_initial}, {"final", s.energy_final}, {"max_increase", s.energy_max_increase}}},
+      {"momentum", {{"linear_drift", s.linear_drift}, {"angular_drift", s.angular_drift}}},
+      {"quantities", quantities},
+      {"warnings", s.warnings}};
+  return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(std::filesystem::path const& path, Summary const& summary) { write_whole_file(path, to_json(summary)); }
+
+}  // namespace piola

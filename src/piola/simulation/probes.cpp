@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/probes.hpp"
+#include "piola/base/problems.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Body const& find_body(ParticleSet const& particles, ProbeSpec const& spec) {
+  for (Body const& body : particles.bodies) {
+    if (body.name == spec.body) return body;
+  }
+  throw InputError(fmt::format("probe '{}': there is no body '{}' - give the name of a [[body]]", spec.name, spec.body));
+}
+
+std::vector<std::int64_t> nearest(ParticleSet const& particles, Body const& body, Point const& at) {
+  std::int64_t best = body.first;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (std::int64_t id = body.first; id < body.last; ++id) {
+    Point const& X = particles.X[static_cast<std::size_t>(id)];
+    double const distance = std::hypot(X[0] - at[0], X[1] - at[1], X[2] - at[2]);
+    if (distance < best_distance) {
+      best = id;
+      best_distance = distance;
+    }
+  }
+  return {best};
+}
+
+std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& body, ProbeSpec const& spec) {
+  std::vector<std::int64_t> ids;
+  for (std::int64_t id = body.first; id < body.last; ++id) {
+    if (!spec.where || (*spec.where)(particles.X[static_cast<std::size_t>(id)]) != 0) ids.push_back(id);
+  }
+  if (ids.empty()) {
+    throw InputError(fmt::format("probe '{}': where = \"{}\" selects no particle of body '{}' - widen the region", spec.name,
+                                 spec.where ? spec.where->text() : "", body.name));
+  }
+  return ids;
+}
+
+std::vector<FieldQuantity> quantities_of(ProbeSpec const& spec) {
+  std::vector<FieldQuantity> list;
+  if (spec.kind == ProbeSpec::Kind::twist || spec.kind == ProbeSpec::Kind::extent) return list;
+  for (std::string const& name : spec.quantities) {
+    auto quantity = find_quantity(name);
+    if (!quantity) throw InputError(fmt::format("probe '{}': '{}' is not a known quantity - see docs/user/output.md", spec.name, name));
+    list.push_back(*std::move(quantity));
+  }
+  return list;
+}
+
+Point centroid(std::vector<std::int64_t> const& ids, std::vector<double> const& weight, auto const& position) {
+  Point sum{};
+  double total = 0;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight[k] * position(ids[k], c);
+    total += weight[k];
+  }
+  for (double& s : sum) s /= total;
+  return sum;
+}
+
+}  // namespace
+
+Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
+    : kind_(spec.kind), name_(spec.name), axis_(static_cast<std::size_t>(spec.axis)), quantities_(quantities_of(spec)) {
+  Body const& body = find_body(particles, spec);
+  ids_ = kind_ == ProbeSpec::Kind::point ? nearest(particles, body, spec.at) : selected(particles, body, spec);
+  for (std::int64_t id : ids_) weight_.push_back(particles.volume[static_cast<std::size_t>(id)]);
+}
+
+std::vector<HistoryColumn> Probe::columns() const {
+  if (kind_ == ProbeSpec::Kind::twist) return {{fmt::format("{}.{}", name_, twist_quantity), "rad"}};
+  if (kind_ == ProbeSpec::Kind::extent) return {{fmt::format("{}.{}", name_, extent_quantity), "m"}};
+  std::vector<HistoryColumn> list;
+  for (FieldQuantity const& q : quantities_) list.push_back({fmt::format("{}.{}", name_, q.name), q.unit});
+  return list;
+}
+
+std::vector<double> Probe::evaluate(FieldCache& cache) {
+  if (kind_ == ProbeSpec::Kind::twist) return {twist(cache)};
+  if (kind_ == ProbeSpec::Kind::extent) return {extent(cache)};
+  std::vector<double> out;
+  for (FieldQuantity const& q : quantities_) {
+    bool const known = cache.knows(q.field);
+    out.push_back(known ? reduce(component_values(cache, q.field, q.component)) : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+double Probe::reduce(std::vector<double> const& values) const {
+  auto const value = [&](std::int64_t id) { return values[static_cast<std::size_t>(id)]; };
+  double const first = value(ids_.front());
+  double low = first, high = first, sum = 0, total = 0;
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    double const v = value(ids_[k]);
+    low = std::min(low, v);
+    high = std::max(high, v);
+    sum += weight_[k] * v;
+    total += weight_[k];
+  }
+  switch (kind_) {
+    case ProbeSpec::Kind::minimum: return low;
+    case ProbeSpec::Kind::maximum: return high;
+    case ProbeSpec::Kind::point: return first;
+    default: return sum / total;
+  }
+}
+
+/// Angle that turns the reference positions best onto the current ones, seen along the axis, about the centroids:
+/// atan2(sum V X x x, sum V X . x) with both positions projected on the plane across the axis. Right-handed.
+double Probe::twist(FieldCache& cache) {
+  auto const x = cache.values("Position");
+  auto const reference = [&](std::int64_t id, std::size_t c) { return cache.particles().X[static_cast<std::size_t>(id)][c]; };
+  auto const current = [&](std::int64_t id, std::size_t c) { return x[static_cast<std::size_t>(id) * 3 + c]; };
+  Point const X0 = centroid(ids_, weight_, reference), x0 = centroid(ids_, weight_, current);
+  std::size_t const i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
+  double cross = 0, dot = 0;
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    std::int64_t const id = ids_[k];
+    double const Xi = reference(id, i) - X0[i], Xj = reference(id, j) - X0[j];
+    double const xi = current(id, i) - x0[i], xj = current(id, j) - x0[j];
+    cross += weight_[k] * (Xi * xj - Xj * xi);
+    dot += weight_[k] * (Xi * xi + Xj * xj);
+  }
+  constexpr double turn = 2 * std::numbers::pi;
+  double const angle = std::atan2(cross, dot);
+  double const unwrapped = angle + turn * std::round((last_angle_ - angle) / turn);
+  if (std::isfinite(unwrapped)) last_angle_ = unwrapped;
+  return unwrapped;
+}
+
+double Probe::extent(FieldCache& cache) const {
+  auto const x = cache.values("Position");
+  auto const at = [&](std::int64_t id) { return x[static_cast<std::size_t>(id) * 3 + axis_]; };
+  double low = at(ids_.front()), high = low;
+  for (std::int64_t id : ids_) {
+    low = std::min(low, at(id));
+    high = std::max(high, at(id));
+  }
+  return high - low;
+}
+
+}  // namespace piola

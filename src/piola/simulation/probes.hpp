@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/quantity_names.hpp"
+#include "piola/input/case_spec.hpp"
+#include "piola/output/field_cache.hpp"
+#include "piola/output/history.hpp"
+#include <cstdint>
+#include <vector>
+
+namespace piola {
+
+/// One [[probe]] of a case, with its particles chosen once from their reference positions.
+class Probe {
+ public:
+  /// Throws InputError if `where` selects nothing, or if the body or a quantity is not known.
+  Probe(ProbeSpec const& spec, ParticleSet const& particles);
+  /// "NAME.quantity" with units, one for each value of `evaluate`.
+  std::vector<HistoryColumn> columns() const;
+  /// Values now [SI]. A twist angle continues the angle of the call before, so that full turns are counted as long as it
+  /// changes by less than half a turn from call to call.
+  std::vector<double> evaluate(FieldCache& cache);
+  std::vector<std::int64_t> const& ids() const { return ids_; }
+
+  /// What a later call depends on: the last twist angle [rad].
+  double state() const { return last_angle_; }
+  void restore(double state) { last_angle_ = state; }
+
+ private:
+  double reduce(std::vector<double> const& values) const;
+  double twist(FieldCache& cache);
+  double extent(FieldCache& cache) const;
+  ProbeSpec::Kind kind_;
+  std::string name_;
+  std::size_t axis_;
+  std::vector<std::int64_t> ids_;
+  std::vector<double> weight_;  ///< tributary volumes of ids_
+  std::vector<FieldQuantity> quantities_;  ///< empty for twist and extent
+  double last_angle_ = 0;
+};
+
+}  // namespace piola

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/quantities.hpp"
+#include "piola/base/units.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace piola {
+namespace {
+
+using Take = QuantitySpec::Take;
+
+/// The samples of one column, without the empty cells.
+struct Series {
+  std::vector<double> time, value;
+};
+
+Series series_of(HistoryTable const& history, std::string_view column) {
+  Series out;
+  auto const time = history.values("time");
+  auto const value = history.values(column);
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    if (!std::isfinite(value[k])) continue;
+    out.time.push_back(time[k]);
+    out.value.push_back(value[k]);
+  }
+  return out;
+}
+
+/// Vertex of the parabola through (t[k], y[k]), k = 0, 1, 2; the middle sample if the three lie on a line.
+Peak vertex(double const* t, double const* y) {
+  double const left = (y[1] - y[0]) / (t[1] - t[0]), right = (y[2] - y[1]) / (t[2] - t[1]);
+  double const curvature = (right - left) / (t[2] - t[0]);
+  if (curvature == 0) return {t[1], y[1]};
+  double const slope = left + curvature * (t[1] - t[0]);  // at t[1]
+  double const shift = -slope / (2 * curvature);
+  return {t[1] + shift, y[1] + slope * shift + curvature * shift * shift};
+}
+
+/// Time at which the column first passes the threshold upwards (sign = 1) or downwards (sign = -1), linear between samples.
+std::optional<double> first_crossing(Series const& s, double threshold, double sign) {
+  for (std::size_t k = 0; k < s.value.size(); ++k) {
+    double const above = sign * (s.value[k] - threshold);
+    if (above < 0) continue;
+    if (k == 0) return s.time[0];
+    double const before = sign * (s.value[k - 1] - threshold);
+    return s.time[k - 1] + (s.time[k] - s.time[k - 1]) * before / (before - above);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> interpolate(Series const& s, double time) {
+  if (time < s.time.front() || time > s.time.back() * (1 + 1e-12)) return std::nullopt;
+  auto const after = std::lower_bound(s.time.begin(), s.time.end(), time);
+  if (after == s.time.end()) return s.value.back();
+  auto const k = static_cast<std::size_t>(after - s.time.begin());
+  if (k == 0) return s.value[0];
+  double const share = (time - s.time[k - 1]) / (s.time[k] - s.time[k - 1]);
+  return s.value[k - 1] + share * (s.value[k] - s.value[k - 1]);
+}
+
+double mean_difference(Series const& s, Expression const& reference) {
+  double sum = 0;
+  for (std::size_t k = 0; k < s.value.size(); ++k) sum += std::abs(s.value[k] - reference({0, 0, 0}, s.time[k]));
+  return sum / static_cast<double>(s.value.size());
+}
+
+bool is_time(Take take) {
+  return take == Take::time_of_first_peak || take == Take::time_of_maximum || take == Take::time_of_minimum ||
+         take == Take::first_time_above || take == Take::first_time_below;
+}
+
+std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
+  auto const high = std::max_element(s.value.begin(), s.value.end());
+  auto const low = std::min_element(s.value.begin(), s.value.end());
+  auto const time_of = [&](auto at) { return s.time[static_cast<std::size_t>(at - s.value.begin())]; };
+  switch (spec.take) {
+    case Take::maximum: return *high;
+    case Take::minimum: return *low;
+    case Take::initial_value: return s.value.front();
+    case Take::final_value: return s.value.back();
+    case Take::time_of_maximum: return time_of(high);
+    case Take::time_of_minimum: return time_of(low);
+    case Take::first_time_above: return first_crossing(s, spec.threshold, 1);
+    case Take::first_time_below: return first_crossing(s, spec.threshold, -1);
+    case Take::at_time: return interpolate(s, spec.time);
+    case Take::mean_absolute_difference: return mean_difference(s, spec.reference.value_or(Expression()));
+    case Take::first_peak:
+    case Take::time_of_first_peak: break;
+  }
+  auto const peak = first_peak(s.time, s.value);
+  if (!peak) return std::nullopt;
+  return spec.take == Take::first_peak ? peak->value : peak->time;
+}
+
+}  // namespace
+
+std::optional<Peak> first_peak(std::vector<double> const& time, std::vector<double> const& y) {
+  double largest = 0;
+  for (double v : y) largest = std::max(largest, std::abs(v));
+  for (std::size_t k = 1; k + 1 < y.size(); ++k) {
+    double const here = std::abs(y[k]);
+    bool const local = here >= std::abs(y[k - 1]) && here > std::abs(y[k + 1]);
+    if (local && here > 0.5 * largest) return vertex(&time[k - 1], &y[k - 1]);
+  }
+  return std::nullopt;
+}
+
+std::optional<MeasuredQuantity> measure(QuantitySpec const& spec, HistoryTable const& history, std::string& why) {
+  auto const column = history.find(spec.column);
+  if (!column) {
+    why = fmt::format("quantity '{}': history.csv has no column '{}'", spec.name, spec.column);
+    return std::nullopt;
+  }
+  Series const s = series_of(history, spec.column);
+  std::optional<double> const value = s.value.empty() ? std::nullopt : evaluate(spec, s);
+  if (!value || !std::isfinite(*value)) {
+    why = fmt::format("quantity '{}': the history of '{}' does not contain it (the run may be too short)", spec.name, spec.column);
+    return std::nullopt;
+  }
+  std::string const si = is_time(spec.take) ? "s" : history.columns[*column].unit;
+  // "1" also stands for "no unit given": the value is then shown in SI.
+  if (spec.unit.empty() || spec.unit == "1" || spec.unit == si) return MeasuredQuantity{spec.name, *value, si};
+  try {
+    return MeasuredQuantity{spec.name, convert_from_si(*value, si, spec.unit), spec.unit};
+  } catch (std::invalid_argument const&) {
+    why = fmt::format("quantity '{}': '{}' is not a unit for {}; shown in SI", spec.name, spec.unit, si);
+    return MeasuredQuantity{spec.name, *value, si};
+  }
+}
+
+}  // namespace piola
