@@ -38,7 +38,19 @@ else()
   endforeach()
 endif()
 
-# One object library per formulation and machine, joined into the library piola.
+# Whether object files can be sealed (cmake/seal_machine.sh says why). Builds with sanitizers run where they were made.
+set(PIOLA_SEAL FALSE)
+if(CMAKE_OBJCOPY AND CMAKE_NM AND CMAKE_LINKER AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  execute_process(COMMAND "${CMAKE_LINKER}" --help OUTPUT_VARIABLE _help ERROR_QUIET)
+  if(_help MATCHES "force-group-allocation")
+    set(PIOLA_SEAL TRUE)
+  else()
+    message(STATUS "This linker cannot seal machines: run the program only on processors like this one")
+  endif()
+endif()
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/machines")
+
+# One object file per formulation and machine, sealed and joined into the library piola.
 function(piola_add_machine source machine)
   get_filename_component(folder "${source}" DIRECTORY)
   get_filename_component(formulation "${folder}" NAME)
@@ -52,7 +64,18 @@ function(piola_add_machine source machine)
   target_compile_options(${target} PRIVATE
     ${PIOLA_MACHINE_OPTIMISATION} -fno-math-errno -fno-trapping-math ${_flags_${machine}})
   target_link_libraries(${target} PRIVATE piola_options piola_warnings)
-  target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
+  if(NOT PIOLA_SEAL)
+    target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
+    return()
+  endif()
+  set(sealed "${PROJECT_BINARY_DIR}/machines/${formulation}.${machine}.o")
+  add_custom_command(OUTPUT "${sealed}"
+    COMMAND "${CMAKE_COMMAND}" -E env "LD=${CMAKE_LINKER}" "NM=${CMAKE_NM}" "OBJCOPY=${CMAKE_OBJCOPY}"
+            bash "${PROJECT_SOURCE_DIR}/cmake/seal_machine.sh" ${machine} "${sealed}" $<TARGET_OBJECTS:${target}>
+    DEPENDS $<TARGET_OBJECTS:${target}> "${PROJECT_SOURCE_DIR}/cmake/seal_machine.sh"
+    COMMENT "Sealing ${formulation} for ${machine}" COMMAND_EXPAND_LISTS VERBATIM)
+  set_source_files_properties("${sealed}" PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  target_sources(piola PRIVATE "${sealed}")
 endfunction()
 
 file(GLOB _machine_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/piola/formulations/*/machine.cpp")
