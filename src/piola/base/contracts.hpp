@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace piola {
+
+/// A promise between two parts of the program was broken: the programmer's mistake, never the user's.
+class ContractError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// Throws ContractError. Called by the macros below only.
+[[noreturn]] inline void contract_broken(char const* kind, char const* condition, char const* file, int line) {
+  throw ContractError(std::string(file) + ":" + std::to_string(line) + ": " + kind + " does not hold: " + condition);
+}
+
+}  // namespace piola
+
+/// What a function asks of its caller, and what it promises in return. Checked when PIOLA_CONTRACTS is 1 (presets dev
+/// and audit); otherwise the condition is not even evaluated. Host code only.
+#if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
+#define PIOLA_EXPECTS(condition) \
+  ((condition) ? void(0) : ::piola::contract_broken("expectation", #condition, __FILE__, __LINE__))
+#define PIOLA_ENSURES(condition) \
+  ((condition) ? void(0) : ::piola::contract_broken("promise", #condition, __FILE__, __LINE__))
+#else
+#define PIOLA_EXPECTS(condition) void(sizeof(!(condition)))
+#define PIOLA_ENSURES(condition) void(sizeof(!(condition)))
+#endif

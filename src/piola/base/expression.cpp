@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/expression.hpp"
+#include "piola/base/text.hpp"
+#include <algorithm>
+#include <cmath>
+#include <muParser.h>
+#include <numbers>
+#include <set>
+
+namespace piola {
+namespace {
+
+constexpr std::size_t longest_text = 4000;
+
+struct Function {
+  char const* name;
+  int arguments;  ///< 0: one or more
+};
+constexpr std::array functions{Function{"sin", 1},  Function{"cos", 1},  Function{"tan", 1},   Function{"asin", 1},
+                               Function{"acos", 1}, Function{"atan", 1}, Function{"atan2", 2}, Function{"exp", 1},
+                               Function{"log", 1},  Function{"sqrt", 1}, Function{"abs", 1},   Function{"pow", 2},
+                               Function{"min", 0},  Function{"max", 0}};
+constexpr std::array<std::string_view, 5> variables{"X", "Y", "Z", "t", "pi"};
+
+double minimum(double const* values, int count) { return *std::min_element(values, values + count); }
+double maximum(double const* values, int count) { return *std::max_element(values, values + count); }
+double negation(double value) { return value == 0 ? 1 : 0; }
+
+// Only what the manual lists: muParser's own set is larger, and differs between its versions.
+void define_functions(mu::Parser& parser) {
+  parser.ClearFun();
+  parser.ClearConst();
+  parser.DefineFun("sin", +[](double x) { return std::sin(x); });
+  parser.DefineFun("cos", +[](double x) { return std::cos(x); });
+  parser.DefineFun("tan", +[](double x) { return std::tan(x); });
+  parser.DefineFun("asin", +[](double x) { return std::asin(x); });
+  parser.DefineFun("acos", +[](double x) { return std::acos(x); });
+  parser.DefineFun("atan", +[](double x) { return std::atan(x); });
+  parser.DefineFun("atan2", +[](double y, double x) { return std::atan2(y, x); });
+  parser.DefineFun("exp", +[](double x) { return std::exp(x); });
+  parser.DefineFun("log", +[](double x) { return std::log(x); });
+  parser.DefineFun("sqrt", +[](double x) { return std::sqrt(x); });
+  parser.DefineFun("abs", +[](double x) { return std::abs(x); });
+  parser.DefineFun("pow", +[](double x, double y) { return std::pow(x, y); });
+  parser.DefineFun("min", minimum);
+  parser.DefineFun("max", maximum);
+  parser.DefineInfixOprt("!", negation);
+}
+
+[[noreturn]] void fail(std::string text, std::size_t position) {
+  throw ExpressionError{std::move(text), static_cast<int>(position) + 1};
+}
+
+bool is_word_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+struct Word {
+  std::string text;
+  std::size_t position;
+};
+
+// First character after the number or word that starts at `i`; 1e-5 is one number.
+std::size_t end_of_token(std::string const& text, std::size_t i) {
+  auto const digit = [&](std::size_t k) { return k < text.size() && text[k] >= '0' && text[k] <= '9'; };
+  if (digit(i) || text[i] == '.') {
+    while (digit(i) || (i < text.size() && text[i] == '.')) ++i;
+    bool const exponent = i < text.size() && (text[i] == 'e' || text[i] == 'E');
+    bool const sign = i + 1 < text.size() && (text[i + 1] == '+' || text[i + 1] == '-');
+    if (exponent && digit(i + (sign ? 2 : 1))) i += sign ? 2 : 1;
+  }
+  while (i < text.size() && is_word_character(text[i])) ++i;
+  return i;
+}
+
+// Names in a formula; numbers are stepped over.
+std::vector<Word> words_of(std::string const& text) {
+  std::vector<Word> words;
+  for (std::size_t i = 0; i < text.size();) {
+    bool const number = text[i] == '.' || (text[i] >= '0' && text[i] <= '9');
+    if (!number && !is_word_character(text[i])) {
+      ++i;
+      continue;
+    }
+    std::size_t const end = end_of_token(text, i);
+    if (!number) words.push_back({text.substr(i, end - i), i});
+    i = end;
+  }
+  return words;
+}
+
+std::vector<std::string> known_names(Names const& names) {
+  std::vector<std::string> known = to_strings(variables);
+  for (auto const& [name, value] : names.constants) known.push_back(name);
+  for (Definition const& definition : names.definitions) known.push_back(definition.name);
+  for (Function const& function : functions) known.emplace_back(function.name);
+  return known;
+}
+
+[[noreturn]] void fail_unknown(Word const& word, Names const& names) {
+  if (word.text == "if") fail("\"if\" is not a function - write condition ? value : other_value", word.position);
+  std::vector<std::string> const known = known_names(names);
+  auto const near = nearest_name(word.text, known);
+  std::string const advice =
+      near ? "did you mean " + in_quotes(*near) + "?" : "use one of these or add it to define or constants";
+  fail(in_quotes(word.text) + " is not known (known: " + joined(known) + ") - " + advice, word.position);
+}
+
+// Assignments would let one formula change the variables of another; muParser allows them.
+void refuse_assignment(std::string const& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    if (i + 1 < text.size() && text[i + 1] == '=') {
+      ++i;
+      continue;
+    }
+    bool const comparison = i > 0 && (text[i - 1] == '<' || text[i - 1] == '>' || text[i - 1] == '!');
+    if (!comparison) fail("\"=\" assigns, which a formula cannot do - write == to compare", i);
+  }
+}
+
+void refuse_characters(std::string const& text) {
+  constexpr std::string_view marks = " \t+-*/^().,<>=!&|?:";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (is_word_character(text[i]) || marks.find(text[i]) != std::string_view::npos) continue;
+    bool const printable = text[i] > ' ' && text[i] < 0x7f;
+    fail((printable ? in_quotes(text.substr(i, 1)) : "a character outside ASCII") + std::string(" cannot stand in a formula"),
+         i);
+  }
+}
+
+void check_text(std::string const& text, Names const& names) {
+  if (text.find_first_not_of(" \t") == std::string::npos) throw ExpressionError{"the formula is empty", 0};
+  if (text.size() > longest_text) throw ExpressionError{"the formula is too long (at most 4000 characters)", 0};
+  refuse_characters(text);
+  refuse_assignment(text);
+  std::vector<std::string> const known = known_names(names);
+  for (Word const& word : words_of(text)) {
+    if (std::find(known.begin(), known.end(), word.text) == known.end()) fail_unknown(word, names);
+  }
+}
+
+std::string explain(mu::Parser::exception_type const& error) {
+  std::string const token = in_quotes(error.GetToken());
+  switch (error.GetCode()) {
+    case mu::ecUNEXPECTED_OPERATOR: return "the operator " + token + " has nothing to work on";
+    case mu::ecUNEXPECTED_EOF: return "the formula ends too early";
+    case mu::ecUNEXPECTED_ARG_SEP:
+    case mu::ecUNEXPECTED_ARG: return "a comma is not expected here";
+    case mu::ecUNEXPECTED_VAL:
+    case mu::ecUNEXPECTED_VAR:
+    case mu::ecUNEXPECTED_FUN: return "an operator is missing before " + token;
+    case mu::ecUNEXPECTED_PARENS: return "the bracket " + token + " is not expected here";
+    case mu::ecMISSING_PARENS: return "a closing bracket is missing";
+    case mu::ecTOO_MANY_PARAMS: return "the function " + token + " has too many arguments";
+    case mu::ecTOO_FEW_PARAMS: return "the function " + token + " has too few arguments";
+    case mu::ecUNEXPECTED_CONDITIONAL: return "\"?\" is not expected here";
+    case mu::ecMISSING_ELSE_CLAUSE: return "\"?\" has no \":\" with the other value";
+    case mu::ecMISPLACED_COLON: return "\":\" has no \"?\" before it";
+    case mu::ecUNASSIGNABLE_TOKEN: return token + " is not understood";
+    default: return "the formula is not understood";
+  }
+}
+
+}  // namespace
+
+/// Parsers hold pointers to the variables beside them, so a compiled formula is built anew for every copy.
+struct Expression::Compiled {
+  std::string text = "0";
+  Names names;
+  double X = 0, Y = 0, Z = 0, t = 0;
+  bool constant = true;
+  double constant_value = 0;
+  struct Part {
+    mu::Parser parser;
+    double value = 0;
+  };
+  std::vector<std::unique_ptr<Part>> definitions;  ///< only those that are used, in order
+  mu::Parser parser;
+
+  Compiled() = default;
+  Compiled(std::string const& formula, Names const& known) : text(formula) {
+    check_text(text, known);
+    keep_used(known);
+    for (Definition const& definition : names.definitions) add_definition(definition);
+    prepare(parser, text);
+    for (std::size_t i = 0; i < definitions.size(); ++i) {
+      parser.DefineVar(names.definitions[i].name, &definitions[i]->value);
+    }
+    compile(parser);
+    auto const used = words_of(text);
+    constant = definitions.empty() && std::none_of(used.begin(), used.end(), [](Word const& word) {
+                 return word.text == "X" || word.text == "Y" || word.text == "Z" || word.text == "t";
+               });
+    if (constant) constant_value = parser.Eval();
+  }
+
+  // A formula carries only the names it needs: copies stay small and evaluation does no idle work.
+  void keep_used(Names const& known) {
+    std::set<std::string> needed;
+    for (Word const& word : words_of(text)) needed.insert(word.text);
+    for (auto d = known.definitions.rbegin(); d != known.definitions.rend(); ++d) {
+      if (!needed.contains(d->name)) continue;
+      names.definitions.insert(names.definitions.begin(), *d);
+      for (Word const& word : words_of(d->text)) needed.insert(word.text);
+    }
+    for (auto const& [name, value] : known.constants) {
+      if (needed.contains(name)) names.constants.emplace(name, value);
+    }
+  }
+
+  void add_definition(Definition const& definition) {
+    auto part = std::make_unique<Part>();
+    prepare(part->parser, definition.text);
+    for (std::size_t i = 0; i < definitions.size(); ++i) {
+      part->parser.DefineVar(names.definitions[i].name, &definitions[i]->value);
+    }
+    compile(part->parser);
+    definitions.push_back(std::move(part));
+  }
+
+  void prepare(mu::Parser& target, std::string const& formula) {
+    define_functions(target);
+    target.DefineConst("pi", std::numbers::pi);
+    for (auto const& [name, value] : names.constants) target.DefineConst(name, value);
+    target.DefineVar("X", &X);
+    target.DefineVar("Y", &Y);
+    target.DefineVar("Z", &Z);
+    target.DefineVar("t", &t);
+    target.SetExpr(formula);
+  }
+
+  // The first evaluation compiles; muParser reports errors only then.
+  static void compile(mu::Parser& target) {
+    try {
+      int results = 0;
+      target.Eval(results);
+      if (results != 1) throw ExpressionError{"a comma is not expected here: a formula has one value", 0};
+    } catch (mu::Parser::exception_type const& error) {
+      int const position = error.GetPos();
+      bool const inside = position >= 0 && static_cast<std::size_t>(position) <= longest_text;
+      throw ExpressionError{explain(error), inside ? position + 1 : 0};
+    }
+  }
+};
+
+Expression::Expression() : compiled_(std::make_unique<Compiled>()) {}
+
+Expression::Expression(std::string const& text, Names const& names) {
+  try {
+    compiled_ = std::make_unique<Compiled>(text, names);
+  } catch (mu::Parser::exception_type const& error) {
+    throw ExpressionError{explain(error), 0};
+  }
+}
+
+Expression::Expression(Expression const& other)
+    : compiled_(other.compiled_->constant && other.compiled_->text == "0"
+                    ? std::make_unique<Compiled>()
+                    : std::make_unique<Compiled>(other.compiled_->text, other.compiled_->names)) {}
+Expression& Expression::operator=(Expression const& other) {
+  if (this != &other) *this = Expression(other);
+  return *this;
+}
+Expression::Expression(Expression&&) noexcept = default;
+Expression& Expression::operator=(Expression&&) noexcept = default;
+Expression::~Expression() = default;
+
+double Expression::operator()(std::array<double, 3> const& X, double t) const {
+  Compiled& c = *compiled_;
+  if (c.constant) return c.constant_value;
+  c.X = X[0];
+  c.Y = X[1];
+  c.Z = X[2];
+  c.t = t;
+  for (auto const& part : c.definitions) part->value = part->parser.Eval();
+  return c.parser.Eval();
+}
+
+std::string const& Expression::text() const { return compiled_->text; }
+
+std::vector<std::string> expression_words(std::string const& text) {
+  std::vector<std::string> words;
+  for (Word const& word : words_of(text)) words.push_back(word.text);
+  return words;
+}
+
+bool is_reserved_name(std::string_view name) {
+  bool const variable = std::find(variables.begin(), variables.end(), name) != variables.end();
+  return variable || std::any_of(functions.begin(), functions.end(), [&](Function const& f) { return name == f.name; });
+}
+
+}  // namespace piola

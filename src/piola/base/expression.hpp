@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// A named expression that later expressions may use (`define` in a case file).
+struct Definition {
+  std::string name;
+  std::string text;
+};
+
+/// What an expression may use besides X, Y, Z (reference position, m), t (time, s) and pi.
+struct Names {
+  std::map<std::string, double> constants;  ///< SI values
+  std::vector<Definition> definitions;      ///< in order; each may use those before it
+};
+
+/// A formula in X, Y, Z, t, compiled once (muParser). Copies are independent and share nothing mutable; one object must
+/// not be evaluated by two threads at once. Conditions are expressions whose value is not zero.
+/// Functions: sin cos tan asin acos atan atan2 exp log (natural) sqrt abs min max pow; operators: + - * / ^, == != < <=
+/// > >=, && || !, condition ? value : other. Assignments are refused.
+class Expression {
+ public:
+  Expression();  ///< the constant 0
+  /// Throws ExpressionError (with a column in `text`) if the text is not a formula in the known names.
+  explicit Expression(std::string const& text, Names const& names = {});
+  Expression(Expression const&);
+  Expression& operator=(Expression const&);
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression&&) noexcept;
+  ~Expression();
+
+  /// Value at reference position X [m] and time t [s]; may be inf or nan, the caller checks.
+  double operator()(std::array<double, 3> const& X, double t = 0) const;
+  std::string const& text() const;
+
+ private:
+  struct Compiled;
+  std::unique_ptr<Compiled> compiled_;
+};
+
+struct ExpressionError {
+  std::string text;  ///< what is wrong
+  int column = 0;    ///< from 1, in the expression; 0 unknown
+};
+
+/// The names that a formula uses, in order of appearance (variables, constants, definitions, functions).
+std::vector<std::string> expression_words(std::string const& text);
+
+/// Whether a name has a meaning in every formula (X, Y, Z, t, pi and the functions), so that no constant may take it.
+bool is_reserved_name(std::string_view name);
+
+}  // namespace piola

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/units.hpp"
+#include "piola/base/text.hpp"
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <udunits2.h>
+
+namespace piola {
+namespace {
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+
+// UDUNITS-2 keeps its status and its parser state in globals, so every use of it is under this lock.
+std::mutex& library_lock() {
+  static std::mutex lock;
+  return lock;
+}
+
+ut_system* unit_system() {
+  static ut_system* const system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    return ut_read_xml(nullptr);
+  }();
+  if (system == nullptr) {
+    throw std::runtime_error("the UDUNITS-2 unit database cannot be read - install the package libudunits2-data");
+  }
+  return system;
+}
+
+// Everything UDUNITS could take for something else than a product of units is kept away from it: numbers in front
+// ("10 6 m"), time stamps ("s since 2000"), logarithms, shifted origins.
+bool is_plain_unit(std::string_view text) {
+  if (text.empty() || text.size() > 64) return false;
+  char const first = text.front();
+  if ((first >= '0' && first <= '9') || first == '+' || first == '-' || first == '.' || first == '^') return false;
+  constexpr std::string_view marks = " ^*/.-+()%_'\"";
+  bool const allowed = std::all_of(text.begin(), text.end(), [&](char c) {
+    bool const word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    return word || static_cast<unsigned char>(c) >= 0x80 || marks.find(c) != std::string_view::npos;
+  });
+  constexpr std::array<std::string_view, 6> not_units{"since", "after", "from", "ref", "re ", "re:"};
+  return allowed && std::none_of(not_units.begin(), not_units.end(), [&](std::string_view word) {
+           return text.find(" " + std::string(word)) != std::string_view::npos ||
+                  text.find("(" + std::string(word)) != std::string_view::npos;
+         });
+}
+
+Unit parse_unit(std::string_view text) {
+  if (text == "1") return Unit(ut_get_dimensionless_unit_one(unit_system()));
+  if (!is_plain_unit(text)) return nullptr;
+  return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
+}
+
+struct Dimension {
+  std::string_view unit, noun;
+};
+constexpr std::array dimensions{
+    Dimension{"m", "a length"},
+    Dimension{"s", "a time"},
+    Dimension{"m/s", "a velocity"},
+    Dimension{"kg/m^3", "a density"},
+    Dimension{"Pa", "a pressure or modulus"},
+    Dimension{"1", "a pure number"},
+    Dimension{"J", "an energy"},
+    Dimension{"kg m/s", "a momentum"},
+    Dimension{"kg m^2/s", "an angular momentum"},
+    Dimension{"kg/m^2/s", "a momentum per volume"},
+    Dimension{"K", "a temperature"},
+    Dimension{"rad", "an angle"},
+    Dimension{"degree", "an angle"},
+    Dimension{"m/s^2", "an acceleration"},
+};
+
+std::string unit_advice(std::string_view si_unit) {
+  if (si_unit == "1") return "(expected no unit)";
+  return "(expected a unit such as " + std::string(si_unit) + ")";
+}
+
+struct Split {
+  std::optional<double> number;
+  std::string_view unit;
+  bool too_large = false;
+};
+
+std::string_view trimmed(std::string_view text) {
+  auto const blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+Split split(std::string_view text) {
+  text = trimmed(text);
+  std::string_view digits = text;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  // from_chars also takes "inf" and "nan", which no quantity of a case can be.
+  std::size_t const first = digits.starts_with('-') && digits.size() == text.size() ? 1 : 0;
+  bool const starts = digits.size() > first && (digits[first] == '.' || (digits[first] >= '0' && digits[first] <= '9'));
+  if (!starts) return {};
+  double value = 0;
+  auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  Split result;
+  if (error == std::errc::invalid_argument) return result;
+  result.too_large = error == std::errc::result_out_of_range;
+  result.number = value;
+  result.unit = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
+  return result;
+}
+
+Quantity failed(std::string problem) { return {0, std::move(problem)}; }
+
+Quantity convert(std::string_view text, Split const& parts, ut_unit const* from, ut_unit const* to,
+                 std::string_view si_unit) {
+  Converter const converter(ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to)));
+  if (!converter) {
+    return failed(in_quotes(text) + " is not " + dimension_noun(si_unit) + " " + unit_advice(si_unit));
+  }
+  double const value = cv_convert_double(converter.get(), *parts.number);
+  if (!std::isfinite(value)) return failed(in_quotes(text) + " is too large for a number (at most 1.8e308 in SI units)");
+  return {value, std::nullopt};
+}
+
+// Walks down to the base units that a unit is made of and writes them as a product, e.g. "kg^1 m^-1 s^-2".
+ut_status visit_basic(ut_unit const* unit, void* out) {
+  char const* const symbol = ut_get_symbol(unit, UT_ASCII);
+  *static_cast<std::string*>(out) = symbol != nullptr ? symbol : "";
+  return symbol != nullptr ? UT_SUCCESS : UT_BAD_ARG;
+}
+ut_status visit_product(ut_unit const*, int count, ut_unit const* const* units, int const* powers, void* out) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    char const* const symbol = ut_get_symbol(units[i], UT_ASCII);
+    if (symbol == nullptr) return UT_BAD_ARG;
+    text += (text.empty() ? "" : " ") + std::string(symbol) + "^" + std::to_string(powers[i]);
+  }
+  *static_cast<std::string*>(out) = text.empty() ? "1" : text;
+  return UT_SUCCESS;
+}
+ut_status visit_timestamp(ut_unit const*, ut_unit const*, double, void*) { return UT_BAD_ARG; }
+ut_status visit_logarithm(ut_unit const*, double, ut_unit const*, void*) { return UT_BAD_ARG; }
+ut_status visit_galilean(ut_unit const*, double, ut_unit const* underlying, double, void* out);
+
+constexpr ut_visitor base_units{visit_basic, visit_product, visit_galilean, visit_timestamp, visit_logarithm};
+
+ut_status visit_galilean(ut_unit const*, double, ut_unit const* underlying, double, void* out) {
+  return ut_accept_visitor(underlying, &base_units, out);
+}
+
+std::string bad_number(std::string_view text, std::string_view expected) {
+  return in_quotes(text) + " is not a number with a unit (expected " + std::string(expected) + ")";
+}
+
+}  // namespace
+
+std::string dimension_noun(std::string_view si_unit) {
+  auto const* const found = std::find_if(dimensions.begin(), dimensions.end(),
+                                         [&](Dimension const& d) { return d.unit == si_unit; });
+  if (found != dimensions.end()) return std::string(found->noun);
+  return "a quantity in " + std::string(si_unit);
+}
+
+Quantity read_quantity(std::string_view text, std::string_view si_unit) {
+  Split const parts = split(text);
+  if (!parts.number) {
+    return failed(bad_number(text, si_unit == "1" ? "a number such as 0.5"
+                                                  : "a text such as \"2 " + std::string(si_unit) + "\""));
+  }
+  if (parts.too_large) return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
+  if (parts.unit.empty()) return {*parts.number, std::nullopt};
+  std::lock_guard const lock(library_lock());
+  Unit const to = parse_unit(si_unit);
+  if (!to) throw std::invalid_argument("not a unit: " + std::string(si_unit));
+  Unit const from = parse_unit(parts.unit);
+  if (!from) return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit " + unit_advice(si_unit));
+  return convert(text, parts, from.get(), to.get(), si_unit);
+}
+
+Quantity read_any_quantity(std::string_view text) {
+  Split const parts = split(text);
+  if (!parts.number) return failed(bad_number(text, "a text such as \"105 rad/s\""));
+  if (parts.too_large) return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
+  if (parts.unit.empty()) return {*parts.number, std::nullopt};
+  std::lock_guard const lock(library_lock());
+  Unit const from = parse_unit(parts.unit);
+  std::string base;
+  bool const known = from && ut_accept_visitor(from.get(), &base_units, &base) == UT_SUCCESS;
+  Unit const to = known ? parse_unit(base) : nullptr;
+  if (!to) return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit (expected one such as m/s)");
+  return convert(text, parts, from.get(), to.get(), base);
+}
+
+bool same_dimension(std::string_view a, std::string_view b) {
+  std::lock_guard const lock(library_lock());
+  Unit const left = parse_unit(a), right = parse_unit(b);
+  return left && right && ut_are_convertible(left.get(), right.get()) != 0;
+}
+
+double convert_from_si(double value, std::string_view si_unit, std::string_view unit) {
+  std::lock_guard const lock(library_lock());
+  Unit const from = parse_unit(si_unit), to = parse_unit(unit);
+  Converter const converter(from && to ? ut_get_converter(from.get(), to.get()) : nullptr);
+  if (!converter) {
+    throw std::invalid_argument(in_quotes(unit) + " is not a unit of " + dimension_noun(si_unit) + " " +
+                                unit_advice(si_unit));
+  }
+  return cv_convert_double(converter.get(), value);
+}
+
+}  // namespace piola
