@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/setup/shapes.hpp"
+#include "piola/base/contracts.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace piola {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+using Index3 = std::array<int, 3>;
+
+/// The lattice on which a body is born: points first + i * spacing.
+struct Lattice {
+  Vec3 first{};
+  Vec3 spacing{1, 1, 1};
+  Index3 count{1, 1, 1};
+};
+
+struct Rows {
+  std::int64_t begin = 0, end = 0;  ///< lattice indices along the first direction [begin, end)
+};
+
+bool single(ShapeSpec const& shape, int d) { return shape.particles[static_cast<std::size_t>(d)] <= 1; }
+
+Lattice box_lattice(ShapeSpec const& shape) {
+  Lattice lattice;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    double const length = shape.max[i] - shape.min[i];
+    int const n = std::max(1, shape.particles[i]);
+    bool const cells = shape.placement == ShapeSpec::Placement::cell_centred || single(shape, d);
+    lattice.count[i] = n;
+    lattice.spacing[i] = cells ? length / n : length / (n - 1);
+    lattice.first[i] = cells ? shape.min[i] + lattice.spacing[i] / 2 : shape.min[i];
+  }
+  return lattice;
+}
+
+// Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
+int cells_over(double length, double spacing) {
+  double const cells = std::round(length / spacing);
+  if (!(cells < std::numeric_limits<int>::max())) return std::numeric_limits<int>::max();
+  return std::max(1, static_cast<int>(cells));
+}
+
+Lattice round_lattice(ShapeSpec const& shape) {
+  Lattice lattice;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    bool const along = shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis;
+    double const length = along ? shape.length : 2 * shape.radius;
+    int const n = cells_over(length, shape.spacing);
+    lattice.count[i] = n;
+    lattice.spacing[i] = along ? length / n : shape.spacing;
+    lattice.first[i] = along ? shape.centre[i] + lattice.spacing[i] / 2
+                             : shape.centre[i] - 0.5 * (n - 1) * lattice.spacing[i];
+  }
+  return lattice;
+}
+
+Lattice lattice_of(ShapeSpec const& shape) {
+  return shape.kind == ShapeSpec::Kind::box ? box_lattice(shape) : round_lattice(shape);
+}
+
+// Squared distance from the centre, or from the axis of a cylinder, that a lattice index adds in direction d.
+double round_part(ShapeSpec const& shape, Lattice const& lattice, int d, std::int64_t index) {
+  if (d >= shape.dimension || (shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis)) return 0;
+  auto const i = static_cast<std::size_t>(d);
+  double const offset = (static_cast<double>(index) - 0.5 * (lattice.count[i] - 1)) * lattice.spacing[i];
+  return offset * offset;
+}
+
+// The lattice points of row (j, k) that are inside the body: a contiguous range, because bodies are convex.
+Rows inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
+  std::int64_t const n = lattice.count[0];
+  if (shape.kind == ShapeSpec::Kind::box) return {0, n};
+  double const others = round_part(shape, lattice, 1, j) + round_part(shape, lattice, 2, k);
+  double const radius2 = shape.radius * shape.radius;
+  auto const inside = [&](std::int64_t i) { return round_part(shape, lattice, 0, i) + others <= radius2; };
+  std::int64_t const middle = (n - 1) / 2;
+  if (!inside(middle)) return {0, 0};
+  std::int64_t low = 0, high = middle;  // the first inside index is in [low, high]
+  while (low < high) {
+    std::int64_t const half = (low + high) / 2;
+    if (inside(half)) high = half;
+    else low = half + 1;
+  }
+  return {low, n - low};
+}
+
+double share_of_cell(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
+  double share = 1;
+  if (shape.kind != ShapeSpec::Kind::box || shape.placement != ShapeSpec::Placement::on_boundary) return share;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    if (single(shape, d)) continue;
+    if (index[i] == 0 || index[i] == lattice.count[i] - 1) share /= 2;
+  }
+  return share;
+}
+
+/// Same numbers everywhere: the sequence of mt19937 is fixed by the C++ standard, that of its distributions is not.
+class Shaker {
+ public:
+  explicit Shaker(std::uint32_t seed) : engine_(seed) {}
+  double operator()() { return (static_cast<double>(engine_()) + 0.5) / 2147483648.0 - 1; }  // in (-1, 1)
+
+ private:
+  std::mt19937 engine_;
+};
+
+Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
+  Vec3 X{};
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    X[i] = lattice.first[i] + index[i] * lattice.spacing[i];
+    // The far face exactly, so that a region such as "Y >= L" selects it in spite of rounding.
+    bool const on_face = shape.kind == ShapeSpec::Kind::box && shape.placement == ShapeSpec::Placement::on_boundary;
+    if (on_face && !single(shape, d) && index[i] == lattice.count[i] - 1) X[i] = shape.max[i];
+  }
+  return X;
+}
+
+void shake(ShapeSpec const& shape, Lattice const& lattice, bool inner, Shaker& shaker, Vec3& X) {
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    // Drawn for every particle, moved or not, so that the shift of one does not depend on what the others are.
+    double const shift = shape.jitter * lattice.spacing[i] * shaker();
+    if (inner) X[i] += shift;
+  }
+}
+
+double row_count_estimate(ShapeSpec const& shape, Lattice const& lattice) {
+  double total = 1;
+  for (int const n : lattice.count) total *= n;
+  if (shape.kind == ShapeSpec::Kind::box) return total;
+  return total * 0.5;  // between pi/6 and pi/4 of the enclosing lattice is inside
+}
+
+}  // namespace
+
+std::int64_t count_particles(ShapeSpec const& shape) {
+  constexpr double countable = 1e8;
+  Lattice const lattice = lattice_of(shape);
+  double const estimate = row_count_estimate(shape, lattice);
+  if (shape.kind == ShapeSpec::Kind::box || estimate > countable) {
+    return static_cast<std::int64_t>(std::min(estimate, 9e18));
+  }
+  bool const along_z = shape.kind == ShapeSpec::Kind::cylinder && shape.axis == 2;
+  bool const along_y = shape.kind == ShapeSpec::Kind::cylinder && shape.axis == 1;
+  std::int64_t count = 0;
+  for (int k = 0; k < (along_z ? 1 : lattice.count[2]); ++k) {
+    for (int j = 0; j < (along_y ? 1 : lattice.count[1]); ++j) {
+      Rows const row = inside_row(shape, lattice, j, k);
+      count += row.end - row.begin;
+    }
+  }
+  return count * (along_z ? lattice.count[2] : 1) * (along_y ? lattice.count[1] : 1);
+}
+
+std::array<double, 3> spacing_of(ShapeSpec const& shape) { return lattice_of(shape).spacing; }
+
+int particles_over(double length, double spacing, ShapeSpec::Placement placement) {
+  double const cells = std::round(length / spacing);
+  if (!(cells < std::numeric_limits<int>::max() - 1)) return std::numeric_limits<int>::max();
+  int const n = std::max(0, static_cast<int>(cells));
+  if (placement == ShapeSpec::Placement::on_boundary) return n + 1;
+  return std::max(1, n);
+}
+
+void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
+  PIOLA_EXPECTS(shape.dimension >= 1 && shape.dimension <= 3);
+  Lattice const lattice = lattice_of(shape);
+  Body body;
+  body.name = name;
+  body.first = set.size();
+  body.spacing = lattice.spacing;
+  body.lattice = lattice.count;
+  body.regular = !(shape.jitter > 0);
+  double cell = 1;
+  for (int d = 0; d < shape.dimension; ++d) cell *= lattice.spacing[static_cast<std::size_t>(d)];
+  int const number = static_cast<int>(set.bodies.size());
+  Shaker shaker(shape.seed);
+  for (int k = 0; k < lattice.count[2]; ++k) {
+    for (int j = 0; j < lattice.count[1]; ++j) {
+      Rows const row = inside_row(shape, lattice, j, k);
+      for (std::int64_t i = row.begin; i < row.end; ++i) {
+        Index3 const index{static_cast<int>(i), j, k};
+        double const share = share_of_cell(shape, lattice, index);
+        Vec3 X = position(shape, lattice, index);
+        if (shape.jitter > 0) shake(shape, lattice, share == 1, shaker, X);
+        set.X.push_back(X);
+        set.lattice_index.push_back(index);
+        set.volume.push_back(cell * share);
+        set.kernel_volume.push_back(cell);
+        set.body.push_back(number);
+      }
+    }
+  }
+  body.last = set.size();
+  set.dimension = shape.dimension;
+  set.bodies.push_back(std::move(body));
+}
+
+}  // namespace piola

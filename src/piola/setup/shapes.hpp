@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/particles/particle_set.hpp"
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace piola {
+
+/// What a case file says about the shape of a body. Lengths in m. The number of components that the user
+/// gave for `min`/`centre` is the dimension (1, 2 or 3).
+struct ShapeSpec {
+  enum class Kind { box, sphere, cylinder };
+  enum class Placement { on_boundary, cell_centred };
+  Kind kind = Kind::box;
+  int dimension = 3;
+  std::array<double, 3> min{}, max{};    ///< box
+  std::array<double, 3> centre{};        ///< sphere (2D: disc); cylinder: centre of the lower end
+  double radius = 0;                     ///< sphere, cylinder
+  double length = 0;                     ///< cylinder
+  int axis = 2;                          ///< cylinder: 0 x, 1 y, 2 z
+  std::array<int, 3> particles{1, 1, 1}; ///< box: particles per direction (already derived from spacing if that was given)
+  double spacing = 0;                    ///< sphere, cylinder
+  Placement placement = Placement::on_boundary;  ///< box; sphere and cylinder are cell centred
+  double jitter = 0;                     ///< random shift of each inner particle, as a fraction of the spacing
+  std::uint32_t seed = 1;                ///< of the jitter
+};
+
+/// Number of particles that `fill` would create, without creating them: exact for a box and up to about 1e8, an estimate beyond.
+std::int64_t count_particles(ShapeSpec const& shape);
+
+/// Lattice spacing of the body [m]; 1 for dimensions that do not exist.
+std::array<double, 3> spacing_of(ShapeSpec const& shape);
+
+/// Particles over a length that come closest to the wanted spacing: length/spacing + 1 with particles on both ends,
+/// length/spacing if they sit in the middle of cells.
+int particles_over(double length, double spacing, ShapeSpec::Placement placement);
+
+/// Appends a body's particles to the set, x fastest, then y, then z.
+///  - Box, on_boundary: n points over a length l have the spacing l/(n-1) and lie on both faces; the tributary volume is
+///    1/2 of a cell at faces, 1/4 at edges, 1/8 at corners. A direction with one particle has the whole length as its
+///    spacing, the particle in the middle, and counts as a full cell.
+///  - Box, cell_centred: spacing l/n, every particle a full cell.
+///  - Sphere (2D: disc, 1D: interval) and cylinder: the cells of a lattice, symmetric about the centre, whose middle lies
+///    inside. Every particle is a full cell, so the body's volume is that of its staircase, not the exact one; along the
+///    axis of a cylinder the spacing is fitted to the length.
+/// Tributary volumes of a box sum to its exact volume; kernel volumes are the product of the spacings.
+/// Jitter moves particles that are not on a face of the body by up to jitter * spacing in each direction; the same seed
+/// gives the same particles on every machine.
+void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set);
+
+}  // namespace piola
