@@ -15,6 +15,7 @@ target_link_libraries(piola_options INTERFACE OpenMP::OpenMP_CXX Threads::Thread
 add_library(piola_warnings INTERFACE)
 target_compile_options(piola_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=  # messages name files as in the repository
   $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>
   $<$<BOOL:${PIOLA_WERROR}>:-Werror>)

@@ -36,6 +36,16 @@ foreach(script IN LISTS _scripts)
     "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR};PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>")
 endforeach()
 
+# The stored inputs of every fuzz target are ordinary tests; finding new ones needs clang (PiolaFuzz.cmake).
+file(GLOB _fuzz CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/fuzz/*_fuzz.cpp")
+foreach(source IN LISTS _fuzz)
+  get_filename_component(name "${source}" NAME_WE)
+  add_executable(${name}_replay "${source}" "${PROJECT_SOURCE_DIR}/tests/fuzz/replay.cpp")
+  target_link_libraries(${name}_replay PRIVATE piola piola_warnings piola_host)
+  add_test(NAME fuzz/${name} COMMAND ${name}_replay "${PROJECT_SOURCE_DIR}/tests/fuzz/corpus")
+  set_tests_properties(fuzz/${name} PROPERTIES TIMEOUT 300)
+endforeach()
+
 # Every header compiles alone.
 file(GLOB_RECURSE _headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/piola/*.hpp")
 set(_alone "")

@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The checks of tools/ find what they promise to find, in a small house of their own.
+set -uo pipefail
+root=${PIOLA_SOURCE_DIR:-$(cd "$(dirname "$0")/../.." && pwd)}
+house=$(mktemp -d)
+trap 'rm -rf "$house"' EXIT
+failures=0
+licence='// SPDX-License-Identifier: Apache-2.0'
+
+write() {  # write PATH LINE...
+  mkdir -p "$(dirname "$house/$1")"
+  printf '%s\n' "${@:2}" >"$house/$1"
+}
+expect() {  # expect STATUS TEXT TOOL: the tool ends with STATUS and says TEXT
+  local output status=0
+  output=$("$root/tools/$3" "$house" 2>&1) || status=$?
+  if [[ $status -ne $1 || $output != *"$2"* ]]; then
+    echo "$3: expected status $1 and the text '$2', got status $status and"
+    echo "$output"
+    failures=$((failures + 1))
+  fi
+}
+fresh() { rm -rf "${house:?}/src" "${house:?}/app" && write src/piola/base/a.hpp "$licence" '#pragma once'; }
+
+fresh
+expect 0 "0 findings" check_floors
+expect 0 "0 findings" check_sizes
+expect 0 "0 findings" check_words
+
+# Floors.
+fresh && write src/piola/exec/b.hpp "$licence" '#pragma once'
+write src/piola/base/c.cpp "$licence" '#include "piola/exec/b.hpp"'
+expect 1 "src/piola/base/c.cpp:2: includes piola/exec/b.hpp: base/ (floor 0) does not see exec/ (floor 1)" check_floors
+fresh && write src/piola/base/c.cpp "$licence" '// #include "piola/exec/b.hpp"'
+expect 0 "0 findings" check_floors
+fresh && write src/piola/particles/b.hpp "$licence" && write src/piola/exec/c.hpp "$licence"
+write src/piola/materials/d.hpp "$licence" '#include "piola/exec/c.hpp"'
+expect 1 "materials/ sees only base, math" check_floors
+fresh && write src/piola/formulations/one/passes.hpp "$licence"
+write src/piola/formulations/two/step.hpp "$licence" '#include "piola/formulations/one/passes.hpp"'
+expect 1 "a formulation never includes another one" check_floors
+fresh && write src/piola/formulations/one/passes.hpp "$licence" && write src/piola/formulations/registry.hpp "$licence"
+write src/piola/input/a.cpp "$licence" '#include "piola/formulations/registry.hpp"'
+expect 0 "0 findings" check_floors
+write src/piola/input/a.cpp "$licence" '#include "piola/formulations/one/passes.hpp"'
+expect 1 "input/ sees only the files at the top of formulations/" check_floors
+fresh && write src/piola/setup/s.hpp "$licence" && write src/piola/input/a.cpp "$licence" '#include "piola/setup/s.hpp"'
+expect 0 "0 findings" check_floors
+fresh && write src/piola/output/a.cpp "$licence" '#include "piola/base/gone.hpp"'
+expect 1 "which does not exist" check_floors
+fresh && write src/piola/mechanics/a.hpp "$licence" '#pragma omp parallel for'
+expect 1 "OpenMP pragmas (allowed only in exec/)" check_floors
+fresh && write src/piola/simulation/a.cpp "$licence" '#include <hdf5.h>'
+expect 1 "HDF5 (allowed only in output/)" check_floors
+fresh && write src/piola/setup/a.cpp "$licence" 'void f() { std::cout << 1; }'
+expect 1 "library code never prints" check_floors
+fresh && write src/piola/setup/a.cpp "$licence" 'void f() { std::exit(1); }'
+expect 1 "library code never exits" check_floors
+fresh && write src/piola/attic/a.cpp "$licence"
+expect 1 "attic/ is no room of the house" check_floors
+
+# Sizes.
+fresh && write src/piola/base/b.cpp "$licence" 'void tall() {' "$(yes '  ;' | head -n 59)" '}'
+expect 1 "src/piola/base/b.cpp:2: function tall: 61 lines (at most 60)" check_sizes
+fresh && write src/piola/base/b.cpp "$licence" 'void fits() {' "$(yes '  if (x) { y(); }' | head -n 58)" '}'
+expect 0 "0 findings" check_sizes
+fresh && write src/piola/base/b.cpp "$licence" 'struct Long {' "$(yes '  int f() { return 1; }' | head -n 90)" '};'
+expect 0 "0 findings" check_sizes
+fresh && write src/piola/base/b.cpp "$licence" "$(yes '//' | head -n 600)"
+expect 1 "601 lines (at most 600)" check_sizes
+fresh && write src/piola/base/b.cpp "$licence" "// $(yes 'word' | head -n 30 | tr '\n' ' ')."
+expect 1 "characters (at most 120)" check_sizes
+
+# Words.
+fresh && write src/piola/base/b.cpp 'int x;'
+expect 1 "src/piola/base/b.cpp:1: no licence line" check_words
+fresh && write src/piola/base/b.cpp "$licence" 'int x;  '
+expect 1 "blanks at the end of the line" check_words
+fresh && write src/piola/base/b.cpp "$licence" $'\tint x;'
+expect 1 "tab - use spaces" check_words
+fresh && write src/piola/base/b.cpp "$licence" '// TODO: later'
+expect 1 "reminder without a reason" check_words
+fresh && write src/piola/base/b.cpp "$licence" '// TODO(when MPI arrives): exchange'
+expect 0 "0 findings" check_words
+fresh && write src/piola/base/b.cpp "$licence" '// see /home/someone/notes'
+expect 1 "path of one machine" check_words
+
+echo "check_tools_test: $failures failures"
+[[ $failures -eq 0 ]]
