@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/deflate.hpp"
+#include "piola/exec/threads.hpp"
 #include <algorithm>
 #include <atomic>
 #include <cstring>
@@ -37,7 +38,7 @@ std::vector<std::byte> deflate_one(libdeflate_compressor* compressor, std::span<
 std::vector<std::vector<std::byte>> deflate_chunks(std::span<std::byte const> bytes, std::size_t chunk, std::size_t width) {
   std::size_t const count = (bytes.size() + chunk - 1) / chunk;
   std::vector<std::vector<std::byte>> packed(count);
-  std::size_t const workers = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, std::max<std::size_t>(count, 1));
+  std::size_t const workers = std::clamp<std::size_t>(static_cast<std::size_t>(exec_host::threads()), 1, std::max<std::size_t>(count, 1));
   std::vector<Compressor> compressors;  // made here so that a lack of memory is reported before any thread starts
   for (std::size_t w = 0; w < workers; ++w) {
     compressors.emplace_back(libdeflate_alloc_compressor(level), &libdeflate_free_compressor);

@@ -91,6 +91,7 @@ void FrameWriter::write(double time, FieldCache& cache) {
   file.group("/VTKHDF/PointData");
   file.group("/VTKHDF/CellData");
   file.group("/VTKHDF/FieldData");
+  file.attribute("/", "dimension", std::array<std::int64_t, 1>{cache.particles().dimension});
   file.attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
   file.attribute("/VTKHDF", "Type", std::string_view("UnstructuredGrid"));
   file.dataset<float>("/VTKHDF/Points", to_float(cache.values("Position")), 3, storage);
@@ -154,8 +155,10 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"), shape.size() > 1 ? static_cast<int>(shape[1]) : 1};
   frame.values = file.dataset<double>(data);
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
+  frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
+  frame.dimension = static_cast<int>(file.integer("/", "dimension"));
   bool const fits = frame.values.size() == frame.points.size() * static_cast<std::size_t>(frame.info.components) &&
-                    frame.volume.size() == frame.points.size();
+                    frame.volume.size() == frame.points.size() && frame.body.size() == frame.points.size();
   if (!fits) throw FileError(fmt::format("{}: the field '{}' has not one value per point - the frame is damaged", path.string(), field));
   return frame;
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/output/field_cache.hpp"
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace piola {
 
-/// Names of fields as ParaView 5.11 opens them: one HDF5 file per frame in VTKHDF 1.0 layout, frames/000000.hdf and so on,
+/// Frames as ParaView 5.11 opens them: one HDF5 file per frame in VTKHDF 1.0 layout, frames/000000.hdf and so on,
 /// with two indices over all frames that are renewed after each: frames.hdf.series (JSON) and frames.xmf (XDMF).
 class FrameWriter {
  public:
@@ -41,6 +42,8 @@ struct Frame {
   FieldInfo info;                               ///< of the field that was asked for; its unit comes from the file
   std::vector<double> values;                   ///< values[i * components + c]
   std::vector<double> volume;                   ///< tributary volume, m^Dim
+  std::vector<int> body;
+  int dimension = 3;
 };
 
 /// Reads points and one field. Throws FileError if the file is damaged, InputError (with the names there are) if the frame

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/picture.hpp"
+#include "piola/base/text.hpp"
+#include "piola/output/colour_map.hpp"
+#include "piola/output/lettering.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+using Pixel = std::array<double, 2>;
+
+constexpr int fine = 2;  // pixels are the mean of fine x fine samples
+constexpr Colour background{255, 255, 255}, ink{40, 44, 52}, faint_ink{110, 116, 126};
+
+double dot(Point const& a, Point const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// All sizes follow the height of the picture, so that a large one is not one with tiny letters.
+struct Layout {
+  double unit, text, left, right, top, bottom;
+  explicit Layout(PictureStyle const& style)
+      : unit(std::min(style.height / 800.0, style.width / 900.0)), text(13 * unit), left(30 * unit), right(style.width - 165 * unit), top(70 * unit), bottom(style.height - 40 * unit) {}
+};
+
+/// From metres to pixels: the window is centred in the free area.
+struct Projection {
+  Point right, up, towards;
+  double scale, x_shift, y_shift;
+  Projection(View const& view, Window const& w, Layout const& area) : right(view.right()), up(view.up()), towards(view.towards_viewer()) {
+    double const wide = std::max(w.x1 - w.x0, 1e-300), high = std::max(w.y1 - w.y0, 1e-300);
+    scale = std::min((area.right - area.left) / wide, (area.bottom - area.top) / high);
+    x_shift = (area.left + area.right) / 2 - scale * (w.x0 + w.x1) / 2;
+    y_shift = (area.top + area.bottom) / 2 + scale * (w.y0 + w.y1) / 2;
+  }
+  Pixel operator()(Point const& p) const { return {x_shift + scale * dot(p, right), y_shift - scale * dot(p, up)}; }
+};
+
+/// The nearest surface of each fine pixel.
+struct DepthImage {
+  Image colour;
+  std::vector<float> depth;
+  DepthImage(int width, int height)
+      : colour(width, height, background), depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -std::numeric_limits<float>::infinity()) {}
+};
+
+/// Light of a ball's surface with this normal (x right, y down, z to the viewer): 1 keeps the colour of the value.
+double light(double nx, double ny, double nz) {
+  double const lamp = std::max(0.0, -0.42 * nx - 0.56 * ny + 0.714 * nz);  // from the upper left, behind the viewer
+  return 0.42 + 0.46 * lamp + 0.17 * nz;
+}
+
+void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colour colour, bool flat) {
+  int const x0 = std::max(0, static_cast<int>(std::floor(centre[0] - radius))), x1 = std::min(out.colour.width - 1, static_cast<int>(std::ceil(centre[0] + radius)));
+  int const y0 = std::max(0, static_cast<int>(std::floor(centre[1] - radius))), y1 = std::min(out.colour.height - 1, static_cast<int>(std::ceil(centre[1] + radius)));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      double const nx = (x + 0.5 - centre[0]) / radius, ny = (y + 0.5 - centre[1]) / radius;
+      double const inside = 1 - nx * nx - ny * ny;
+      if (inside < 0) continue;
+      double const nz = std::sqrt(inside);
+      auto const here = static_cast<float>(depth + radius * nz);
+      auto const at = static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width) + static_cast<std::size_t>(x);
+      if (here <= out.depth[at]) continue;
+      out.depth[at] = here;
+      double const shade = flat ? 0.9 + 0.1 * nz : light(nx, ny, nz);
+      Colour lit{};
+      for (std::size_t c = 0; c < 3; ++c) lit[c] = static_cast<std::uint8_t>(std::clamp(colour[c] * shade, 0.0, 255.0));
+      out.colour.set(x, y, lit);
+    }
+  }
+}
+
+Image draw_balls(PictureData const& data, PictureStyle const& style, Projection const& project, ColourMap const& map) {
+  DepthImage out(style.width * fine, style.height * fine);
+  double const least = (data.dimension == 1 ? 5.0 : 1.2) * fine;  // a line of particles would be too thin to see
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    Pixel const p = project(data.points[i]);
+    double const radius = std::max(data.radius[i] * project.scale * fine, least);
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) continue;
+    double const depth = dot(data.points[i], project.towards) * project.scale * fine;
+    draw_ball(out, {p[0] * fine, p[1] * fine}, depth, radius, map(data.values[i]), data.dimension < 3);
+  }
+  return reduce(out.colour, fine);
+}
+
+/// Tick numbers with as many decimals as their distance needs.
+std::string tick_text(double value, double step) {
+  double const size = std::max(std::abs(value), step);
+  if (size >= 1e5 || step < 1e-4) return fmt::format("{:.3g}", value);
+  int const decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+void draw_colour_bar(Image& image, PictureData const& data, ColourMap const& map, Layout const& layout) {
+  double const u = layout.unit;
+  int const x0 = static_cast<int>(image.width - 125 * u), x1 = static_cast<int>(image.width - 101 * u);
+  int const top = static_cast<int>(image.height * 0.2), bottom = static_cast<int>(image.height * 0.86);
+  auto const row = [&](double value) { return bottom - (value - map.low()) / (map.high() - map.low()) * (bottom - top); };
+  for (int y = top; y <= bottom; ++y) {
+    Colour const colour = map(map.low() + (map.high() - map.low()) * (bottom - y) / (bottom - top));
+    for (int x = x0; x <= x1; ++x) image.set(x, y, colour);
+  }
+  auto const unit = shown_unit(std::max(std::abs(map.low()), std::abs(map.high())), data.unit);
+  auto const ticks = map.ticks();
+  double const step = ticks.size() > 1 ? (ticks[1] - ticks[0]) / unit.factor : 1;
+  for (double const tick : ticks) {
+    double const y = row(tick);
+    draw_line(image, {x1 + 2.0, y + 0.5}, {x1 + 5 * u, y + 0.5}, std::max(1.2 * u, 1.0), ink);
+    draw_text(image, x1 + 15 * u, y + 0.5 * layout.text, tick_text(tick / unit.factor, step), layout.text, ink);
+  }
+  std::string const caption = unit.text.empty() ? data.label : fmt::format("{} [{}]", data.label, unit.text);
+  double const right_edge = image.width - 20 * u, wide = text_width(caption, layout.text);
+  bool const fits = x0 + wide <= right_edge;
+  draw_text(image, fits ? x0 : right_edge, top - 20 * u, caption, layout.text, ink, fits ? Align::left : Align::right);
+}
+
+void draw_axes(Image& image, View const& view, int dimension, Layout const& layout) {
+  double const length = 34 * layout.unit;
+  Pixel const origin{52 * layout.unit, image.height - 50 * layout.unit};
+  constexpr std::array<char const*, 3> names{"x", "y", "z"};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+    double const dx = view.right()[k] * length, dy = -view.up()[k] * length;
+    if (std::hypot(dx, dy) < 0.1 * length) continue;  // points at the viewer
+    draw_line(image, origin, {origin[0] + dx, origin[1] + dy}, 1.8 * layout.unit, faint_ink);
+    double const beyond = 1 + 11 * layout.unit / std::hypot(dx, dy);
+    draw_text(image, origin[0] + dx * beyond, origin[1] + dy * beyond + 4 * layout.unit, names[k], 11 * layout.unit, faint_ink, Align::centre);
+  }
+}
+
+/// The part of a title that fits, with dots if some is left out.
+std::string shortened(std::string text, double height, double width) {
+  if (text_width(text, height) <= width) return text;
+  while (!text.empty() && text_width(text + "...", height) > width) text.pop_back();
+  return text + "...";
+}
+
+}  // namespace
+
+std::array<double, 3> View::right() const { return {std::cos(radians(azimuth)), 0, -std::sin(radians(azimuth))}; }
+
+std::array<double, 3> View::towards_viewer() const {
+  double const a = radians(azimuth), e = radians(elevation);
+  return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+std::array<double, 3> View::up() const {
+  double const a = radians(azimuth), e = radians(elevation);
+  return {-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a)};
+}
+
+void Window::include(View const& view, std::span<Point const> points, double margin) {
+  double const infinity = std::numeric_limits<double>::infinity();
+  double low_x = infinity, high_x = -infinity, low_y = infinity, high_y = -infinity;
+  for (Point const& p : points) {
+    double const x = dot(p, view.right()), y = dot(p, view.up());
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    low_x = std::min(low_x, x - margin);
+    high_x = std::max(high_x, x + margin);
+    low_y = std::min(low_y, y - margin);
+    high_y = std::max(high_y, y + margin);
+  }
+  if (!(low_x <= high_x)) return;
+  bool const inside = set && low_x >= x0 && high_x <= x1 && low_y >= y0 && high_y <= y1;
+  if (inside) return;
+  double const room = 0.06 * std::max(high_x - low_x, high_y - low_y);
+  auto const grow = [&](double& low, double& high, double new_low, double new_high) {
+    low = set && low <= new_low ? low : new_low - room;
+    high = set && high >= new_high ? high : new_high + room;
+  };
+  grow(x0, x1, low_x, high_x);
+  grow(y0, y1, low_y, high_y);
+  set = true;
+}
+
+Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window) {
+  PictureStyle style = asked;
+  if (data.dimension < 3) style.view = {0, 0};  // a plane is seen from z
+  Layout const layout(style);
+  auto range = style.range;
+  if (!range && !data.values.empty()) {
+    auto const [low, high] = std::minmax_element(data.values.begin(), data.values.end());
+    range = {*low, *high};
+  }
+  ColourMap const map(range ? (*range)[0] : 0, range ? (*range)[1] : 1);
+  Image image = draw_balls(data, style, Projection(style.view, window, layout), map);
+  draw_colour_bar(image, data, map, layout);
+  draw_axes(image, style.view, data.dimension, layout);
+  std::string const time = "t = " + quantity_text(data.time, "s");
+  double const right = style.width - 20 * layout.unit, baseline = 38 * layout.unit, large = 1.3 * layout.text;
+  draw_text(image, right, baseline, time, large, ink, Align::right);
+  double const room = right - text_width(time, large) - 60 * layout.unit;
+  draw_text(image, 30 * layout.unit, baseline, shortened(data.title, large, room), large, ink);
+  return image;
+}
+
+std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension) {
+  std::map<int, double> largest;
+  for (std::size_t i = 0; i < volume.size(); ++i) largest[body[i]] = std::max(largest[body[i]], volume[i]);
+  // Half the spacing would leave gaps; flat discs must reach the middle of a lattice cell.
+  double const share = dimension == 3 ? 0.58 : 0.72;
+  for (auto& entry : largest) entry.second = share * std::pow(entry.second, 1.0 / dimension);
+  std::vector<double> out(volume.size());
+  for (std::size_t i = 0; i < volume.size(); ++i) out[i] = largest[body[i]];
+  return out;
+}
+
+std::vector<double> picture_values(std::span<double const> values, int components) {
+  auto const width = static_cast<std::size_t>(components);
+  std::vector<double> out(values.size() / width);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    double const* v = &values[i * width];
+    if (width == 1) {
+      out[i] = v[0];
+    } else if (width == 3) {
+      out[i] = std::hypot(v[0], v[1], v[2]);
+    } else if (width == 6) {
+      double const a = v[0] - v[1], b = v[1] - v[2], c = v[2] - v[0];
+      out[i] = std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (v[3] * v[3] + v[4] * v[4] + v[5] * v[5]));
+    } else {
+      for (std::size_t k = 0; k < width; ++k) out[i] = std::max(out[i], std::abs(v[k]));
+    }
+  }
+  return out;
+}
+
+std::string picture_label(std::string const& field, int components) {
+  std::string const words = field_words(field);
+  if (components == 3) return words + " magnitude";
+  if (components == 6) return "von Mises of " + words;
+  return components == 1 ? words : "largest " + words;
+}
+
+}  // namespace piola

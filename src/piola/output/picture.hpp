@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/image.hpp"
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// Where one looks from: azimuth about the y axis and elevation above the x-z plane [deg]; (0, 0) shows x to the right and
+/// y upwards. Parallel projection.
+struct View {
+  double azimuth = 30, elevation = 20;
+  std::array<double, 3> right() const;
+  std::array<double, 3> up() const;
+  std::array<double, 3> towards_viewer() const;
+};
+
+/// The part of the projected plane that is shown [m]. It starts from the first points and only grows, in generous steps,
+/// so that pictures of one run have the same scale almost always.
+struct Window {
+  bool set = false;
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  void include(View const& view, std::span<std::array<double, 3> const> points, double margin);
+};
+
+/// What one picture shows; one entry per particle.
+struct PictureData {
+  std::span<std::array<double, 3> const> points;  ///< m
+  std::span<double const> radius;                 ///< m
+  std::span<double const> values;                 ///< SI
+  std::string label;                              ///< of the values, e.g. "pressure"
+  std::string unit;                               ///< SI
+  std::string title;
+  double time = 0;                                ///< s
+  int dimension = 3;
+};
+
+struct PictureStyle {
+  int width = 1000, height = 800;
+  View view;
+  std::optional<std::array<double, 2>> range;  ///< SI; otherwise from the values
+};
+
+/// Particles as shaded balls, with title, time, colour bar and axes.
+Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window);
+
+/// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a little
+/// more, so that a body looks closed.
+std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension);
+
+/// One number per particle for the picture: scalars as they are, vectors by their length, of six stress components the von
+/// Mises stress, of other tensors the largest absolute component.
+std::vector<double> picture_values(std::span<double const> values, int components);
+/// What that number is called, e.g. "velocity magnitude".
+std::string picture_label(std::string const& field, int components);
+
+}  // namespace piola
