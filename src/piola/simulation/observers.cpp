@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/observers.hpp"
+#include "piola/base/version.hpp"
+#include "piola/output/files.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace piola {
+namespace {
+
+constexpr int history_rows = 500;  // of a run whose case does not say how many
+
+double history_interval(CaseSpec const& spec) {
+  return spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / history_rows;
+}
+
+double kept(NamedState& reader, std::string_view name) {
+  double value = 0;
+  reader.get(name, {&value, 1});
+  return value;
+}
+
+void keep(StateWriter& writer, std::string_view name, double value) { writer.put(name, {&value, 1}); }
+
+}  // namespace
+
+HistoryObserver::HistoryObserver(Results results) : results_(std::move(results)), schedule_(history_interval(results_.spec)) {
+  for (ProbeSpec const& probe : results_.spec.probes) probes_.emplace_back(probe, results_.particles);
+}
+
+void HistoryObserver::open(Formulation const& formulation, std::optional<double> resume_time) {
+  auto columns = diagnostic_columns(formulation.diagnose());
+  for (Probe const& probe : probes_) {
+    auto const more = probe.columns();
+    columns.insert(columns.end(), more.begin(), more.end());
+  }
+  auto const path = results_.folder / "history.csv";
+  if (resume_time) {
+    file_.emplace(path, std::move(columns), *resume_time);
+  } else {
+    file_.emplace(path, std::move(columns));
+  }
+}
+
+void HistoryObserver::write_row(Formulation const& formulation, Moment const& moment) {
+  auto row = diagnostic_values(moment.time, moment.step, moment.dt, formulation.diagnose());
+  FieldCache cache(formulation, results_.particles);
+  for (Probe& probe : probes_) {
+    auto const more = probe.evaluate(cache);
+    row.insert(row.end(), more.begin(), more.end());
+  }
+  auto const bad = file_->append(row);
+  if (!bad.empty()) {
+    results_.journal.warn(fmt::format("history.csv: {} {} not a number from t = {} s on; such cells are left empty", fmt::join(bad, ", "),
+                                      bad.size() == 1 ? "is" : "are", moment.time));
+  }
+}
+
+void HistoryObserver::see(Formulation const& formulation, Moment const& moment) {
+  if (schedule_.due(moment.time)) write_row(formulation, moment);
+}
+
+void HistoryObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+  auto const& rows = table().rows;
+  bool const written = !rows.empty() && rows.back()[1] == static_cast<double>(moment.step);
+  // A stopped run gets no extra row, so that the history of a resumed run equals that of an uninterrupted one.
+  if (!written && ending != Ending::stopped) write_row(formulation, moment);
+}
+
+void HistoryObserver::save(StateWriter& writer) const {
+  keep(writer, "history_next", schedule_.state());
+  std::vector<double> angles;
+  for (Probe const& probe : probes_) angles.push_back(probe.state());
+  writer.put("probe_angles", angles);
+}
+
+void HistoryObserver::load(NamedState& reader) {
+  schedule_.restore(kept(reader, "history_next"));
+  std::vector<double> angles(probes_.size());
+  reader.get("probe_angles", angles);
+  for (std::size_t k = 0; k < probes_.size(); ++k) probes_[k].restore(angles[k]);
+}
+
+FrameObserver::FrameObserver(Results results)
+    : results_(std::move(results)),
+      schedule_(results_.spec.output.frames_every),
+      writer_(results_.folder, results_.spec.output.frame_fields, results_.spec.output.compress) {}
+
+void FrameObserver::write(Formulation const& formulation, double time) {
+  FieldCache cache(formulation, results_.particles);
+  writer_.write(time, cache);
+}
+
+void FrameObserver::see(Formulation const& formulation, Moment const& moment) {
+  if (schedule_.due(moment.time)) write(formulation, moment.time);
+}
+
+void FrameObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+  bool const written = !writer_.times().empty() && writer_.times().back() == moment.time;
+  bool const wanted = ending == Ending::failed || (ending == Ending::completed && schedule_.ever());
+  if (wanted && !written) write(formulation, moment.time);
+}
+
+void FrameObserver::save(StateWriter& writer) const {
+  keep(writer, "frames_next", schedule_.state());
+  writer.put("frame_times", writer_.times());
+}
+
+void FrameObserver::load(NamedState& reader) {
+  schedule_.restore(kept(reader, "frames_next"));
+  writer_.continue_after(reader.all("frame_times"));
+}
+
+PictureObserver::PictureObserver(Results results) : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
+  auto const& particles = results_.particles;
+  if (schedule_.ever()) radii_ = ball_radii(particles.volume, particles.body, particles.dimension);
+}
+
+void PictureObserver::draw(Formulation const& formulation, double time) {
+  auto const& output = results_.spec.output;
+  FieldCache cache(formulation, results_.particles);
+  if (!cache.knows(output.picture_field)) {
+    results_.journal.warn(fmt::format("pictures: the formulation has no field '{}', so that no picture is drawn", output.picture_field));
+    return;
+  }
+  FieldInfo const& info = cache.info(output.picture_field);
+  auto const x = cache.values("Position");
+  std::vector<std::array<double, 3>> points(radii_.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+  auto const values = picture_values(cache.values(info.name), info.components);
+
+  PictureStyle style{output.picture_width, output.picture_height, {output.picture_view[0], output.picture_view[1]}, output.picture_range};
+  if (results_.particles.dimension < 3) style.view = {0, 0};
+  window_.include(style.view, points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
+  PictureData const data{points, radii_, values, picture_label(info.name, info.components), info.unit, results_.spec.title, time, results_.particles.dimension};
+  make_folder(results_.folder / "pictures");
+  last_ = results_.folder / "pictures" / fmt::format("{}-{:06}.png", info.name, static_cast<long>(count_));
+  write_png(last_, draw_picture(data, style, window_));
+  count_ += 1;
+  last_time_ = time;
+}
+
+void PictureObserver::see(Formulation const& formulation, Moment const& moment) {
+  if (schedule_.due(moment.time)) draw(formulation, moment.time);
+}
+
+void PictureObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+  if (schedule_.ever() && ending != Ending::stopped && last_time_ != moment.time) draw(formulation, moment.time);
+}
+
+void PictureObserver::save(StateWriter& writer) const {
+  writer.put("pictures", std::array{schedule_.state(), count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0, window_.y1});
+}
+
+void PictureObserver::load(NamedState& reader) {
+  std::array<double, 8> v{};
+  reader.get("pictures", v);
+  schedule_.restore(v[0]);
+  count_ = v[1];
+  last_time_ = v[2];
+  window_ = {v[3] != 0, v[4], v[5], v[6], v[7]};
+}
+
+CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others)
+    : results_(std::move(results)), schedule_(results_.spec.output.checkpoints_every), others_(std::move(others)) {
+  schedule_.due(0);  // the state at the start is the case itself
+}
+
+Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const& moment) const {
+  Checkpoint c{moment.time, moment.step, moment.dt, moment.first_dt, moment.wall_seconds, moment.stepping_seconds,
+               std::string(version()), results_.spec.source, {}, {}};
+  formulation.save(c.state);
+  for (Observer const* other : others_) other->save(c.observers);
+  save(c.observers);
+  return c;
+}
+
+void CheckpointObserver::see(Formulation const& formulation, Moment const& moment) {
+  if (schedule_.due(moment.time)) keep_checkpoint(results_.folder, take(formulation, moment));
+}
+
+void CheckpointObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+  if (ending == Ending::failed) {
+    write_checkpoint(results_.folder / failed_checkpoint, take(formulation, moment));
+  } else {
+    keep_checkpoint(results_.folder, take(formulation, moment));
+  }
+}
+
+void CheckpointObserver::save(StateWriter& writer) const { keep(writer, "checkpoints_next", schedule_.state()); }
+void CheckpointObserver::load(NamedState& reader) { schedule_.restore(kept(reader, "checkpoints_next")); }
+
+ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles, HistoryObserver const& history)
+    : listener_(listener), end_(end), particles_(static_cast<double>(particles)), history_(history) {}
+
+void ProgressObserver::see(Formulation const& formulation, Moment const& moment) {
+  constexpr std::chrono::milliseconds pause(200);
+  auto const now = std::chrono::steady_clock::now();
+  if (!first_) first_ = moment;
+  if (now - last_ < pause && moment.time < end_) return;
+  last_ = now;
+  Progress p{.moment = moment, .end = end_};
+  auto const& table = history_.table();
+  if (auto const column = table.find("total_energy"); column && !table.rows.empty()) p.total_energy = table.rows.back()[*column];
+  double const stages = static_cast<double>(moment.step) * formulation.stages_per_step() * particles_;
+  if (moment.stepping_seconds > 0) p.stages_per_second = stages / moment.stepping_seconds;
+  double const advanced = moment.time - first_->time;
+  if (advanced > 0) p.seconds_left = (end_ - moment.time) * (moment.wall_seconds - first_->wall_seconds) / advanced;
+  listener_.progress(p);
+}
+
+}  // namespace piola

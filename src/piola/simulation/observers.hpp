@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/input/case_spec.hpp"
+#include "piola/output/checkpoint.hpp"
+#include "piola/output/frames.hpp"
+#include "piola/output/history.hpp"
+#include "piola/output/picture.hpp"
+#include "piola/simulation/journal.hpp"
+#include "piola/simulation/moment.hpp"
+#include "piola/simulation/probes.hpp"
+#include "piola/simulation/schedule.hpp"
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace piola {
+
+/// Lets data out of a run. It sees the const state, so that a run with and without output is the same bit for bit.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Called at the start of a new run and after each step.
+  virtual void see(Formulation const& formulation, Moment const& moment) = 0;
+  /// Called once, after the last step of this part of the run.
+  virtual void finish(Formulation const&, Moment const&, Ending) {}
+  /// What a resumed run needs to continue; names are unique among observers.
+  virtual void save(StateWriter&) const {}
+  virtual void load(NamedState&) {}
+};
+
+/// What every observer needs to know. The references outlive the observers.
+struct Results {
+  std::filesystem::path folder;
+  CaseSpec const& spec;
+  ParticleSet const& particles;
+  Journal& journal;
+};
+
+/// history.csv: one row at each due time and at the end.
+class HistoryObserver : public Observer {
+ public:
+  explicit HistoryObserver(Results results);
+  void see(Formulation const& formulation, Moment const& moment) override;
+  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
+  void save(StateWriter& writer) const override;
+  void load(NamedState& reader) override;
+  /// Opens the file anew, or cut off after `resume_time`. Called before the first step.
+  void open(Formulation const& formulation, std::optional<double> resume_time);
+  HistoryTable const& table() const { return file_->table(); }
+
+ private:
+  void write_row(Formulation const& formulation, Moment const& moment);
+  Results results_;
+  Schedule schedule_;
+  std::vector<Probe> probes_;
+  std::optional<HistoryFile> file_;
+};
+
+/// frames/*.hdf at each due time and at the end; the last state of a failed run always.
+class FrameObserver : public Observer {
+ public:
+  explicit FrameObserver(Results results);
+  void see(Formulation const& formulation, Moment const& moment) override;
+  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
+  void save(StateWriter& writer) const override;
+  void load(NamedState& reader) override;
+
+ private:
+  void write(Formulation const& formulation, double time);
+  Results results_;
+  Schedule schedule_;
+  FrameWriter writer_;
+};
+
+/// pictures/FIELD-000000.png at each due time and at the end.
+class PictureObserver : public Observer {
+ public:
+  explicit PictureObserver(Results results);
+  void see(Formulation const& formulation, Moment const& moment) override;
+  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
+  void save(StateWriter& writer) const override;
+  void load(NamedState& reader) override;
+  std::filesystem::path const& last() const { return last_; }
+
+ private:
+  void draw(Formulation const& formulation, double time);
+  Results results_;
+  Schedule schedule_;
+  Window window_;
+  std::vector<double> radii_;
+  double count_ = 0, last_time_ = -1;
+  std::filesystem::path last_;
+};
+
+/// checkpoints/*.h5 at each due time, at the end and when stopped. Keeps what the other observers need, too.
+class CheckpointObserver : public Observer {
+ public:
+  CheckpointObserver(Results results, std::vector<Observer*> others);
+  void see(Formulation const& formulation, Moment const& moment) override;
+  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
+  void save(StateWriter& writer) const override;
+  void load(NamedState& reader) override;
+
+ private:
+  Checkpoint take(Formulation const& formulation, Moment const& moment) const;
+  Results results_;
+  Schedule schedule_;
+  std::vector<Observer*> others_;
+};
+
+/// Tells the listener how far the run is, a few times per second.
+class ProgressObserver : public Observer {
+ public:
+  ProgressObserver(Listener& listener, double end, std::int64_t particles, HistoryObserver const& history);
+  void see(Formulation const& formulation, Moment const& moment) override;
+
+ private:
+  Listener& listener_;
+  double end_;
+  double particles_;
+  HistoryObserver const& history_;
+  std::chrono::steady_clock::time_point last_{};
+  std::optional<Moment> first_;
+};
+
+}  // namespace piola

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/run.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace piola {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A step so small that the run would never end says that the state is beyond repair.
+bool collapsed(double stable, RunSpec const& run, Moment const& moment) {
+  double const least = run.min_step > 0 ? run.min_step : 1e-6 * moment.first_dt;
+  return !(stable > 0) || !std::isfinite(stable) || stable < least;
+}
+
+Failure collapse(double stable) { return {.what = "time step collapsed", .body = {}, .X = {}, .x = {}, .values = {{"stable step [s]", stable}}}; }
+
+/// The stable step, shortened by the user's bound and to hit the end time exactly. A rest of less than a millionth of a
+/// step is taken along rather than left for a step of its own.
+double choose_step(double stable, RunSpec const& run, Moment& moment) {
+  moment.bounded_by_max_step = run.max_step < stable;
+  double const dt = std::min(stable, run.max_step);
+  double const rest = run.end - moment.time;
+  return dt * (1 + 1e-6) >= rest ? rest : dt;
+}
+
+}  // namespace
+
+March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
+            std::atomic<int> const& stop) {
+  auto const start = Clock::now();
+  double const wall_before = moment.wall_seconds;
+  while (moment.time < run.end) {
+    auto const step_start = Clock::now();
+    double const stable = formulation.stable_time_step();
+    if (moment.step == 0) moment.first_dt = std::min(stable, run.max_step);
+    if (collapsed(stable, run, moment)) return {Ending::failed, collapse(stable)};
+
+    double const dt = choose_step(stable, run, moment);
+    formulation.step(moment.time, dt);
+
+    moment.time = dt == run.end - moment.time ? run.end : moment.time + dt;
+    moment.step += 1;
+    moment.dt = dt;
+    moment.stepping_seconds += seconds_since(step_start);
+    moment.wall_seconds = wall_before + seconds_since(start);
+
+    if (auto failure = formulation.failure()) return {Ending::failed, std::move(failure)};
+    for (Observer* observer : observers) observer->see(formulation, moment);
+    if (stop.load(std::memory_order_relaxed) != 0 && moment.time < run.end) return {Ending::stopped, {}};
+  }
+  return {};
+}
+
+}  // namespace piola

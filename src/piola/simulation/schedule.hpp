@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cmath>
+
+namespace piola {
+
+/// When an output is due: at the first step at or after each multiple of an interval; 0 means never.
+class Schedule {
+ public:
+  explicit Schedule(double every) : every_(every) {}
+  bool ever() const { return every_ > 0; }
+  /// Whether an output is due at this time [s]; if so, the next one is due after it.
+  bool due(double time) {
+    if (!ever()) return false;
+    double const multiple = std::floor(time / every_ * (1 + 1e-12));  // a multiple missed by round-off counts as reached
+    if (multiple < next_) return false;
+    next_ = multiple + 1;
+    return true;
+  }
+  double state() const { return next_; }
+  void restore(double state) { next_ = state; }
+
+ private:
+  double every_;
+  double next_ = 0;  ///< number of the next multiple; a whole number
+};
+
+}  // namespace piola
