@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/simulation/moment.hpp"
+#include <filesystem>
+#include <string>
+
+namespace piola {
+
+/// What the user is told when the physics fails: particle, place, step, values, what limits the step, likely causes, and
+/// where the last state lies.
+std::string failure_text(Failure const& failure, Moment const& moment, double cfl, std::filesystem::path const& results);
+
+}  // namespace piola

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/run_case.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "piola/base/version.hpp"
+#include "piola/output/files.hpp"
+#include "piola/simulation/failure_text.hpp"
+#include "piola/simulation/observers.hpp"
+#include "piola/simulation/quantities.hpp"
+#include "piola/simulation/results_folder.hpp"
+#include "piola/simulation/run.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+/// All observers of a run, in the order in which they look.
+struct Watch {
+  HistoryObserver history;
+  FrameObserver frames;
+  PictureObserver pictures;
+  CheckpointObserver checkpoints;
+  ProgressObserver progress;
+
+  Watch(Results const& results, Listener& listener)
+      : history(results), frames(results), pictures(results), checkpoints(results, {&history, &frames, &pictures}),
+        progress(listener, results.spec.run.end, results.particles.size(), history) {}
+  std::array<Observer*, 5> all() { return {&history, &frames, &pictures, &checkpoints, &progress}; }
+};
+
+std::string start_text(Simulation const& s) {
+  return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name, count_text(s.particles.size()), s.threads,
+                     s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
+}
+
+/// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.
+Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
+  journal.note(start_text(s));
+  write_whole_file(options.folder / "case.toml", s.spec.source);
+  watch.history.open(*s.formulation, {});
+  Moment const moment;
+  for (Observer* observer : watch.all()) observer->see(*s.formulation, moment);
+  return moment;
+}
+
+/// A resumed run: everything as it was when the newest good checkpoint was written.
+Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
+  std::vector<std::string> warnings;
+  Checkpoint c = read_newest_checkpoint(options.folder, warnings);
+  if (c.source != s.spec.source) {
+    throw InputError(fmt::format("{}: is not the case that this run was started with (it was changed since) - restore it, or run it anew with 'piola run'",
+                                 (options.folder / "case.toml").string()));
+  }
+  for (std::string const& warning : warnings) journal.warn(warning);
+  journal.note(fmt::format("resumed at step {}, t = {} s; {}", c.step, c.time, start_text(s)));
+  s.formulation->load(c.state);
+  watch.history.open(*s.formulation, c.time);
+  for (Observer* observer : watch.all()) observer->load(c.observers);
+  return {.time = c.time, .step = c.step, .dt = c.dt, .first_dt = c.first_dt, .wall_seconds = c.wall_seconds, .stepping_seconds = c.stepping_seconds};
+}
+
+double largest(std::vector<double> const& values) {
+  double most = 0;
+  for (double v : values) most = std::max(most, std::isfinite(v) ? std::abs(v) : 0.0);
+  return most;
+}
+
+/// Largest change of a vector column triple since the first row.
+double drift(HistoryTable const& history, std::string const& name) {
+  double most = 0;
+  auto const x = history.values(name + "_x"), y = history.values(name + "_y"), z = history.values(name + "_z");
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    double const d = std::hypot(x[k] - x[0], y[k] - y[0], z[k] - z[0]);
+    if (std::isfinite(d)) most = std::max(most, d);
+  }
+  return most;
+}
+
+/// Half the diagonal of the box around the particles [m]: the arm of the angular momentum scale.
+double half_diagonal(ParticleSet const& particles) {
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    auto const [low, high] = std::minmax_element(particles.X.begin(), particles.X.end(), [c](auto const& a, auto const& b) { return a[c] < b[c]; });
+    if (low != particles.X.end()) sum += ((*high)[c] - (*low)[c]) * ((*high)[c] - (*low)[c]);
+  }
+  return std::sqrt(sum) / 2;
+}
+
+void add_conservation(Summary& summary, HistoryTable const& history, Simulation const& s) {
+  if (history.rows.empty()) return;
+  auto const energy = history.values("total_energy");
+  summary.energy_initial = energy.front();
+  summary.energy_final = energy.back();
+  summary.energy_max_increase = energy_increase(history);
+  // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
+  double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));
+  double const arm = half_diagonal(s.particles);
+  summary.linear_drift = momentum > 0 ? drift(history, "linear_momentum") / momentum : 0;
+  summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;
+}
+
+std::string status_word(Ending ending) {
+  switch (ending) {
+    case Ending::completed: return "completed";
+    case Ending::failed: return "failed";
+    default: return "stopped";
+  }
+}
+
+Summary summarise(Simulation const& s, Moment const& moment, Ending ending, HistoryTable const& history, Journal& journal) {
+  Summary summary;
+  summary.status = status_word(ending);
+  summary.title = s.spec.title;
+  summary.version = version();
+  summary.formulation = s.formulation_name;
+  summary.particles = s.particles.size();
+  summary.steps = moment.step;
+  summary.end_time = moment.time;
+  summary.wall_seconds = moment.wall_seconds;
+  summary.threads = s.threads;
+  double const stages = static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
+  summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
+  add_conservation(summary, history, s);
+  for (QuantitySpec const& spec : s.spec.quantities) {
+    std::string why;
+    if (auto const value = measure(spec, history, why)) summary.quantities.push_back(*value);
+    if (!why.empty() && ending == Ending::completed) journal.warn(why);
+  }
+  summary.warnings = journal.warnings();
+  return summary;
+}
+
+}  // namespace
+
+double energy_increase(HistoryTable const& history) {
+  auto const energy = history.values("total_energy"), work = history.values("external_work");
+  double rise = 0;
+  for (std::size_t k = 0; k < energy.size(); ++k) {
+    double const change = (energy[k] - work[k]) - (energy[0] - work[0]);
+    if (std::isfinite(change)) rise = std::max(rise, change);
+  }
+  double const scale = largest(energy);
+  return scale > 0 ? rise / scale : rise;
+}
+
+CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop) {
+  Journal journal(options.folder / "log.txt", listener);
+  if (!options.resume) {
+    prepare_results(options.folder, s.spec.title, options.force);
+    journal.start(log_headline(s.spec.title));
+  }
+  Watch watch({options.folder, s.spec, s.particles, journal}, listener);
+  Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
+  March const end = march(*s.formulation, s.spec.run, moment, watch.all(), stop);
+  for (Observer* observer : watch.all()) observer->finish(*s.formulation, moment, end.ending);
+
+  CaseOutcome outcome{end.ending, summarise(s, moment, end.ending, watch.history.table(), journal), {}, watch.pictures.last(), {}};
+  if (end.failure) outcome.failure = failure_text(*end.failure, moment, s.spec.run.cfl, options.folder);
+  if (std::filesystem::exists(options.folder / "frames.hdf.series")) outcome.index = options.folder / "frames.hdf.series";
+  write_summary(options.folder / "summary.json", outcome.summary);
+  journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time, duration_text(moment.wall_seconds)));
+  if (end.failure) journal.note(outcome.failure);
+  return outcome;
+}
+
+}  // namespace piola
