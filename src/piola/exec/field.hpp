@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/memory.hpp"
+#include "piola/math/lanes.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace piola {
+
+/// What a field is for: `reference` never changes, `evolved` is the state (checkpoints), `derived` follows from it.
+enum class Role { reference, evolved, derived };
+
+/// Counts of writes by owners and of halo refreshes, so that a forgotten exchange fails on one rank (contract builds).
+struct FieldVersion {
+  std::uint64_t owner = 0, halo = 0;
+};
+
+/// A field as loops see it: component c of particle i is data[c * component_stride + i * particle_stride].
+/// Plain data without functions: it crosses between machines.
+struct FieldRef {
+  double* data = nullptr;
+  std::ptrdiff_t component_stride = 0;
+  std::ptrdiff_t particle_stride = 1;
+  FieldVersion* version = nullptr;
+  char const* name = "";
+};
+
+/// A particle field, in one of two layouts. Arrays: one per component, one after the other, with `guard` readable zeros
+/// before the first and after the last particle, so that a loop over lanes may read beyond the ends. Records: a part of a
+/// record that several fields share, for loops that load whole records of neighbours.
+class Field {
+ public:
+  Field(char const* name, char const* unit, int components, Role role)
+      : name_(name), unit_(unit), components_(components), role_(role) {}
+  Field(Field const&) = delete;
+  Field& operator=(Field const&) = delete;
+
+  void allocate(Index particles, Index guard) {
+    auto const pad = (static_cast<std::ptrdiff_t>(guard) + 7) / 8 * 8;
+    // An odd number of cache lines between components, for the reason given in memory.hpp.
+    std::ptrdiff_t const lines = ((particles + 7) / 8 + 2 * pad / 8) | 1;
+    memory_ = Memory(static_cast<std::size_t>(8 * lines * components_ + 2 * pad));
+    ref_ = {memory_.data() + pad, 8 * lines, 1, &version_, name_};
+    particles_ = particles;
+  }
+  /// Lives in `records`: component c of particle i at records[i * stride + first + c].
+  void place(double* records, std::ptrdiff_t stride, std::ptrdiff_t first, Index particles) {
+    ref_ = {records + first, 1, stride, &version_, name_};
+    particles_ = particles;
+  }
+
+  FieldRef ref() const { return ref_; }
+  double& at(Index i, int c = 0) { return ref_.data[c * ref_.component_stride + i * ref_.particle_stride]; }
+  double at(Index i, int c = 0) const { return ref_.data[c * ref_.component_stride + i * ref_.particle_stride]; }
+
+  char const* name() const { return name_; }
+  char const* unit() const { return unit_; }
+  int components() const { return components_; }
+  Role role() const { return role_; }
+  Index size() const { return particles_; }
+  std::size_t bytes() const { return memory_.bytes(); }
+
+ private:
+  char const* name_;
+  char const* unit_;
+  int components_;
+  Role role_;
+  Index particles_ = 0;
+  FieldRef ref_;
+  Memory memory_;
+  FieldVersion version_;
+};
+
+}  // namespace piola

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/exec/memory.hpp"
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <utility>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace piola {
+namespace {
+
+constexpr std::size_t cache_line = 64;
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+constexpr std::size_t colours = 64;
+constexpr std::size_t lines_per_colour = 33;  // odd, so that 64 colours visit all sets of a 4 KiB page
+
+std::size_t next_offset() {
+  static std::atomic<std::size_t> colour{0};
+  return (colour.fetch_add(1, std::memory_order_relaxed) % colours) * lines_per_colour * cache_line;
+}
+
+}  // namespace
+
+Memory::Memory(std::size_t doubles) {
+  std::size_t const payload = doubles * sizeof(double);
+  // Small arrays stay in small pages: a huge page each would waste memory on cases of a thousand particles.
+  bool const large = payload >= huge_page;
+  std::size_t const offset = next_offset();
+  std::size_t const alignment = large ? huge_page : cache_line;
+  bytes_ = (payload + offset + alignment - 1) / alignment * alignment;
+  base_ = std::aligned_alloc(alignment, bytes_ == 0 ? alignment : bytes_);
+  if (base_ == nullptr) throw std::bad_alloc{};
+#if defined(__linux__)
+  if (large) (void)madvise(base_, bytes_, MADV_HUGEPAGE);
+#endif
+  data_ = reinterpret_cast<double*>(static_cast<char*>(base_) + offset);
+  std::memset(data_, 0, payload);
+}
+
+Memory::Memory(Memory&& other) noexcept
+    : base_(std::exchange(other.base_, nullptr)),
+      data_(std::exchange(other.data_, nullptr)),
+      bytes_(std::exchange(other.bytes_, 0)) {}
+
+Memory& Memory::operator=(Memory&& other) noexcept {
+  std::swap(base_, other.base_);
+  std::swap(data_, other.data_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+Memory::~Memory() { std::free(base_); }
+
+}  // namespace piola

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/lanes.hpp"
+#include <type_traits>
+
+namespace piola {
+
+/// Particles [first, last).
+struct Range {
+  Index first = 0, last = 0;
+};
+
+/// Where a parallel loop records the first particle (lowest index) whose physics is not admissible.
+struct FailureSlot {
+  static constexpr Index none = 2147483647;
+  Index index = none;
+  int code = 0;
+};
+
+}  // namespace piola
+
+/// The only launchers of loops over particles, and the only place with OpenMP or CUDA.
+namespace piola::inline PIOLA_MACHINE {
+namespace exec {
+
+/// Particles that one thread works on at a time: the scratch of fused sweeps stays in the first-level cache, and partial
+/// sums belong to blocks, not threads, so that results do not depend on the number of threads.
+inline constexpr Index block_size = 64;
+
+inline Index block_count(Range r) { return (r.last - r.first + block_size - 1) / block_size; }
+
+PIOLA_FN Range block(Range r, Index k) {
+  Index const first = r.first + k * block_size;
+  return {first, first + block_size < r.last ? first + block_size : r.last};
+}
+
+/// Results of the first half of a fused sweep, for the particles of one block: sum c of particle i.
+struct Scratch {
+  double* data;
+  Index first;    ///< particle of data[0]
+  Index stride;   ///< between sums
+  PIOLA_FN double* at(Index i, int c) const { return data + static_cast<std::ptrdiff_t>(c) * stride + (i - first); }
+};
+
+/// The second half of a fused sweep, chosen once per group of particles (its law) and called once per block.
+struct PointPass {
+  void const* pass;
+  void (*run)(void const* pass, Range block, Scratch const& sums);
+};
+
+#if defined(__CUDACC__)
+inline constexpr unsigned threads_per_block = 128;
+
+template <class Pass>
+__global__ void each(Range r, Pass pass) {
+  Index const i = r.first + static_cast<Index>(blockIdx.x * threads_per_block + threadIdx.x);
+  if (i < r.last) pass(i);
+}
+template <class Pass>
+__global__ void each_block(Range r, Pass pass) {
+  Index const k = static_cast<Index>(blockIdx.x * threads_per_block + threadIdx.x);
+  if (k < (r.last - r.first + block_size - 1) / block_size) pass(block(r, k), k);
+}
+inline unsigned grid(Index n) { return (static_cast<unsigned>(n) + threads_per_block - 1) / threads_per_block; }
+
+template <class Pass>
+void for_each(Range r, Pass const& pass) {
+  static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
+  if (r.last > r.first) each<<<grid(r.last - r.first), threads_per_block>>>(r, pass);
+}
+template <class Pass>
+void for_each_item(Index n, Pass const& pass) {
+  for_each(Range{0, n}, pass);
+}
+template <class Pass>
+void for_each_block(Range r, Pass const& pass) {
+  static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
+  if (r.last > r.first) each_block<<<grid(block_count(r)), threads_per_block>>>(r, pass);
+}
+#else
+/// pass(i) for every group of lanes in r. Ranges start and end at multiples of the lane count.
+template <class Pass>
+void for_each(Range r, Pass const& pass) {
+  static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
+#pragma omp parallel for schedule(static) if (r.last - r.first > block_size)
+  for (Index i = r.first; i < r.last; i += lane_count) pass(i);
+}
+
+/// pass(k) for k = 0 ... n - 1, for short lists that are not particles.
+template <class Pass>
+void for_each_item(Index n, Pass const& pass) {
+  static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
+  for (Index k = 0; k < n; ++k) pass(k);
+}
+
+/// pass(block, number of the block) for every block of r.
+template <class Pass>
+void for_each_block(Range r, Pass const& pass) {
+  static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
+  Index const n = block_count(r);
+#pragma omp parallel for schedule(static) if (n > 1)
+  for (Index k = 0; k < n; ++k) pass(block(r, k), k);
+}
+#endif
+
+/// A sweep over neighbours (sums into scratch) fused block by block with the point-wise pass that uses the sums.
+template <class Sweep>
+struct Fused {
+  Sweep sweep;
+  PointPass then;
+  void operator()(Range b, Index) const {
+    alignas(64) double sums[Sweep::sums * block_size];
+    Scratch const scratch{sums, b.first, block_size};
+    for (Index i = b.first; i < b.last; i += lane_count) sweep(i, scratch);
+    then.run(then.pass, b, scratch);
+  }
+};
+
+template <class Pass>
+void run_point_pass(void const* pass, Range b, Scratch const& sums) {
+  for (Index i = b.first; i < b.last; i += lane_count) (*static_cast<Pass const*>(pass))(i, sums);
+}
+template <class Pass>
+PointPass erased(Pass const& pass) {
+  return {&pass, &run_point_pass<Pass>};
+}
+
+#if !defined(__CUDACC__)
+template <class Sweep>
+void for_each_then(Range r, Sweep const& sweep, PointPass const& then) {
+  for_each_block(r, Fused<Sweep>{sweep, then});
+}
+#endif
+
+/// N sums over particles.
+template <int N>
+struct Totals {
+  double v[N]{};
+};
+
+/// One block's share of a reduction: lanes are added first, then particles, in fixed order.
+template <int N, class Pass>
+struct BlockSums {
+  Pass pass;
+  double* partial;  ///< [block][N]
+  PIOLA_FN void operator()(Range b, Index k) const {
+    Lanes sums[N];
+    for (int c = 0; c < N; ++c) sums[c] = Lanes(0.0);
+    for (Index i = b.first; i < b.last; i += lane_count) pass(i, sums);
+    for (int c = 0; c < N; ++c) {
+      double total = 0;
+      for (int l = 0; l < lane_count; ++l) total += lane(sums[c], l);
+      partial[k * N + c] = total;
+    }
+  }
+};
+
+/// Adds the partial sums of n blocks by a fixed tree: the same bits for any number of threads.
+template <int N>
+Totals<N> add_partials(double* partial, Index n) {
+  for (Index step = 1; step < n; step *= 2)
+    for (Index k = 0; k + step < n; k += 2 * step)
+      for (int c = 0; c < N; ++c) partial[k * N + c] += partial[(k + step) * N + c];
+  Totals<N> r;
+  for (int c = 0; c < N && n > 0; ++c) r.v[c] = partial[c];
+  return r;
+}
+
+/// pass(i, sums): does its work for the lanes at i and adds to N sums; returns the totals. `partial` holds
+/// N values per block.
+template <int N, class Pass>
+Totals<N> reduce(Range r, Pass const& pass, double* partial) {
+  for_each_block(r, BlockSums<N, Pass>{pass, partial});
+  return add_partials<N>(partial, block_count(r));
+}
+
+/// Records a failure at particle i; the lowest index wins, so the report does not depend on the number of threads.
+PIOLA_FN void record(FailureSlot* slot, Index i, int code) {
+#if defined(__CUDA_ARCH__)
+  if (atomicMin(&slot->index, i) > i) slot->code = code;
+#else
+#pragma omp critical(piola_failure)
+  if (i < slot->index) {
+    slot->index = i;
+    slot->code = code;
+  }
+#endif
+}
+
+}  // namespace exec
+}  // namespace piola::inline PIOLA_MACHINE

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
+#include "piola/formulations/jst_sph/step.hpp"
+
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace {
+
+/// f(Step) with the step of the body's dimension and neighbour table.
+template <int D, class F>
+void with_loader(BodyState& body, F const& f) {
+  if (body.regular)
+    f(Step<D, StencilLoader<D>>(body, {body.stencil}));
+  else
+    f(Step<D, ListLoader<D>>(body, {body.list}));
+}
+template <class F>
+void with_step(BodyState& body, F const& f) {
+  switch (body.dimension) {
+    case 1: return with_loader<1>(body, f);
+    case 2: return with_loader<2>(body, f);
+    default: return with_loader<3>(body, f);
+  }
+}
+
+void step(BodyState& body, double dt) {
+  with_step(body, [&](auto one_step) { one_step(dt); });
+}
+
+void update_deformation(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.update_deformation(); });
+}
+
+template <int D>
+void wave_speed_of(BodyState& body) {
+  exec::for_each(body.slots, ComputeWaveSpeed<D>{body.constants.c_p0, read(body.F), write(body.wave_speed)});
+}
+
+void update_wave_speed(BodyState& body) {
+  switch (body.dimension) {
+    case 1: return wave_speed_of<1>(body);
+    case 2: return wave_speed_of<2>(body);
+    default: return wave_speed_of<3>(body);
+  }
+}
+
+double largest_wave_speed(BodyState& body) {
+  exec::for_each_block(body.slots, LargestWaveSpeed{read(body.wave_speed), body.partial});
+  double largest = 0;
+  for (Index k = 0; k < exec::block_count(body.slots); ++k) largest = maximum(largest, body.partial[k]);
+  return largest;
+}
+
+#define PIOLA_NAME_OF(x) #x
+#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
+
+}  // namespace
+
+/// The entry by which the host finds this machine.
+extern Machine const machine;
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,         &step,
+                                      &update_wave_speed,        &largest_wave_speed, &update_deformation};
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/exec/view.hpp"
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/math/embedding.hpp"
+#include "piola/math/stretch.hpp"
+#include "piola/mechanics/rigid_rate.hpp"
+#include "piola/neighbours/loaders.hpp"
+
+/// Passes of JST-SPH: what one particle does. Equation numbers: Lee, Gil, Greto, Kulasegaram, Bonet (2016), as repaired in
+/// docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian weight l.
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+
+/// First sums over neighbours: raw velocity gradient and first Laplacian.
+///   sum_b s (u_b - u_a) (x) r            (raw form of eqs. 21, 33a, 34)
+///   sum_b l~ (u_b - u_a),  l~ = l + alpha_a.r + beta_a r.r          (A.1, A.2)
+template <int D, bool Laplacian>
+struct FirstSums {
+  static constexpr int fields = D, outer_fields = Laplacian ? D : 0;
+  static constexpr int sums = D * D + (Laplacian ? D : 0);
+  View gathered;     ///< u
+  View alpha, beta;  ///< corrections of the Laplacian
+
+  template <class V>
+  struct Own {
+    Vec<D, V> u, alpha;
+    V beta;
+  };
+  template <class V>
+  PIOLA_FN Own<V> own(Index a) const {
+    Own<V> r{gathered.vector<D, V>(a), {}, V(0.0)};
+    if constexpr (Laplacian) {
+      r.alpha = alpha.vector<D, V>(a);
+      r.beta = beta.scalar<V>(a);
+    }
+    return r;
+  }
+
+  template <bool Masked, class O, class G, class V>
+  PIOLA_FN void pair(V* sum, O const& own, G const& g, V const* u_b) const {
+    for (int i = 0; i < D; ++i) {
+      V const du = u_b[i] - own.u[i];
+      for (int j = 0; j < D; ++j) sum[i * D + j] = sum[i * D + j] + du * g.sr[j];
+    }
+    if constexpr (Laplacian) outer<Masked>(sum, own, g, u_b);
+  }
+  template <bool Masked, class O, class G, class V>
+  PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* u_b) const {
+    V l = g.l + own.beta * g.r2;
+    for (int i = 0; i < D; ++i) l = l + own.alpha[i] * g.r[i];
+    if constexpr (Masked) l = g.weight * l;
+    for (int i = 0; i < D; ++i) sum[D * D + i] = sum[D * D + i] + l * (u_b[i] - own.u[i]);
+  }
+};
+
+/// The sweep that fills a block's scratch with FirstSums.
+template <int D, bool Laplacian, class Loader>
+struct DifferentiateVelocity {
+  static constexpr int sums = FirstSums<D, Laplacian>::sums;
+  Loader loader;
+  FirstSums<D, Laplacian> body;
+
+  PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
+    Lanes sum[sums];
+    loader(i, body, sum);
+    for (int c = 0; c < sums; ++c) store(sum[c], out.at(i, c));
+  }
+};
+
+/// What a stage does with F: eq. (43) for F, and the checks and wave speed of its result.
+struct StageUpdate {
+  double dt;
+  bool second;  ///< second Runge-Kutta stage
+};
+
+/// From the first sums to everything that the second sweep needs of a particle:
+///   F_dot_a = (sum_b s (v_b - v_a) (x) r) C_a                         (33a)
+///   A_a = (V_a / V_kernel) P(F_a) C_a                                 (12), folded for (29c)
+///   w_a = L v_a  or  eps4 c_a h^3 V_a L v_a                           (37)
+///   D2_a = eps2 c_a h L v_a, written to `rate`                        (36)
+///   stage 1: F* = F^n + dt F_dot;  stage 2: F^(n+1) = 1/2 (F^n + F* + dt F_dot*)   (43)
+/// For displacement variables F_a = (sum_b s (x_b - x_a) (x) r) C_a instead (34).
+/// Records the first particle whose new F is inverted or not a number.
+template <int D, bool Laplacian, class Law>
+struct UpdateStress {
+  Law law;
+  Constants k;
+  StageUpdate stage;
+  View C, V, wave_speed, F_n, F_star;
+  WriteView F_out, A, w, rate, wave_speed_next;
+  FailureSlot* failure;
+
+  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+    Mat<D, Lanes> raw;
+    for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
+    SymMat<D, Lanes> const correction = C.symmetric<D, Lanes>(i);
+    Mat<D, Lanes> const gradient = raw * correction;
+    Mat<D, Lanes> const F = deform(i, gradient);
+    Lanes const volume = V.scalar<Lanes>(i);
+    Mat<D, Lanes> const P = restrict_to<D>(law.first_piola(embed<D>(F)));
+    A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * (P * correction));
+    if constexpr (Laplacian) stabilise(i, in, volume);
+  }
+
+ private:
+  /// The F at which stress is evaluated; stores the F that the stage produces and what follows from it.
+  PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient) const {
+    Mat<D, Lanes> F = gradient, next = gradient;
+    if (k.variables == Variables::momentum_and_deformation) {
+      Mat<D, Lanes> const old = F_n.matrix<D, Lanes>(i);
+      F = stage.second ? F_star.matrix<D, Lanes>(i) : old;
+      next = F + stage.dt * gradient;
+      if (stage.second) next = 0.5 * (old + next);
+    }
+    F_out.matrix<D>(i, next);
+    Mat<3, Lanes> const full = embed<D>(next);
+    auto const good = determinant(full) > 0.0;
+    if (any(!good)) report(i, full);
+    if (stage.second) {
+      Lanes const stretch2 = maximum(smallest_stretch_squared(full), Lanes(1e-12));
+      wave_speed_next.scalar(i, k.c_p0 / square_root(stretch2));
+    }
+    return F;
+  }
+
+  PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& volume) const {
+    Lanes const c = wave_speed.scalar<Lanes>(i);
+    Lanes const harmonic = (k.eps2 * k.h_min) * c;
+    Lanes const factor = k.biharmonic == Biharmonic::adjoint
+                             ? (k.eps4 * k.h_min * k.h_min * k.h_min) * (c * volume)
+                             : Lanes(1.0);
+    for (int j = 0; j < D; ++j) {
+      Lanes const Lv = load<Lanes>(in.at(i, D * D + j));
+      w.scalar(i, factor * Lv, j);
+      rate.scalar(i, harmonic * Lv, j);
+    }
+  }
+
+  PIOLA_FN void report(Index i, Mat<3, Lanes> const& F) const {
+    for (int l = 0; l < lane_count; ++l) {
+      Mat<3> one;
+      for (int c = 0; c < 9; ++c) one.c[c] = lane(F.c[c], l);
+      if (!(determinant(one) > 0)) exec::record(failure, i + l, 1);
+    }
+  }
+};
+
+/// Second sums over neighbours: internal force and second Laplacian.
+///   sum_b s A_b r                                                      (29c) without the particle's own part
+///   literal: sum_b (l + alpha_a.r + beta_a r.r) (w_b - w_a);   adjoint: sum_b (l - alpha_b.r + beta_b r.r) w_b
+template <int D, Biharmonic B>
+struct SecondSums {
+  static constexpr bool adjoint = B == Biharmonic::adjoint, laplacian = B != Biharmonic::none;
+  static constexpr int outer_fields = adjoint ? 2 * D + 1 : laplacian ? D : 0;  // w, and alpha beta
+  static constexpr int fields = outer_fields + D * D;                           // then A
+  static constexpr int sums = D + (laplacian ? D : 0);
+  View gathered;
+  View alpha, beta;
+
+  template <class V>
+  struct Own {
+    Vec<D, V> w, alpha;
+    V beta;
+  };
+  template <class V>
+  PIOLA_FN Own<V> own(Index a) const {
+    if constexpr (B == Biharmonic::literal)
+      return {gathered.vector<D, V>(a), alpha.vector<D, V>(a), beta.scalar<V>(a)};
+    else
+      return {{}, {}, V(0.0)};
+  }
+
+  template <bool Masked, class O, class G, class V>
+  PIOLA_FN void pair(V* sum, O const& own, G const& g, V const* f) const {
+    V const* const A = f + outer_fields;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) sum[i] = sum[i] + A[i * D + j] * g.sr[j];
+    if constexpr (laplacian) outer<Masked>(sum, own, g, f);
+  }
+  template <bool Masked, class O, class G, class V>
+  PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
+    V l = g.l;
+    if constexpr (adjoint) {
+      l = l + f[2 * D] * g.r2;
+      for (int i = 0; i < D; ++i) l = l - f[D + i] * g.r[i];
+    } else {
+      l = l + own.beta * g.r2;
+      for (int i = 0; i < D; ++i) l = l + own.alpha[i] * g.r[i];
+    }
+    if constexpr (Masked) l = g.weight * l;
+    for (int i = 0; i < D; ++i) sum[D + i] = sum[D + i] + (adjoint ? l * f[i] : l * (f[i] - own.w[i]));
+  }
+};
+
+/// Number of components of an angular momentum.
+template <int D>
+inline constexpr int spins = D == 3 ? 3 : D == 2 ? 1 : 0;
+
+/// x cross f, D = 3: a vector; D = 2: its component out of the plane.
+template <int D, class T>
+PIOLA_FN void add_moment(T* sum, T const& weight, Vec<D, T> const& x, Vec<D, T> const& f) {
+  if constexpr (D == 3) {
+    Vec<3, T> const m = cross(x, f);
+    for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * m[c];
+  } else if constexpr (D == 2) {
+    sum[0] = sum[0] + weight * (x[0] * f[1] - x[1] * f[0]);
+  }
+}
+
+/// Positions in the sums that SumForces makes for the projections and the energy books; x are arms from `centre`.
+template <int D>
+struct ForceTotals {
+  static constexpr int x = 0;                                // sum V x
+  static constexpr int xx = x + D;                           // sum V x (x) x
+  static constexpr int T = xx + SymMat<D>::size;             // sum V a_T,  a_T = -T / rho0
+  static constexpr int moment_T = T + D;                     // sum V x cross a_T
+  static constexpr int stabilisation = moment_T + spins<D>;  // sum V a_D,  a_D = D / rho0
+  static constexpr int moment_stabilisation = stabilisation + D;
+  static constexpr int v = moment_stabilisation + spins<D>;  // sum V v
+  static constexpr int moment_v = v + D;
+  static constexpr int power_T = moment_v + spins<D>;        // sum V v.a_T
+  static constexpr int power_stabilisation = power_T + 1;    // sum V v.a_D
+  static constexpr int size = power_stabilisation + 1;
+};
+
+/// Rate of velocity from internal force and stabilisation, before projection; and the sums that projections need.
+///   -T_a = (V_kernel / V_a) [ sum_b s A_b r + A_a G_a ]               (29c), (32)
+///   D4_a = -eps4 c_a h^3 L w_a   or   -(1 / V_a) [ sum_b ... - w_a sum_b l~_ab ]   (37b) or its adjoint form
+/// The sum over all particles of V T vanishes identically.
+template <int D, Biharmonic B, class Loader>
+struct SumForces {
+  using Body = SecondSums<D, B>;
+  using At = ForceTotals<D>;
+  Loader loader;
+  Body body;
+  Constants k;
+  View A, w, V, G, diagonal, wave_speed, x, v;
+  WriteView rate;
+  View rate_in;  ///< D2 of UpdateStress
+
+  PIOLA_FN void operator()(Index i, Lanes* total) const {
+    Lanes sum[Body::sums];
+    loader(i, body, sum);
+    Lanes const volume = V.scalar<Lanes>(i);
+    Lanes const inverse_volume = 1.0 / maximum(volume, Lanes(1e-300));
+    Vec<D, Lanes> force = A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
+    for (int c = 0; c < D; ++c) force[c] = force[c] + sum[c];
+    Vec<D, Lanes> const a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
+    Vec<D, Lanes> const a_D = stabilisation(i, sum, inverse_volume);
+    rate.vector<D>(i, a_T + a_D);
+    add(i, volume, a_T, a_D, total);
+  }
+
+ private:
+  PIOLA_FN Vec<D, Lanes> stabilisation(Index i, Lanes const* sum, Lanes const& inverse_volume) const {
+    Vec<D, Lanes> a;
+    for (int c = 0; c < D; ++c) a[c] = Lanes(0.0);
+    if constexpr (Body::laplacian) {
+      Lanes factor = inverse_volume;
+      if constexpr (!Body::adjoint) factor = (k.eps4 * k.h_min * k.h_min * k.h_min) * wave_speed.scalar<Lanes>(i);
+      for (int c = 0; c < D; ++c) {
+        Lanes L = sum[D + c];
+        if constexpr (Body::adjoint) L = L - w.scalar<Lanes>(i, c) * diagonal.scalar<Lanes>(i);
+        a[c] = rate_in.scalar<Lanes>(i, c) - factor * L;
+      }
+    }
+    return a;
+  }
+
+  PIOLA_FN void add(Index i, Lanes const& volume, Vec<D, Lanes> const& a_T, Vec<D, Lanes> const& a_D,
+                    Lanes* total) const {
+    Vec<D, Lanes> arm = x.vector<D, Lanes>(i);
+    Vec<D, Lanes> const velocity = v.vector<D, Lanes>(i);
+    for (int c = 0; c < D; ++c) arm[c] = arm[c] - k.centre[c];
+    for (int c = 0; c < D; ++c) {
+      Lanes const Vx = volume * arm[c];
+      total[At::x + c] = total[At::x + c] + Vx;
+      total[At::T + c] = total[At::T + c] + volume * a_T[c];
+      total[At::stabilisation + c] = total[At::stabilisation + c] + volume * a_D[c];
+      total[At::v + c] = total[At::v + c] + volume * velocity[c];
+      for (int d = c; d < D; ++d) {
+        int const at = At::xx + SymMat<D>::at(c, d);
+        total[at] = total[at] + Vx * arm[d];
+      }
+    }
+    add_moment<D>(total + At::moment_T, volume, arm, a_T);
+    add_moment<D>(total + At::moment_stabilisation, volume, arm, a_D);
+    add_moment<D>(total + At::moment_v, volume, arm, velocity);
+    total[At::power_T] = total[At::power_T] + volume * dot(velocity, a_T);
+    total[At::power_stabilisation] = total[At::power_stabilisation] + volume * dot(velocity, a_D);
+  }
+};
+
+/// v* = v^n + dt a, x^(n+1) = x^n + dt/2 (v^n + v*)   or   v^(n+1) = 1/2 (v^n + v* + dt a)     (43), (47), (49)
+/// with a = (D - T) / rho0 + spin cross arm + push, arms being x^n in stage 1 and x^(n+1) in stage 2 (45).
+template <int D>
+struct AdvanceMomentum {
+  StageUpdate stage;
+  RigidRate rigid;
+  Variables variables;
+  View rate, v, v_n, x;
+  WriteView v_out, v_n_out, x_out, u_out;
+
+  PIOLA_FN void operator()(Index i) const {
+    Vec<D, Lanes> const old_x = x.vector<D, Lanes>(i), now = v.vector<D, Lanes>(i);
+    Vec<D, Lanes> a = rate.vector<D, Lanes>(i);
+    add_rigid(old_x, a);
+    Vec<D, Lanes> next = now + stage.dt * a;
+    if (stage.second) {
+      next = 0.5 * (v_n.vector<D, Lanes>(i) + next);
+      if (variables == Variables::displacement) u_out.vector<D>(i, old_x);
+    } else {
+      v_n_out.vector<D>(i, now);
+      x_out.vector<D>(i, old_x + (0.5 * stage.dt) * (now + next));
+      if (variables == Variables::displacement) u_out.vector<D>(i, old_x + stage.dt * now);
+    }
+    v_out.vector<D>(i, next);
+  }
+
+ private:
+  PIOLA_FN void add_rigid(Vec<D, Lanes> const& x_a, Vec<D, Lanes>& a) const {
+    Vec<D, Lanes> arm = x_a;
+    for (int c = 0; c < D; ++c) arm[c] = x_a[c] - rigid.centre[c];
+    for (int c = 0; c < D; ++c) a[c] = a[c] + rigid.push[c];
+    double const* const s = rigid.spin;
+    if constexpr (D == 3) {
+      a[0] = a[0] + (s[1] * arm[2] - s[2] * arm[1]);
+      a[1] = a[1] + (s[2] * arm[0] - s[0] * arm[2]);
+      a[2] = a[2] + (s[0] * arm[1] - s[1] * arm[0]);
+    } else if constexpr (D == 2) {
+      a[0] = a[0] - s[2] * arm[1];
+      a[1] = a[1] + s[2] * arm[0];
+    }
+  }
+};
+
+/// c_a = c_p0 / lambda_min(F_a): p-wave speed with the smallest principal stretch (step 2 of Algorithm 1).
+template <int D>
+struct ComputeWaveSpeed {
+  double c_p0;
+  View F;
+  WriteView wave_speed;
+  PIOLA_FN void operator()(Index i) const {
+    Lanes const stretch2 = smallest_stretch_squared(embed<D>(F.matrix<D, Lanes>(i)));
+    wave_speed.scalar(i, c_p0 / square_root(maximum(stretch2, Lanes(1e-12))));
+  }
+};
+
+/// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient that positions imply.
+template <int D>
+struct StoreDeformation {
+  View C;
+  WriteView F;
+  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+    Mat<D, Lanes> raw;
+    for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
+    F.matrix<D>(i, raw * C.symmetric<D, Lanes>(i));
+  }
+};
+
+/// Largest wave speed of each block; reduced by the caller.
+struct LargestWaveSpeed {
+  View wave_speed;
+  double* partial;
+  PIOLA_FN void operator()(Range b, Index k) const {
+    Lanes largest(0.0);
+    for (Index i = b.first; i < b.last; i += lane_count) largest = maximum(largest, wave_speed.scalar<Lanes>(i));
+    double most = 0;
+    for (int l = 0; l < lane_count; ++l) most = maximum(most, lane(largest, l));
+    partial[k] = most;
+  }
+};
+
+/// Holds the supported components: v_c = 0 and x_c where the support is (step 8 of Algorithm 1).
+struct HoldSupports {
+  SupportComponent const* supports;
+  WriteView v, x;
+  PIOLA_FN void operator()(Index k) const {
+    SupportComponent const& s = supports[k];
+    v.scalar(s.slot, 0.0, s.component);
+    x.scalar(s.slot, s.position, s.component);
+  }
+};
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE

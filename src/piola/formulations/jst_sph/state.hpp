@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/field.hpp"
+#include "piola/exec/parallel.hpp"
+#include "piola/materials/registry.hpp"
+#include "piola/neighbours/tables.hpp"
+
+/// One body of a JST-SPH run as its loops see it: plain data that crosses between machines.
+namespace piola::jst_sph {
+
+enum class Variables { momentum_and_deformation, displacement };
+
+/// How the biharmonic stabilisation is formed from the corrected Laplacian L.
+enum class Biharmonic {
+  none,
+  adjoint,  ///< D4 = -L* (eps4 c h^3 L p): never feeds energy
+  literal   ///< D4 = -eps4 c h^3 L (L p), eq. (37b)
+};
+
+/// A velocity component of a particle that a support holds.
+struct SupportComponent {
+  Index slot;
+  std::int32_t component;
+  double position;  ///< where the support holds it [m]
+};
+
+struct Constants {
+  double rho0;           ///< reference density [kg/m^3]
+  double kernel_volume;  ///< volume of a particle in kernel sums [m^D]
+  double h_min;          ///< smallest particle spacing [m]
+  double c_p0;           ///< p-wave speed at F = I [m/s]
+  double eps2, eps4;     ///< harmonic and biharmonic coefficients for p
+  double total_volume;   ///< sum of tributary volumes [m^D]
+  double centre[3];      ///< origin of arms [m], near the body: keeps sums of moments accurate
+  Variables variables;
+  Biharmonic biharmonic;
+  bool project;          ///< angular and linear momentum projection
+};
+
+/// What a step adds to the books of the body.
+struct StepTotals {
+  double stabilisation_loss = 0;  ///< J, energy removed by D(p)
+  double projection_loss = 0;     ///< J, energy removed by the projection of T
+};
+
+struct BodyState {
+  int dimension = 3;
+  Range slots;
+  Constants constants{};
+  MaterialParameters material;
+  bool regular = false;  ///< stencil table, else list table
+  StencilTable stencil;
+  ListTable list;
+
+  // Reference: tributary volume, corrections (tables.hpp).
+  FieldRef V, C, G, alpha, beta, diagonal;
+  // Evolved. `v` is p / rho0. For the mixed variables `u` is v itself; for displacement it is the stage's position.
+  FieldRef x, v, F, wave_speed;
+  // Derived: read at neighbours by the two sweeps.
+  FieldRef u;
+  FieldRef second;  ///< all that the second sweep reads: w, then for the adjoint form alpha and beta, then A
+  FieldRef w;       ///< part of `second`: what the second Laplacian is applied to
+  FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
+  // Within a step.
+  FieldRef v_n, F_star, wave_speed_next, rate;
+
+  SupportComponent const* supports = nullptr;
+  Index support_count = 0;
+  double* partial = nullptr;  ///< room for the partial sums of reductions
+  FailureSlot* failure = nullptr;
+  StepTotals totals;
+};
+
+/// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
+struct Machine {
+  char const* name;
+  int lanes;
+  void (*step)(BodyState& body, double dt);         ///< Algorithm 1, one step of one body
+  void (*update_wave_speed)(BodyState& body);       ///< from the current F
+  double (*largest_wave_speed)(BodyState& body);    ///< m/s
+  void (*update_deformation)(BodyState& body);      ///< displacement variables: F from x
+};
+
+/// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.
+Machine const* find_machine(char const* name);
+/// Names of the machines in this program that this processor can run, best first; ends with nullptr.
+char const* const* machine_names();
+
+}  // namespace piola::jst_sph

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/view.hpp"
+#include "piola/neighbours/records.hpp"
+#include "piola/neighbours/tables.hpp"
+
+/// Loaders: how the values of neighbours arrive. What is summed is a Body's business, written once:
+///
+///   static constexpr int sums;    // number of sums
+///   static constexpr int fields;  // values it reads of a neighbour; those of outer pairs first
+///   static constexpr int outer_fields;
+///   View gathered;                // where these values are
+///   template <class V> Own<V> own(Index i)           what it needs of the particle (or of the lanes) itself
+///   pair(sums, own, geometry, f)  inner pair;  outer(sums, own, geometry, f)  outer pair
+///
+/// Both loaders give the sums of lane_count consecutive particles, one per lane.
+namespace piola::inline PIOLA_MACHINE {
+
+/// Geometry of a pair, or of one pair per lane.
+template <int D, class V>
+struct PairGeometry {
+  Vec<D, V> sr;  ///< raw gradient s r
+  Vec<D, V> r;   ///< X_b - X_a
+  V r2;
+  V l;           ///< raw Laplacian weight
+  V weight;      ///< 1, or 0 for a lane without this neighbour
+};
+
+/// Lanes are consecutive particles of a regular lattice: neighbours arrive by unit-stride loads, geometry is the same for
+/// all lanes and comes from a small table.
+template <int D>
+struct StencilLoader {
+  StencilTable table;
+  static constexpr bool contiguous = true;
+
+  template <class Body>
+  PIOLA_FN void operator()(Index i, Body const& body, Lanes (&sums)[Body::sums]) const {
+    for (int c = 0; c < Body::sums; ++c) sums[c] = Lanes(0.0);
+    auto const own = body.template own<Lanes>(i);
+    StencilPattern const& p = table.patterns[table.pattern_of[i / lane_count]];
+    for (int e = p.inner[0]; e < p.inner[1]; ++e) visit<false, true>(i, table.entries[e], body, own, sums);
+    for (int e = p.inner_masked[0]; e < p.inner_masked[1]; ++e) visit<true, true>(i, table.entries[e], body, own, sums);
+    if constexpr (Body::outer_fields > 0) {
+      for (int e = p.outer[0]; e < p.outer[1]; ++e) visit<false, false>(i, table.entries[e], body, own, sums);
+      for (int e = p.outer_masked[0]; e < p.outer_masked[1]; ++e)
+        visit<true, false>(i, table.entries[e], body, own, sums);
+    }
+  }
+
+ private:
+  template <bool Masked, bool Inner, class Body, class Own>
+  PIOLA_FN void visit(Index i, StencilEntry const& e, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
+    constexpr int fields = Inner ? Body::fields : Body::outer_fields;
+    StencilOffset const& o = table.offsets[e.offset];
+    Lanes f[fields];
+    double const* const b = body.gathered.data + (i + e.delta);
+    for (int c = 0; c < fields; ++c) f[c] = load<Lanes>(b + c * body.gathered.component_stride);
+    PairGeometry<D, Lanes> g;
+    for (int c = 0; c < D; ++c) {
+      g.sr[c] = Lanes(o.sr[c]);
+      g.r[c] = Lanes(o.r[c]);
+    }
+    g.r2 = Lanes(o.r2);
+    g.l = Lanes(o.l);
+    if constexpr (Masked) {
+      g.weight = load<Lanes>(table.weights + e.weights);
+      g.sr = g.weight * g.sr;
+    }
+    if constexpr (Inner)
+      body.template pair<Masked>(sums, own, g, f);
+    else
+      body.template outer<Masked>(sums, own, g, f);
+  }
+};
+
+/// Lanes are neighbours of one particle, taken from a list; their records are loaded and transposed. On a machine without
+/// packs (and on a GPU) this is the plain loop over neighbours.
+template <int D>
+struct ListLoader {
+  ListTable table;
+  static constexpr bool contiguous = false;
+
+  template <class Body>
+  PIOLA_FN void operator()(Index i, Body const& body, Lanes (&sums)[Body::sums]) const {
+    constexpr int padded = (Body::sums + 7) / 8 * 8;
+    double rows[lane_count * padded];
+    for (int k = 0; k < lane_count; ++k) {
+      Lanes own_sums[Body::sums];
+      for (int c = 0; c < Body::sums; ++c) own_sums[c] = Lanes(0.0);
+      sum_one(i + k, body, own_sums);
+      add_lanes(own_sums, rows + k * padded);
+    }
+    Index row[lane_count];
+    for (int k = 0; k < lane_count; ++k) row[k] = k;
+    load_records(rows, padded, row, sums);
+  }
+
+ private:
+  template <class Body>
+  PIOLA_FN void sum_one(Index a, Body const& body, Lanes (&sums)[Body::sums]) const {
+    auto const own = body.template own<double>(a);
+    std::int64_t k = table.begin[a];
+    std::int64_t const inner_end = k + table.inner[a];
+    for (; k < inner_end; k += lane_count) visit<true>(a, k, body, own, sums);
+    if constexpr (Body::outer_fields > 0)
+      for (; k < table.begin[a + 1]; k += lane_count) visit<false>(a, k, body, own, sums);
+  }
+
+  /// A record is X_b followed by the body's fields; `gathered` points at the fields.
+  template <bool Inner, class Body, class Own>
+  PIOLA_FN void visit(Index a, std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
+    constexpr int fields = Inner ? Body::fields : Body::outer_fields;
+    std::ptrdiff_t const stride = body.gathered.particle_stride;
+    double const* const base = body.gathered.data - D;
+    Lanes record[D + fields], f[fields];
+    load_records(base, stride, table.neighbour + k, record);
+    for (int c = 0; c < fields; ++c) f[c] = record[D + c];
+    PairGeometry<D, Lanes> g;
+    Lanes const s = load<Lanes>(table.s + k);
+    for (int c = 0; c < D; ++c) {
+      g.r[c] = record[c] - base[a * stride + c];
+      g.sr[c] = s * g.r[c];
+    }
+    g.r2 = dot(g.r, g.r);
+    g.l = table.l != nullptr ? load<Lanes>(table.l + k) : 2.0 * s;
+    if constexpr (Inner)
+      body.template pair<false>(sums, own, g, f);
+    else
+      body.template outer<false>(sums, own, g, f);
+  }
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/kernels/registry.hpp"
+#include "piola/neighbours/tables.hpp"
+#include "piola/particles/ordering.hpp"
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// r.r
+inline double squared(std::array<double, 3> const& r) { return r[0] * r[0] + r[1] * r[1] + r[2] * r[2]; }
+
+/// Supports of one body's kernel sums.
+struct PairOptions {
+  Kernel const* kernel = nullptr;
+  double h_gradient = 0;   ///< smoothing length of the gradient [m]
+  double h_laplacian = 0;  ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
+  int lanes = 1;           ///< lane count of the machine that will use the tables
+  bool stencils = true;    ///< use lattice patterns where the body is a regular lattice
+};
+
+/// Per-particle corrections; SoA, slot by slot. See tables.hpp for the operators.
+struct Corrections {
+  std::vector<std::array<double, 6>> C;      ///< inverse of M_a = sum s r (x) r (eq. 21), symmetric: XX YY ZZ XY YZ XZ
+  std::vector<std::array<double, 3>> G;      ///< sum s r
+  std::vector<std::array<double, 3>> alpha;  ///< eq. (A.2), for r = X_b - X_a
+  std::vector<double> beta;
+  std::vector<double> diagonal;              ///< sum (l + alpha.r + beta r.r)
+  std::vector<int> neighbours;
+};
+
+/// Neighbours of the particles of one body in the reference configuration, and the tables that loops use.
+class ReferencePairs {
+ public:
+  /// Finds neighbours and corrections. Throws InputError if a particle has too few neighbours for them, naming the
+  /// particle, its place and what to do.
+  ReferencePairs(ParticleSet const& set, Body const& body, SlotOrder const& order, PairOptions const& options);
+
+  bool regular() const { return regular_; }
+  StencilTable stencil() const;
+  ListTable list() const;
+  Corrections const& corrections() const { return corrections_; }
+  Index max_delta() const { return max_delta_; }  ///< largest distance in memory between neighbours
+  std::int64_t pair_count() const { return pairs_; }
+  double stencil_fill() const { return fill_; }   ///< share of lanes with a neighbour, regular bodies
+  std::size_t bytes() const;
+
+ private:
+  struct Pair {
+    Index b;
+    std::int32_t offset;  ///< regular bodies
+    std::array<double, 3> r;
+    double r2;
+    bool inner;
+  };
+  void find_offsets(Body const& body);
+  void search(ParticleSet const& set, Body const& body);
+  template <class F>
+  void visit(Index a, F const& f) const;
+  double s_of(double r2) const;
+  double l_of(double r2) const;
+  void correct(ParticleSet const& set, Body const& body);
+  [[noreturn]] void refuse(ParticleSet const& set, Body const& body, Index a, int found, char const* operation) const;
+  void make_stencils();
+  void make_list();
+
+  PairOptions options_;
+  int dimension_;
+  bool regular_;
+  double kernel_volume_;
+  Index particles_;
+  std::vector<std::int64_t> id_;
+  std::vector<std::array<double, 3>> X_;        // per slot
+  std::vector<std::array<int, 3>> at_;          // per slot: lattice index
+  std::vector<Index> slot_at_;                  // per lattice point
+  std::array<int, 3> lattice_;
+  std::vector<std::array<int, 3>> lattice_offset_;
+  std::vector<StencilOffset> offsets_;
+  std::vector<char> offset_inner_;
+  std::vector<std::int64_t> found_begin_;       // irregular bodies
+  std::vector<Index> found_;
+  Corrections corrections_;
+  Index max_delta_ = 0;
+  std::int64_t pairs_ = 0;
+  double fill_ = 0;
+  std::vector<StencilEntry> entries_;
+  std::vector<StencilPattern> patterns_;
+  std::vector<std::int32_t> pattern_of_;
+  std::vector<double> weights_;
+  std::vector<std::int64_t> list_begin_;
+  std::vector<std::int32_t> list_inner_;
+  std::vector<Index> list_neighbour_;
+  std::vector<double> list_s_, list_l_;
+};
+
+/// f(pair) for every neighbour of the particle in slot a, in an order that depends on the particles alone.
+template <class F>
+void ReferencePairs::visit(Index a, F const& f) const {
+  auto const slot = static_cast<std::size_t>(a);
+  if (regular_) {
+    auto const& at = at_[slot];
+    for (std::size_t k = 0; k < offsets_.size(); ++k) {
+      std::array<int, 3> to{};
+      bool inside = true;
+      for (std::size_t c = 0; c < 3; ++c) {
+        to[c] = at[c] + lattice_offset_[k][c];
+        inside = inside && to[c] >= 0 && to[c] < lattice_[c];
+      }
+      if (!inside) continue;
+      Index const b = slot_at_[static_cast<std::size_t>((to[2] * lattice_[1] + to[1]) * lattice_[0] + to[0])];
+      if (b == SlotOrder::no_particle) continue;
+      auto const& o = offsets_[k];
+      f(Pair{b, static_cast<std::int32_t>(k), {o.r[0], o.r[1], o.r[2]}, o.r2, offset_inner_[k] != 0});
+    }
+  } else {
+    double const inner = options_.kernel->support * options_.h_gradient;
+    for (std::int64_t k = found_begin_[slot]; k < found_begin_[slot + 1]; ++k) {
+      Index const b = found_[static_cast<std::size_t>(k)];
+      auto const &Xa = X_[slot], &Xb = X_[static_cast<std::size_t>(b)];
+      std::array const r{Xb[0] - Xa[0], Xb[1] - Xa[1], Xb[2] - Xa[2]};
+      double const r2 = squared(r);
+      f(Pair{b, -1, r, r2, r2 < inner * inner});
+    }
+  }
+}
+
+}  // namespace piola

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/particles/ordering.hpp"
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace piola {
+
+SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
+  constexpr int rows = 8;
+  std::array<std::size_t, 3> axis{0, 1, 2};
+  std::stable_sort(axis.begin(), axis.end(), [&](auto a, auto b) { return body.lattice[a] > body.lattice[b]; });
+  std::sort(axis.begin() + 1, axis.end());
+  auto const key = [&](std::int64_t id) {
+    auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
+    int const x = at[axis[0]], y = at[axis[1]], z = at[axis[2]];
+    return std::array{z / rows, y / rows, z, y, x};
+  };
+  SlotOrder order;
+  order.particles = static_cast<Index>(body.last - body.first);
+  order.id.resize(static_cast<std::size_t>(order.particles));
+  std::iota(order.id.begin(), order.id.end(), body.first);
+  std::sort(order.id.begin(), order.id.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  auto const size = static_cast<std::size_t>((order.particles + SlotOrder::alignment - 1) / SlotOrder::alignment *
+                                             SlotOrder::alignment);
+  order.id.resize(size, SlotOrder::no_particle);
+  return order;
+}
+
+}  // namespace piola

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <vector>
+
+namespace piola {
+
+/// Order of a body's particles in memory: pencils of 8 x 8 lattice rows along the longest direction, rows in full. Then
+/// neighbours lie at few distinct distances in memory (unit-stride loads), and the rows around a pencil stay in the
+/// second-level cache. Empty slots at the end fill the last group of lanes.
+struct SlotOrder {
+  static constexpr Index no_particle = -1;
+  static constexpr Index alignment = 16;  ///< slots are a multiple of it, hence of every lane count
+  std::vector<std::int64_t> id;           ///< per slot: particle id, or no_particle
+  Index particles = 0;
+  Index slots() const { return static_cast<Index>(id.size()); }
+};
+
+SlotOrder pencil_order(ParticleSet const& set, Body const& body);
+
+}  // namespace piola
