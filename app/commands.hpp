@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace piola::app {
+
+/// Exit codes that scripts rely on.
+enum ExitCode : int { completed = 0, internal_error = 1, bad_input = 2, physics_failed = 3, stopped_by_signal = 4 };
+
+/// What the chosen command does; returns the exit code. Errors are thrown and turned into messages and codes by main.
+using Action = std::function<int()>;
+
+/// Each adds its command with its options to the program and, when the user chose it, stores what to do in `action`.
+void add_run(CLI::App& program, Action& action);
+void add_resume(CLI::App& program, Action& action);
+void add_check(CLI::App& program, Action& action);
+void add_describe(CLI::App& program, Action& action);
+void add_verify(CLI::App& program, Action& action);
+void add_render(CLI::App& program, Action& action);
+void add_bench(CLI::App& program, Action& action);
+
+/// Options that several commands share: how a case is changed on the command line before it is read.
+struct CaseOptions {
+  std::string file;                ///< the case file
+  std::vector<std::string> set;    ///< --set key=value
+  std::string threads, machine;    ///< --threads, --machine: short for --set run.threads=..., run.machine=...
+  void add_to(CLI::App& command, bool with_file = true);
+  /// All as "key=value", in the order given; --threads and --machine last.
+  std::vector<std::string> overrides() const;
+};
+
+}  // namespace piola::app
