@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "piola/input/document.hpp"
+#include "piola/output/files.hpp"
+#include "piola/simulation/verify.hpp"
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+/// One [[variant]] or [[check]] while it is read.
+class Entry {
+ public:
+  Entry(Node const& table, std::string what, Problems& problems) : table_(table), what_(std::move(what)), problems_(problems) {}
+
+  void only(std::vector<std::string> const& known) {
+    for (Node::Entry const& e : table_.entries) {
+      if (std::find(known.begin(), known.end(), e.key) != known.end()) continue;
+      problems_.add(e.place, fmt::format("{} does not know '{}' (known: {}) - {}", what_, e.key, joined(known), advice_for_name(e.key, known)));
+    }
+  }
+  Node const* find(std::string_view key, bool required) {
+    Node const* node = table_.find(key);
+    if (!node && required) problems_.add(table_.place, fmt::format("{} needs '{}' - add it", what_, key));
+    return node;
+  }
+  std::string text(std::string_view key, bool required) {
+    Node const* node = find(key, required);
+    if (!node) return {};
+    if (!node->is_text()) wrong(*node, key, "a text in quotes");
+    return node->text;
+  }
+  bool flag(std::string_view key) {
+    Node const* node = find(key, false);
+    if (node && node->kind != Node::Kind::flag) wrong(*node, key, "true or false");
+    return node && node->flag;
+  }
+  void wrong(Node const& node, std::string_view key, std::string_view expected) {
+    problems_.add(node.place, fmt::format("{}: '{}' has the wrong kind ({} is expected) - correct it", what_, key, expected));
+  }
+
+ private:
+  Node const& table_;
+  std::string what_;
+  Problems& problems_;
+};
+
+CheckVariant read_variant(Node const& table, Problems& problems) {
+  Entry entry(table, "variant", problems);
+  entry.only({"name", "set", "short"});
+  CheckVariant variant{entry.text("name", true), {}, entry.flag("short")};
+  if (Node const* set = entry.find("set", false)) {
+    if (!set->is_array()) entry.wrong(*set, "set", "a list of \"key=value\"");
+    for (Node const& item : set->items) {
+      if (item.is_text()) variant.set.push_back(item.text);
+      else entry.wrong(item, "set", "a list of \"key=value\"");
+    }
+  }
+  return variant;
+}
+
+/// "1 %" is relative, a number is absolute.
+void read_tolerance(Entry& entry, Check& check) {
+  Node const* node = entry.find("tolerance", check.kind == Check::Kind::within);
+  if (!node) return;
+  if (node->is_number()) {
+    check.tolerance = node->number();
+    return;
+  }
+  std::string_view text = node->text;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), check.tolerance);
+  std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (rest.starts_with(' ')) rest.remove_prefix(1);
+  if (!node->is_text() || error != std::errc() || rest != "%") entry.wrong(*node, "tolerance", "a number, or \"1 %\" of the reference");
+  check.relative = true;
+  check.tolerance /= 100;
+}
+
+void read_kind(Entry& entry, Check& check) {
+  std::string const word = entry.text("kind", false);
+  if (word == "below") check.kind = Check::Kind::below;
+  else if (word == "above") check.kind = Check::Kind::above;
+  else if (!word.empty() && word != "within") entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\" or \"above\"");
+}
+
+Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
+  Entry entry(table, "check", problems);
+  entry.only({"variant", "quantity", "reference", "tolerance", "kind", "source", "note"});
+  Check check;
+  check.quantity = entry.text("quantity", true);
+  check.variant = entry.text("variant", file.variants.size() > 1);
+  if (check.variant.empty() && !file.variants.empty()) check.variant = file.variants.front().name;
+  check.source = entry.text("source", true);
+  check.note = entry.text("note", false);
+  read_kind(entry, check);
+  read_tolerance(entry, check);
+  if (Node const* node = entry.find("reference", true)) {
+    if (node->is_number()) check.reference = exact_text(node->number());
+    else if (node->is_text()) check.reference = node->text;
+    else entry.wrong(*node, "reference", "a number, or a number with unit in quotes");
+  }
+  bool const known = std::any_of(file.variants.begin(), file.variants.end(), [&](CheckVariant const& v) { return v.name == check.variant; });
+  if (!known) problems.add(table.place, fmt::format("check: there is no variant '{}' - give the name of a [[variant]]", check.variant));
+  return check;
+}
+
+}  // namespace
+
+CheckFile read_checks(std::filesystem::path const& path) {
+  Problems problems;
+  CheckFile file;
+  auto const document = parse_document(read_text_file(path), path.string(), problems);
+  problems.raise_if_any();
+  for (Node::Entry const& e : document->root.entries) {
+    if (e.key != "variant" && e.key != "check") problems.add(e.place, fmt::format("checks do not know '{}' (known: variant, check) - remove it", e.key));
+  }
+  if (Node const* list = document->root.find("variant")) {
+    for (Node const& table : list->items) file.variants.push_back(read_variant(table, problems));
+  }
+  if (file.variants.empty()) file.variants.push_back({"as is", {}, true});
+  if (Node const* list = document->root.find("check")) {
+    for (Node const& table : list->items) file.checks.push_back(read_check(table, file, problems));
+  }
+  problems.raise_if_any();
+  return file;
+}
+
+}  // namespace piola
