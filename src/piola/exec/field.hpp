@@ -26,9 +26,9 @@ struct FieldRef {
   char const* name = "";
 };
 
-/// A particle field, in one of two layouts. Arrays: one per component, one after the other, with `guard` readable zeros
-/// before the first and after the last particle, so that a loop over lanes may read beyond the ends. Records: a part of a
-/// record that several fields share, for loops that load whole records of neighbours.
+/// A particle field. By itself: one array per component, one after the other, with `guard` readable zeros before the first
+/// and after the last particle, so that a loop over lanes may read beyond the ends. Or a part of memory that several
+/// fields share, for loops that read them together.
 class Field {
  public:
   Field(char const* name, char const* unit, int components, Role role)
@@ -44,9 +44,11 @@ class Field {
     ref_ = {memory_.data() + pad, 8 * lines, 1, &version_, name_};
     particles_ = particles;
   }
-  /// Lives in `records`: component c of particle i at records[i * stride + first + c].
-  void place(double* records, std::ptrdiff_t stride, std::ptrdiff_t first, Index particles) {
-    ref_ = {records + first, 1, stride, &version_, name_};
+  /// Lives in memory that several fields share: component c of particle i at data[first + c * component + i * particle].
+  /// Fields that are exchanged together share a version.
+  void place(double* data, std::ptrdiff_t component, std::ptrdiff_t particle, std::ptrdiff_t first, Index particles,
+             FieldVersion* version = nullptr) {
+    ref_ = {data + first, component, particle, version != nullptr ? version : &version_, name_};
     particles_ = particles;
   }
 

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_sph/body.hpp"
+#include "piola/materials/laws.hpp"
+#include "piola/formulations/jst_sph/passes.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::jst_sph {
+
+JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
+                 Machine const& machine)
+    : body_(set.bodies[body]),
+      options_(options),
+      D_(set.dimension),
+      order_(pencil_order(set, body_)),
+      set_(&set),
+      fields_(D_) {
+  make_pairs(set, machine);
+  set_constants(set, assembly.materials[body]);
+  allocate();
+  fill_reference(set);
+  fill_initial(assembly, machine);
+  take_supports(assembly);
+  machine.update_wave_speed(state_);
+}
+
+void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
+  double size = 1;
+  for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];
+  double const spacing = std::pow(size, 1.0 / D_);
+  PairOptions pair;
+  pair.kernel = options_.kernel;
+  pair.h_gradient = options_.gradient_support * spacing;
+  pair.h_laplacian = options_.biharmonic == Biharmonic::none ? 0 : options_.laplacian_support * spacing;
+  pair.lanes = machine.lanes;
+  // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
+  pair.stencils = machine.lanes > 1;
+  pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
+}
+
+void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& material) {
+  auto& k = state_.constants;
+  state_.dimension = D_;
+  state_.slots = {0, order_.slots()};
+  state_.material = material;
+  with_law(material, [&](auto const& law) {
+    k.rho0 = law.rho0;
+    k.c_p0 = law.p_wave_speed();
+  });
+  k.kernel_volume = set.kernel_volume[static_cast<std::size_t>(body_.first)];
+  k.h_min = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
+  k.eps2 = options_.eps2;
+  k.eps4 = options_.eps4;
+  k.variables = options_.variables;
+  k.biharmonic = options_.biharmonic;
+  k.project = options_.project;
+  for (auto id = body_.first; id < body_.last; ++id) {
+    auto const at = static_cast<std::size_t>(id);
+    k.total_volume += set.volume[at];
+    for (std::size_t c = 0; c < 3; ++c) k.centre[c] += set.volume[at] * set.X[at][c];
+  }
+  for (double& c : k.centre) c /= k.total_volume;
+  constexpr Index widest = ForceTotals<3>::size;
+  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots) + 1) * widest);
+  state_.partial = partial_.data();
+  state_.failure = &failure_;
+  state_.regular = pairs_->regular();
+  if (state_.regular)
+    state_.stencil = pairs_->stencil();
+  else
+    state_.list = pairs_->list();
+}
+
+void JstBody::allocate() {
+  Index const guard = state_.regular ? pairs_->max_delta() + SlotOrder::alignment : 0;
+  place_gathered();
+  fields_.each([&](Field& f) {
+    bool const unused = &f == &fields_.stage_position && options_.variables != Variables::displacement;
+    if (f.size() == 0 && !unused) f.allocate(order_.slots(), state_.regular ? guard : 0);
+  });
+  auto& s = state_;
+  s.V = fields_.V.ref();
+  s.C = fields_.C.ref();
+  s.G = fields_.G.ref();
+  s.alpha = fields_.alpha.ref();
+  s.beta = fields_.beta.ref();
+  s.diagonal = fields_.diagonal.ref();
+  s.x = fields_.x.ref();
+  s.v = fields_.v.ref();
+  s.F = fields_.F.ref();
+  s.wave_speed = fields_.wave_speed.ref();
+  s.u = options_.variables == Variables::displacement ? fields_.stage_position.ref() : fields_.v.ref();
+  s.w = fields_.w.ref();
+  s.A = fields_.A.ref();
+  s.v_n = fields_.v_n.ref();
+  s.F_star = fields_.F_star.ref();
+  s.wave_speed_next = fields_.wave_speed_next.ref();
+  s.rate = fields_.rate.ref();
+}
+
+/// What the sweeps read of neighbours lies together: as records [X, values] for lists, as arrays for lattices.
+void JstBody::place_gathered() {
+  Field& first = options_.variables == Variables::displacement ? fields_.stage_position : fields_.v;
+  bool const adjoint = options_.biharmonic == Biharmonic::adjoint;
+  bool const stabilised = options_.biharmonic != Biharmonic::none;
+  std::ptrdiff_t const before_A = adjoint ? 2 * D_ + 1 : stabilised ? D_ : 0, values = before_A + D_ * D_;
+  Index const n = order_.slots();
+  auto const slots = static_cast<std::size_t>(n);
+  std::ptrdiff_t component, particle, start;
+  if (state_.regular) {
+    auto const guard = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
+    component = 8 * (((n + 7) / 8 + 2 * guard / 8) | 1);
+    particle = 1;
+    start = guard;
+    second_gathered_ = Memory(static_cast<std::size_t>(component * values + 2 * guard));
+    first.allocate(n, pairs_->max_delta() + SlotOrder::alignment);
+  } else {
+    component = 1;
+    particle = (D_ + values + 7) / 8 * 8;
+    start = D_;
+    second_gathered_ = Memory(slots * static_cast<std::size_t>(particle) + 8);
+    first_records_ = Memory(slots * 8 + 8);
+    first.place(first_records_.data(), 1, 8, D_, n);
+    for (Index i = 0; i < order_.particles; ++i)
+      for (int c = 0; c < D_; ++c) {
+        double const X = set_->X[static_cast<std::size_t>(id(i))][static_cast<std::size_t>(c)];
+        first_records_.data()[i * 8 + c] = X;
+        second_gathered_.data()[i * particle + c] = X;
+      }
+  }
+  double* const data = second_gathered_.data();
+  state_.second = {data + start, component, particle, &second_version_, "second sweep"};
+  auto const part = [&](Field& f, std::ptrdiff_t offset) {
+    f.place(data, component, particle, start + offset * component, n, &second_version_);
+  };
+  if (stabilised) part(fields_.w, 0);
+  part(fields_.A, before_A);
+  if (adjoint) {
+    part(fields_.alpha, D_);
+    part(fields_.beta, 2 * D_);
+  }
+}
+
+void JstBody::fill_reference(ParticleSet const& set) {
+  auto const& corrections = pairs_->corrections();
+  static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
+  for (Index i = 0; i < order_.slots(); ++i) {
+    for (int c = 0; c < D_; ++c) fields_.F.at(i, c * D_ + c) = fields_.F_star.at(i, c * D_ + c) = 1;
+    if (i >= order_.particles) continue;
+    auto const slot = static_cast<std::size_t>(i);
+    fields_.V.at(i) = set.volume[static_cast<std::size_t>(id(i))];
+    for (int c = 0; c < D_ * (D_ + 1) / 2; ++c)
+      fields_.C.at(i, c) = corrections.C[slot][static_cast<std::size_t>(packed[D_ - 1][c])];
+    for (int c = 0; c < D_; ++c) {
+      fields_.G.at(i, c) = corrections.G[slot][static_cast<std::size_t>(c)];
+      fields_.alpha.at(i, c) = corrections.alpha[slot][static_cast<std::size_t>(c)];
+    }
+    fields_.beta.at(i) = corrections.beta[slot];
+    fields_.diagonal.at(i) = corrections.diagonal[slot];
+  }
+}
+
+void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
+  auto const& moved = assembly.initial_displacement;
+  auto const& deformed = assembly.initial_deformation_gradient;
+  for (Index i = 0; i < order_.particles; ++i) {
+    auto const at = static_cast<std::size_t>(id(i));
+    for (int c = 0; c < D_; ++c) {
+      auto const k = static_cast<std::size_t>(c);
+      fields_.x.at(i, c) = set_->X[at][k] + (moved.empty() ? 0 : moved[at][k]);
+      if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
+    }
+  }
+  bool const mixed = options_.variables == Variables::momentum_and_deformation;
+  if (!deformed.empty() && mixed) {
+    for (Index i = 0; i < order_.particles; ++i)
+      for (int c = 0; c < D_ * D_; ++c)
+        fields_.F.at(i, c) = deformed[static_cast<std::size_t>(id(i))][static_cast<std::size_t>(3 * (c / D_) + c % D_)];
+  } else if (!moved.empty() || !mixed) {
+    deform_to_positions(machine);
+  }
+}
+
+void JstBody::deform_to_positions(Machine const& machine) {
+  std::vector<double> kept(static_cast<std::size_t>(order_.slots() * D_));
+  bool const mixed = options_.variables == Variables::momentum_and_deformation;
+  auto const each = [&](auto const& f) {
+    for (Index i = 0; i < order_.slots(); ++i)
+      for (int c = 0; c < D_; ++c) f(i, c, kept[static_cast<std::size_t>(i * D_ + c)]);
+  };
+  each([&](Index i, int c, double& value) {
+    value = JstBody::value(state_.u, i, c);
+    set(state_.u, i, c, JstBody::value(state_.x, i, c));
+  });
+  machine.update_deformation(state_);
+  if (mixed) each([&](Index i, int c, double& value) { set(state_.u, i, c, value); });
+  for (Index i = order_.particles; i < order_.slots(); ++i)
+    for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
+}
+
+void JstBody::take_supports(Assembly const& assembly) {
+  std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
+  for (Index i = 0; i < order_.particles; ++i) slot_of[static_cast<std::size_t>(id(i) - body_.first)] = i;
+  for (auto const& support : assembly.supports)
+    for (auto const particle : support.particles) {
+      if (particle < body_.first || particle >= body_.last) continue;
+      Index const slot = slot_of[static_cast<std::size_t>(particle - body_.first)];
+      for (int c = 0; c < D_; ++c) {
+        if (!support.fix[static_cast<std::size_t>(c)]) continue;
+        supports_.push_back({slot, c, value(state_.x, slot, c)});
+        set(state_.v, slot, c, 0);
+      }
+    }
+  state_.supports = supports_.data();
+  state_.support_count = static_cast<Index>(supports_.size());
+}
+
+std::array<double, 3> JstBody::X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
+
+std::array<double, 3> JstBody::x(Index slot) const {
+  std::array<double, 3> r = X(slot);
+  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.x, slot, c);
+  return r;
+}
+
+std::array<double, 3> JstBody::v(Index slot) const {
+  std::array<double, 3> r{};
+  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.v, slot, c);
+  return r;
+}
+
+Mat<3> JstBody::F(Index slot) const {
+  Mat<3> r = identity<3>();
+  for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
+  return r;
+}
+
+std::size_t JstBody::bytes() const {
+  std::size_t total = pairs_->bytes() + first_records_.bytes() + second_gathered_.bytes();
+  const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
+  return total;
+}
+
+}  // namespace piola::jst_sph

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/jst_sph/fields.hpp"
+#include "piola/formulations/jst_sph/options.hpp"
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/math/tensor.hpp"
+#include "piola/neighbours/reference_pairs.hpp"
+#include <memory>
+#include <vector>
+
+namespace piola::jst_sph {
+
+/// One body of a JST-SPH run: owns its memory, hands its state to the loops, answers in Id order.
+class JstBody {
+ public:
+  /// `set` is kept by reference. Throws InputError (too few neighbours).
+  JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
+          Machine const& machine);
+  JstBody(JstBody const&) = delete;
+  JstBody& operator=(JstBody const&) = delete;
+
+  BodyState& state() { return state_; }
+  BodyState const& state() const { return state_; }
+  Body const& body() const { return body_; }
+  Options const& options() const { return options_; }
+  Index particles() const { return order_.particles; }
+  std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
+  ReferencePairs const& pairs() const { return *pairs_; }
+  ParticleSet const& set() const { return *set_; }
+  std::size_t bytes() const;
+
+  /// State of the particle in a slot, three-dimensional (missing directions do not deform).
+  std::array<double, 3> X(Index slot) const;
+  std::array<double, 3> x(Index slot) const;
+  std::array<double, 3> v(Index slot) const;
+  Mat<3> F(Index slot) const;
+  double volume(Index slot) const { return value(state_.V, slot); }
+
+  static double value(FieldRef const& f, Index slot, int c = 0) {
+    return f.data[c * f.component_stride + slot * f.particle_stride];
+  }
+  static void set(FieldRef const& f, Index slot, int c, double value) {
+    f.data[c * f.component_stride + slot * f.particle_stride] = value;
+  }
+
+ private:
+  void make_pairs(ParticleSet const& set, Machine const& machine);
+  void allocate();
+  void place_gathered();
+  void fill_reference(ParticleSet const& set);
+  void fill_initial(Assembly const& assembly, Machine const& machine);
+  void take_supports(Assembly const& assembly);
+  void deform_to_positions(Machine const& machine);
+  void set_constants(ParticleSet const& set, MaterialParameters const& material);
+
+  Body body_;
+  Options options_;
+  int D_;
+  SlotOrder order_;
+  ParticleSet const* set_;
+  std::unique_ptr<ReferencePairs> pairs_;
+  Fields fields_;
+  Memory first_records_, second_gathered_;
+  FieldVersion first_version_, second_version_;
+  std::vector<SupportComponent> supports_;
+  std::vector<double> partial_;
+  FailureSlot failure_;
+  BodyState state_;
+};
+
+}  // namespace piola::jst_sph

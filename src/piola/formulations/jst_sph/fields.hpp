@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/field.hpp"
+
+namespace piola::jst_sph {
+
+/// The one list of JST-SPH's particle fields, for a body of dimension D: memory, layout, checkpoint and the table of the
+/// manual follow from it. Component counts of tensors are D x D, of symmetric tensors D (D + 1) / 2.
+struct Fields {
+  explicit Fields(int D)
+      : V("TributaryVolume", "m3", 1, Role::reference),
+        C("GradientCorrection", "1", D * (D + 1) / 2, Role::reference),
+        G("GradientSum", "1/m", D, Role::reference),
+        alpha("LaplacianCorrectionLinear", "1/m3", D, Role::reference),
+        beta("LaplacianCorrectionQuadratic", "1/m4", 1, Role::reference),
+        diagonal("LaplacianSum", "1/m2", 1, Role::reference),
+        x("Position", "m", D, Role::evolved),
+        v("Velocity", "m/s", D, Role::evolved),
+        F("DeformationGradient", "1", D * D, Role::evolved),
+        wave_speed("WaveSpeed", "m/s", 1, Role::evolved),
+        w("StabilisationArgument", "m/s", D, Role::derived),
+        A("WeightedStress", "Pa", D * D, Role::derived),
+        stage_position("StagePosition", "m", D, Role::derived),
+        v_n("VelocityAtStepStart", "m/s", D, Role::derived),
+        F_star("DeformationGradientOfStage", "1", D * D, Role::derived),
+        wave_speed_next("NextWaveSpeed", "m/s", 1, Role::derived),
+        rate("Acceleration", "m/s2", D, Role::derived) {}
+
+  Field V, C, G, alpha, beta, diagonal;
+  Field x, v, F, wave_speed;
+  Field w, A, stage_position, v_n, F_star, wave_speed_next, rate;
+
+  template <class Visit>
+  void each(Visit&& visit) {
+    for (Field* f : {&V, &C, &G, &alpha, &beta, &diagonal, &x, &v, &F, &wave_speed, &w, &A, &stage_position, &v_n, &F_star,
+                     &wave_speed_next, &rate})
+      visit(*f);
+  }
+};
+
+}  // namespace piola::jst_sph

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_sph/observe.hpp"
+#include "piola/materials/laws.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace piola::jst_sph {
+namespace {
+
+using Point = std::array<double, 3>;
+
+void add_momenta(Point const& x, Point const& v, double mass, Diagnostics& d) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
+    d.linear_momentum[c] += mass * v[c];
+    d.angular_momentum[c] += mass * (x[p] * v[q] - x[q] * v[p]);
+    d.kinetic_energy += 0.5 * mass * v[c] * v[c];
+  }
+}
+
+/// Adds the squares of second differences of p along the lattice lines of a body.
+void add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p, Observation& o) {
+  auto const index = [&](std::array<int, 3> const& at) {
+    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(body.lattice[1]) + static_cast<std::size_t>(at[1])) *
+               static_cast<std::size_t>(body.lattice[0]) +
+           static_cast<std::size_t>(at[0]);
+  };
+  std::vector<std::int64_t> particle(index({0, 0, body.lattice[2]}) + 1, -1);
+  for (auto id = body.first; id < body.last; ++id)
+    particle[index(set.lattice_index[static_cast<std::size_t>(id)])] = id;
+  for (auto id = body.first; id < body.last; ++id) {
+    auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (at[axis] == 0 || at[axis] + 1 >= body.lattice[axis]) continue;
+      auto before = at, after = at;
+      --before[axis];
+      ++after[axis];
+      std::int64_t const a = particle[index(before)], b = particle[index(after)];
+      if (a < 0 || b < 0) continue;
+      auto const value = [&](std::int64_t k) { return p[static_cast<std::size_t>(k - body.first)]; };
+      double const second = (value(b) - 2 * value(id) + value(a)) / 4;
+      o.second_difference_square += second * second;
+      o.second_difference_count += 1;
+    }
+  }
+}
+
+}  // namespace
+
+void observe(JstBody const& body, int, Observation& o) {
+  auto& d = o.totals;
+  std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
+  double strain = 0;
+  with_law(body.state().material, [&](auto const& law) {
+    for (Index i = 0; i < body.particles(); ++i) {
+      Mat<3> const F = body.F(i);
+      double const V = body.volume(i), J = determinant(F), p = law.pressure(F);
+      strain += V * law.energy(F);
+      d.jacobian_min = o.volume > 0 ? std::min(d.jacobian_min, J) : J;
+      d.jacobian_max = o.volume > 0 ? std::max(d.jacobian_max, J) : J;
+      d.pressure_min = o.volume > 0 ? std::min(d.pressure_min, p) : p;
+      d.pressure_max = o.volume > 0 ? std::max(d.pressure_max, p) : p;
+      o.pressure_square += V * p * p;
+      o.volume += V;
+      pressure[static_cast<std::size_t>(body.id(i) - body.body().first)] = p;
+      add_momenta(body.x(i), body.v(i), V * law.rho0, d);
+    }
+  });
+  d.strain_energy += strain;
+  d.stabilisation_loss += body.state().totals.stabilisation_loss;
+  d.projection_loss += body.state().totals.projection_loss;
+  add_oscillation(body.set(), body.body(), pressure, o);
+}
+
+Diagnostics finish(Observation const& o) {
+  Diagnostics d = o.totals;
+  double const level = std::sqrt(o.pressure_square / o.volume);
+  if (level > 0 && o.second_difference_count > 0)
+    d.pressure_oscillation = std::sqrt(o.second_difference_square / o.second_difference_count) / level;
+  return d;
+}
+
+namespace {
+
+/// Everything an output formula may need of one particle.
+struct Particle {
+  Point X, x, v;
+  Mat<3> F, P;
+  double J, pressure, rho0, body;
+  double id;
+};
+
+Mat<3> cauchy(Particle const& p) { return (1.0 / p.J) * (p.P * transpose(p.F)); }
+
+void put_symmetric(Mat<3> const& s, double* out) {
+  static constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; ++k) out[k] = 0.5 * (s(row[k], column[k]) + s(column[k], row[k]));
+}
+
+double von_mises(Mat<3> const& s) {
+  double const p = trace(s) / 3;
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double const dev = 0.5 * (s(i, j) + s(j, i)) - (i == j ? p : 0);
+      sum += dev * dev;
+    }
+  return std::sqrt(1.5 * sum);
+}
+
+struct Observed {
+  char const* name;
+  char const* unit;
+  int components;
+  void (*put)(Particle const&, double*);
+};
+
+constexpr std::array table{
+    Observed{"Displacement", "m", 3, [](Particle const& p, double* out) { for (std::size_t c = 0; c < 3; ++c) out[c] = p.x[c] - p.X[c]; }},
+    Observed{"Position", "m", 3, [](Particle const& p, double* out) { std::copy(p.x.begin(), p.x.end(), out); }},
+    Observed{"Velocity", "m/s", 3, [](Particle const& p, double* out) { std::copy(p.v.begin(), p.v.end(), out); }},
+    Observed{"Momentum", "kg/(m2 s)", 3, [](Particle const& p, double* out) { for (std::size_t c = 0; c < 3; ++c) out[c] = p.rho0 * p.v[c]; }},
+    Observed{"Pressure", "Pa", 1, [](Particle const& p, double* out) { *out = p.pressure; }},
+    Observed{"CauchyStress", "Pa", 6, [](Particle const& p, double* out) { put_symmetric(cauchy(p), out); }},
+    Observed{"FirstPiolaStress", "Pa", 9, [](Particle const& p, double* out) { std::copy(p.P.c, p.P.c + 9, out); }},
+    Observed{"DeformationGradient", "1", 9, [](Particle const& p, double* out) { std::copy(p.F.c, p.F.c + 9, out); }},
+    Observed{"Jacobian", "1", 1, [](Particle const& p, double* out) { *out = p.J; }},
+    Observed{"VonMisesStress", "Pa", 1, [](Particle const& p, double* out) { *out = von_mises(cauchy(p)); }},
+    Observed{"Density", "kg/m3", 1, [](Particle const& p, double* out) { *out = p.rho0 / p.J; }},
+    Observed{"Body", "1", 1, [](Particle const& p, double* out) { *out = p.body; }},
+    Observed{"Id", "1", 1, [](Particle const& p, double* out) { *out = p.id; }}};
+
+}  // namespace
+
+std::vector<FieldInfo> observed_fields() {
+  std::vector<FieldInfo> r;
+  for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
+  return r;
+}
+
+void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  auto const found = std::find_if(table.begin(), table.end(), [&](auto const& f) { return field == f.name; });
+  if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
+  with_law(body.state().material, [&](auto const& law) {
+    for (Index i = 0; i < body.particles(); ++i) {
+      Mat<3> const F = body.F(i);
+      Particle const p{body.X(i),   body.x(i), body.v(i), F, law.first_piola(F), determinant(F), law.pressure(F), law.rho0,
+                       static_cast<double>(body_number), static_cast<double>(body.id(i))};
+      found->put(p, &values[static_cast<std::size_t>(body.id(i) * found->components)]);
+    }
+  });
+}
+
+}  // namespace piola::jst_sph

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/formulations/registry.hpp"
+#include "piola/kernels/registry.hpp"
+
+namespace piola::jst_sph {
+
+/// What a user may choose, with every default resolved.
+struct Options {
+  Variables variables = Variables::momentum_and_deformation;
+  Biharmonic biharmonic = Biharmonic::adjoint;
+  Kernel const* kernel = nullptr;
+  double eps2 = 0, eps4 = 0;      ///< harmonic and biharmonic coefficients for p
+  double gradient_support = 0;    ///< h of the gradient in particle spacings
+  double laplacian_support = 0;   ///< h of the Laplacian in particle spacings
+  bool project = true;            ///< angular and linear momentum projection
+  double cfl = 0.3;               ///< alpha_CFL of eq. (44)
+};
+
+/// Registry entry: keys, meanings, defaults, laws.
+FormulationInfo info();
+
+/// Options of a body. Throws InputError for combinations that cannot work.
+Options read_options(FormulationSpec const& spec, double cfl);
+
+}  // namespace piola::jst_sph

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_sph/solver.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/jst_sph/body.hpp"
+#include "piola/formulations/jst_sph/observe.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace piola::jst_sph {
+namespace {
+
+/// JST-SPH of one or more bodies that do not touch each other.
+class Solver final : public Formulation {
+ public:
+  explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
+    for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
+      Options const options = read_options(assembly.formulations[k], assembly.cfl);
+      bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
+    }
+  }
+
+  double stable_time_step() const override {
+    double dt = std::numeric_limits<double>::infinity();
+    for (auto const& body : bodies_) {
+      auto& state = body->state();
+      dt = std::min(dt, body->options().cfl * state.constants.h_min / machine_->largest_wave_speed(state));  // (44)
+    }
+    return dt;
+  }
+
+  void step(double, double dt) override {
+    for (auto const& body : bodies_) machine_->step(body->state(), dt);
+  }
+
+  std::optional<Failure> failure() const override;
+  Diagnostics diagnose() const override {
+    Observation all;
+    for (auto const& body : bodies_) {
+      refresh(*body);
+      observe(*body, set_.dimension, all);
+    }
+    return finish(all);
+  }
+
+  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  void sample(std::string_view field, std::span<double> values) const override {
+    int number = 0;
+    for (auto const& body : bodies_) {
+      refresh(*body);
+      jst_sph::sample(*body, number++, field, values);
+    }
+  }
+
+  void save(StateWriter& writer) const override;
+  void load(StateReader& reader) override;
+
+  int stages_per_step() const override { return 2; }
+  std::size_t memory_bytes() const override {
+    std::size_t total = 0;
+    for (auto const& body : bodies_) total += body->bytes();
+    return total;
+  }
+
+ private:
+  static Machine const* choose(std::string const& name) {
+    if (Machine const* machine = find_machine(name.c_str())) return machine;
+    std::string known = "auto";
+    for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
+    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
+  }
+  /// Displacement variables keep F of the last stage; observers want that of x.
+  void refresh(JstBody const& body) const {
+    if (body.options().variables != Variables::displacement) return;
+    auto& mutable_body = const_cast<JstBody&>(body);
+    machine_->update_deformation(mutable_body.state());
+  }
+  template <class F>
+  void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
+
+  ParticleSet set_;
+  Machine const* machine_;
+  std::vector<std::unique_ptr<JstBody>> bodies_;
+};
+
+std::optional<Failure> Solver::failure() const {
+  for (auto const& body : bodies_) {
+    FailureSlot const& slot = *body->state().failure;
+    if (slot.index == FailureSlot::none || slot.index >= body->particles()) continue;
+    Mat<3> F = body->F(slot.index);
+    double const J = determinant(F);
+    Failure f;
+    f.what = J <= 0 ? "is inverted" : "has a deformation that is not a number";
+    f.particle = body->id(slot.index);
+    f.body = body->body().name;
+    f.X = body->X(slot.index);
+    f.x = body->x(slot.index);
+    auto const v = body->v(slot.index);
+    f.values = {{"det F", J},
+                {"neighbours", body->pairs().corrections().neighbours[static_cast<std::size_t>(slot.index)]},
+                {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])},
+                {"wave speed [m/s]", JstBody::value(body->state().wave_speed, slot.index)}};
+    return f;
+  }
+  return std::nullopt;
+}
+
+/// f(name, field) for the evolved state of a body: what a checkpoint must hold.
+template <class F>
+void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) const {
+  int const D = set_.dimension;
+  auto const& s = body.state();
+  f(fmt::format("body{}/position", number), s.x, D);
+  f(fmt::format("body{}/velocity", number), s.v, D);
+  f(fmt::format("body{}/deformation_gradient", number), s.F, D * D);
+  f(fmt::format("body{}/wave_speed", number), s.wave_speed, 1);
+}
+
+void Solver::save(StateWriter& writer) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    JstBody const& body = *bodies_[k];
+    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
+      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
+      for (Index i = 0; i < body.particles(); ++i)
+        for (int c = 0; c < components; ++c)
+          values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] = JstBody::value(field, i, c);
+      writer.put(name, values);
+    });
+    auto const& totals = body.state().totals;
+    std::array const books{totals.stabilisation_loss, totals.projection_loss};
+    writer.put(fmt::format("body{}/energy_books", k), books);
+  }
+}
+
+void Solver::load(StateReader& reader) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    JstBody& body = *bodies_[k];
+    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
+      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
+      reader.get(name, values);
+      for (Index i = 0; i < body.particles(); ++i)
+        for (int c = 0; c < components; ++c)
+          JstBody::set(field, i, c, values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)]);
+    });
+    if (body.options().variables == Variables::displacement)
+      for (Index i = 0; i < body.particles(); ++i)
+        for (int c = 0; c < set_.dimension; ++c) JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
+    std::array<double, 2> books{};
+    reader.get(fmt::format("body{}/energy_books", k), books);
+    body.state().totals = {books[0], books[1]};
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Formulation> make(Assembly const& assembly) { return std::make_unique<Solver>(assembly); }
+
+}  // namespace piola::jst_sph
