@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/assembly.hpp"
-#include "piola/formulations/formulation.hpp"
+#include "piola/formulations/input.hpp"
 #include "piola/input/case_spec.hpp"
 #include <memory>
 #include <string>
@@ -13,16 +12,16 @@ struct Simulation {
   CaseSpec spec;
   ParticleSet particles;
   std::unique_ptr<Formulation> formulation;
-  std::string formulation_name;  ///< names of all bodies' formulations, joined with " + " if there are several
+  std::string formulation_name;  ///< of the bodies, joined with " + " if there are several
   double mass = 0;               ///< kg (per unit thickness or section in 2D and 1D)
   int threads = 1;
 };
 
-/// Particles, initial values and supports of a case. Throws InputError with every initial value that is not finite and every
-/// support that selects nothing.
-Assembly assemble(CaseSpec const& spec);
+/// What the formulation starts from: the formulas of a case evaluated at its particles. `particles` must outlive the result.
+FormulationInput formulation_input(CaseSpec const& spec, ParticleSet const& particles);
 
-/// Builds the whole simulation and sets the number of threads. Throws InputError.
+/// Builds the whole simulation and sets the number of threads. Throws InputError with all that is wrong with regions and
+/// formulas, and with what the formulation refuses.
 Simulation build(CaseSpec spec);
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/probes.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/input/check_case.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -34,10 +35,7 @@ std::vector<std::int64_t> nearest(ParticleSet const& particles, Body const& body
 }
 
 std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& body, ProbeSpec const& spec) {
-  std::vector<std::int64_t> ids;
-  for (std::int64_t id = body.first; id < body.last; ++id) {
-    if (!spec.where || (*spec.where)(particles.X[static_cast<std::size_t>(id)]) != 0) ids.push_back(id);
-  }
+  auto ids = select_particles(particles, body, spec.where ? &*spec.where : nullptr);
   if (ids.empty()) {
     throw InputError(fmt::format("probe '{}': where = \"{}\" selects no particle of body '{}' - widen the region", spec.name,
                                  spec.where ? spec.where->text() : "", body.name));
