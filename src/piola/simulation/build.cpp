@@ -2,6 +2,7 @@
 #include "piola/simulation/build.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/threads.hpp"
+#include "piola/formulations/make.hpp"
 #include "piola/input/check_case.hpp"
 #include <algorithm>
 
@@ -21,32 +22,26 @@ std::array<double, N> values_at(std::array<Expression, N> const& formulas, std::
   return out;
 }
 
-void set_initial_state(BodySpec const& from, Body const& body, FormulationInput& input) {
-  auto const& particles = *input.particles;
-  for_each_id(body, [&](std::size_t i) { input.velocity[i] = values_at(from.initial_velocity, particles.X[i]); });
+void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
+  auto const& X = a.particles.X;
+  for_each_id(body, [&](std::size_t i) { a.initial_velocity[i] = values_at(from.initial_velocity, X[i]); });
   if (from.initial_displacement) {
-    if (input.x.empty()) input.x = particles.X;
-    for_each_id(body, [&](std::size_t i) {
-      auto const u = values_at(*from.initial_displacement, particles.X[i]);
-      for (std::size_t c = 0; c < 3; ++c) input.x[i][c] += u[c];
-    });
+    a.initial_displacement.resize(X.size());
+    for_each_id(body, [&](std::size_t i) { a.initial_displacement[i] = values_at(*from.initial_displacement, X[i]); });
   }
   if (from.initial_deformation_gradient) {
     constexpr std::array<double, 9> identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
-    if (input.F.empty()) input.F.resize(particles.X.size(), identity);
-    for_each_id(body, [&](std::size_t i) { input.F[i] = values_at(*from.initial_deformation_gradient, particles.X[i]); });
+    if (a.initial_deformation_gradient.empty()) a.initial_deformation_gradient.resize(X.size(), identity);
+    for_each_id(body, [&](std::size_t i) { a.initial_deformation_gradient[i] = values_at(*from.initial_deformation_gradient, X[i]); });
   }
 }
 
-void add_support(SupportSpec const& support, FormulationInput& input) {
-  for (Body const& body : input.particles->bodies) {
-    if (body.name != support.body) continue;
-    for (std::int64_t id : select_particles(*input.particles, body, &support.where)) {
-      for (int c = 0; c < 3; ++c) {
-        if (support.fix[static_cast<std::size_t>(c)]) input.supports.push_back({id, c});
-      }
-    }
+Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
+  Support support{{}, spec.fix};
+  for (Body const& body : particles.bodies) {
+    if (body.name == spec.body) support.particles = select_particles(particles, body, &spec.where);
   }
+  return support;
 }
 
 double mass_of(MaterialParameters const& material, Body const& body, ParticleSet const& particles) {
@@ -71,33 +66,34 @@ std::string formulation_names(CaseSpec const& spec) {
 
 }  // namespace
 
-FormulationInput formulation_input(CaseSpec const& spec, ParticleSet const& particles) {
-  FormulationInput input;
-  input.particles = &particles;
-  input.cfl = spec.run.cfl;
-  input.machine = spec.run.machine;
-  input.velocity.resize(particles.X.size());
+Assembly assemble(CaseSpec const& spec) {
+  Assembly a;
+  a.particles = make_particles(spec);
+  Problems problems;
+  check_regions(spec, a.particles, problems);
+  problems.raise_if_any();
+  a.cfl = spec.run.cfl;
+  a.machine = spec.run.machine;
+  a.initial_velocity.resize(a.particles.X.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    input.material.push_back(spec.bodies[b].material);
-    input.formulation.push_back(spec.bodies[b].formulation);
-    set_initial_state(spec.bodies[b], particles.bodies[b], input);
+    a.materials.push_back(spec.bodies[b].material);
+    a.formulations.push_back(spec.bodies[b].formulation);
+    set_initial_state(spec.bodies[b], a.particles.bodies[b], a);
   }
-  for (SupportSpec const& support : spec.supports) add_support(support, input);
-  return input;
+  for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, a.particles));
+  return a;
 }
 
 Simulation build(CaseSpec spec) {
   Simulation simulation;
   simulation.threads = exec_host::set_threads(spec.run.threads);
-  simulation.particles = make_particles(spec);
-  Problems problems;
-  check_regions(spec, simulation.particles, problems);
-  problems.raise_if_any();
+  Assembly assembly = assemble(spec);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    simulation.mass += mass_of(spec.bodies[b].material, simulation.particles.bodies[b], simulation.particles);
+    simulation.mass += mass_of(assembly.materials[b], assembly.particles.bodies[b], assembly.particles);
   }
-  simulation.formulation = make_formulation(formulation_input(spec, simulation.particles));
+  simulation.formulation = make_formulation(assembly);
   simulation.formulation_name = formulation_names(spec);
+  simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);
   return simulation;
 }

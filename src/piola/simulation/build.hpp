@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/input.hpp"
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
 #include "piola/input/case_spec.hpp"
 #include <memory>
 #include <string>
@@ -17,11 +18,11 @@ struct Simulation {
   int threads = 1;
 };
 
-/// What the formulation starts from: the formulas of a case evaluated at its particles. `particles` must outlive the result.
-FormulationInput formulation_input(CaseSpec const& spec, ParticleSet const& particles);
+/// What the formulation is built from: the particles of a case, and its formulas evaluated there. Throws InputError with all
+/// that is wrong with regions and formulas.
+Assembly assemble(CaseSpec const& spec);
 
-/// Builds the whole simulation and sets the number of threads. Throws InputError with all that is wrong with regions and
-/// formulas, and with what the formulation refuses.
+/// Builds the whole simulation and sets the number of threads. Throws InputError, also for what the formulation refuses.
 Simulation build(CaseSpec spec);
 
 }  // namespace piola

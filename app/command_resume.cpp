@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/input/read_case.hpp"
+#include "piola/output/files.hpp"
+#include "run_support.hpp"
+#include <fmt/format.h>
+#include <memory>
+
+namespace piola::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  bool quiet = false;
+};
+
+int resume(Options const& options) {
+  std::filesystem::path const file = std::filesystem::path(options.folder) / "case.toml";
+  if (!std::filesystem::exists(file)) {
+    throw InputError(fmt::format("{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to", options.folder));
+  }
+  CaseSpec spec = read_case(file);
+  spec.source = read_text_file(file);  // to the letter: it is compared with the case in the checkpoint
+  Simulation simulation = build(std::move(spec));
+  return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false}, options.quiet);
+}
+
+}  // namespace
+
+void add_resume(CLI::App& program, Action& action) {
+  auto const options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("resume", "Continue a run from its newest checkpoint, bit for bit");
+  command->add_option("folder", options->folder, "The results folder of the run")->required();
+  command->add_flag("--quiet,-q", options->quiet, "Say nothing unless something is wrong");
+  command->callback([options, &action] { action = [options] { return resume(*options); }; });
+}
+
+}  // namespace piola::app

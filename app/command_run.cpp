@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.hpp"
+#include "piola/input/read_case.hpp"
+#include "piola/simulation/results_folder.hpp"
+#include "run_support.hpp"
+#include <memory>
+
+namespace piola::app {
+namespace {
+
+struct Options {
+  CaseOptions from;
+  std::string out;
+  bool force = false, quiet = false, no_pictures = false;
+};
+
+int run(Options const& options) {
+  auto const file = case_file(options.from.file);
+  CaseSpec spec = read_case(file, options.from.overrides());
+  if (options.no_pictures) spec.output.pictures_every = 0;
+  Simulation simulation = build(std::move(spec));
+  RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out), .resume = false, .force = options.force};
+  return run_and_report(simulation, where, options.quiet);
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Action& action) {
+  auto const options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("run", "Run a case: frames, history, pictures and checkpoints go to a results folder");
+  options->from.add_to(*command);
+  command->add_option("--out,-o", options->out, "Folder for the results (default: NAME-results in this folder)");
+  command->add_flag("--force", options->force, "Use the folder even if it holds other things");
+  command->add_flag("--no-pictures", options->no_pictures, "Draw no pictures");
+  command->add_flag("--quiet,-q", options->quiet, "Say nothing unless something is wrong");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace piola::app
