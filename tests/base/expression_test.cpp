@@ -140,8 +140,8 @@ TEST(Expression, ArithmeticAgreesWithCpp) {
 TEST(Expression, AnyTextIsAFormulaOrAnExpressionError) {
   EXPECT_TRUE(rc::check("random formulas", [] {
     auto const pieces = *rc::gen::container<std::vector<std::string>>(
-        rc::gen::element<std::string>("X", "t", "sin", "(", ")", "+", "-", "*", "/", "^", ",", "?", ":", "1", "2.5", "<",
-                                      "==", "&&", "!", "min", " ", "w", "=", "e"));
+        rc::gen::element<std::string>("X", "t", "sin", "(", ")", "+", "-", "*", "/", "^", ",", "?", ":", "1", "2.5",
+                                      "<", "==", "&&", "!", "min", " ", "w", "=", "e"));
     std::string text;
     for (std::string const& piece : pieces) text += piece;
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/contracts.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/version.hpp"
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "piola/base/text.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -33,9 +33,7 @@ TEST(Units, QuantitiesAreConvertedToSi) {
   EXPECT_DOUBLE_EQ(value_of("180 degree", "rad"), std::acos(-1.0));
 }
 
-TEST(Units, OffsetUnitsAreConvertedWithTheirOffset) {
-  EXPECT_DOUBLE_EQ(value_of("20 degC", "K"), 293.15);
-}
+TEST(Units, OffsetUnitsAreConvertedWithTheirOffset) { EXPECT_DOUBLE_EQ(value_of("20 degC", "K"), 293.15); }
 
 TEST(Units, AWrongUnitNamesWhatIsExpected) {
   EXPECT_EQ(problem_of("5 MPa", "m"), "\"5 MPa\" is not a length (expected a unit such as m)");
@@ -46,8 +44,8 @@ TEST(Units, AWrongUnitNamesWhatIsExpected) {
 }
 
 TEST(Units, WhatOnlyLooksLikeAQuantityIsRefused) {
-  for (std::string_view const text : {"", " ", "nan m", "inf", "-", "1e999 m", "10 6 m", "5 m m", "5 s since 2000-01-01",
-                                      "3 lg(re 1 m)", "5 m @ 3", "1,5 m", "0x10 m", "5 m\n"}) {
+  for (std::string_view const text : {"", " ", "nan m", "inf", "-", "1e999 m", "10 6 m", "5 m m",
+                                      "5 s since 2000-01-01", "3 lg(re 1 m)", "5 m @ 3", "1,5 m", "0x10 m", "5 m\n"}) {
     EXPECT_TRUE(read_quantity(text, "m").problem) << text;
   }
 }

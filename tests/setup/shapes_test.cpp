@@ -48,10 +48,10 @@ TEST(Shapes, IdsRunAlongXThenYThenZ) {
 
 TEST(Shapes, TributaryVolumesAreHalvedAtFacesEdgesAndCorners) {
   ParticleSet const set = filled(box({0, 0, 0}, {2, 2, 2}, {3, 3, 3}));
-  EXPECT_DOUBLE_EQ(set.volume[0], 1.0 / 8);   // corner
-  EXPECT_DOUBLE_EQ(set.volume[1], 1.0 / 4);   // edge
-  EXPECT_DOUBLE_EQ(set.volume[4], 1.0 / 2);   // face
-  EXPECT_DOUBLE_EQ(set.volume[13], 1.0);      // middle
+  EXPECT_DOUBLE_EQ(set.volume[0], 1.0 / 8);  // corner
+  EXPECT_DOUBLE_EQ(set.volume[1], 1.0 / 4);  // edge
+  EXPECT_DOUBLE_EQ(set.volume[4], 1.0 / 2);  // face
+  EXPECT_DOUBLE_EQ(set.volume[13], 1.0);     // middle
   for (double const volume : set.kernel_volume) EXPECT_DOUBLE_EQ(volume, 1);
 }
 
@@ -163,7 +163,8 @@ TEST(Shapes, JitterMovesOnlyInnerParticlesAndIsTheSameForASeed) {
                 line.jitter = 0.3;
                 line.seed = 5489;
                 return line;
-              }()).X[0][0],
+              }())
+                  .X[0][0],
               1.0 / 3 + 0.3 * (2.0 / 3) * ((3499211612.0 + 0.5) / 2147483648.0 - 1), 1e-15);
 }
 

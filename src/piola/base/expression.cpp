@@ -30,18 +30,30 @@ double negation(double value) { return value == 0 ? 1 : 0; }
 void define_functions(mu::Parser& parser) {
   parser.ClearFun();
   parser.ClearConst();
-  parser.DefineFun("sin", +[](double x) { return std::sin(x); });
-  parser.DefineFun("cos", +[](double x) { return std::cos(x); });
-  parser.DefineFun("tan", +[](double x) { return std::tan(x); });
-  parser.DefineFun("asin", +[](double x) { return std::asin(x); });
-  parser.DefineFun("acos", +[](double x) { return std::acos(x); });
-  parser.DefineFun("atan", +[](double x) { return std::atan(x); });
-  parser.DefineFun("atan2", +[](double y, double x) { return std::atan2(y, x); });
-  parser.DefineFun("exp", +[](double x) { return std::exp(x); });
-  parser.DefineFun("log", +[](double x) { return std::log(x); });
-  parser.DefineFun("sqrt", +[](double x) { return std::sqrt(x); });
-  parser.DefineFun("abs", +[](double x) { return std::abs(x); });
-  parser.DefineFun("pow", +[](double x, double y) { return std::pow(x, y); });
+  parser.DefineFun(
+      "sin", +[](double x) { return std::sin(x); });
+  parser.DefineFun(
+      "cos", +[](double x) { return std::cos(x); });
+  parser.DefineFun(
+      "tan", +[](double x) { return std::tan(x); });
+  parser.DefineFun(
+      "asin", +[](double x) { return std::asin(x); });
+  parser.DefineFun(
+      "acos", +[](double x) { return std::acos(x); });
+  parser.DefineFun(
+      "atan", +[](double x) { return std::atan(x); });
+  parser.DefineFun(
+      "atan2", +[](double y, double x) { return std::atan2(y, x); });
+  parser.DefineFun(
+      "exp", +[](double x) { return std::exp(x); });
+  parser.DefineFun(
+      "log", +[](double x) { return std::log(x); });
+  parser.DefineFun(
+      "sqrt", +[](double x) { return std::sqrt(x); });
+  parser.DefineFun(
+      "abs", +[](double x) { return std::abs(x); });
+  parser.DefineFun(
+      "pow", +[](double x, double y) { return std::pow(x, y); });
   parser.DefineFun("min", minimum);
   parser.DefineFun("max", maximum);
   parser.DefineInfixOprt("!", negation);
@@ -124,7 +136,8 @@ void refuse_characters(std::string const& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (is_word_character(text[i]) || marks.find(text[i]) != std::string_view::npos) continue;
     bool const printable = text[i] > ' ' && text[i] < 0x7f;
-    fail((printable ? in_quotes(text.substr(i, 1)) : "a character outside ASCII") + std::string(" cannot stand in a formula"),
+    fail((printable ? in_quotes(text.substr(i, 1)) : "a character outside ASCII") +
+             std::string(" cannot stand in a formula"),
          i);
   }
 }
@@ -237,9 +250,9 @@ struct Expression::Compiled {
       target.Eval(results);
       if (results != 1) throw ExpressionError{"a comma is not expected here: a formula has one value", 0};
     } catch (mu::Parser::exception_type const& error) {
-      int const position = error.GetPos();
-      bool const inside = position >= 0 && static_cast<std::size_t>(position) <= longest_text;
-      throw ExpressionError{explain(error), inside ? position + 1 : 0};
+      // muParser ends its own copy of the formula with a space.
+      int const position = error.GetPos(), size = static_cast<int>(target.GetExpr().size()) - 1;
+      throw ExpressionError{explain(error), position < 0 ? 0 : std::min(position, size) + 1};
     }
   }
 };

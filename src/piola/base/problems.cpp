@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
+#include <algorithm>
+#include <numeric>
 
 namespace piola {
 namespace {
@@ -16,6 +18,23 @@ std::string place_text(Place const& place) {
 void Problems::add(Place const& place, std::string text) {
   std::string const where = place_text(place);
   lines_.push_back(where.empty() ? std::move(text) : where + ": " + text);
+  places_.push_back(place);
+}
+
+void Problems::sort_by_place() {
+  std::vector<std::size_t> order(lines_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(places_[a].line, places_[a].column) < std::pair(places_[b].line, places_[b].column);
+  });
+  std::vector<std::string> lines;
+  std::vector<Place> places;
+  for (std::size_t const i : order) {
+    lines.push_back(std::move(lines_[i]));
+    places.push_back(std::move(places_[i]));
+  }
+  lines_ = std::move(lines);
+  places_ = std::move(places);
 }
 
 void Problems::raise_if_any() const {

@@ -21,11 +21,14 @@ class Problems {
   bool empty() const { return lines_.empty(); }
   std::size_t count() const { return lines_.size(); }
   std::vector<std::string> const& lines() const { return lines_; }  ///< "file:line:column: text", in order of adding
+  /// Puts the lines into the order of the file; those without a position come first.
+  void sort_by_place();
   /// Throws InputError with every line if there is any problem.
   void raise_if_any() const;
 
  private:
   std::vector<std::string> lines_;
+  std::vector<Place> places_;
 };
 
 /// The user's input cannot be used. what() is the whole message, one problem per line. Exit code 2.

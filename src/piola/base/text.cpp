@@ -9,8 +9,7 @@
 namespace piola {
 namespace {
 
-template <class Word>
-std::string join(std::span<Word const> words, std::string_view separator) {
+template <class Word> std::string join(std::span<Word const> words, std::string_view separator) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += separator;
@@ -29,9 +28,12 @@ std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (char const c : text.substr(0, longest)) {
     auto const byte = static_cast<unsigned char>(c);
-    if (c == '\n') out += "\\n";
-    else if (byte < 0x20 || byte == 0x7f) out += fmt::format("\\x{:02x}", byte);
-    else out += c;
+    if (c == '\n')
+      out += "\\n";
+    else if (byte < 0x20 || byte == 0x7f)
+      out += fmt::format("\\x{:02x}", byte);
+    else
+      out += c;
   }
   // A cut in the middle of a UTF-8 character would leave a broken one behind.
   if (text.size() > longest) {
@@ -82,6 +84,17 @@ std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::
 std::string advice_for_name(std::string_view wanted, std::span<std::string const> known) {
   if (auto const near = nearest_name(wanted, known)) return "did you mean " + in_quotes(*near) + "?";
   return "choose one of these";
+}
+
+std::string known_names_text(std::string_view wanted, std::span<std::string const> known) {
+  constexpr std::size_t few = 24, shown = 8;
+  if (known.size() <= few) return joined(known);
+  std::vector<std::string> nearest(known.begin(), known.end());
+  std::stable_sort(nearest.begin(), nearest.end(), [&](std::string const& a, std::string const& b) {
+    return edit_distance(wanted.substr(0, 64), a) < edit_distance(wanted.substr(0, 64), b);
+  });
+  nearest.resize(shown);
+  return joined(nearest) + " and " + std::to_string(known.size() - shown) + " more";
 }
 
 bool is_name(std::string_view text) {

@@ -27,6 +27,9 @@ std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::
 /// What to do about an unknown word: 'did you mean "x"?' or, if no word is near, 'choose one of these'.
 std::string advice_for_name(std::string_view wanted, std::span<std::string const> known);
 
+/// The known words for a message about `wanted`: all of them if they are few, else the nearest ones and how many more.
+std::string known_names_text(std::string_view wanted, std::span<std::string const> known);
+
 /// Whether the text is a name: letters, digits and underscores, not starting with a digit, at most 64 characters.
 bool is_name(std::string_view text);
 

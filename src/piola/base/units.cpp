@@ -129,7 +129,8 @@ Quantity convert(std::string_view text, Split const& parts, ut_unit const* from,
     return failed(in_quotes(text) + " is not " + dimension_noun(si_unit) + " " + unit_advice(si_unit));
   }
   double const value = cv_convert_double(converter.get(), *parts.number);
-  if (!std::isfinite(value)) return failed(in_quotes(text) + " is too large for a number (at most 1.8e308 in SI units)");
+  if (!std::isfinite(value))
+    return failed(in_quotes(text) + " is too large for a number (at most 1.8e308 in SI units)");
   return {value, std::nullopt};
 }
 
@@ -166,8 +167,8 @@ std::string bad_number(std::string_view text, std::string_view expected) {
 }  // namespace
 
 std::string dimension_noun(std::string_view si_unit) {
-  auto const* const found = std::find_if(dimensions.begin(), dimensions.end(),
-                                         [&](Dimension const& d) { return d.unit == si_unit; });
+  auto const* const found =
+      std::find_if(dimensions.begin(), dimensions.end(), [&](Dimension const& d) { return d.unit == si_unit; });
   if (found != dimensions.end()) return std::string(found->noun);
   return "a quantity in " + std::string(si_unit);
 }
@@ -175,10 +176,11 @@ std::string dimension_noun(std::string_view si_unit) {
 Quantity read_quantity(std::string_view text, std::string_view si_unit) {
   Split const parts = split(text);
   if (!parts.number) {
-    return failed(bad_number(text, si_unit == "1" ? "a number such as 0.5"
-                                                  : "a text such as \"2 " + std::string(si_unit) + "\""));
+    return failed(bad_number(
+        text, si_unit == "1" ? "a number such as 0.5" : "a text such as \"2 " + std::string(si_unit) + "\""));
   }
-  if (parts.too_large) return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
+  if (parts.too_large)
+    return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
   if (parts.unit.empty()) return {*parts.number, std::nullopt};
   std::lock_guard const lock(library_lock());
   Unit const to = parse_unit(si_unit);
@@ -191,14 +193,16 @@ Quantity read_quantity(std::string_view text, std::string_view si_unit) {
 Quantity read_any_quantity(std::string_view text) {
   Split const parts = split(text);
   if (!parts.number) return failed(bad_number(text, "a text such as \"105 rad/s\""));
-  if (parts.too_large) return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
+  if (parts.too_large)
+    return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
   if (parts.unit.empty()) return {*parts.number, std::nullopt};
   std::lock_guard const lock(library_lock());
   Unit const from = parse_unit(parts.unit);
   std::string base;
   bool const known = from && ut_accept_visitor(from.get(), &base_units, &base) == UT_SUCCESS;
   Unit const to = known ? parse_unit(base) : nullptr;
-  if (!to) return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit (expected one such as m/s)");
+  if (!to)
+    return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit (expected one such as m/s)");
   return convert(text, parts, from.get(), to.get(), base);
 }
 

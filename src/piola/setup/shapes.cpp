@@ -55,8 +55,8 @@ Lattice round_lattice(ShapeSpec const& shape) {
     int const n = cells_over(length, shape.spacing);
     lattice.count[i] = n;
     lattice.spacing[i] = along ? length / n : shape.spacing;
-    lattice.first[i] = along ? shape.centre[i] + lattice.spacing[i] / 2
-                             : shape.centre[i] - 0.5 * (n - 1) * lattice.spacing[i];
+    lattice.first[i] =
+        along ? shape.centre[i] + lattice.spacing[i] / 2 : shape.centre[i] - 0.5 * (n - 1) * lattice.spacing[i];
   }
   return lattice;
 }
@@ -85,8 +85,10 @@ Rows inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
   std::int64_t low = 0, high = middle;  // the first inside index is in [low, high]
   while (low < high) {
     std::int64_t const half = (low + high) / 2;
-    if (inside(half)) high = half;
-    else low = half + 1;
+    if (inside(half))
+      high = half;
+    else
+      low = half + 1;
   }
   return {low, n - low};
 }

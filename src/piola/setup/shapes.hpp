@@ -14,16 +14,17 @@ struct ShapeSpec {
   enum class Placement { on_boundary, cell_centred };
   Kind kind = Kind::box;
   int dimension = 3;
-  std::array<double, 3> min{}, max{};    ///< box
-  std::array<double, 3> centre{};        ///< sphere (2D: disc); cylinder: centre of the lower end
-  double radius = 0;                     ///< sphere, cylinder
-  double length = 0;                     ///< cylinder
-  int axis = 2;                          ///< cylinder: 0 x, 1 y, 2 z
-  std::array<int, 3> particles{1, 1, 1}; ///< box: particles per direction (already derived from spacing if that was given)
-  double spacing = 0;                    ///< sphere, cylinder
+  std::array<double, 3> min{}, max{};  ///< box
+  std::array<double, 3> centre{};      ///< sphere (2D: disc); cylinder: centre of the lower end
+  double radius = 0;                   ///< sphere, cylinder
+  double length = 0;                   ///< cylinder
+  int axis = 2;                        ///< cylinder: 0 x, 1 y, 2 z
+  std::array<int, 3> particles{1, 1,
+                               1};  ///< box: particles per direction (already derived from spacing if that was given)
+  double spacing = 0;               ///< sphere, cylinder
   Placement placement = Placement::on_boundary;  ///< box; sphere and cylinder are cell centred
-  double jitter = 0;                     ///< random shift of each inner particle, as a fraction of the spacing
-  std::uint32_t seed = 1;                ///< of the jitter
+  double jitter = 0;                             ///< random shift of each inner particle, as a fraction of the spacing
+  std::uint32_t seed = 1;                        ///< of the jitter
 };
 
 /// Number of particles that `fill` would create, without creating them: exact for a box and up to about 1e8, an estimate beyond.

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/expression.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/registry.hpp"
+#include "piola/materials/registry.hpp"
+#include "piola/setup/shapes.hpp"
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// Where the keys of a section stand in the case file, for messages that are found out later. "" is the section itself.
+using Places = std::map<std::string, Place, std::less<>>;
+
+/// [run]
+struct RunSpec {
+  double end = 0;                                             ///< s
+  double cfl = std::numeric_limits<double>::quiet_NaN();      ///< nan: the scheme's default
+  double max_step = std::numeric_limits<double>::infinity();  ///< s, upper bound of the step
+  double min_step = 0;           ///< s; a smaller stable step is a failure (0: 1e-6 of the first step)
+  int threads = 0;               ///< 0: all cores
+  std::string machine = "auto";  ///< instruction set: auto, scalar, v2, v3, v4
+};
+
+/// [[body]]
+struct BodySpec {
+  std::string name;
+  ShapeSpec shape;
+  MaterialParameters material;
+  std::string law;
+  FormulationSpec formulation;
+  std::array<Expression, 3> initial_velocity;                             ///< m/s
+  std::optional<std::array<Expression, 3>> initial_displacement;          ///< m
+  std::optional<std::array<Expression, 9>> initial_deformation_gradient;  ///< row by row
+  Places places;
+};
+
+/// [[support]]: components held at zero velocity for the particles that `where` selects.
+struct SupportSpec {
+  std::string body;
+  Expression where;
+  std::array<bool, 3> fix{};
+  Places places;
+};
+
+/// [[probe]]: one or more columns NAME.quantity in history.csv.
+struct ProbeSpec {
+  enum class Kind { point, average, maximum, minimum, twist, extent };
+  std::string name;
+  std::string body;
+  Kind kind = Kind::point;
+  std::array<double, 3> at{};           ///< point: the nearest particle is used [m]
+  std::optional<Expression> where;      ///< the others: particles that count (default all)
+  int axis = 1;                         ///< twist, extent: 0 x, 1 y, 2 z
+  std::vector<std::string> quantities;  ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent"
+  Places places;
+};
+
+/// [[quantity]]: a number of summary.json, taken from a column of history.csv.
+struct QuantitySpec {
+  enum class Take {
+    maximum,
+    minimum,
+    final_value,
+    initial_value,
+    first_peak,
+    time_of_first_peak,
+    time_of_maximum,
+    time_of_minimum,
+    first_time_above,
+    first_time_below,
+    mean_absolute_difference,
+    at_time
+  };
+  std::string name;
+  std::string column;
+  Take take = Take::maximum;
+  double threshold = 0;                 ///< first_time_above, first_time_below [SI]
+  double time = 0;                      ///< at_time [s]
+  std::optional<Expression> reference;  ///< mean_absolute_difference: formula in t
+  std::string unit = "1";               ///< as shown
+};
+
+/// [output]; times in s, 0 = never. Output falls on the first step at or after each multiple.
+struct OutputSpec {
+  double frames_every = 0;
+  std::vector<std::string> frame_fields;  ///< empty: the formulation's default list
+  double history_every = 0;               ///< 0: a five-hundredth of the run
+  double checkpoints_every = 0;           ///< also written at the end, on a signal, on failure
+  double pictures_every = 0;
+  std::string picture_field = "Pressure";
+  std::optional<std::array<double, 2>> picture_range;  ///< SI; otherwise from the data
+  std::array<double, 2> picture_view{30, 20};          ///< azimuth, elevation [deg]
+  int picture_width = 1000, picture_height = 800;
+  bool compress = true;
+};
+
+/// A whole case: plain values in SI, checked.
+struct CaseSpec {
+  std::string title;
+  std::string source;  ///< the case file as run: overrides applied, TOML
+  RunSpec run;
+  std::vector<BodySpec> bodies;
+  std::vector<SupportSpec> supports;
+  std::vector<ProbeSpec> probes;
+  std::vector<QuantitySpec> quantities;
+  OutputSpec output;
+};
+
+}  // namespace piola

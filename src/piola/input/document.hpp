@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/problems.hpp"
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// One value of a case file and where it stands. Tables keep their entries in the order of the file.
+struct Node {
+  enum class Kind { table, array, text, integer, real, flag, date };
+  struct Entry;
+
+  Kind kind = Kind::table;
+  Place place;
+  std::string text;            ///< text; date: as it is written
+  int text_offset = 0;         ///< columns from `place` to the first character of a text; 0 if it cannot be told
+  std::int64_t integer = 0;    ///< integer
+  double real = 0;             ///< real
+  bool flag = false;           ///< flag
+  std::vector<Entry> entries;  ///< table
+  std::vector<Node> items;     ///< array
+
+  bool is_table() const { return kind == Kind::table; }
+  bool is_array() const { return kind == Kind::array; }
+  bool is_text() const { return kind == Kind::text; }
+  bool is_number() const { return kind == Kind::integer || kind == Kind::real; }
+  double number() const { return kind == Kind::integer ? static_cast<double>(integer) : real; }
+
+  /// The entry with this key; null if there is none.
+  Node const* find(std::string_view key) const;
+  Node* find(std::string_view key);
+};
+
+struct Node::Entry {
+  std::string key;
+  Place place;  ///< of the key
+  Node value;
+};
+
+/// A case file before anybody asks what it means.
+struct Document {
+  Node root;
+  std::string source;  ///< TOML that reads back as this document: the file itself, or rewritten after overrides
+};
+
+/// Reads TOML. Never throws on bad text: what is wrong goes to `problems`, and nothing is returned. Refused besides bad
+/// TOML: NUL bytes, more than 4 MB, keys with more than 64 dots.
+std::optional<Document> parse_document(std::string_view text, std::string const& name, Problems& problems);
+
+/// Applies "path=value" settings to a document: a dotted path of keys, with the number or the name of an array's table
+/// ("body.0.material.density", "body.column.material.density"), and a TOML value; a value that is no TOML is a text.
+/// Places of changed values name the setting. Rewrites `source` if there are any.
+void apply_overrides(Document& document, std::span<std::string const> overrides, Problems& problems);
+
+/// TOML text of a table, entries in their order.
+std::string toml_text(Node const& root);
+
+}  // namespace piola

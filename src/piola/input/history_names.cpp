@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/history_names.hpp"
+#include <array>
+
+namespace piola {
+namespace {
+
+constexpr std::array columns{
+    HistoryName{"time", "s"},
+    HistoryName{"step", "1"},
+    HistoryName{"dt", "s"},
+    HistoryName{"kinetic_energy", "J"},
+    HistoryName{"strain_energy", "J"},
+    HistoryName{"total_energy", "J"},
+    HistoryName{"stabilisation_loss", "J"},
+    HistoryName{"external_work", "J"},
+    HistoryName{"linear_momentum_x", "kg m/s"},
+    HistoryName{"linear_momentum_y", "kg m/s"},
+    HistoryName{"linear_momentum_z", "kg m/s"},
+    HistoryName{"angular_momentum_x", "kg m^2/s"},
+    HistoryName{"angular_momentum_y", "kg m^2/s"},
+    HistoryName{"angular_momentum_z", "kg m^2/s"},
+    HistoryName{"jacobian_min", "1"},
+    HistoryName{"jacobian_max", "1"},
+    HistoryName{"pressure_min", "Pa"},
+    HistoryName{"pressure_max", "Pa"},
+    HistoryName{"pressure_oscillation", "1"},
+    HistoryName{"projection_loss", "J"},
+};
+
+constexpr std::array fields{
+    FieldName{"Displacement", "m"},
+    FieldName{"Velocity", "m/s"},
+    FieldName{"Momentum", "kg/m^2/s"},
+    FieldName{"Pressure", "Pa"},
+    FieldName{"CauchyStress", "Pa"},
+    FieldName{"FirstPiolaStress", "Pa"},
+    FieldName{"DeformationGradient", "1"},
+    FieldName{"Jacobian", "1"},
+    FieldName{"VonMisesStress", "Pa"},
+    FieldName{"Body", "1"},
+    FieldName{"Id", "1"},
+};
+
+}  // namespace
+
+std::span<HistoryName const> history_names() { return columns; }
+std::span<FieldName const> field_names() { return fields; }
+
+}  // namespace piola

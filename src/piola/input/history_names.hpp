@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// A column that every history.csv has.
+struct HistoryName {
+  std::string_view name;
+  std::string_view unit;  ///< SI, UDUNITS notation
+};
+std::span<HistoryName const> history_names();
+
+/// A field that every formulation can write, as frames and pictures name it.
+struct FieldName {
+  std::string_view name;
+  std::string_view unit;
+};
+std::span<FieldName const> field_names();
+
+}  // namespace piola

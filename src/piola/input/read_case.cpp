@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/read_case.hpp"
+#include "piola/base/text.hpp"
+#include "piola/input/check_case.hpp"
+#include "piola/input/sections.hpp"
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <unistd.h>
+
+namespace piola {
+namespace {
+
+/// The tables of a list such as [[body]]; a problem if it is no such list.
+std::vector<Section> tables_of(Section const& top, std::string_view key) {
+  std::vector<Section> tables;
+  auto const value = top.find(key);
+  if (!value) return tables;
+  std::string const heading = "[[" + std::string(key) + "]]";
+  if (!value->node.is_array()) {
+    top.problems().add(value->node.place, std::string(key) + " is " + shown(value->node) +
+                                              " (allowed: a list of tables) - write " + heading);
+    return tables;
+  }
+  for (Node const& item : value->node.items) {
+    if (item.is_table())
+      tables.emplace_back(item, std::string(key), top.problems());
+    else
+      top.problems().add(item.place,
+                         std::string(key) + " holds " + shown(item) + " (allowed: tables) - write " + heading);
+  }
+  if (value->node.items.empty() && key_info("", key).required()) {
+    top.problems().add(value->node.place, "the case has no " + std::string(key) + " - add " + heading);
+  }
+  return tables;
+}
+
+/// Names that are given twice, by the sections that give them again.
+template <class Spec>
+void refuse_twins(std::vector<Section> const& sections, std::vector<Spec> const& specs, std::string const& what) {
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (specs[i].name.empty() || specs[i].name != specs[j].name) continue;
+      sections[i].problems().add(sections[i].place_of("name"), "the name " + in_quotes(specs[i].name) +
+                                                                   " is taken by another " + what + " (allowed: one " +
+                                                                   what + " per name) - choose another name");
+      break;
+    }
+  }
+}
+
+bool same(FormulationSpec const& a, FormulationSpec const& b) {
+  return a.name == b.name && a.numbers == b.numbers && a.words == b.words;
+}
+
+// One formulation moves all bodies, and one dimension holds for all of them.
+void check_bodies_together(std::vector<Section> const& sections, std::vector<BodySpec> const& bodies) {
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    Problems& problems = sections[i].problems();
+    if (bodies[i].shape.dimension != bodies[0].shape.dimension) {
+      problems.add(sections[i].place_of("shape"),
+                   "body " + in_quotes(bodies[i].name) + " is in " + std::to_string(bodies[i].shape.dimension) +
+                       "D, body " + in_quotes(bodies[0].name) + " in " + std::to_string(bodies[0].shape.dimension) +
+                       "D (allowed: one dimension for all) - give all shapes as many components");
+    }
+    if (!same(bodies[i].formulation, bodies[0].formulation)) {
+      problems.add(sections[i].place_of("formulation"),
+                   "body " + in_quotes(bodies[i].name) + " has another formulation or other settings than body " +
+                       in_quotes(bodies[0].name) + " (allowed: one formulation for all bodies)");
+    }
+  }
+}
+
+double memory_of_machine() {
+  long const pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
+  return pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 1e300;
+}
+
+void check_size(std::vector<Section> const& sections, CaseSpec const& spec, ReadLimits const& limits) {
+  double total = 0;
+  for (BodySpec const& body : spec.bodies) total += static_cast<double>(count_particles(body.shape));
+  if (sections.empty()) return;
+  Section const& first = sections.front();
+  std::string const count = total < 1e15 ? count_text(static_cast<std::int64_t>(total)) : number_text(total, 3);
+  double const bytes = total * least_bytes_per_particle;
+  if (total > static_cast<double>(limits.particles)) {
+    first.problems().add(first.place_of("shape"), "the case has " + count + " particles (allowed: at most " +
+                                                      count_text(limits.particles) + ") - use a larger spacing");
+  } else if (limits.memory && bytes > memory_of_machine()) {
+    first.problems().add(first.place_of("shape"), "the case has " + count + " particles, which need at least " +
+                                                      size_text(bytes) +
+                                                      " of memory (allowed: " + size_text(memory_of_machine()) +
+                                                      ", what this machine has) - use a larger spacing");
+  }
+}
+
+void read_bodies(Section const& top, CaseSpec& spec, std::vector<BodyNames>& names, ReadLimits const& limits) {
+  std::map<std::string, double> constants;
+  if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
+  std::size_t const before = top.problems().count();
+  std::vector<Section> const sections = tables_of(top, "body");
+  for (Section const& section : sections) spec.bodies.push_back(read_body(section, constants, names.emplace_back()));
+  refuse_twins(sections, spec.bodies, "body");
+  if (top.problems().count() > before) return;
+  check_bodies_together(sections, spec.bodies);
+  check_size(sections, spec, limits);
+}
+
+CaseSpec read_document(Document const& document, Problems& problems, ReadLimits const& limits) {
+  Section const top(document.root, "", problems);
+  CaseSpec spec;
+  spec.source = document.source;
+  top.read("title", spec.title);
+  if (auto const run = top.table("run")) read_run(*run, spec.run);
+  std::vector<BodyNames> names;
+  read_bodies(top, spec, names, limits);
+  for (Section const& section : tables_of(top, "support")) spec.supports.push_back(read_support(section, names));
+  std::vector<Section> const probes = tables_of(top, "probe");
+  for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
+  refuse_twins(probes, spec.probes, "probe");
+  std::vector<Section> const quantities = tables_of(top, "quantity");
+  for (Section const& section : quantities) spec.quantities.push_back(read_quantity_section(section, spec.probes));
+  refuse_twins(quantities, spec.quantities, "quantity");
+  if (auto const output = top.table("output")) read_output(*output, spec.output);
+  top.refuse_unknown();
+  return spec;
+}
+
+std::string content_of(std::filesystem::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be read - check the name and the permissions");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+CaseSpec read_case_text(std::string_view text, std::string const& name, std::vector<std::string> const& overrides,
+                        ReadLimits const& limits) {
+  Problems problems;
+  auto document = parse_document(text, name, problems);
+  if (document) {
+    // Places that only say "somewhere in the file" are better without a position.
+    document->root.place = {name, 0, 0};
+    apply_overrides(*document, overrides, problems);
+  }
+  problems.raise_if_any();
+  CaseSpec spec = read_document(*document, problems, limits);
+  if (problems.empty()) check_regions(spec, make_particles(spec), problems);
+  problems.sort_by_place();
+  problems.raise_if_any();
+  return spec;
+}
+
+CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides,
+                   ReadLimits const& limits) {
+  std::filesystem::path const file = std::filesystem::is_directory(path) ? path / "case.toml" : path;
+  return read_case_text(content_of(file), file.string(), overrides, limits);
+}
+
+}  // namespace piola

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/case_spec.hpp"
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// What a case may ask for at most.
+struct ReadLimits {
+  std::int64_t particles = 2147483647;  ///< of all bodies together; Ids fit in 32 bits
+  bool memory = true;                   ///< refuse cases that cannot fit into the memory of this machine
+};
+
+/// Bytes per particle that a run needs at least; used to refuse hopeless cases before any particle is made.
+inline constexpr double least_bytes_per_particle = 500;
+
+/// Reads and checks a case file, or the case.toml of a folder (docs/user/case-file.md). `overrides` are settings "path=value" that replace values of the
+/// file (see apply_overrides). Throws InputError with every problem that was found, each "file:line:column: what is
+/// wrong (what is allowed) - what to do", in the order of the file, or that the file cannot be read.
+CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides = {},
+                   ReadLimits const& limits = {});
+
+/// The same for a text; `name` stands for the file in messages.
+CaseSpec read_case_text(std::string_view text, std::string const& name, std::vector<std::string> const& overrides = {},
+                        ReadLimits const& limits = {});
+
+}  // namespace piola

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
+#include "piola/formulations/quantity_names.hpp"
+#include "piola/input/history_names.hpp"
+#include "piola/input/sections.hpp"
+#include <algorithm>
+#include <array>
+
+namespace piola {
+namespace {
+
+using Kind = ProbeSpec::Kind;
+using Take = QuantitySpec::Take;
+
+/// The body that a section names; null (and a problem) if there is none.
+BodyNames const* find_body(Section const& section, std::vector<BodyNames> const& bodies, std::string& name) {
+  if (!section.read("body", name)) return nullptr;
+  std::vector<std::string> known;
+  for (BodyNames const& body : bodies) {
+    if (body.name == name) return &body;
+    if (!body.name.empty()) known.push_back(body.name);
+  }
+  section.problems().add(section.place_of("body"), section.name_of("body") + " is " + in_quotes(name) + " (allowed: " +
+                                                       joined(known) + ") - " + advice_for_name(name, known));
+  return nullptr;
+}
+
+/// Index of a word in the table of keys: the order there is that of the enumerators.
+int number_of_word(Section const& section, std::string const& full, std::string_view key) {
+  std::string word;
+  if (!section.read(key, word)) return -1;
+  auto const words = key_info(full, key).words;
+  return static_cast<int>(std::find(words.begin(), words.end(), std::string_view(word)) - words.begin());
+}
+
+void remember_places(Section const& section, std::initializer_list<char const*> keys, Places& places) {
+  places[""] = section.place();
+  for (char const* key : keys) places[key] = section.place_of(key);
+}
+
+void refuse_key(Section const& section, std::string_view key, std::string const& reason) {
+  if (section.has(key))
+    section.problems().add(section.place_of(key), section.name_of(key) + " " + reason + " - remove it");
+}
+
+void read_point(Section const& section, int dimension, ProbeSpec& probe) {
+  if (!section.has("at")) {
+    section.report_missing("at", "the point of the probe", "at = [\"0 m\", ...]");
+    return;
+  }
+  auto const at = section.point("at");
+  if (!at) return;
+  if (static_cast<int>(at->size()) != dimension) {
+    section.problems().add(section.place_of("at"), "probe.at has " + std::to_string(at->size()) +
+                                                       " components (allowed: " + std::to_string(dimension) +
+                                                       ", the dimension of the body)");
+    return;
+  }
+  std::copy(at->begin(), at->end(), probe.at.begin());
+}
+
+void read_quantities(Section const& section, ProbeSpec& probe) {
+  std::vector<std::string> known;
+  for (FieldQuantity const& quantity : all_quantities()) known.push_back(quantity.name);
+  bool const whole = probe.kind == Kind::twist || probe.kind == Kind::extent;
+  if (whole) known = {std::string(probe.kind == Kind::twist ? twist_quantity : extent_quantity)};
+  auto const value = section.find("quantities");
+  if (!value) {
+    if (whole)
+      probe.quantities = known;
+    else
+      section.report_missing("quantities", "what to record, for example velocity_x or pressure",
+                             "quantities = [\"pressure\"]");
+    return;
+  }
+  auto const items = read_list(*value, 1, 100, section.problems());
+  if (!items) return;
+  for (Value const& item : *items) {
+    if (auto const quantity = read_word(item, known, section.problems())) probe.quantities.push_back(*quantity);
+  }
+}
+
+void check_axis(Section const& section, int dimension, ProbeSpec const& probe) {
+  bool const twist = probe.kind == Kind::twist;
+  bool const bad_twist = twist && (dimension == 1 || (dimension == 2 && probe.axis != 2));
+  bool const bad_extent = probe.kind == Kind::extent && probe.axis >= dimension;
+  if (!bad_twist && !bad_extent) return;
+  section.problems().add(section.place_of("axis"), std::string("probe.axis does not fit a body in ") +
+                                                       std::to_string(dimension) + "D (allowed: " +
+                                                       (bad_extent       ? dimension == 1 ? "x" : "x, y"
+                                                        : dimension == 2 ? "z"
+                                                                         : "no twist in 1D") +
+                                                       ")");
+}
+
+struct Column {
+  std::string name, unit;
+};
+
+std::string unit_of_probe_quantity(std::string const& quantity) {
+  if (quantity == twist_quantity) return "rad";
+  if (quantity == extent_quantity) return "m";
+  auto const found = find_quantity(quantity);
+  return found ? found->unit : "1";
+}
+
+std::vector<Column> columns_of(std::vector<ProbeSpec> const& probes) {
+  std::vector<Column> columns;
+  for (HistoryName const& column : history_names())
+    columns.push_back({std::string(column.name), std::string(column.unit)});
+  for (ProbeSpec const& probe : probes) {
+    for (std::string const& quantity : probe.quantities) {
+      columns.push_back({probe.name + "." + quantity, unit_of_probe_quantity(quantity)});
+    }
+  }
+  return columns;
+}
+
+/// The unit of the column; nothing (and a problem) if no such column will be written.
+std::optional<std::string> read_column(Section const& section, std::vector<ProbeSpec> const& probes,
+                                       std::string& name) {
+  if (!section.read("column", name)) return std::nullopt;
+  std::vector<std::string> known;
+  for (Column const& column : columns_of(probes)) {
+    if (column.name == name) return column.unit;
+    known.push_back(column.name);
+  }
+  section.problems().add(
+      section.place_of("column"),
+      "quantity.column is " + in_quotes(name) + " (allowed: " + known_names_text(name, known) + ") - " +
+          (nearest_name(name, known) ? advice_for_name(name, known) : "add a [[probe]] that records it"));
+  return std::nullopt;
+}
+
+bool takes_time(Take take) {
+  return take == Take::time_of_first_peak || take == Take::time_of_maximum || take == Take::time_of_minimum ||
+         take == Take::first_time_above || take == Take::first_time_below;
+}
+
+// Keys that only some ways of taking a number have: needed there, refused elsewhere.
+bool wants(Section const& section, std::string_view key, bool wanted, std::string const& what) {
+  if (!wanted)
+    refuse_key(section, key, "is not used by this \"take\"");
+  else if (!section.has(key))
+    section.report_missing(key, what, std::string(key) + " = ...");
+  return wanted && section.has(key);
+}
+
+void read_take(Section const& section, std::string const& column_unit, QuantitySpec& quantity) {
+  bool const threshold = quantity.take == Take::first_time_above || quantity.take == Take::first_time_below;
+  if (wants(section, "threshold", threshold, "the value to pass")) {
+    Value const value = *section.find("threshold");
+    if (auto const number = read_number(value, column_unit, any_value, section.problems()))
+      quantity.threshold = *number;
+  }
+  if (wants(section, "time", quantity.take == Take::at_time, "the time to look at"))
+    section.read("time", quantity.time);
+  if (wants(section, "reference", quantity.take == Take::mean_absolute_difference, "the formula to compare with")) {
+    quantity.reference = section.formula("reference", {});
+  }
+}
+
+void read_unit(Section const& section, std::string const& si_unit, QuantitySpec& quantity) {
+  quantity.unit = si_unit;
+  std::string unit;
+  if (!section.read("unit", unit)) return;
+  if (same_dimension(unit, si_unit))
+    quantity.unit = unit;
+  else {
+    section.problems().add(section.place_of("unit"), "quantity.unit is " + in_quotes(unit) + " (allowed: a unit of " +
+                                                         dimension_noun(si_unit) + " such as " + si_unit + ")");
+  }
+}
+
+}  // namespace
+
+SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies) {
+  SupportSpec support;
+  BodyNames const* const body = find_body(section, bodies, support.body);
+  if (auto where = section.formula("where", body != nullptr ? body->names : Names{})) support.where = std::move(*where);
+  if (std::string fix; section.read("fix", fix)) {
+    std::string const letters =
+        std::string("xyz").substr(0, static_cast<std::size_t>(body != nullptr ? body->dimension : 3));
+    for (std::size_t d = 0; d < letters.size(); ++d) support.fix[d] = fix.find(letters[d]) != std::string::npos;
+    bool const bad = fix.empty() || fix.size() > 3 || fix.find_first_not_of(letters) != std::string::npos;
+    if (bad) {
+      section.problems().add(section.place_of("fix"), "support.fix is " + in_quotes(fix) +
+                                                          " (allowed: one or more of the letters " + letters + ")");
+    }
+  }
+  section.refuse_unknown();
+  remember_places(section, {"where", "body"}, support.places);
+  return support;
+}
+
+ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies) {
+  ProbeSpec probe;
+  section.read("name", probe.name);
+  BodyNames const* const body = find_body(section, bodies, probe.body);
+  int const dimension = body != nullptr ? body->dimension : 3;
+  if (int const kind = number_of_word(section, "probe", "kind"); kind >= 0) probe.kind = static_cast<Kind>(kind);
+  if (int const axis = number_of_word(section, "probe", "axis"); axis >= 0) probe.axis = axis;
+  bool const along = probe.kind == Kind::twist || probe.kind == Kind::extent;
+  if (probe.kind == Kind::point) {
+    if (body != nullptr) read_point(section, dimension, probe);
+    refuse_key(section, "where", "is not used by the kind \"point\"");
+  } else {
+    refuse_key(section, "at", "is used only by the kind \"point\"");
+    probe.where = section.formula("where", body != nullptr ? body->names : Names{});
+  }
+  if (along && body != nullptr) check_axis(section, dimension, probe);
+  if (!along) refuse_key(section, "axis", "is used only by the kinds \"twist\" and \"extent\"");
+  read_quantities(section, probe);
+  section.refuse_unknown();
+  remember_places(section, {"where", "at", "body", "name"}, probe.places);
+  return probe;
+}
+
+QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes) {
+  QuantitySpec quantity;
+  section.read("name", quantity.name);
+  auto const unit = read_column(section, probes, quantity.column);
+  if (int const take = number_of_word(section, "quantity", "take"); take >= 0) quantity.take = static_cast<Take>(take);
+  read_take(section, unit.value_or("1"), quantity);
+  if (unit) read_unit(section, takes_time(quantity.take) ? "s" : *unit, quantity);
+  section.refuse_unknown();
+  return quantity;
+}
+
+}  // namespace piola

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
+#include "piola/input/history_names.hpp"
+#include "piola/input/sections.hpp"
+#include <algorithm>
+
+namespace piola {
+namespace {
+
+std::vector<std::string> known_fields() {
+  std::vector<std::string> names;
+  for (FieldName const& field : field_names()) names.emplace_back(field.name);
+  return names;
+}
+
+std::string_view unit_of_field(std::string_view name) {
+  for (FieldName const& field : field_names()) {
+    if (field.name == name) return field.unit;
+  }
+  return "1";
+}
+
+void read_threads(Section const& section, RunSpec& run) {
+  auto const value = section.find("threads");
+  if (!value || (value->node.is_text() && value->node.text == "auto")) return;
+  if (value->node.is_text()) {
+    section.problems().add(value->node.place, "run.threads is " + in_quotes(value->node.text) +
+                                                  " (allowed: \"auto\" or a whole number from 1 to 4096)");
+  } else if (auto const threads = section.whole("threads")) {
+    run.threads = static_cast<int>(*threads);
+  }
+}
+
+void read_frames(Section const& section, OutputSpec& output) {
+  section.read("every", output.frames_every);
+  section.read("compress", output.compress);
+  if (auto const fields = section.find("fields")) {
+    auto const items = read_list(*fields, 1, 1000, section.problems());
+    if (items) {
+      for (Value const& item : *items) {
+        if (auto const field = read_word(item, known_fields(), section.problems()))
+          output.frame_fields.push_back(*field);
+      }
+    }
+  }
+  section.refuse_unknown();
+}
+
+/// Two numbers, for instance the ends of a range.
+std::optional<std::array<double, 2>> read_pair(Section const& section, std::string_view key, std::string_view unit) {
+  auto const value = section.find(key);
+  if (!value) return std::nullopt;
+  auto const items = read_list(*value, 2, 2, section.problems());
+  if (!items) return std::nullopt;
+  Interval const allowed = key_info("output.pictures", key).allowed;
+  auto const first = read_number((*items)[0], unit, allowed, section.problems());
+  auto const second = read_number((*items)[1], unit, allowed, section.problems());
+  if (!first || !second) return std::nullopt;
+  return std::array{*first, *second};
+}
+
+void read_size(Section const& section, OutputSpec& output) {
+  auto const value = section.find("size");
+  if (!value) return;
+  auto const items = read_list(*value, 2, 2, section.problems());
+  if (!items) return;
+  Interval const allowed = key_info("output.pictures", "size").allowed;
+  auto const width = read_whole((*items)[0], allowed, section.problems());
+  auto const height = read_whole((*items)[1], allowed, section.problems());
+  if (width) output.picture_width = static_cast<int>(*width);
+  if (height) output.picture_height = static_cast<int>(*height);
+}
+
+void read_pictures(Section const& section, OutputSpec& output) {
+  section.read("every", output.pictures_every);
+  if (auto const field = section.find("field")) {
+    if (auto const word = read_word(*field, known_fields(), section.problems())) output.picture_field = *word;
+  }
+  output.picture_range = read_pair(section, "range", unit_of_field(output.picture_field));
+  if (output.picture_range && (*output.picture_range)[0] >= (*output.picture_range)[1]) {
+    section.problems().add(section.place_of("range"),
+                           "output.pictures.range is empty (allowed: the lower value first)");
+  }
+  if (auto const view = section.find("view")) {
+    auto const items = read_list(*view, 2, 2, section.problems());
+    Interval const allowed = key_info("output.pictures", "view").allowed;
+    for (std::size_t i = 0; items && i < 2; ++i) {
+      // A plain number is in degrees here, unlike SI, because nobody thinks of a view in radians.
+      if (auto const angle = read_number((*items)[i], "degree", allowed, section.problems()))
+        output.picture_view[i] = *angle;
+    }
+  }
+  read_size(section, output);
+  section.refuse_unknown();
+}
+
+}  // namespace
+
+void read_run(Section const& section, RunSpec& run) {
+  section.read("end", run.end);
+  section.read("cfl", run.cfl);
+  section.read("max_step", run.max_step);
+  section.read("min_step", run.min_step);
+  section.read("machine", run.machine);
+  read_threads(section, run);
+  if (run.min_step >= run.max_step) {
+    section.problems().add(section.place_of("min_step"), "run.min_step is not below run.max_step (allowed: less than " +
+                                                             quantity_text(run.max_step, "s") + ")");
+  }
+  section.refuse_unknown();
+}
+
+void read_output(Section const& section, OutputSpec& output) {
+  if (auto const frames = section.table("frames")) read_frames(*frames, output);
+  if (auto const history = section.table("history")) {
+    history->read("every", output.history_every);
+    history->refuse_unknown();
+  }
+  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output);
+  if (auto const checkpoints = section.table("checkpoints")) {
+    checkpoints->read("every", output.checkpoints_every);
+    checkpoints->refuse_unknown();
+  }
+  section.refuse_unknown();
+}
+
+std::map<std::string, double> read_constants(Value const& value, Problems& problems) {
+  std::map<std::string, double> constants;
+  if (!value.node.is_table()) {
+    problems.add(value.node.place, "constants is " + shown(value.node) + " (allowed: a table) - write [constants]");
+    return constants;
+  }
+  for (Node::Entry const& entry : value.node.entries) {
+    std::string const name = "constants." + entry.key;
+    if (!is_name(entry.key) || is_reserved_name(entry.key)) {
+      problems.add(entry.place, in_quotes(entry.key) +
+                                    (is_name(entry.key) ? " already has a meaning in formulas" : " is not a name") +
+                                    " (allowed: letters, digits and _) - choose another name");
+    } else if (entry.value.is_text()) {
+      Quantity const quantity = read_any_quantity(entry.value.text);
+      if (quantity.problem) problems.add(entry.value.place, name + " cannot be read: " + *quantity.problem);
+      constants[entry.key] = quantity.value;
+    } else {
+      auto const number = read_number({entry.value, name}, "", any_value, problems);
+      constants[entry.key] = number.value_or(0);  // known all the same, so that formulas do not complain again
+    }
+  }
+  return constants;
+}
+
+}  // namespace piola

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/input/sections.hpp"
+#include <array>
+
+namespace piola {
+namespace {
+
+using Kind = ShapeSpec::Kind;
+
+void set_point(std::vector<double> const& numbers, std::array<double, 3>& target) {
+  for (std::size_t d = 0; d < numbers.size(); ++d) target[d] = numbers[d];
+}
+
+int axis_number(std::string_view word) { return word == "x" ? 0 : word == "y" ? 1 : 2; }
+
+void read_box(Section const& section, ShapeSpec& shape) {
+  auto const min = section.point("min"), max = section.point("max");
+  section.refuse_unknown();
+  if (min) shape.dimension = static_cast<int>(min->size());
+  if (!min || !max) return;
+  if (min->size() != max->size()) {
+    section.problems().add(section.place_of("max"),
+                           "body.shape.box.max has " + std::to_string(max->size()) + " components, min has " +
+                               std::to_string(min->size()) +
+                               " (allowed: as many) - their number is the dimension of the case");
+    return;
+  }
+  set_point(*min, shape.min);
+  set_point(*max, shape.max);
+  for (std::size_t d = 0; d < min->size(); ++d) {
+    if ((*max)[d] - (*min)[d] >= 1e-15) continue;
+    section.problems().add(section.place_of("max"), "body.shape.box.max[" + std::to_string(d) + "] is " +
+                                                        number_text((*max)[d]) + " m (allowed: above min, which is " +
+                                                        number_text((*min)[d]) + " m)");
+  }
+}
+
+void read_sphere(Section const& section, ShapeSpec& shape) {
+  if (auto const centre = section.point("centre")) {
+    shape.dimension = static_cast<int>(centre->size());
+    set_point(*centre, shape.centre);
+  }
+  section.read("radius", shape.radius);
+  section.refuse_unknown();
+}
+
+void read_cylinder(Section const& section, ShapeSpec& shape) {
+  if (auto const centre = section.point("centre")) {
+    set_point(*centre, shape.centre);
+    if (centre->size() != 3) {
+      section.problems().add(section.place_of("centre"),
+                             "body.shape.cylinder.centre has " + std::to_string(centre->size()) +
+                                 " components (allowed: 3) - a cylinder in 2D is a sphere or a box");
+    }
+  }
+  section.read("radius", shape.radius);
+  section.read("length", shape.length);
+  std::string axis = "z";
+  section.read("axis", axis);
+  shape.axis = axis_number(axis);
+  section.refuse_unknown();
+}
+
+void refuse_box_key(Section const& section, std::string_view key) {
+  if (!section.has(key)) return;
+  section.problems().add(section.place_of(key), section.name_of(key) +
+                                                    " belongs to a box (allowed here: spacing, jitter, "
+                                                    "seed) - remove it");
+}
+
+void read_box_particles(Section const& section, ShapeSpec& shape) {
+  auto const count = static_cast<std::size_t>(shape.dimension);
+  if (auto const value = section.find("particles")) {
+    auto const items = read_list(*value, count, count, section.problems());
+    Interval const allowed = key_info("body.shape", "particles").allowed;
+    for (std::size_t d = 0; items && d < count; ++d) {
+      auto const n = read_whole((*items)[d], allowed, section.problems());
+      if (n) shape.particles[d] = static_cast<int>(*n);
+    }
+  } else if (double spacing = 0; section.read("spacing", spacing)) {
+    for (std::size_t d = 0; d < count; ++d) {
+      shape.particles[d] = particles_over(shape.max[d] - shape.min[d], spacing, shape.placement);
+    }
+  }
+}
+
+// A box says how fine it is by particles or by spacing; round bodies only by spacing.
+void read_fineness(Section const& section, ShapeSpec& shape) {
+  bool const box = shape.kind == Kind::box;
+  if (box && section.has("particles") && section.has("spacing")) {
+    section.problems().add(section.place_of("spacing"),
+                           "body.shape has both \"particles\" and \"spacing\" (allowed: one of "
+                           "them) - remove one");
+  } else if (!section.has("spacing") && !(box && section.has("particles"))) {
+    section.report_missing(box ? "particles\" or \"spacing" : "spacing", "how fine the body is",
+                           box ? "particles = [...]" : "spacing = \"1 mm\"");
+  } else if (box) {
+    read_box_particles(section, shape);
+  } else {
+    section.read("spacing", shape.spacing);
+  }
+}
+
+}  // namespace
+
+ShapeSpec read_shape(Section const& section) {
+  ShapeSpec shape;
+  constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};
+  int given = 0;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (!section.has(kinds[k])) continue;
+    ++given;
+    shape.kind = static_cast<Kind>(k);
+    auto const part = section.table(kinds[k]);
+    if (!part) continue;
+    if (shape.kind == Kind::box) read_box(*part, shape);
+    if (shape.kind == Kind::sphere) read_sphere(*part, shape);
+    if (shape.kind == Kind::cylinder) read_cylinder(*part, shape);
+  }
+  section.refuse_unknown();
+  if (given != 1) {
+    section.problems().add(section.place(), "body.shape has " +
+                                                (given == 0 ? std::string("no") : std::to_string(given)) +
+                                                " of box, sphere, cylinder (allowed: one) - add or remove one");
+    return shape;
+  }
+  if (std::string word; shape.kind == Kind::box && section.read("placement", word)) {
+    if (word == "cell_centred") shape.placement = ShapeSpec::Placement::cell_centred;
+  }
+  if (shape.kind != Kind::box) {
+    shape.placement = ShapeSpec::Placement::cell_centred;
+    refuse_box_key(section, "placement");
+    refuse_box_key(section, "particles");
+  }
+  section.read("jitter", shape.jitter);
+  if (auto const seed = section.whole("seed")) shape.seed = static_cast<std::uint32_t>(*seed);
+  read_fineness(section, shape);
+  return shape;
+}
+
+}  // namespace piola

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/case_spec.hpp"
+#include "piola/input/section.hpp"
+#include <map>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// The readers of the sections of a case file. Each adds what is wrong to the section's problems and returns what could
+/// be read, so that one bad section does not hide the problems of another. Internal to input/.
+
+/// What the readers of later sections must know about the bodies: `names` may be used in formulas.
+struct BodyNames {
+  std::string name;
+  int dimension = 3;
+  Names names;
+};
+
+void read_run(Section const& section, RunSpec& run);
+void read_output(Section const& section, OutputSpec& output);
+std::map<std::string, double> read_constants(Value const& value, Problems& problems);
+
+ShapeSpec read_shape(Section const& section);
+BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names);
+void read_material(Section const& section, BodySpec& body);
+FormulationSpec read_formulation(Section const& section);
+std::vector<Definition> read_definitions(Value const& value, Names const& names, Problems& problems);
+
+SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies);
+ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
+QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes);
+
+}  // namespace piola

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/case_keys.hpp"
+#include "piola/base/units.hpp"
+#include <gtest/gtest.h>
+#include <set>
+#include <stdexcept>
+
+namespace piola {
+namespace {
+
+TEST(CaseKeys, EveryKeyBelongsToASectionAndIsListedOnce) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (KeyInfo const& info : case_keys()) {
+    bool known = false;
+    for (SectionInfo const& section : case_sections()) known = known || section.name == info.section;
+    EXPECT_TRUE(known) << info.section;
+    EXPECT_TRUE(seen.emplace(info.section, info.key).second) << info.section << "." << info.key;
+    EXPECT_FALSE(info.meaning.empty()) << info.key;
+    EXPECT_FALSE(value_text(info).empty()) << info.key;
+    EXPECT_TRUE(info.unit.empty() || same_dimension(info.unit, info.unit)) << info.unit;
+    EXPECT_TRUE(info.kind != KeyInfo::Kind::word || !info.words.empty()) << info.key;
+  }
+  for (SectionInfo const& section : case_sections()) EXPECT_FALSE(keys_of(section.name).empty()) << section.name;
+  EXPECT_THROW(key_info("run", "nothing"), std::logic_error);
+}
+
+TEST(CaseKeys, IntervalsAreSaidInWords) {
+  EXPECT_EQ(interval_text(any_value), "");
+  EXPECT_EQ(interval_text(positive), "above 0");
+  EXPECT_EQ(interval_text(not_negative), "at least 0");
+  EXPECT_EQ(interval_text({-1, 0.5, true, true}), "between -1 and 0.5, ends excluded");
+  EXPECT_EQ(interval_text({0, 2, true, false}), "above 0, at most 2");
+  EXPECT_EQ(interval_text({0, 0.5, false, true}), "at least 0, below 0.5");
+  EXPECT_EQ(interval_text({1, 9, false, false}), "from 1 to 9");
+  EXPECT_EQ(interval_text({-unbounded, 1, false, false}), "at most 1");
+}
+
+}  // namespace
+}  // namespace piola

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/document.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+namespace piola {
+namespace {
+
+std::string problems_of(std::string const& text) {
+  Problems problems;
+  auto const document = parse_document(text, "f", problems);
+  EXPECT_EQ(document.has_value(), problems.empty());
+  return problems.empty() ? "" : problems.lines().front();
+}
+
+Document parsed(std::string const& text) {
+  Problems problems;
+  auto document = parse_document(text, "f", problems);
+  EXPECT_TRUE(document) << text;
+  return document.value_or(Document{});
+}
+
+TEST(Document, ValuesKnowWhereTheyStand) {
+  Document const document = parsed("a = 1\n[b]\n  c = \"text\"  # comment\n  d = [1.5, true]\n");
+  Node const* const b = document.root.find("b");
+  ASSERT_NE(b, nullptr);
+  EXPECT_EQ(document.root.find("a")->integer, 1);
+  EXPECT_EQ(b->find("c")->place.line, 3);
+  EXPECT_EQ(b->find("c")->place.column, 7);
+  EXPECT_EQ(b->find("c")->text_offset, 1);
+  EXPECT_EQ(b->entries[0].place.column, 3);
+  EXPECT_DOUBLE_EQ(b->find("d")->items[0].real, 1.5);
+  EXPECT_TRUE(b->find("d")->items[1].flag);
+  EXPECT_EQ(b->find("nothing"), nullptr);
+}
+
+TEST(Document, EntriesKeepTheOrderOfTheFile) {
+  Document const document = parsed("z = 1\na = 2\nm = 3\n");
+  EXPECT_EQ(document.root.entries[0].key, "z");
+  EXPECT_EQ(document.root.entries[2].key, "m");
+}
+
+TEST(Document, PlacesInsideTextsAreKnownOnlyForPlainTexts) {
+  EXPECT_EQ(parsed("a = 'X+'\n").root.find("a")->text_offset, 1);
+  EXPECT_EQ(parsed("a = \"X\\u002B\"\n").root.find("a")->text_offset, 0);
+  EXPECT_EQ(parsed("a = \"\"\"\nX+\"\"\"\n").root.find("a")->text_offset, 0);
+}
+
+TEST(Document, SyntaxErrorsHaveAPlace) {
+  EXPECT_EQ(problems_of("a = 1\nb = = 2\n").substr(0, 10), "f:2:5: thi");
+  EXPECT_EQ(problems_of("a = 1\n[~run]\nend = 1\n"),
+            "f:2: this is not TOML: a stray character in a key or a [header] - see docs/user/case-file.md");
+  EXPECT_NE(problems_of("a = 1\na = 2\n"), "");
+  EXPECT_NE(problems_of("a = \"\xff\"\n"), "");
+}
+
+TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
+  EXPECT_EQ(problems_of(std::string("a = 1\n b\0", 9)),
+            "f:2:3: a NUL byte, which no text file holds - is this a case file?");
+  EXPECT_EQ(problems_of(std::string(5'000'000, '#')), "f: the file has 5 MB (at most 4 MB) - is this a case file?");
+  std::string key = "a";
+  for (int i = 0; i < 100; ++i) key += ".a";
+  EXPECT_EQ(problems_of(key + " = 1"), "f:1:130: a key with more than 64 dots - is this a case file?");
+  EXPECT_EQ(problems_of("a = \"" + std::string(100, '.') + "\" # " + std::string(100, '.')), "");
+  EXPECT_EQ(problems_of("a = '''\n" + std::string(100, '.') + "'''"), "");
+  EXPECT_NE(problems_of("a = " + std::string(5000, '[') + std::string(5000, ']')), "");
+}
+
+TEST(Document, WrittenTomlReadsBackTheSame) {
+  std::string const text =
+      "s = \"a \\\"quote\\\" \\\\ and\\nline\"\ni = -3\nx = 0.1\ny = 1e300\nn = nan\nf = false\n"
+      "when = 1979-05-27\n\"odd key\" = 1\nempty = []\ntable = {}\n[t]\nu = { v = [1, [2, 3]] }\n"
+      "[[l]]\na = 1\n[[l]]\na = 2\n[l.sub]\nb = 3\n";
+  std::string const once = toml_text(parsed(text).root);
+  EXPECT_EQ(toml_text(parsed(once).root), once);
+  Document const again = parsed(once);
+  EXPECT_EQ(again.root.find("s")->text, "a \"quote\" \\ and\nline");
+  EXPECT_EQ(again.root.find("x")->real, 0.1);
+  EXPECT_TRUE(std::isnan(again.root.find("n")->real));
+  EXPECT_EQ(again.root.find("when")->kind, Node::Kind::date);
+  EXPECT_EQ(again.root.find("l")->items[1].find("sub")->find("b")->integer, 3);
+}
+
+TEST(Document, EveryTextAndNumberSurvivesWriting) {
+  EXPECT_TRUE(rc::check("texts and numbers", [](double number, std::int64_t integer) {
+    auto const text = *rc::gen::container<std::string>(rc::gen::inRange<char>(1, 127));
+    RC_PRE(!std::isnan(number));
+    Node root;
+    Node t, x, i;
+    t.kind = Node::Kind::text;
+    t.text = text;
+    x.kind = Node::Kind::real;
+    x.real = number;
+    i.kind = Node::Kind::integer;
+    i.integer = integer;
+    root.entries = {{"t", {}, t}, {"x", {}, x}, {"i", {}, i}};
+    Problems problems;
+    auto const document = parse_document(toml_text(root), "f", problems);
+    RC_ASSERT(document.has_value());
+    RC_ASSERT(document->root.find("t")->text == text);
+    RC_ASSERT(document->root.find("x")->number() == number);
+    RC_ASSERT(document->root.find("i")->integer == integer);
+  }));
+}
+
+TEST(Document, OverridesFindTheirWay) {
+  Document document = parsed("[run]\nend = 1\n[[body]]\nname = \"a\"\nlist = [1, 2]\n[[body]]\nname = \"b\"\n");
+  Problems problems;
+  apply_overrides(document,
+                  std::vector<std::string>{"run.end = 2", "body.b.new.deep = some words", "body.0.list.1=7",
+                                           "run.text='1'", "run.t={a = 1}", "run.q=\"a=b\""},
+                  problems);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(document.root.find("run")->find("end")->integer, 2);
+  EXPECT_EQ(document.root.find("run")->find("text")->text, "1");
+  EXPECT_EQ(document.root.find("run")->find("q")->text, "a=b");
+  EXPECT_EQ(document.root.find("run")->find("end")->place.file, "--set run.end = 2");
+  EXPECT_EQ(document.root.find("body")->items[1].find("new")->find("deep")->text, "some words");
+  EXPECT_EQ(document.root.find("body")->items[0].find("list")->items[1].integer, 7);
+}
+
+}  // namespace
+}  // namespace piola
