@@ -24,6 +24,9 @@ struct FieldRef {
   std::ptrdiff_t particle_stride = 1;
   FieldVersion* version = nullptr;
   char const* name = "";
+  /// Reference fields of regular lattices, where most groups of lanes are alike: where a group of lanes is stored, counted
+  /// in groups. nullptr: particle i is stored at i.
+  std::int32_t const* group = nullptr;
 };
 
 /// A particle field. By itself: one array per component, one after the other, with `guard` readable zeros before the first
@@ -51,6 +54,9 @@ class Field {
     ref_ = {data + first, component, particle, version != nullptr ? version : &version_, name_};
     particles_ = particles;
   }
+
+  /// Stores one value per lane of each distinct group instead of one per particle; see FieldRef::group.
+  void share(std::int32_t const* group) { ref_.group = group; }
 
   FieldRef ref() const { return ref_; }
   double& at(Index i, int c = 0) { return ref_.data[c * ref_.component_stride + i * ref_.particle_stride]; }

@@ -47,6 +47,28 @@ struct View {
   }
 };
 
+/// Reading access to a reference field, which groups of lanes may share (FieldRef::group).
+struct ReferenceView {
+  View stored;
+  std::int32_t const* group;
+
+  PIOLA_FN Index place(Index i) const {
+    return group == nullptr ? i : group[i / lane_count] * lane_count + i % lane_count;
+  }
+  template <class V>
+  PIOLA_FN V scalar(Index i, int c = 0) const {
+    return stored.scalar<V>(place(i), c);
+  }
+  template <int D, class V>
+  PIOLA_FN Vec<D, V> vector(Index i) const {
+    return stored.vector<D, V>(place(i));
+  }
+  template <int D, class V>
+  PIOLA_FN SymMat<D, V> symmetric(Index i) const {
+    return stored.symmetric<D, V>(place(i));
+  }
+};
+
 /// Writing access; the pass that holds it owns the particles it writes.
 struct WriteView {
   double* data;
@@ -74,6 +96,7 @@ struct WriteView {
 
 /// The only three ways from a field to a view: they show the data flow of a step and count it in contract builds.
 inline View read(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride}; }
+inline ReferenceView read_reference(FieldRef const& f) { return {read(f), f.group}; }
 inline View read_neighbours(FieldRef const& f) {
 #if defined(PIOLA_CONTRACTS)
   if (f.version != nullptr && f.version->halo != f.version->owner) stale_halo(f.name);

@@ -34,7 +34,8 @@ struct StencilLoader {
   static constexpr bool contiguous = true;
 
   template <class Body>
-  PIOLA_FN void operator()(Index i, Body const& body, Lanes (&sums)[Body::sums]) const {
+  PIOLA_FN void operator()(Index i, Body const& body, Lanes (&result)[Body::sums]) const {
+    Lanes sums[Body::sums];  // local, so that the compiler keeps them in registers
     for (int c = 0; c < Body::sums; ++c) sums[c] = Lanes(0.0);
     auto const own = body.template own<Lanes>(i);
     StencilPattern const& p = table.patterns[table.pattern_of[i / lane_count]];
@@ -45,6 +46,7 @@ struct StencilLoader {
       for (int e = p.outer_masked[0]; e < p.outer_masked[1]; ++e)
         visit<true, false>(i, table.entries[e], body, own, sums);
     }
+    for (int c = 0; c < Body::sums; ++c) result[c] = sums[c];
   }
 
  private:

@@ -4,6 +4,7 @@
 #include "piola/formulations/jst_sph/passes.hpp"
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace piola::jst_sph {
 
@@ -17,8 +18,9 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       fields_(D_) {
   make_pairs(set, machine);
   set_constants(set, assembly.materials[body]);
+  share_reference(machine.lanes);
   allocate();
-  fill_reference(set);
+  fill_reference(machine.lanes);
   fill_initial(assembly, machine);
   take_supports(assembly);
   machine.update_wave_speed(state_);
@@ -76,7 +78,9 @@ void JstBody::allocate() {
   place_gathered();
   fields_.each([&](Field& f) {
     bool const unused = &f == &fields_.stage_position && options_.variables != Variables::displacement;
-    if (f.size() == 0 && !unused) f.allocate(order_.slots(), state_.regular ? guard : 0);
+    bool const shared = state_.regular && f.role() == Role::reference;
+    if (f.size() == 0 && !unused) f.allocate(shared ? stored_slots_ : order_.slots(), state_.regular ? guard : 0);
+    if (shared) f.share(group_.data());
   });
   auto& s = state_;
   s.V = fields_.V.ref();
@@ -135,28 +139,48 @@ void JstBody::place_gathered() {
   };
   if (stabilised) part(fields_.w, 0);
   part(fields_.A, before_A);
-  if (adjoint) {
-    part(fields_.alpha, D_);
-    part(fields_.beta, 2 * D_);
+  auto const& corrections = pairs_->corrections();
+  for (Index i = 0; adjoint && i < order_.particles; ++i) {
+    double* const at = data + start + i * particle;
+    for (int c = 0; c < D_; ++c)
+      at[(D_ + c) * component] = corrections.alpha[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+    at[2 * D_ * component] = corrections.beta[static_cast<std::size_t>(i)];
   }
 }
 
-void JstBody::fill_reference(ParticleSet const& set) {
+/// Finds the distinct groups of lanes: the same neighbours and the same volumes give the same reference data.
+void JstBody::share_reference(int lanes) {
+  stored_slots_ = order_.slots();
+  if (!state_.regular) return;
+  std::map<std::vector<double>, std::int32_t> known;
+  for (Index first = 0; first < order_.slots(); first += lanes) {
+    std::vector<double> key{static_cast<double>(state_.stencil.pattern_of[first / lanes])};
+    for (Index i = first; i < first + lanes; ++i) key.push_back(i < order_.particles ? volume(i) : 0);
+    auto const [at, is_new] = known.try_emplace(key, static_cast<std::int32_t>(group_first_.size()));
+    if (is_new) group_first_.push_back(first);
+    group_.push_back(at->second);
+  }
+  stored_slots_ = static_cast<Index>(group_first_.size()) * lanes;
+}
+
+void JstBody::fill_reference(int lanes) {
+  for (Index i = 0; i < order_.slots(); ++i)
+    for (int c = 0; c < D_; ++c) fields_.F.at(i, c * D_ + c) = fields_.F_star.at(i, c * D_ + c) = 1;
   auto const& corrections = pairs_->corrections();
   static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-  for (Index i = 0; i < order_.slots(); ++i) {
-    for (int c = 0; c < D_; ++c) fields_.F.at(i, c * D_ + c) = fields_.F_star.at(i, c * D_ + c) = 1;
+  for (Index to = 0; to < stored_slots_; ++to) {
+    Index const i = state_.regular ? group_first_[static_cast<std::size_t>(to / lanes)] + to % lanes : to;
     if (i >= order_.particles) continue;
     auto const slot = static_cast<std::size_t>(i);
-    fields_.V.at(i) = set.volume[static_cast<std::size_t>(id(i))];
+    fields_.V.at(to) = volume(i);
     for (int c = 0; c < D_ * (D_ + 1) / 2; ++c)
-      fields_.C.at(i, c) = corrections.C[slot][static_cast<std::size_t>(packed[D_ - 1][c])];
+      fields_.C.at(to, c) = corrections.C[slot][static_cast<std::size_t>(packed[D_ - 1][c])];
     for (int c = 0; c < D_; ++c) {
-      fields_.G.at(i, c) = corrections.G[slot][static_cast<std::size_t>(c)];
-      fields_.alpha.at(i, c) = corrections.alpha[slot][static_cast<std::size_t>(c)];
+      fields_.G.at(to, c) = corrections.G[slot][static_cast<std::size_t>(c)];
+      fields_.alpha.at(to, c) = corrections.alpha[slot][static_cast<std::size_t>(c)];
     }
-    fields_.beta.at(i) = corrections.beta[slot];
-    fields_.diagonal.at(i) = corrections.diagonal[slot];
+    fields_.beta.at(to) = corrections.beta[slot];
+    fields_.diagonal.at(to) = corrections.diagonal[slot];
   }
 }
 

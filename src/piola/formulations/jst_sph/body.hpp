@@ -35,7 +35,7 @@ class JstBody {
   std::array<double, 3> x(Index slot) const;
   std::array<double, 3> v(Index slot) const;
   Mat<3> F(Index slot) const;
-  double volume(Index slot) const { return value(state_.V, slot); }
+  double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
 
   static double value(FieldRef const& f, Index slot, int c = 0) {
     return f.data[c * f.component_stride + slot * f.particle_stride];
@@ -48,7 +48,8 @@ class JstBody {
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
   void place_gathered();
-  void fill_reference(ParticleSet const& set);
+  void share_reference(int lanes);
+  void fill_reference(int lanes);
   void fill_initial(Assembly const& assembly, Machine const& machine);
   void take_supports(Assembly const& assembly);
   void deform_to_positions(Machine const& machine);
@@ -62,7 +63,10 @@ class JstBody {
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
   Memory first_records_, second_gathered_;
-  FieldVersion first_version_, second_version_;
+  FieldVersion second_version_;
+  std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
+  Index stored_slots_ = 0;
+  std::vector<Index> group_first_;   // per stored group: a slot where it begins
   std::vector<SupportComponent> supports_;
   std::vector<double> partial_;
   FailureSlot failure_;

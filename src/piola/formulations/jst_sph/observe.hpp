@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/formulation.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 
 /// What users see of a JST-SPH state; reads, never writes.

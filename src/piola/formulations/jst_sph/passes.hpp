@@ -19,8 +19,8 @@ template <int D, bool Laplacian>
 struct FirstSums {
   static constexpr int fields = D, outer_fields = Laplacian ? D : 0;
   static constexpr int sums = D * D + (Laplacian ? D : 0);
-  View gathered;     ///< u
-  View alpha, beta;  ///< corrections of the Laplacian
+  View gathered;              ///< u
+  ReferenceView alpha, beta;  ///< corrections of the Laplacian
 
   template <class V>
   struct Own {
@@ -87,7 +87,8 @@ struct UpdateStress {
   Law law;
   Constants k;
   StageUpdate stage;
-  View C, V, wave_speed, F_n, F_star;
+  ReferenceView C, V;
+  View wave_speed, F_n, F_star;
   WriteView F_out, A, w, rate, wave_speed_next;
   FailureSlot* failure;
 
@@ -133,7 +134,7 @@ struct UpdateStress {
     for (int j = 0; j < D; ++j) {
       Lanes const Lv = load<Lanes>(in.at(i, D * D + j));
       w.scalar(i, factor * Lv, j);
-      rate.scalar(i, harmonic * Lv, j);
+      if (k.eps2 > 0) rate.scalar(i, harmonic * Lv, j);
     }
   }
 
@@ -156,7 +157,7 @@ struct SecondSums {
   static constexpr int fields = outer_fields + D * D;                           // then A
   static constexpr int sums = D + (laplacian ? D : 0);
   View gathered;
-  View alpha, beta;
+  ReferenceView alpha, beta;
 
   template <class V>
   struct Own {
@@ -235,7 +236,9 @@ struct SumForces {
   Loader loader;
   Body body;
   Constants k;
-  View A, w, V, G, diagonal, wave_speed, x, v;
+  View A, w;
+  ReferenceView V, G, diagonal;
+  View wave_speed, x, v;
   WriteView rate;
   View rate_in;  ///< D2 of UpdateStress
 
@@ -262,7 +265,8 @@ struct SumForces {
       for (int c = 0; c < D; ++c) {
         Lanes L = sum[D + c];
         if constexpr (Body::adjoint) L = L - w.scalar<Lanes>(i, c) * diagonal.scalar<Lanes>(i);
-        a[c] = rate_in.scalar<Lanes>(i, c) - factor * L;
+        a[c] = -(factor * L);
+        if (k.eps2 > 0) a[c] = a[c] + rate_in.scalar<Lanes>(i, c);
       }
     }
     return a;
@@ -350,7 +354,7 @@ struct ComputeWaveSpeed {
 /// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient that positions imply.
 template <int D>
 struct StoreDeformation {
-  View C;
+  ReferenceView C;
   WriteView F;
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
     Mat<D, Lanes> raw;

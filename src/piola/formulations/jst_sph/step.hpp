@@ -24,7 +24,7 @@ class Step {
   /// F from x, for displacement variables.
   void update_deformation() {
     halo_.refresh(b_.u);
-    StoreDeformation<D> const store_F{read(b_.C), write(b_.F)};
+    StoreDeformation<D> const store_F{read_reference(b_.C), write(b_.F)};
     exec::for_each_then(b_.slots, first_sweep<false>(), exec::erased(store_F));    // F = GRAD x                         (34)
   }
 
@@ -44,7 +44,7 @@ class Step {
 
   template <bool Laplacian>
   DifferentiateVelocity<D, Laplacian, Loader> first_sweep() const {
-    return {loader_, {read_neighbours(b_.u), read(b_.alpha), read(b_.beta)}};
+    return {loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
   }
 
   template <bool Laplacian>
@@ -53,7 +53,7 @@ class Step {
     bool const to_F = stage.second || b_.constants.variables == Variables::displacement;
     with_law(b_.material, [&](auto const& law) {
       UpdateStress<D, Laplacian, std::decay_t<decltype(law)>> const update{
-          law,           b_.constants,   stage,        read(b_.C),     read(b_.V),
+          law,           b_.constants,   stage,        read_reference(b_.C), read_reference(b_.V),
           read(b_.wave_speed), read(b_.F), read(b_.F_star), write(to_F ? b_.F : b_.F_star), write(b_.A),
           write(b_.w),   write(b_.rate), write(b_.wave_speed_next), b_.failure};
       exec::for_each_then(b_.slots, sweep, exec::erased(update));
@@ -72,13 +72,13 @@ class Step {
   template <Biharmonic B>
   RigidRate balance(StageUpdate const& stage) {
     SumForces<D, B, Loader> const pass{loader_,
-                                       {read_neighbours(b_.second), read(b_.alpha), read(b_.beta)},
+                                       {read_neighbours(b_.second), read_reference(b_.alpha), read_reference(b_.beta)},
                                        b_.constants,
                                        read(b_.A),
                                        read(b_.w),
-                                       read(b_.V),
-                                       read(b_.G),
-                                       read(b_.diagonal),
+                                       read_reference(b_.V),
+                                       read_reference(b_.G),
+                                       read_reference(b_.diagonal),
                                        read(b_.wave_speed),
                                        read(b_.x),
                                        read(b_.v),
