@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
+#include "piola/exec/peak.hpp"
 #include "piola/formulations/jst_sph/step.hpp"
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {
@@ -58,6 +59,7 @@ double largest_wave_speed(BodyState& body) {
 /// The entry by which the host finds this machine.
 extern Machine const machine;
 Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,         &step,
-                                      &update_wave_speed,        &largest_wave_speed, &update_deformation};
+                                      &update_wave_speed,        &largest_wave_speed, &update_deformation,
+                      &exec::run_fma_chains,     &exec::copy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE

@@ -89,7 +89,7 @@ namespace {
 struct Particle {
   Point X, x, v;
   Mat<3> F, P;
-  double J, pressure, rho0, body;
+  double J, pressure, rho0, body, neighbours;
   double id;
 };
 
@@ -130,6 +130,7 @@ constexpr std::array table{
     Observed{"Jacobian", "1", 1, [](Particle const& p, double* out) { *out = p.J; }},
     Observed{"VonMisesStress", "Pa", 1, [](Particle const& p, double* out) { *out = von_mises(cauchy(p)); }},
     Observed{"Density", "kg/m3", 1, [](Particle const& p, double* out) { *out = p.rho0 / p.J; }},
+    Observed{"Neighbours", "1", 1, [](Particle const& p, double* out) { *out = p.neighbours; }},
     Observed{"Body", "1", 1, [](Particle const& p, double* out) { *out = p.body; }},
     Observed{"Id", "1", 1, [](Particle const& p, double* out) { *out = p.id; }}};
 
@@ -148,7 +149,9 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
       Particle const p{body.X(i),   body.x(i), body.v(i), F, law.first_piola(F), determinant(F), law.pressure(F), law.rho0,
-                       static_cast<double>(body_number), static_cast<double>(body.id(i))};
+                       static_cast<double>(body_number),
+                       static_cast<double>(body.pairs().corrections().neighbours[static_cast<std::size_t>(i)]),
+                       static_cast<double>(body.id(i))};
       found->put(p, &values[static_cast<std::size_t>(body.id(i) * found->components)]);
     }
   });
