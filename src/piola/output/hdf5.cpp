@@ -74,6 +74,7 @@ void Image::dataset(std::string const& path, std::span<T const> values, int colu
   Handle const space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, path);
   Handle const layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
   std::size_t const chunk_rows = std::clamp<std::size_t>(chunk_bytes / (sizeof(T) * width), 1, std::max<std::size_t>(shape[0], 1));
+  check(H5Pset_obj_track_times(layout.id(), false), path);  // the same data give the same file
   bool const compress = storage == Storage::compressed && shape[0] > 1;
   if (compress) {
     std::array<hsize_t, 2> const chunk{chunk_rows, width};

@@ -4,7 +4,6 @@
 #include "piola/output/files.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace piola {
 namespace {
@@ -50,10 +49,9 @@ void HistoryObserver::write_row(Formulation const& formulation, Moment const& mo
     auto const more = probe.evaluate(cache);
     row.insert(row.end(), more.begin(), more.end());
   }
-  auto const bad = file_->append(row);
-  if (!bad.empty()) {
-    results_.journal.warn(fmt::format("history.csv: {} {} not a number from t = {} s on; such cells are left empty", fmt::join(bad, ", "),
-                                      bad.size() == 1 ? "is" : "are", moment.time));
+  for (std::string const& column : file_->append(row)) {
+    if (!warned_.insert(column).second) continue;
+    results_.journal.warn(fmt::format("history.csv: {} is not a number at t = {} s; such cells are left empty", column, moment.time));
   }
 }
 

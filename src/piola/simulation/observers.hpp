@@ -13,6 +13,8 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace piola {
@@ -56,6 +58,7 @@ class HistoryObserver : public Observer {
   Schedule schedule_;
   std::vector<Probe> probes_;
   std::optional<HistoryFile> file_;
+  std::set<std::string> warned_;  ///< columns with cells that were not numbers
 };
 
 /// frames/*.hdf at each due time and at the end; the last state of a failed run always.

@@ -12,8 +12,8 @@ namespace piola {
 
 struct RenderOptions {
   std::string field = "Pressure";
-  std::optional<std::array<double, 2>> range;  ///< SI; otherwise the range over all frames
-  View view;
+  std::optional<std::array<double, 2>> range = {};  ///< SI; otherwise the range over all frames
+  View view = {};
   int width = 1000, height = 800;
 };
 

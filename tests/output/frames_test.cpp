@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/frames.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
+#include "support/fake_formulation.hpp"
+#include "support/temporary_folder.hpp"
+#include <csignal>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace piola {
+namespace {
+
+using testing::Springs;
+using testing::TemporaryFolder;
+
+void write_frames(FrameWriter& writer, ParticleSet const& set, std::vector<double> const& times) {
+  Springs const springs(set);
+  for (double time : times) {
+    FieldCache cache(springs, set);
+    writer.write(time, cache);
+  }
+}
+
+class FramesAsStored : public ::testing::TestWithParam<bool> {};
+
+TEST_P(FramesAsStored, AreReadByAnIndependentProgram) {
+  TemporaryFolder const folder;
+  ParticleSet const set = testing::make_plate(600);  // more than one chunk
+  FrameWriter writer(folder.path(), {}, GetParam());
+  write_frames(writer, set, {0.125});
+  std::string const script = std::string(PIOLA_SOURCE_DIR) + "/tests/output/read_frame.py";
+  int const status = std::system(fmt::format("/usr/bin/python3 '{}' '{}' 0.125 {}", script, (folder / "frames/000000.hdf").string(), set.size()).c_str());
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-h5py is not installed";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+INSTANTIATE_TEST_SUITE_P(Frames, FramesAsStored, ::testing::Bool(), [](auto const& compress) { return compress.param ? "Compressed" : "Contiguous"; });
+
+TEST(Frames, AreSmallerWhenCompressed) {
+  TemporaryFolder const folder;
+  ParticleSet const set = testing::make_plate(100);
+  FrameWriter plain(folder / "plain", {}, false), packed(folder / "packed", {}, true);
+  write_frames(plain, set, {0});
+  write_frames(packed, set, {0});
+  EXPECT_LT(2 * std::filesystem::file_size(folder / "packed/frames/000000.hdf"), std::filesystem::file_size(folder / "plain/frames/000000.hdf"));
+}
+
+TEST(Frames, AreListedInBothIndices) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  write_frames(writer, testing::make_plate(3), {0, 0.5, 1});
+  auto const series = nlohmann::json::parse(testing::text_of(folder / "frames.hdf.series"));
+  ASSERT_EQ(series["files"].size(), 3U);
+  EXPECT_EQ(series["files"][2]["name"], "frames/000002.hdf");
+  EXPECT_EQ(series["files"][2]["time"], 1.0);
+  std::string const xdmf = testing::text_of(folder / "frames.xmf");
+  EXPECT_NE(xdmf.find("<Time Value=\"0.5\"/>"), std::string::npos);
+  EXPECT_NE(xdmf.find("frames/000001.hdf:/VTKHDF/PointData/Pressure"), std::string::npos);
+}
+
+TEST(Frames, HoldOnlyTheFieldsAskedFor) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {"Velocity"}, true);
+  write_frames(writer, testing::make_plate(3), {0});
+  Frame const frame = read_frame(folder / "frames/000000.hdf", "Velocity");
+  EXPECT_EQ(frame.field_names, (std::vector<std::string>{"Body", "Id", "Velocity", "Volume"}));
+  EXPECT_EQ(frame.info.components, 3);
+  EXPECT_EQ(frame.info.unit, "m/s");
+  EXPECT_EQ(frame.dimension, 2);
+  EXPECT_FLOAT_EQ(static_cast<float>(frame.values[3 * 3 * 1]), 0.1F);  // v_x = 0.1 Y at particle (0, 1)
+}
+
+TEST(Frames, AreRemovedWhenTheyComeAfterTheCheckpoint) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  write_frames(writer, testing::make_plate(3), {0, 0.5, 1});
+  writer.continue_after({0, 0.5});
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/000002.hdf"));
+  write_frames(writer, testing::make_plate(3), {0.75});
+  EXPECT_EQ(list_frames(folder.path()).at(2).first, 0.75);
+}
+
+TEST(Frames, NameTheFieldsThereAreWhenOneIsMissing) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  write_frames(writer, testing::make_plate(3), {0});
+  try {
+    read_frame(folder / "frames/000000.hdf", "Presure");
+    FAIL();
+  } catch (InputError const& error) {
+    EXPECT_NE(std::string(error.what()).find("has no field 'Presure' (it has Body, CauchyStress,"), std::string::npos) << error.what();
+  }
+}
+
+/// In a child, because the limit cannot be lifted again. Exit status 0: as it should be.
+int write_beyond_the_limit(std::filesystem::path const& folder) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  ParticleSet const small = testing::make_plate(3), large = testing::make_plate(200);
+  FrameWriter writer(folder, {}, false);
+  write_frames(writer, small, {0});
+  std::string const before = testing::text_of(folder / "frames/000000.hdf");
+  rlimit const limit{100000, 100000};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  try {
+    write_frames(writer, large, {1});
+    return 1;
+  } catch (FileError const& error) {
+    std::string const text = error.what();
+    if (text.find("000001.hdf: cannot be written, File too large - ") == std::string::npos) return 2;
+  }
+  if (testing::text_of(folder / "frames/000000.hdf") != before) return 3;
+  if (std::filesystem::exists(folder / "frames/000001.hdf") || std::filesystem::exists(folder / "frames/000001.hdf.part")) return 4;
+  return list_frames(folder).size() == 1 ? 0 : 5;
+}
+
+TEST(Frames, StayIntactWhenTheNextDoesNotFitOnTheDisk) {
+  TemporaryFolder const folder;
+  pid_t const child = fork();
+  if (child == 0) ::_exit(write_beyond_the_limit(folder.path()));
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(Files, SayWhyAFolderCannotBeWritten) {
+  try {
+    write_whole_file("/proc/piola/file", std::string_view("text"));
+    FAIL();
+  } catch (FileError const& error) {
+    EXPECT_STREQ(error.what(), "/proc/piola/file: cannot be written, No such file or directory - give another folder with --out; what was written before is intact");
+  }
+  EXPECT_THROW(make_folder("/proc/piola"), FileError);
+}
+
+TEST(Files, SayThatTheDiskIsFull) {
+  std::string const text = cannot_write("results/frames/000003.hdf", ENOSPC);
+  EXPECT_EQ(text, "results/frames/000003.hdf: cannot be written, No space left on device - free some space or give another folder with --out; "
+                  "what was written before is intact");
+}
+
+}  // namespace
+}  // namespace piola

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/history.hpp"
+#include "piola/base/problems.hpp"
+#include "support/temporary_folder.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace piola {
+namespace {
+
+std::vector<HistoryColumn> const columns{{"time", "s"}, {"energy", "J"}};
+
+TEST(History, StartsWithTheAgreedColumns) {
+  Diagnostics d;
+  d.more = {{"plastic_work", 1}};
+  auto const names = diagnostic_columns(d);
+  std::string line;
+  for (auto const& c : names) line += (line.empty() ? "" : ",") + c.name;
+  EXPECT_EQ(line, "time,step,dt,kinetic_energy,strain_energy,total_energy,stabilisation_loss,external_work,linear_momentum_x,linear_momentum_y,"
+                  "linear_momentum_z,angular_momentum_x,angular_momentum_y,angular_momentum_z,jacobian_min,jacobian_max,pressure_min,pressure_max,"
+                  "pressure_oscillation,projection_loss,plastic_work");
+  EXPECT_EQ(diagnostic_values(1, 2, 3, d).size(), names.size());
+  EXPECT_EQ(names.back().unit, "J");
+}
+
+TEST(History, WritesTheShortestNumbersThatReadBackAsTheSame) {
+  testing::TemporaryFolder const folder;
+  HistoryFile file(folder / "history.csv", columns);
+  file.append({0.1, 1.0 / 3});
+  EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n0.1,0.3333333333333333\n");
+  HistoryFile const again(folder / "history.csv", columns, 1);
+  EXPECT_EQ(again.table().rows.at(0).at(1), 1.0 / 3);
+}
+
+TEST(History, LeavesACellEmptyRatherThanWriteNan) {
+  testing::TemporaryFolder const folder;
+  HistoryFile file(folder / "history.csv", columns);
+  EXPECT_EQ(file.append({1, std::numeric_limits<double>::quiet_NaN()}), std::vector<std::string>{"energy"});
+  file.append({std::numeric_limits<double>::infinity(), 2});
+  EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n1,\n,2\n");
+  HistoryFile const again(folder / "history.csv", columns, 1);
+  EXPECT_TRUE(std::isnan(again.table().rows.at(0).at(1)));
+}
+
+TEST(History, IsCutAfterTheTimeOfTheCheckpoint) {
+  testing::TemporaryFolder const folder;
+  {
+    HistoryFile file(folder / "history.csv", columns);
+    for (double t : {0.0, 0.1, 0.2, 0.3}) file.append({t, 2 * t});
+  }
+  {
+    HistoryFile file(folder / "history.csv", columns, 0.2);
+    EXPECT_EQ(file.table().rows.size(), 3U);
+    file.append({0.25, 7});
+  }
+  EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n0,0\n0.1,0.2\n0.2,0.4\n0.25,7\n");
+}
+
+TEST(History, DropsALineThatWasNotFinished) {
+  testing::TemporaryFolder const folder;
+  std::ofstream(folder / "history.csv") << "time,energy\n0,1\n0.1,";
+  HistoryFile const file(folder / "history.csv", columns, 5);
+  EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n0,1\n");
+}
+
+TEST(History, RefusesAFileWithOtherColumns) {
+  testing::TemporaryFolder const folder;
+  std::ofstream(folder / "history.csv") << "time,mass\n0,1\n";
+  EXPECT_THROW(HistoryFile(folder / "history.csv", columns, 5), FileError);
+}
+
+}  // namespace
+}  // namespace piola

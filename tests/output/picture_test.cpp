@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/picture.hpp"
+#include "piola/output/colour_map.hpp"
+#include "piola/output/lettering.hpp"
+#include "support/temporary_folder.hpp"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <set>
+
+namespace piola {
+namespace {
+
+struct Scene {
+  std::vector<std::array<double, 3>> points;
+  std::vector<double> radius, values;
+  Scene() {
+    for (int i = 0; i < 1000; ++i) {
+      points.push_back({0.1 * (i % 10), 0.1 * (i / 10 % 10), 0.1 * (i / 100)});
+      radius.push_back(0.058);
+      values.push_back(i);
+    }
+  }
+  PictureData data() const { return {points, radius, values, "pressure", "Pa", "A cube", 0.5, 3}; }
+};
+
+int dark_pixels(Image const& image, int x0, int x1, int y0, int y1) {
+  int count = 0;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) count += image.at(x, y)[1] < 150;
+  }
+  return count;
+}
+
+Image draw(Scene const& scene, PictureStyle const& style) {
+  Window window;
+  window.include(style.view, scene.points, 0.058);
+  return draw_picture(scene.data(), style, window);
+}
+
+TEST(Picture, HasTheSizeAskedForAndIsReadBackFromPng) {
+  testing::TemporaryFolder const folder;
+  Image const image = draw(Scene(), {400, 300, {}, {}});
+  write_png(folder / "a.png", image);
+  Image const back = read_png(folder / "a.png");
+  EXPECT_EQ(back.width, 400);
+  EXPECT_EQ(back.height, 300);
+  EXPECT_EQ(back.rgb, image.rgb);
+}
+
+TEST(Picture, ShowsBodyColourBarTitleAndTime) {
+  Image const image = draw(Scene(), {1000, 800, {}, {}});
+  EXPECT_EQ(image.at(3, 400), (Colour{255, 255, 255}));
+  EXPECT_NE(image.at(430, 420), (Colour{255, 255, 255}));                     // the body in the middle
+  EXPECT_GT(dark_pixels(image, 20, 200, 10, 60), 50);                         // title
+  EXPECT_GT(dark_pixels(image, 800, 1000, 10, 60), 50);                       // time
+  EXPECT_GT(dark_pixels(image, 895, 1000, 160, 700), 50);                     // numbers beside the bar
+  std::set<Colour> bar;
+  for (int y = 165; y < 685; ++y) bar.insert(image.at(885, y));
+  EXPECT_GT(bar.size(), 100U);
+}
+
+TEST(Picture, HidesWhatLiesBehind) {
+  std::vector<std::array<double, 3>> const points{{0, 0, 0}, {0, 0, 1}};
+  std::vector<double> const radius{0.5, 0.5}, values{0, 1};
+  PictureStyle const style{600, 500, {0, 0}, {}};
+  Window window;
+  window.include(style.view, points, 0.5);
+  Image const image = draw_picture({points, radius, values, "", "1", "", 0, 3}, style, window);
+  Colour const seen = image.at((20 + 490) / 2, 250);
+  EXPECT_GT(seen[0], seen[2]);  // the yellow of 1, not the violet of 0
+}
+
+TEST(Picture, DrawsLinesAndPlanes) {
+  for (int dimension : {1, 2}) {
+    std::vector<std::array<double, 3>> points;
+    for (int i = 0; i < 20; ++i) points.push_back({0.1 * i, dimension == 2 ? 0.1 * (i % 4) : 0, 0});
+    std::vector<double> const radius(20, 0.05), values(20, 1.0);
+    PictureStyle const style{500, 400, {}, {}};
+    Window window;
+    window.include({0, 0}, points, 0.05);
+    Image const image = draw_picture({points, radius, values, "pressure", "Pa", "", 0, dimension}, style, window);
+    int coloured = 0;
+    for (int x = 40; x < 400; ++x) {
+      for (int y = 60; y < 330; ++y) coloured += image.at(x, y) != Colour{255, 255, 255};
+    }
+    EXPECT_GT(coloured, 500) << dimension;
+  }
+}
+
+TEST(Window, StaysWhileThePointsStayInsideAndGrowsOtherwise) {
+  View const view{0, 0};
+  Window window;
+  std::vector<std::array<double, 3>> points{{0, 0, 0}, {1, 1, 0}};
+  window.include(view, points, 0.1);
+  Window const first = window;
+  points[0] = {0.5, 0.5, 0};
+  window.include(view, points, 0.1);
+  EXPECT_EQ(window.x0, first.x0);
+  points[1] = {4, 1, 0};
+  window.include(view, points, 0.1);
+  EXPECT_GT(window.x1, 4.1);
+  EXPECT_EQ(window.x0, first.x0);
+  points[1] = {std::numeric_limits<double>::quiet_NaN(), 1, 0};
+  window.include(view, points, 0.1);
+  EXPECT_TRUE(std::isfinite(window.x1));
+}
+
+TEST(ColourMap, RisesInLightnessWhenAllValuesHaveOneSign) {
+  ColourMap const map(0, 10);
+  EXPECT_FALSE(map.diverging());
+  double before = -1;
+  for (int i = 0; i <= 100; ++i) {
+    auto const c = map(0.1 * i);
+    double const light = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    EXPECT_GE(light, before);
+    before = light;
+  }
+}
+
+TEST(ColourMap, IsGreyAtZeroWhenTheRangeSpansIt) {
+  ColourMap const map(-1, 3);
+  EXPECT_TRUE(map.diverging());
+  Colour const zero = map(0);
+  EXPECT_LT(std::abs(zero[0] - zero[2]), 5);
+  EXPECT_GT(map(3)[0], map(3)[2]);
+  EXPECT_LT(map(-1)[0], map(-1)[2]);
+}
+
+TEST(ColourMap, TakesAnyRange) {
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  for (auto const& range : {std::array{0.0, 0.0}, std::array{5.0, 5.0}, std::array{nan, 1.0}, std::array{-1e300, 1e300}, std::array{1e-300, 2e-300}}) {
+    ColourMap const map(range[0], range[1]);
+    EXPECT_LT(map.low(), map.high());
+    EXPECT_LE(map.ticks().size(), 20U);
+    EXPECT_EQ(map(nan), (Colour{255, 0, 255}));
+  }
+}
+
+TEST(ColourMap, HasRoundTicks) {
+  EXPECT_EQ(ColourMap(0, 10).ticks(), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ColourMap(-1.2, 1.2).ticks().size(), 5U);
+}
+
+TEST(ColourMap, ShowsUnitsWithPrefix) {
+  EXPECT_EQ(shown_unit(3e7, "Pa").text, "MPa");
+  EXPECT_EQ(shown_unit(3e7, "Pa").factor, 1e6);
+  EXPECT_EQ(shown_unit(40, "m/s").text, "m/s");
+  EXPECT_EQ(shown_unit(0.002, "m").text, "mm");
+  EXPECT_EQ(shown_unit(2, "1").text, "");
+  EXPECT_EQ(field_words("VonMisesStress"), "von Mises stress");
+  EXPECT_EQ(field_words("FirstPiolaStress"), "first Piola stress");
+}
+
+TEST(Lettering, DrawsEveryPrintableCharacter) {
+  for (char c = '!'; c <= '~'; ++c) {
+    Image image(60, 60, {255, 255, 255});
+    draw_text(image, 15, 40, std::string(1, c), 20, {0, 0, 0});
+    EXPECT_GT(dark_pixels(image, 0, 60, 0, 60), 5) << c;
+  }
+  EXPECT_EQ(text_width("", 20), 0);
+  EXPECT_GT(text_width("mm", 20), text_width("ii", 20));
+}
+
+TEST(PictureValues, ReduceVectorsAndStressesToOneNumber) {
+  EXPECT_EQ(picture_values(std::array{3.0, 4.0, 0.0}, 3), std::vector<double>{5});
+  EXPECT_DOUBLE_EQ(picture_values(std::array{0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, 6)[0], std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(picture_values(std::array{2.0, 2.0, 2.0, 0.0, 0.0, 0.0}, 6)[0], 0);
+}
+
+}  // namespace
+}  // namespace piola

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/probes.hpp"
+#include "piola/base/problems.hpp"
+#include "support/fake_formulation.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace piola {
+namespace {
+
+/// A plate turned by an angle about the z axis and stretched along y.
+class Turned : public testing::Springs {
+ public:
+  Turned(ParticleSet const& set, double angle, double stretch) : Springs(set), set_(set), angle_(angle), stretch_(stretch) {}
+  void sample(std::string_view field, std::span<double> values) const override {
+    if (field != "Displacement") return Springs::sample(field, values);
+    for (std::size_t i = 0; i < set_.X.size(); ++i) {
+      double const X = set_.X[i][0], Y = stretch_ * set_.X[i][1], c = std::cos(angle_), s = std::sin(angle_);
+      values[3 * i] = c * X - s * Y - set_.X[i][0];
+      values[3 * i + 1] = s * X + c * Y - set_.X[i][1];
+      values[3 * i + 2] = 0;
+    }
+  }
+
+ private:
+  ParticleSet set_;
+  double angle_, stretch_;
+};
+
+ProbeSpec spec(ProbeSpec::Kind kind, std::vector<std::string> quantities = {}) {
+  ProbeSpec s;
+  s.name = "p";
+  s.body = "plate";
+  s.kind = kind;
+  s.quantities = std::move(quantities);
+  return s;
+}
+
+std::vector<double> evaluate(ProbeSpec const& s, Formulation const& f, ParticleSet const& set) {
+  Probe probe(s, set);
+  FieldCache cache(f, set);
+  return probe.evaluate(cache);
+}
+
+TEST(Probe, TakesThePointNearestToAPlace) {
+  ParticleSet const set = testing::make_plate(4);
+  auto s = spec(ProbeSpec::Kind::point, {"velocity_x", "velocity_y", "velocity_magnitude", "position_x"});
+  s.at = {2.2, 1.1, 0};
+  Probe const probe(s, set);
+  EXPECT_EQ(probe.ids(), std::vector<std::int64_t>{6});
+  EXPECT_EQ(probe.columns()[1].name, "p.velocity_y");
+  EXPECT_EQ(probe.columns()[1].unit, "m/s");
+  auto const values = evaluate(s, testing::Springs(set), set);
+  EXPECT_DOUBLE_EQ(values[0], 0.1);
+  EXPECT_DOUBLE_EQ(values[1], -0.2);
+  EXPECT_DOUBLE_EQ(values[2], std::hypot(0.1, 0.2));
+  EXPECT_DOUBLE_EQ(values[3], 2);
+}
+
+TEST(Probe, WeightsAnAverageByTributaryVolume) {
+  ParticleSet set = testing::make_plate(2);
+  set.volume = {1, 3, 0, 0};
+  auto s = spec(ProbeSpec::Kind::average, {"velocity_y"});
+  EXPECT_DOUBLE_EQ(evaluate(s, testing::Springs(set), set)[0], -0.075);
+  s.kind = ProbeSpec::Kind::minimum;
+  EXPECT_DOUBLE_EQ(evaluate(s, testing::Springs(set), set)[0], -0.1);
+  s.kind = ProbeSpec::Kind::maximum;
+  EXPECT_DOUBLE_EQ(evaluate(s, testing::Springs(set), set)[0], 0);
+}
+
+TEST(Probe, CountsOnlyTheParticlesOfItsRegion) {
+  ParticleSet const set = testing::make_plate(4);
+  auto s = spec(ProbeSpec::Kind::maximum, {"position_y"});
+  s.where = Expression("Y < 1.5");
+  EXPECT_DOUBLE_EQ(evaluate(s, testing::Springs(set), set)[0], 1);
+  s.where = Expression("Y > 100");
+  EXPECT_THROW(Probe(s, set), InputError);
+}
+
+TEST(Probe, MeasuresTwistWithSign) {
+  ParticleSet const set = testing::make_plate(4);
+  auto s = spec(ProbeSpec::Kind::twist);
+  s.axis = 2;
+  for (double angle : {-3.0, -0.5, 0.0, 0.7, 3.1}) EXPECT_NEAR(evaluate(s, Turned(set, angle, 1), set)[0], angle, 1e-12);
+  EXPECT_EQ(Probe(s, set).columns()[0].name, "p.twist_angle");
+}
+
+TEST(Probe, CountsFullTurns) {
+  ParticleSet const set = testing::make_plate(4);
+  auto s = spec(ProbeSpec::Kind::twist);
+  s.axis = 2;
+  Probe probe(s, set);
+  double angle = 0;
+  for (int k = 0; k < 30; ++k) {
+    angle -= 0.5;
+    Turned const turned(set, angle, 1);
+    FieldCache cache(turned, set);
+    EXPECT_NEAR(probe.evaluate(cache)[0], angle, 1e-12);
+  }
+  Probe again(s, set);
+  again.restore(probe.state());
+  Turned const turned(set, angle - 0.5, 1);
+  FieldCache cache(turned, set);
+  EXPECT_NEAR(again.evaluate(cache)[0], angle - 0.5, 1e-12);
+}
+
+TEST(Probe, MeasuresTheExtentAlongAnAxis) {
+  ParticleSet const set = testing::make_plate(4);
+  auto s = spec(ProbeSpec::Kind::extent);
+  s.axis = 1;
+  EXPECT_NEAR(evaluate(s, Turned(set, 0, 1.5), set)[0], 4.5, 1e-12);
+}
+
+TEST(Probe, GivesNoNumberForAFieldThatTheFormulationDoesNotHave) {
+  ParticleSet const set = testing::make_plate(4);
+  EXPECT_TRUE(std::isnan(evaluate(spec(ProbeSpec::Kind::average, {"damage"}), testing::Springs(set), set)[0]));
+}
+
+}  // namespace
+}  // namespace piola

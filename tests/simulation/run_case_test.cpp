@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/run_case.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/checkpoint.hpp"
+#include "piola/output/frames.hpp"
+#include "support/fake_formulation.hpp"
+#include "support/temporary_folder.hpp"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace piola {
+namespace {
+
+using testing::make_springs;
+using testing::springs;
+using testing::TemporaryFolder;
+using testing::text_of;
+
+CaseOutcome run(Simulation& s, std::filesystem::path const& folder, bool resume = false, std::atomic<int>* stop = nullptr) {
+  Listener listener;
+  std::atomic<int> none{0};
+  return run_case(s, {.folder = folder, .resume = resume, .force = false}, listener, stop ? *stop : none);
+}
+
+Simulation probed() {
+  Simulation s = make_springs();
+  ProbeSpec probe;
+  probe.name = "all";
+  probe.body = "plate";
+  probe.kind = ProbeSpec::Kind::twist;
+  probe.axis = 2;
+  s.spec.probes.push_back(probe);
+  s.spec.quantities.push_back({.name = "twist", .column = "all.twist_angle", .take = QuantitySpec::Take::first_peak, .reference = {}, .unit = "degree"});
+  return s;
+}
+
+/// Files that a resumed run must leave like an uninterrupted one.
+void expect_same_results(std::filesystem::path const& a, std::filesystem::path const& b) {
+  for (char const* name : {"history.csv", "frames.hdf.series", "frames.xmf", "frames/000000.hdf", "frames/000003.hdf", "frames/000004.hdf"}) {
+    EXPECT_TRUE(text_of(a / name) == text_of(b / name)) << name;
+  }
+  auto const ca = list_checkpoints(a), cb = list_checkpoints(b);
+  ASSERT_FALSE(ca.empty());
+  ASSERT_FALSE(cb.empty());
+  EXPECT_EQ(read_checkpoint(ca[0]).state.arrays(), read_checkpoint(cb[0]).state.arrays());
+  EXPECT_EQ(read_checkpoint(ca[0]).observers.arrays(), read_checkpoint(cb[0]).observers.arrays());
+}
+
+TEST(RunCase, WritesAllThatAUserExpects) {
+  TemporaryFolder const folder;
+  Simulation s = probed();
+  s.spec.output.pictures_every = 0.5;
+  s.spec.output.picture_width = 300;
+  s.spec.output.picture_height = 240;
+  CaseOutcome const outcome = run(s, folder / "r");
+  EXPECT_EQ(outcome.ending, Ending::completed);
+  for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "frames.xmf", "case.toml", "log.txt", "frames/000004.hdf", "pictures/Pressure-000002.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "r" / name)) << name;
+  }
+  EXPECT_EQ(outcome.last_picture.filename(), "Pressure-000002.png");
+  auto const summary = nlohmann::json::parse(text_of(folder / "r/summary.json"));
+  EXPECT_EQ(summary["status"], "completed");
+  EXPECT_EQ(summary["end_time"], 1.0);
+  EXPECT_EQ(summary["particles"], 16);
+  EXPECT_EQ(summary["quantities"]["twist"]["unit"], "degree");
+  EXPECT_GT(summary["stages_per_second"], 0.0);
+  EXPECT_TRUE(text_of(folder / "r/log.txt").starts_with("Piola "));
+  EXPECT_EQ(list_frames(folder / "r").back().first, 1.0);
+}
+
+TEST(RunCase, HitsTheEndTimeAndWritesRowsAtDueTimes) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  run(s, folder / "r");
+  HistoryFile const history(folder / "r/history.csv", diagnostic_columns(s.formulation->diagnose()), 2);
+  auto const times = history.table().values("time");
+  EXPECT_EQ(times.size(), 21U);
+  EXPECT_EQ(times.front(), 0);
+  EXPECT_EQ(times.back(), 1);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    EXPECT_GE(times[k], 0.05 * static_cast<double>(k) - 1e-12);
+    EXPECT_LT(times[k], 0.05 * static_cast<double>(k) + 0.013);
+  }
+}
+
+TEST(RunCase, IsTheSameWithAndWithoutOutput) {
+  TemporaryFolder const folder;
+  Simulation loud = probed(), quiet = make_springs();
+  quiet.spec.output = {};
+  quiet.spec.output.history_every = 1;
+  run(loud, folder / "loud");
+  run(quiet, folder / "quiet");
+  EXPECT_EQ(read_checkpoint(list_checkpoints(folder / "loud")[0]).state.arrays(), read_checkpoint(list_checkpoints(folder / "quiet")[0]).state.arrays());
+}
+
+TEST(RunCase, ContinuesBitForBitAfterAStop) {
+  TemporaryFolder const folder;
+  Simulation whole = probed(), first = probed(), second = probed();
+  run(whole, folder / "whole");
+  std::atomic<int> stop{0};
+  springs(first).stop_at = 57;
+  springs(first).stop = &stop;
+  CaseOutcome const outcome = run(first, folder / "parts", false, &stop);
+  EXPECT_EQ(outcome.ending, Ending::stopped);
+  EXPECT_EQ(outcome.summary.steps, 57);
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "parts/summary.json"))["status"], "stopped");
+  EXPECT_EQ(run(second, folder / "parts", true).ending, Ending::completed);
+  expect_same_results(folder / "whole", folder / "parts");
+}
+
+TEST(RunCase, ContinuesBitForBitFromAnEarlierCheckpoint) {
+  TemporaryFolder const folder;
+  Simulation whole = probed(), killed = probed(), second = probed();
+  run(whole, folder / "whole");
+  run(killed, folder / "parts");
+  std::filesystem::remove(list_checkpoints(folder / "parts")[0]);  // as if killed after the last but one
+  EXPECT_LT(read_checkpoint(list_checkpoints(folder / "parts")[0]).time, 1);
+  run(second, folder / "parts", true);
+  expect_same_results(folder / "whole", folder / "parts");
+}
+
+TEST(RunCase, LeavesACompletedRunAsItIsWhenResumed) {
+  TemporaryFolder const folder;
+  Simulation first = probed(), second = probed();
+  run(first, folder / "r");
+  std::string const before = text_of(folder / "r/history.csv");
+  EXPECT_EQ(run(second, folder / "r", true).ending, Ending::completed);
+  EXPECT_EQ(text_of(folder / "r/history.csv"), before);
+}
+
+TEST(RunCase, RefusesToResumeAnotherCase) {
+  TemporaryFolder const folder;
+  Simulation first = make_springs(), second = make_springs();
+  run(first, folder / "r");
+  second.spec.source += "# changed\n";
+  EXPECT_THROW(run(second, folder / "r", true), InputError);
+}
+
+TEST(RunCase, KeepsTheLastStateOfAFailedRunAndExplains) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  springs(s).fail_at = 40;
+  CaseOutcome const outcome = run(s, folder / "r");
+  EXPECT_EQ(outcome.ending, Ending::failed);
+  for (char const* part : {"stopped at step 40, t = ", "particle 3 (body 'plate', X = (3, 0, 0) m, x = (0.5, 0.25, 0) m) is inverted, det F = -0.02, neighbours = 27",
+                           "limited by the wave speed", "docs/user/when-it-stops.md"}) {
+    EXPECT_NE(outcome.failure.find(part), std::string::npos) << part << "\n" << outcome.failure;
+  }
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["status"], "failed");
+  EXPECT_EQ(read_checkpoint(folder / "r" / failed_checkpoint).step, 40);
+  EXPECT_EQ(list_frames(folder / "r").back().first, outcome.summary.end_time);
+}
+
+TEST(RunCase, TakesACollapsedStepForAFailure) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  springs(s).collapse_at = 40;
+  CaseOutcome const outcome = run(s, folder / "r");
+  EXPECT_EQ(outcome.ending, Ending::failed);
+  EXPECT_NE(outcome.failure.find("the time step collapsed, stable step [s] = 1e-30"), std::string::npos) << outcome.failure;
+}
+
+TEST(RunCase, WarnsOfCellsThatAreNotNumbers) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  springs(s).nan_at = 50;
+  CaseOutcome const outcome = run(s, folder / "r");
+  ASSERT_EQ(outcome.summary.warnings.size(), 1U);
+  EXPECT_NE(outcome.summary.warnings[0].find("history.csv: pressure_max is not a number at t = "), std::string::npos);
+  EXPECT_EQ(text_of(folder / "r/history.csv").find("nan"), std::string::npos);
+}
+
+TEST(RunCase, ReplacesItsOwnResultsOnly) {
+  TemporaryFolder const folder;
+  Simulation first = make_springs(), again = make_springs(), other = make_springs();
+  run(first, folder / "r");
+  std::ofstream(folder / "r/notes.txt") << "mine";
+  EXPECT_NO_THROW(run(again, folder / "r"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "r/notes.txt"));
+  other.spec.title = "Another";
+  try {
+    run(other, folder / "r");
+    FAIL();
+  } catch (InputError const& error) {
+    EXPECT_NE(std::string(error.what()).find("holds the results of another case, \"Springs\""), std::string::npos) << error.what();
+  }
+  std::filesystem::create_directories(folder / "mine");
+  std::ofstream(folder / "mine/thesis.tex") << "x";
+  EXPECT_THROW(run(again, folder / "mine"), InputError);
+}
+
+TEST(RunCase, KeepsTheStepBelowTheBoundOfTheUser) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  s.spec.run.max_step = 0.001;
+  EXPECT_EQ(run(s, folder / "r").summary.steps, 1000);
+}
+
+}  // namespace
+}  // namespace piola

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/particles/particle_set.hpp"
+#include "piola/simulation/build.hpp"
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace piola::testing {
+
+/// A plate of n x n particles, unit spacing, in a set of one body called "plate".
+inline ParticleSet make_plate(int n) {
+  ParticleSet set;
+  set.dimension = 2;
+  set.bodies.push_back({"plate", 0, n * n, {1, 1, 1}, {n, n, 1}, true});
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      set.X.push_back({static_cast<double>(i), static_cast<double>(j), 0});
+      set.lattice_index.push_back({i, j, 0});
+      set.volume.push_back(1);
+      set.kernel_volume.push_back(1);
+      set.body.push_back(0);
+    }
+  }
+  return set;
+}
+
+/// Each particle on a spring of its own: u'' = -k u with unit mass, symplectic Euler with a step that wanders, so that a
+/// resumed run is right only if every number was restored.
+class Springs : public Formulation {
+ public:
+  explicit Springs(ParticleSet const& set) : set_(set), u_(3 * set.X.size()), v_(3 * set.X.size()) {
+    for (std::size_t i = 0; i < set.X.size(); ++i) {
+      v_[3 * i] = 0.1 * set.X[i][1];
+      v_[3 * i + 1] = -0.1 * set.X[i][0];
+    }
+  }
+  double stable_time_step() const override { return steps_ >= collapse_at ? 1e-30 : 0.01 * (1 + 0.3 * std::sin(v_[3 * 3])); }
+  void step(double, double dt) override {
+    for (std::size_t i = 0; i < u_.size(); ++i) {
+      v_[i] -= dt * stiffness * u_[i];
+      u_[i] += dt * v_[i];
+    }
+    ++steps_;
+    if (steps_ == stop_at && stop != nullptr) *stop = 15;
+  }
+  std::optional<Failure> failure() const override {
+    if (steps_ < fail_at) return std::nullopt;
+    return Failure{"is inverted", 3, "plate", set_.X[3], {0.5, 0.25, 0}, {{"det F", -0.02}, {"neighbours", 27}}};
+  }
+  Diagnostics diagnose() const override {
+    Diagnostics d;
+    for (std::size_t i = 0; i < u_.size(); ++i) {
+      d.kinetic_energy += 0.5 * v_[i] * v_[i];
+      d.strain_energy += 0.5 * stiffness * u_[i] * u_[i];
+      d.linear_momentum[i % 3] += v_[i];
+    }
+    d.jacobian_min = d.jacobian_max = 1;
+    d.pressure_max = steps_ >= nan_at ? std::numeric_limits<double>::quiet_NaN() : u_[3];
+    d.more = {{"plastic_work", 0.25}};
+    return d;
+  }
+  std::vector<FieldInfo> fields() const override { return {{"Displacement", "m", 3}, {"Velocity", "m/s", 3}, {"Pressure", "Pa", 1}, {"CauchyStress", "Pa", 6}}; }
+  void sample(std::string_view field, std::span<double> values) const override {
+    if (field == "Displacement") std::copy(u_.begin(), u_.end(), values.begin());
+    else if (field == "Velocity") std::copy(v_.begin(), v_.end(), values.begin());
+    else for (std::size_t k = 0; k < values.size(); ++k) values[k] = 1e6 * std::sin(0.3 * static_cast<double>(k));
+  }
+  void save(StateWriter& writer) const override {
+    writer.put("u", u_);
+    writer.put("v", v_);
+    double const steps = steps_;
+    writer.put("steps", {&steps, 1});
+  }
+  void load(StateReader& reader) override {
+    reader.get("u", u_);
+    reader.get("v", v_);
+    double steps = 0;
+    reader.get("steps", {&steps, 1});
+    steps_ = static_cast<int>(steps);
+  }
+  int stages_per_step() const override { return 1; }
+  std::size_t memory_bytes() const override { return 16 * u_.size(); }
+
+  double stiffness = 4;
+  static constexpr int never = 1 << 30;
+  int fail_at = never, collapse_at = never, stop_at = never, nan_at = never;  ///< numbers of steps
+  std::atomic<int>* stop = nullptr;
+
+ private:
+  ParticleSet set_;
+  std::vector<double> u_, v_;
+  int steps_ = 0;
+};
+
+/// A run of springs for one second, with output of all kinds.
+inline Simulation make_springs(int n = 4) {
+  Simulation s;
+  s.particles = make_plate(n);
+  s.formulation = std::make_unique<Springs>(s.particles);
+  s.formulation_name = "springs";
+  s.mass = n * n;
+  s.spec.title = "Springs";
+  s.spec.source = "title = \"Springs\"\n";
+  s.spec.run.end = 1;
+  s.spec.output.history_every = 0.05;
+  s.spec.output.frames_every = 0.25;
+  s.spec.output.checkpoints_every = 0.3;
+  s.spec.bodies.resize(1);
+  s.spec.bodies[0].name = "plate";
+  return s;
+}
+
+inline Springs& springs(Simulation& s) { return static_cast<Springs&>(*s.formulation); }
+
+}  // namespace piola::testing
