@@ -6,6 +6,20 @@
 
 namespace piola::exec_host {
 
+namespace {
+
+std::vector<int> allowed_cores() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  std::vector<int> cores;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return cores;
+  for (int c = 0; c < CPU_SETSIZE; ++c)
+    if (CPU_ISSET(c, &allowed)) cores.push_back(c);
+  return cores;
+}
+
+}  // namespace
+
 int set_threads(int threads) {
   omp_set_dynamic(0);
   omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
@@ -15,12 +29,8 @@ int set_threads(int threads) {
 int threads() { return omp_get_max_threads(); }
 
 void pin_threads() {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
-  std::vector<int> cores;
-  for (int c = 0; c < CPU_SETSIZE; ++c)
-    if (CPU_ISSET(c, &allowed)) cores.push_back(c);
+  static std::vector<int> const cores = allowed_cores();  // as they were before the first pinning
+  if (cores.empty()) return;
 #pragma omp parallel
   {
     cpu_set_t one;
