@@ -67,8 +67,6 @@ function(piola_add_machine source machine)
   # operand of its own AVX-512 intrinsics for a mistake (GCC bug 105593).
   target_compile_options(${target} PRIVATE -ffp-contract=fast $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized>
                                            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  # g++ cannot see that a pack which is filled lane by lane is complete; the sanitizer builds can.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_libraries(${target} PRIVATE piola_options piola_warnings)
   if(NOT PIOLA_SEAL)
     target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
