@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that knows toml++. Its parser asserts on some malformed files (a header such as "[~run]") instead of
-// reporting them, and with NDEBUG it turns the assertion into undefined behaviour; so assertions stay on here and throw.
-#undef NDEBUG
-#include <stdexcept>
-
-namespace {
-[[noreturn]] void parser_failed(char const* condition) { throw std::logic_error(condition); }
-}  // namespace
-
-#define TOML_ASSERT(condition) ((condition) ? void(0) : parser_failed(#condition))
-#define TOML_HEADER_ONLY 1
-#include "piola/base/text.hpp"
+// The only file that knows toml++; its header comes first because it sets how the parser fails.
 #include "piola/input/document.hpp"
+#include "piola/base/text.hpp"
 #include "piola/input/document_guard.hpp"
+#include "piola/input/toml_library.hpp"
 #include <algorithm>
 #include <sstream>
-#include <toml++/toml.h>
 
 namespace piola {
 namespace {

@@ -49,10 +49,6 @@ void refuse_twins(std::vector<Section> const& sections, std::vector<Spec> const&
   }
 }
 
-bool same(FormulationSpec const& a, FormulationSpec const& b) {
-  return a.name == b.name && a.numbers == b.numbers && a.words == b.words;
-}
-
 // One formulation moves all bodies, and one dimension holds for all of them.
 void check_bodies_together(std::vector<Section> const& sections, std::vector<BodySpec> const& bodies) {
   for (std::size_t i = 1; i < bodies.size(); ++i) {
@@ -63,9 +59,9 @@ void check_bodies_together(std::vector<Section> const& sections, std::vector<Bod
                        "D, body " + in_quotes(bodies[0].name) + " in " + std::to_string(bodies[0].shape.dimension) +
                        "D (allowed: one dimension for all) - give all shapes as many components");
     }
-    if (!same(bodies[i].formulation, bodies[0].formulation)) {
+    if (bodies[i].formulation.name != bodies[0].formulation.name) {
       problems.add(sections[i].place_of("formulation"),
-                   "body " + in_quotes(bodies[i].name) + " has another formulation or other settings than body " +
+                   "body " + in_quotes(bodies[i].name) + " has another formulation than body " +
                        in_quotes(bodies[0].name) + " (allowed: one formulation for all bodies)");
     }
   }

@@ -18,9 +18,10 @@ struct ReadLimits {
 /// Bytes per particle that a run needs at least; used to refuse hopeless cases before any particle is made.
 inline constexpr double least_bytes_per_particle = 500;
 
-/// Reads and checks a case file, or the case.toml of a folder (docs/user/case-file.md). `overrides` are settings "path=value" that replace values of the
-/// file (see apply_overrides). Throws InputError with every problem that was found, each "file:line:column: what is
-/// wrong (what is allowed) - what to do", in the order of the file, or that the file cannot be read.
+/// Reads and checks a case file, or the case.toml of a folder (docs/user/case-file.md). `overrides` are settings
+/// "path=value" that replace values of the file (see apply_overrides). Throws InputError with every problem that was
+/// found, each "file:line:column: what is wrong (what is allowed) - what to do", in the order of the file, or that the
+/// file cannot be read.
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides = {},
                    ReadLimits const& limits = {});
 

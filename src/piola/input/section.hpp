@@ -38,8 +38,8 @@ std::optional<std::vector<Value>> read_list(Value const& value, std::size_t leas
 /// Whether a text starts like a quantity: a number directly followed by a unit ("5 m/s"), not by an operator ("5*X").
 bool looks_like_quantity(std::string_view text);
 
-/// A table of the case file while it is read: knows the keys of its section from the table of keys, and reports missing,
-/// unknown and wrong ones. Every read function leaves the target as it is if the key is missing or wrong.
+/// A table of the case file while it is read: knows the keys of its section from the table of keys, and reports
+/// missing, unknown and wrong ones. Every read function leaves the target as it is if the key is missing or wrong.
 class Section {
  public:
   /// `node` must be a table (the caller has looked); `section` names the rows of the table of keys.

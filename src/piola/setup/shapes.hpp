@@ -27,7 +27,8 @@ struct ShapeSpec {
   std::uint32_t seed = 1;                        ///< of the jitter
 };
 
-/// Number of particles that `fill` would create, without creating them: exact for a box and up to about 1e8, an estimate beyond.
+/// Number of particles that `fill` would create, without creating them: exact for a box and up to about 1e8, an
+/// estimate beyond.
 std::int64_t count_particles(ShapeSpec const& shape);
 
 /// Lattice spacing of the body [m]; 1 for dimensions that do not exist.
@@ -38,13 +39,13 @@ std::array<double, 3> spacing_of(ShapeSpec const& shape);
 int particles_over(double length, double spacing, ShapeSpec::Placement placement);
 
 /// Appends a body's particles to the set, x fastest, then y, then z.
-///  - Box, on_boundary: n points over a length l have the spacing l/(n-1) and lie on both faces; the tributary volume is
-///    1/2 of a cell at faces, 1/4 at edges, 1/8 at corners. A direction with one particle has the whole length as its
-///    spacing, the particle in the middle, and counts as a full cell.
+///  - Box, on_boundary: n points over a length l have the spacing l/(n-1) and lie on both faces; the tributary volume
+///    is 1/2 of a cell at faces, 1/4 at edges, 1/8 at corners. A direction with one particle has the whole length as
+///    its spacing, the particle in the middle, and counts as a full cell.
 ///  - Box, cell_centred: spacing l/n, every particle a full cell.
-///  - Sphere (2D: disc, 1D: interval) and cylinder: the cells of a lattice, symmetric about the centre, whose middle lies
-///    inside. Every particle is a full cell, so the body's volume is that of its staircase, not the exact one; along the
-///    axis of a cylinder the spacing is fitted to the length.
+///  - Sphere (2D: disc, 1D: interval) and cylinder: the cells of a lattice, symmetric about the centre, whose middle
+///    lies inside. Every particle is a full cell, so the body's volume is that of its staircase, not the exact one;
+///    along the axis of a cylinder the spacing is fitted to the length.
 /// Tributary volumes of a box sum to its exact volume; kernel volumes are the product of the spacings.
 /// Jitter moves particles that are not on a face of the body by up to jitter * spacing in each direction; the same seed
 /// gives the same particles on every machine.

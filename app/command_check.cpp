@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/exec/threads.hpp"
+#include "piola/input/case_facts.hpp"
+#include "piola/input/check_case.hpp"
+#include "piola/input/read_case.hpp"
+#include "piola/simulation/build.hpp"
+#include "commands.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+namespace piola::app {
+namespace {
+
+/// What a run would cost; measured on the first steps where that is cheap.
+struct Cost {
+  double step = 0;     ///< s of the simulation
+  double bytes = 0;    ///< memory
+  double seconds = 0;  ///< wall time of the whole run
+  int threads = 1;
+  bool measured = false;
+};
+
+std::string times(std::array<int, 3> const& n, int dimension) {
+  std::string text;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    text += (d > 0 ? " x " : "") + std::to_string(n[d]);
+  return text;
+}
+
+std::string spacing_text(std::array<double, 3> const& spacing, int dimension) {
+  bool same = true;
+  for (std::size_t d = 1; d < static_cast<std::size_t>(dimension); ++d) {
+    same = same && std::abs(spacing[d] - spacing[0]) < 1e-9 * spacing[0];
+  }
+  std::string text = quantity_text(spacing[0], "m");
+  for (std::size_t d = 1; !same && d < static_cast<std::size_t>(dimension); ++d)
+    text += " x " + quantity_text(spacing[d], "m");
+  return text;
+}
+
+std::string settings_text(FormulationSpec const& spec) {
+  std::vector<std::string> given;
+  for (auto const& [name, value] : spec.words) given.push_back(name + " = " + value);
+  for (auto const& [name, value] : spec.numbers) given.push_back(name + " = " + number_text(value));
+  return given.empty() ? "" : " (" + joined(given) + ")";
+}
+
+std::string material_text(BodySpec const& body) {
+  LawInfo const law = *find_law(body.law);
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    Parameter const& parameter = law.parameters[i];
+    values.push_back(std::string(parameter.name) + " = " + quantity_text(body.material.value[i], parameter.unit));
+  }
+  return body.law + ": " + joined(values);
+}
+
+void print_body(BodySpec const& body, BodyFacts const& facts) {
+  constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};
+  int const dimension = body.shape.dimension;
+  std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
+  fmt::print("body \"{}\": {} of {} particles ({} lattice, spacing {})\n", body.name,
+             kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
+             times(facts.lattice, dimension), spacing_text(facts.spacing, dimension));
+  fmt::print("  {}\n", material_text(body));
+  fmt::print("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
+  if (facts.s_wave > 0) fmt::print(", shear waves {:.4g} m/s", facts.s_wave);
+  fmt::print("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
+  fmt::print("  {}{}\n", body.formulation.name, settings_text(body.formulation));
+}
+
+void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
+  for (SupportSpec const& support : spec.supports) {
+    auto const body = std::find_if(particles.bodies.begin(), particles.bodies.end(),
+                                   [&](Body const& b) { return b.name == support.body; });
+    std::string axes;
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (support.fix[d]) axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
+    }
+    auto const count = select_particles(particles, *body, &support.where).size();
+    fmt::print("support of \"{}\": {} particles where {}, held in {}\n", support.body,
+               count_text(static_cast<std::int64_t>(count)), support.where.text(), axes);
+  }
+}
+
+void print_output(CaseSpec const& spec) {
+  auto const every = [&](std::string_view what, double interval) {
+    if (interval > 0) {
+      fmt::print("  {} every {} ({} in all)\n", what, quantity_text(interval, "s"),
+                 count_text(static_cast<std::int64_t>(std::min(spec.run.end / interval, 1e15)) + 1));
+    }
+  };
+  fmt::print("output:\n");
+  every("a row of history.csv", spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / 500);
+  every("a frame", spec.output.frames_every);
+  every("a picture of " + spec.output.picture_field, spec.output.pictures_every);
+  every("a checkpoint", spec.output.checkpoints_every);
+  std::vector<std::string> probes, quantities;
+  for (ProbeSpec const& probe : spec.probes) {
+    for (std::string const& quantity : probe.quantities) probes.push_back(probe.name + "." + quantity);
+  }
+  for (QuantitySpec const& quantity : spec.quantities) quantities.push_back(quantity.name);
+  if (!probes.empty()) fmt::print("  probes: {}\n", joined(probes));
+  if (!quantities.empty()) fmt::print("  quantities: {}\n", joined(quantities));
+}
+
+// Builds the case and makes two steps of it, which tells more than any formula about this machine.
+Cost measured_cost(CaseSpec const& spec) {
+  using Clock = std::chrono::steady_clock;
+  Simulation simulation = build(spec);
+  Cost cost{.measured = true};
+  cost.threads = simulation.threads;
+  cost.step = std::min(simulation.formulation->stable_time_step(), spec.run.max_step);
+  cost.bytes = static_cast<double>(simulation.formulation->memory_bytes());
+  simulation.formulation->step(0, cost.step);
+  auto const start = Clock::now();
+  simulation.formulation->step(cost.step, cost.step);
+  double const one = std::chrono::duration<double>(Clock::now() - start).count();
+  cost.seconds = one * spec.run.end / cost.step;
+  return cost;
+}
+
+// For cases too large to build just for a look: bytes and rate of the JST-SPH solver.
+Cost estimated_cost(CaseSpec const& spec, std::vector<BodyFacts> const& facts, std::int64_t particles) {
+  constexpr double bytes_per_particle = 1500, steps_per_second_and_core = 1.2e6;
+  Cost cost;
+  cost.threads = exec_host::set_threads(spec.run.threads);
+  cost.step = step_estimate(spec, facts);
+  cost.bytes = bytes_per_particle * static_cast<double>(particles);
+  cost.seconds = spec.run.end / cost.step * static_cast<double>(particles) / (steps_per_second_and_core * cost.threads);
+  return cost;
+}
+
+int check(CaseOptions const& options) {
+  constexpr std::int64_t cheap = 1'000'000;
+  CaseSpec const spec = read_case(options.file, options.overrides());
+  ParticleSet const particles = make_particles(spec);
+  std::vector<BodyFacts> const facts = body_facts(spec, particles);
+  Cost const cost = particles.size() <= cheap ? measured_cost(spec) : estimated_cost(spec, facts, particles.size());
+  fmt::print("{}\n", spec.title);
+  fmt::print("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
+             quantity_text(spec.run.end, "s"));
+  for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
+  print_supports(spec, particles);
+  fmt::print("step: {} at the start, about {} steps\n", quantity_text(cost.step, "s", 3),
+             count_text(static_cast<std::int64_t>(std::min(std::ceil(spec.run.end / cost.step), 1e18))));
+  fmt::print("needs: about {} of memory and {} with {} {} ({})\n", size_text(cost.bytes), duration_text(cost.seconds),
+             cost.threads, cost.threads == 1 ? "thread" : "threads",
+             cost.measured ? "from one step; without output" : "estimated");
+  print_output(spec);
+  std::vector<std::string> const warnings = implausible(spec, facts, cost.step);
+  for (std::string const& warning : warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("{}\n",
+             warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
+  return completed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, Action& action) {
+  auto const options = std::make_shared<CaseOptions>();
+  CLI::App* command = program.add_subcommand("check", "Say what a case would run, what it needs and what looks odd");
+  options->add_to(*command);
+  command->callback([options, &action] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace piola::app

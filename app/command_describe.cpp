@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "commands.hpp"
+#include "manual.hpp"
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+namespace piola::app {
+namespace {
+
+struct Options {
+  std::string kind, name;
+  bool markdown = false;
+};
+
+using Describe = std::string (*)(std::string const& name, Layout layout);
+
+struct Topic {
+  std::string_view kind;
+  Describe describe;
+};
+constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", describe_materials},
+                            Topic{"kernel", describe_kernels}, Topic{"formulation", describe_formulations}};
+
+int describe(Options const& options) {
+  Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
+  if (options.kind.empty()) {
+    fmt::print("{}", options.markdown ? manual_page() : overview());
+    return completed;
+  }
+  std::vector<std::string> known;
+  for (Topic const& topic : topics) {
+    if (topic.kind == options.kind) {
+      fmt::print("{}", topic.describe(options.name, layout));
+      return completed;
+    }
+    known.emplace_back(topic.kind);
+  }
+  throw InputError(in_quotes(options.kind) + " cannot be described (allowed: " + joined(known) + ") - " +
+                   advice_for_name(options.kind, known));
+}
+
+}  // namespace
+
+void add_describe(CLI::App& program, Action& action) {
+  auto const options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("describe", "Explain materials, kernels, formulations and the keys of a case file");
+  command->add_option("kind", options->kind, "material, kernel, formulation or case; all in short if left out");
+  command->add_option("name", options->name, "which one, e.g. neo_hookean; for a case a section, e.g. body.shape");
+  command->add_flag("--markdown", options->markdown,
+                    "As a page of the manual; alone: the whole page docs/user/case-reference.md");
+  command->callback([options, &action] { action = [options] { return describe(*options); }; });
+}
+
+}  // namespace piola::app

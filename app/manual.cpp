@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "manual.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/registry.hpp"
+#include "piola/input/case_keys.hpp"
+#include "piola/input/history_names.hpp"
+#include "piola/kernels/registry.hpp"
+#include "piola/materials/registry.hpp"
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <vector>
+
+namespace piola::app {
+namespace {
+
+/// A row of a table of keys: what to write, what may be written, what holds otherwise, what it means.
+struct Row {
+  std::string key, value, standard, meaning;
+};
+
+std::string table_text(std::vector<Row> const& rows, Layout layout) {
+  std::string text;
+  if (layout == Layout::markdown) {
+    text = "\n| key | value | default | meaning |\n|---|---|---|---|\n";
+    for (Row const& row : rows) {
+      text += fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.value, row.standard, row.meaning);
+    }
+    return text;
+  }
+  std::size_t width = 0;
+  for (Row const& row : rows) width = std::max(width, row.key.size());
+  for (Row const& row : rows) {
+    text += fmt::format("  {:<{}}  {}\n  {:<{}}  {}; {}\n", row.key, width, row.meaning, "", width, row.value,
+                        row.standard);
+  }
+  return text;
+}
+
+std::string title(std::string const& text, int level, Layout layout) {
+  if (layout == Layout::markdown) return "\n" + std::string(static_cast<std::size_t>(level), '#') + " " + text + "\n\n";
+  return text + "\n";
+}
+
+std::string standard_text(std::string_view standard) {
+  return standard.empty() ? "required" : "default: " + std::string(standard);
+}
+
+// In a table of the manual the column already says "default".
+std::string in_column(std::string text, Layout layout) {
+  constexpr std::string_view lead = "default: ";
+  if (layout == Layout::markdown && text.starts_with(lead)) text.erase(0, lead.size());
+  return text;
+}
+
+std::string value_with_range(std::string value, Interval const& allowed) {
+  std::string const range = interval_text(allowed);
+  return range.empty() ? value : value + ", " + range;
+}
+
+Row row_of(Parameter const& parameter, bool optional, Layout layout) {
+  std::string const unit =
+      parameter.unit == "1" ? "a number" : "a number in " + std::string(parameter.unit) + " or a text with a unit";
+  std::string standard = "required";
+  if (optional)
+    standard =
+        parameter.required() ? "default: set by the other words" : "default: " + number_text(parameter.default_value);
+  else if (!parameter.required())
+    standard = "default: " + number_text(parameter.default_value);
+  return {std::string(parameter.name), value_with_range(unit, parameter.allowed), in_column(standard, layout),
+          std::string(parameter.meaning)};
+}
+
+Row row_of(KeyInfo const& info, Layout layout) {
+  std::string const standard = in_column(standard_text(info.standard), layout);
+  return {std::string(info.key), value_with_range(value_text(info), info.allowed), standard, std::string(info.meaning)};
+}
+
+std::string describe_law(LawInfo const& law, Layout layout) {
+  std::vector<Row> rows;
+  for (Parameter const& parameter : law.parameters) rows.push_back(row_of(parameter, false, layout));
+  return title(layout == Layout::markdown ? "law = \"" + std::string(law.name) + "\"" : std::string(law.name), 4,
+               layout) +
+         (layout == Layout::markdown ? "" : "  ") + std::string(law.about) + "\n" + table_text(rows, layout);
+}
+
+std::string describe_kernel(Kernel const& kernel, Layout layout) {
+  return title(std::string(kernel.name), 4, layout) + (layout == Layout::markdown ? "" : "  ") +
+         std::string(kernel.about) +
+         fmt::format("; its support is {} smoothing lengths\n", number_text(kernel.support));
+}
+
+std::string describe_formulation(FormulationInfo const& info, Layout layout) {
+  std::vector<Row> rows;
+  for (Choice const& choice : info.choices) {
+    rows.push_back({std::string(choice.name), "one of " + joined(choice.allowed),
+                    in_column("default: \"" + std::string(choice.allowed.front()) + "\"", layout),
+                    std::string(choice.meaning)});
+  }
+  for (Parameter const& parameter : info.parameters) rows.push_back(row_of(parameter, true, layout));
+  std::string const indent = layout == Layout::markdown ? "" : "  ";
+  return title(layout == Layout::markdown ? "name = \"" + std::string(info.name) + "\"" : std::string(info.name), 4,
+               layout) +
+         indent + std::string(info.about) + (layout == Layout::markdown ? ". " : "\n") + indent +
+         "Laws that it can use: " + joined(info.laws) + "\n" + table_text(rows, layout);
+}
+
+/// All items of a list, or the one with the name.
+template <class Items, class DescribeOne>
+std::string describe_some(Items const& items, std::string const& name, std::string_view kind,
+                          DescribeOne const& describe_one) {
+  std::string text;
+  std::vector<std::string> known;
+  for (auto const& item : items) {
+    known.emplace_back(item.name);
+    if (name.empty() || item.name == name) text += describe_one(item);
+  }
+  if (!text.empty()) return text;
+  throw InputError("no " + std::string(kind) + " is named " + in_quotes(name) + " (known: " + joined(known) + ") - " +
+                   advice_for_name(name, known));
+}
+
+std::string names_text(std::string const& heading, std::vector<std::string> const& names, Layout layout) {
+  std::string text = title(heading, 2, layout);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    bool const mark = layout == Layout::markdown;
+    text += (i > 0 ? ", " : mark ? "" : "  ") + (mark ? "`" + names[i] + "`" : names[i]);
+  }
+  return text + "\n";
+}
+
+std::string describe_section(SectionInfo const& section, Layout layout) {
+  std::vector<Row> rows;
+  for (KeyInfo const& info : keys_of(section.name)) rows.push_back(row_of(info, layout));
+  std::string const heading = section.name.empty() ? "Top of the file" : std::string(section.heading);
+  bool const markdown = layout == Layout::markdown;
+  std::string const shown = markdown && !section.name.empty() ? "`" + heading + "`" : heading;
+  std::string text =
+      title(shown, 3, layout) + (markdown ? "" : "  ") + std::string(section.about) + "\n" + table_text(rows, layout);
+  if (markdown && section.name == "body.material") text += describe_materials("", layout);
+  if (markdown && section.name == "body.formulation") text += describe_formulations("", layout);
+  return text + (markdown ? "" : "\n");
+}
+
+template <class Items> std::string short_list(std::string_view heading, Items const& items) {
+  std::string text = fmt::format("{}\n", heading);
+  for (auto const& item : items) text += fmt::format("  {:<16} {}\n", item.name, item.about);
+  return text;
+}
+
+std::string all_names(Layout layout) {
+  std::vector<std::string> columns, fields, quantities;
+  for (HistoryName const& name : history_names()) columns.emplace_back(name.name);
+  for (FieldName const& name : field_names()) fields.emplace_back(name.name);
+  for (FieldQuantity const& quantity : all_quantities()) quantities.push_back(quantity.name);
+  return names_text("Fields of frames and pictures", fields, layout) +
+         names_text("Quantities of probes (kinds point, average, maximum, minimum)", quantities, layout) +
+         names_text("Columns of history.csv", columns, layout);
+}
+
+}  // namespace
+
+std::string describe_materials(std::string const& name, Layout layout) {
+  return describe_some(laws(), name, "law", [&](LawInfo const& law) { return describe_law(law, layout); });
+}
+
+std::string describe_kernels(std::string const& name, Layout layout) {
+  return describe_some(kernels(), name, "kernel",
+                       [&](Kernel const& kernel) { return describe_kernel(kernel, layout); });
+}
+
+std::string describe_formulations(std::string const& name, Layout layout) {
+  return describe_some(formulations(), name, "formulation",
+                       [&](FormulationInfo const& info) { return describe_formulation(info, layout); });
+}
+
+std::string describe_case(std::string const& section, Layout layout) {
+  std::string const text = describe_some(case_sections(), section, "section",
+                                         [&](SectionInfo const& info) { return describe_section(info, layout); });
+  return section.empty() ? text + all_names(layout) : text;
+}
+
+std::string overview() {
+  return short_list("materials", laws()) + short_list("kernels", kernels()) +
+         short_list("formulations", formulations()) +
+         "piola describe material NAME, and so on, tells more; piola describe case lists the keys of a case file.\n";
+}
+
+std::string manual_page() {
+  return "# Case file: all keys\n\n"
+         "This page is written by `piola describe --markdown`; how to write a case file is told in\n"
+         "[case-file.md](case-file.md). A quantity is a number in SI units or a text with a unit (`\"17 MPa\"`). A "
+         "formula is a\n"
+         "text in `X`, `Y`, `Z` (reference position, m), `t` (time, s), `pi`, the `[constants]` and the names of "
+         "`define`.\n" +
+         describe_case("", Layout::markdown);
+}
+
+}  // namespace piola::app

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+
+namespace piola::app {
+
+enum class Layout { plain, markdown };
+
+/// Texts of `piola describe`, made from the tables that the program itself uses. An empty name stands for all of a kind.
+/// Each throws InputError for an unknown name.
+std::string describe_materials(std::string const& name, Layout layout);
+std::string describe_kernels(std::string const& name, Layout layout);
+std::string describe_formulations(std::string const& name, Layout layout);
+std::string describe_case(std::string const& section, Layout layout);
+
+std::string overview();     ///< what there is, one line each
+std::string manual_page();  ///< docs/user/case-reference.md
+
+}  // namespace piola::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/case_spec.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// What a body of a case comes to, in SI units.
+struct BodyFacts {
+  std::string name;
+  std::int64_t particles = 0;
+  std::array<double, 3> spacing{};
+  std::array<int, 3> lattice{};
+  double mass = 0;           ///< kg (per unit thickness or section in 2D and 1D)
+  double p_wave = 0;         ///< speed of pressure waves at rest [m/s]
+  double s_wave = 0;         ///< speed of shear waves at rest [m/s]; 0 if the law has none
+  double largest_speed = 0;  ///< of the initial velocity [m/s]
+};
+
+std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& particles);
+
+/// Step that waves at rest allow: cfl * smallest spacing / largest wave speed [s]. What the formulation really takes may
+/// be smaller.
+double step_estimate(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double default_cfl = 0.3);
+
+/// Numbers that are allowed but look like a slip (units, a missing zero, a body too thin), one sentence each. `step` is
+/// the expected time step [s].
+std::vector<std::string> implausible(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double step);
+
+}  // namespace piola
