@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/lanes.hpp"
+#include "piola/exec/threads.hpp"
 #include <type_traits>
 
 namespace piola {
@@ -78,11 +79,19 @@ void for_each_block(Range r, Pass const& pass) {
   if (r.last > r.first) each_block<<<grid(block_count(r)), threads_per_block>>>(r, pass);
 }
 #else
+/// Threads for the particles of r: a thread is worth its start and its barrier only with some thousand particles to work on.
+inline int team(Range r) {
+  constexpr Index least = 2048;
+  Index const worth = (r.last - r.first) / least + 1;
+  int const most = exec_host::threads();
+  return worth < most ? static_cast<int>(worth) : most;
+}
+
 /// pass(i) for every group of lanes in r. Ranges start and end at multiples of the lane count.
 template <class Pass>
 void for_each(Range r, Pass const& pass) {
   static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
-#pragma omp parallel for schedule(static) if (r.last - r.first > block_size)
+#pragma omp parallel for schedule(static) num_threads(team(r))
   for (Index i = r.first; i < r.last; i += lane_count) pass(i);
 }
 
@@ -98,7 +107,7 @@ template <class Pass>
 void for_each_block(Range r, Pass const& pass) {
   static_assert(std::is_trivially_copyable_v<Pass>, "a pass is copied to the device by value");
   Index const n = block_count(r);
-#pragma omp parallel for schedule(static) if (n > 1)
+#pragma omp parallel for schedule(static) num_threads(team(r))
   for (Index k = 0; k < n; ++k) pass(block(r, k), k);
 }
 #endif

@@ -109,10 +109,10 @@ template <class F>
 void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) const {
   int const D = set_.dimension;
   auto const& s = body.state();
-  f(fmt::format("body{}/position", number), s.x, D);
-  f(fmt::format("body{}/velocity", number), s.v, D);
-  f(fmt::format("body{}/deformation_gradient", number), s.F, D * D);
-  f(fmt::format("body{}/wave_speed", number), s.wave_speed, 1);
+  f(fmt::format("body{}_position", number), s.x, D);
+  f(fmt::format("body{}_velocity", number), s.v, D);
+  f(fmt::format("body{}_deformation_gradient", number), s.F, D * D);
+  f(fmt::format("body{}_wave_speed", number), s.wave_speed, 1);
 }
 
 void Solver::save(StateWriter& writer) const {
@@ -127,7 +127,7 @@ void Solver::save(StateWriter& writer) const {
     });
     auto const& totals = body.state().totals;
     std::array const books{totals.stabilisation_loss, totals.projection_loss};
-    writer.put(fmt::format("body{}/energy_books", k), books);
+    writer.put(fmt::format("body{}_energy_books", k), books);
   }
 }
 
@@ -145,7 +145,7 @@ void Solver::load(StateReader& reader) {
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < set_.dimension; ++c) JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
     std::array<double, 2> books{};
-    reader.get(fmt::format("body{}/energy_books", k), books);
+    reader.get(fmt::format("body{}_energy_books", k), books);
     body.state().totals = {books[0], books[1]};
   }
 }
