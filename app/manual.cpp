@@ -88,8 +88,7 @@ std::string describe_law(LawInfo const& law, Layout layout) {
 
 std::string describe_kernel(Kernel const& kernel, Layout layout) {
   return title(std::string(kernel.name), 4, layout) + (layout == Layout::markdown ? "" : "  ") +
-         std::string(kernel.about) +
-         fmt::format("; its support is {} smoothing lengths\n", number_text(kernel.support));
+         std::string(kernel.about) + "\n";
 }
 
 std::string describe_formulation(FormulationInfo const& info, Layout layout) {

@@ -6,8 +6,8 @@ namespace piola::app {
 
 enum class Layout { plain, markdown };
 
-/// Texts of `piola describe`, made from the tables that the program itself uses. An empty name stands for all of a kind.
-/// Each throws InputError for an unknown name.
+/// Texts of `piola describe`, made from the tables that the program itself uses. An empty name stands for all of a
+/// kind. Each throws InputError for an unknown name.
 std::string describe_materials(std::string const& name, Layout layout);
 std::string describe_kernels(std::string const& name, Layout layout);
 std::string describe_formulations(std::string const& name, Layout layout);

@@ -18,6 +18,7 @@ TEST(Text, NearestNameIsFoundForASlipAndNotForAnotherWord) {
   std::vector<std::string> const known{"density", "youngs_modulus", "poissons_ratio"};
   EXPECT_EQ(nearest_name("poisson_ratio", known), "poissons_ratio");
   EXPECT_EQ(nearest_name("desnity", known), "density");
+  EXPECT_EQ(nearest_name("youngs", known), "youngs_modulus");
   EXPECT_FALSE(nearest_name("viscosity", known));
   EXPECT_FALSE(nearest_name("", known));
   EXPECT_EQ(advice_for_name("densitx", known), "did you mean \"density\"?");

@@ -78,7 +78,10 @@ std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::
       found = name;
     }
   }
-  return found;
+  if (found || wanted.size() < 3) return found;
+  auto const longer =
+      std::find_if(known.begin(), known.end(), [&](auto const& name) { return name.starts_with(wanted); });
+  return longer == known.end() ? std::nullopt : std::optional(*longer);
 }
 
 std::string advice_for_name(std::string_view wanted, std::span<std::string const> known) {

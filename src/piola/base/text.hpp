@@ -21,7 +21,8 @@ std::string joined(std::span<std::string_view const> words, std::string_view sep
 /// Number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The known word closest to `wanted`, if it is close enough to be a slip of the pen.
+/// The known word closest to `wanted`, if it is close enough to be a slip of the pen, else the first that starts with
+/// it.
 std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::string const> known);
 
 /// What to do about an unknown word: 'did you mean "x"?' or, if no word is near, 'choose one of these'.

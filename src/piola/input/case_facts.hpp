@@ -23,8 +23,8 @@ struct BodyFacts {
 
 std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& particles);
 
-/// Step that waves at rest allow: cfl * smallest spacing / largest wave speed [s]. What the formulation really takes may
-/// be smaller.
+/// Step that waves at rest allow: cfl * smallest spacing / largest wave speed [s]. What the formulation really takes
+/// may be smaller.
 double step_estimate(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double default_cfl = 0.3);
 
 /// Numbers that are allowed but look like a slip (units, a missing zero, a body too thin), one sentence each. `step` is

@@ -90,9 +90,8 @@ void check_size(std::vector<Section> const& sections, CaseSpec const& spec, Read
   }
 }
 
-void read_bodies(Section const& top, CaseSpec& spec, std::vector<BodyNames>& names, ReadLimits const& limits) {
-  std::map<std::string, double> constants;
-  if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
+void read_bodies(Section const& top, std::map<std::string, double> const& constants, CaseSpec& spec,
+                 std::vector<BodyNames>& names, ReadLimits const& limits) {
   std::size_t const before = top.problems().count();
   std::vector<Section> const sections = tables_of(top, "body");
   for (Section const& section : sections) spec.bodies.push_back(read_body(section, constants, names.emplace_back()));
@@ -109,13 +108,15 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   top.read("title", spec.title);
   if (auto const run = top.table("run")) read_run(*run, spec.run);
   std::vector<BodyNames> names;
-  read_bodies(top, spec, names, limits);
+  std::map<std::string, double> constants;
+  if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
+  read_bodies(top, constants, spec, names, limits);
   for (Section const& section : tables_of(top, "support")) spec.supports.push_back(read_support(section, names));
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   refuse_twins(probes, spec.probes, "probe");
   std::vector<Section> const quantities = tables_of(top, "quantity");
-  for (Section const& section : quantities) spec.quantities.push_back(read_quantity_section(section, spec.probes));
+  for (Section const& section : quantities) spec.quantities.push_back(read_quantity_section(section, spec.probes, constants));
   refuse_twins(quantities, spec.quantities, "quantity");
   if (auto const output = top.table("output")) read_output(*output, spec.output);
   top.refuse_unknown();

@@ -147,7 +147,8 @@ bool wants(Section const& section, std::string_view key, bool wanted, std::strin
   return wanted && section.has(key);
 }
 
-void read_take(Section const& section, std::string const& column_unit, QuantitySpec& quantity) {
+void read_take(Section const& section, std::string const& column_unit, std::map<std::string, double> const& constants,
+               QuantitySpec& quantity) {
   bool const threshold = quantity.take == Take::first_time_above || quantity.take == Take::first_time_below;
   if (wants(section, "threshold", threshold, "the value to pass")) {
     Value const value = *section.find("threshold");
@@ -157,7 +158,7 @@ void read_take(Section const& section, std::string const& column_unit, QuantityS
   if (wants(section, "time", quantity.take == Take::at_time, "the time to look at"))
     section.read("time", quantity.time);
   if (wants(section, "reference", quantity.take == Take::mean_absolute_difference, "the formula to compare with")) {
-    quantity.reference = section.formula("reference", {});
+    quantity.reference = section.formula("reference", Names{constants, {}});
   }
 }
 
@@ -217,12 +218,13 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
   return probe;
 }
 
-QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes) {
+QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes,
+                                   std::map<std::string, double> const& constants) {
   QuantitySpec quantity;
   section.read("name", quantity.name);
   auto const unit = read_column(section, probes, quantity.column);
   if (int const take = number_of_word(section, "quantity", "take"); take >= 0) quantity.take = static_cast<Take>(take);
-  read_take(section, unit.value_or("1"), quantity);
+  read_take(section, unit.value_or("1"), constants, quantity);
   if (unit) read_unit(section, takes_time(quantity.take) ? "s" : *unit, quantity);
   section.refuse_unknown();
   return quantity;

@@ -30,6 +30,7 @@ std::vector<Definition> read_definitions(Value const& value, Names const& names,
 
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
-QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes);
+QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes,
+                                   std::map<std::string, double> const& constants);
 
 }  // namespace piola

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `piola check` and `piola describe` say, by running the program.
+#include "support/sample_case.hpp"
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+#ifdef PIOLA_PROGRAM
+
+namespace piola {
+namespace {
+
+struct Answer {
+  std::string text;  ///< stdout and stderr
+  int code = -1;
+};
+
+Answer ask(std::string const& arguments) {
+  Answer answer;
+  std::FILE* const pipe = popen((std::string("'" PIOLA_PROGRAM "' ") + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return answer;
+  std::array<char, 4096> buffer{};
+  while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe)) answer.text.append(buffer.data(), n);
+  int const status = pclose(pipe);
+  answer.code = status / 256;
+  return answer;
+}
+
+class CaseFolder {
+ public:
+  explicit CaseFolder(std::string const& text) {
+    std::filesystem::create_directories(path_);
+    std::ofstream(path_ / "case.toml") << text;
+  }
+  ~CaseFolder() { std::filesystem::remove_all(path_); }
+  std::string argument() const { return "'" + path_.string() + "/case.toml'"; }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "piola_describe_messages_test";
+};
+
+bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+TEST(CheckCommand, SaysInWordsWhatWouldRun) {
+  CaseFolder const folder(test::sample_case());
+  Answer const answer = ask("check " + folder.argument());
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  for (std::string_view const part :
+       {"Twisting column\n625 particles in 3D, 500 ms of motion\n",
+        "body \"column\": box of 625 particles (5 x 25 x 5 lattice, spacing 250 mm)\n",
+        "  neo_hookean: density = 1100 kg/m^3, youngs_modulus = 17 MPa, poissons_ratio = 0.45\n",
+        "  mass 6600 kg; pressure waves 242.1 m/s, shear waves 73 m/s; initial speed up to 74.25 m/s\n",
+        "support of \"column\": 25 particles where Y <= 0, held in x, y, z\n",
+        "  probes: tip.displacement_x, tip.pressure\n", "Nothing is wrong with this case.\n"}) {
+    EXPECT_TRUE(contains(answer.text, part)) << part << "\nis not in\n" << answer.text;
+  }
+}
+
+TEST(CheckCommand, WarnsOfImplausibleNumbersAndRefusesBadOnes) {
+  CaseFolder const folder(test::sample_case());
+  Answer const warned = ask("check " + folder.argument() + " --set body.column.material.density=1.1");
+  EXPECT_EQ(warned.code, 0);
+  EXPECT_TRUE(contains(warned.text, "warning: body \"column\": density is 1.1 kg/m^3, lighter than foam"))
+      << warned.text;
+  Answer const refused = ask("check " + folder.argument() + " --set run.end=x");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(contains(refused.text, "--set run.end=x: run.end cannot be read: \"x\" is not a number with a unit"));
+}
+
+TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
+  EXPECT_TRUE(contains(ask("describe").text, "neo_hookean"));
+  EXPECT_TRUE(
+      contains(ask("describe material neo_hookean").text, "a number, between -1 and 0.5, ends excluded; required"));
+  EXPECT_TRUE(contains(ask("describe case run").text, "time at which the run ends"));
+  EXPECT_TRUE(contains(ask("describe kernel cubic_spline").text, "support 2h"));
+  Answer const unknown = ask("describe material neo_hooken");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_EQ(
+      unknown.text,
+      "piola: no law is named \"neo_hooken\" (known: linear_elastic, neo_hookean) - did you mean \"neo_hookean\"?\n");
+}
+
+TEST(DescribeCommand, WritesTheManualPageThatIsInTheManual) {
+  std::ifstream file(PIOLA_SOURCE_DIR "/docs/user/case-reference.md");
+  std::string const page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(ask("describe --markdown").text, page)
+      << "write it anew: piola describe --markdown > docs/user/case-reference.md";
+}
+
+}  // namespace
+}  // namespace piola
+
+#endif
