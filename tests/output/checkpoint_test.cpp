@@ -19,6 +19,7 @@ Checkpoint sample(std::int64_t step) {
   c.version = "0.1.0";
   c.source = "title = \"a\"\n";
   c.state.put("u", std::array{1.0, -0.0, 1e-310, 1.0 / 7});
+  c.state.put("body0/F", std::array{2.0});
   c.state.put("none", std::span<double const>());
   c.observers.put("next", std::array{3.0});
   return c;

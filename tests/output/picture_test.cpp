@@ -163,6 +163,18 @@ TEST(Lettering, DrawsEveryPrintableCharacter) {
   EXPECT_GT(text_width("mm", 20), text_width("ii", 20));
 }
 
+TEST(PictureValues, LeaveExtremesOutOfTheTypicalRange) {
+  std::vector<double> values;
+  for (int i = 0; i < 300; ++i) values.push_back(i % 100);
+  values[7] = 1e9;
+  values[8] = std::numeric_limits<double>::quiet_NaN();
+  auto const range = typical_range(values);
+  EXPECT_GE(range[0], 0);
+  EXPECT_LE(range[1], 99);
+  EXPECT_EQ(typical_range(std::array{3.0, 1.0, 2.0}), (std::array{1.0, 3.0}));
+  EXPECT_EQ(typical_range({}), (std::array{0.0, 0.0}));
+}
+
 TEST(PictureValues, ReduceVectorsAndStressesToOneNumber) {
   EXPECT_EQ(picture_values(std::array{3.0, 4.0, 0.0}, 3), std::vector<double>{5});
   EXPECT_DOUBLE_EQ(picture_values(std::array{0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, 6)[0], std::sqrt(3.0));

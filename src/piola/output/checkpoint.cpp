@@ -22,8 +22,10 @@ std::int64_t check_sum(std::span<double const> values) {
 void put_state(hdf5::Image& file, std::string const& group, NamedState const& state) {
   file.group(group);
   for (auto const& [name, values] : state.arrays()) {
-    std::string const path = group + "/" + name;
+    std::string path = group + "/" + name;  // a name may hold slashes, which HDF5 would take for groups
+    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group.size()) + 1, path.end(), '/', '.');
     file.dataset<double>(path, values);
+    file.attribute(path, "name", name);
     file.attribute(path, "check_sum", std::array{check_sum(values)});
   }
 }
@@ -36,7 +38,7 @@ NamedState get_state(hdf5::Reader const& file, std::string const& group) {
     if (check_sum(values) != file.integer(path, "check_sum")) {
       throw FileError(fmt::format("{}: '{}' does not have the check sum it was written with - the file is damaged", file.path().string(), path));
     }
-    state.put(name, values);
+    state.put(file.text(path, "name"), values);
   }
   return state;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -183,12 +184,8 @@ Image draw_picture(PictureData const& data, PictureStyle const& asked, Window co
   PictureStyle style = asked;
   if (data.dimension < 3) style.view = {0, 0};  // a plane is seen from z
   Layout const layout(style);
-  auto range = style.range;
-  if (!range && !data.values.empty()) {
-    auto const [low, high] = std::minmax_element(data.values.begin(), data.values.end());
-    range = {*low, *high};
-  }
-  ColourMap const map(range ? (*range)[0] : 0, range ? (*range)[1] : 1);
+  auto const range = style.range ? *style.range : typical_range(data.values);
+  ColourMap const map(range[0], range[1]);
   Image image = draw_balls(data, style, Projection(style.view, window, layout), map);
   draw_colour_bar(image, data, map, layout);
   draw_axes(image, style.view, data.dimension, layout);
@@ -228,6 +225,18 @@ std::vector<double> picture_values(std::span<double const> values, int component
     }
   }
   return out;
+}
+
+std::array<double, 2> typical_range(std::span<double const> values) {
+  std::vector<double> finite;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](double v) { return std::isfinite(v); });
+  if (finite.empty()) return {0, 0};
+  auto const skipped = static_cast<std::ptrdiff_t>(finite.size() / 100);
+  auto const low = finite.begin() + skipped, high = finite.end() - 1 - skipped;
+  std::nth_element(finite.begin(), low, finite.end());
+  double const lowest = *low;
+  std::nth_element(finite.begin(), high, finite.end());
+  return {lowest, *high};
 }
 
 std::string picture_label(std::string const& field, int components) {

@@ -41,7 +41,7 @@ struct PictureData {
 struct PictureStyle {
   int width = 1000, height = 800;
   View view;
-  std::optional<std::array<double, 2>> range;  ///< SI; otherwise from the values
+  std::optional<std::array<double, 2>> range;  ///< SI; otherwise typical_range of the values
 };
 
 /// Particles as shaded balls, with title, time, colour bar and axes.
@@ -54,6 +54,9 @@ std::vector<double> ball_radii(std::span<double const> volume, std::span<int con
 /// One number per particle for the picture: scalars as they are, vectors by their length, of six stress components the von
 /// Mises stress, of other tensors the largest absolute component.
 std::vector<double> picture_values(std::span<double const> values, int components);
+/// The range between the lowest and the highest hundredth of the values, so that a few extreme particles (at the edge of a
+/// clamp, say) do not take the colours from all others. All values if there are fewer than a hundred; (0, 0) if there are none.
+std::array<double, 2> typical_range(std::span<double const> values);
 /// What that number is called, e.g. "velocity magnitude".
 std::string picture_label(std::string const& field, int components);
 

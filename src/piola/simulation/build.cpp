@@ -36,6 +36,17 @@ void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
   }
 }
 
+/// The formulation takes deformation gradients either from the displacement or as given, for all bodies.
+void report_mixed_start(CaseSpec const& spec, Problems& problems) {
+  auto const given = [](BodySpec const& body) { return body.initial_deformation_gradient.has_value(); };
+  if (std::none_of(spec.bodies.begin(), spec.bodies.end(), given)) return;
+  for (BodySpec const& body : spec.bodies) {
+    if (!body.initial_displacement || given(body)) continue;
+    problems.add({}, "body '" + body.name + "' has an initial displacement while another body has an initial deformation gradient " +
+                         "(all displaced bodies need one then) - give initial_deformation_gradient for this body, too");
+  }
+}
+
 Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
   Support support{{}, spec.fix};
   for (Body const& body : particles.bodies) {
@@ -71,6 +82,7 @@ Assembly assemble(CaseSpec const& spec) {
   a.particles = make_particles(spec);
   Problems problems;
   check_regions(spec, a.particles, problems);
+  report_mixed_start(spec, problems);
   problems.raise_if_any();
   a.cfl = spec.run.cfl;
   a.machine = spec.run.machine;

@@ -4,7 +4,6 @@
 #include "piola/output/files.hpp"
 #include "piola/output/frames.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -31,10 +30,8 @@ View view_of(Frame const& frame, View const& asked) { return frame.dimension < 3
 void look_at(Survey& survey, Frame const& frame, View const& view) {
   auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
   survey.window.include(view_of(frame, view), frame.points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
-  for (double const v : picture_values(frame.values, frame.info.components)) {
-    if (!std::isfinite(v)) continue;
-    survey.range = {std::min(survey.range[0], v), std::max(survey.range[1], v)};
-  }
+  auto const range = typical_range(picture_values(frame.values, frame.info.components));
+  survey.range = {std::min(survey.range[0], range[0]), std::max(survey.range[1], range[1])};
 }
 
 }  // namespace

@@ -1,0 +1,129 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Runs the program as a user does: exit codes, results, signals, resume.
+set -u
+program="${PIOLA_PROGRAM:-}"
+if [ ! -x "$program" ]; then
+  echo "skipped: the program is not built"
+  exit 77
+fi
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export OMP_WAIT_POLICY=passive
+failures=0
+
+cat > bar.toml <<'CASE'
+title = "Short bar"
+[run]
+end = "20 ms"
+threads = 1
+[[body]]
+name = "bar"
+shape = { box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "2 m"] }, particles = [5, 5, 9] }
+material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 }
+formulation = { name = "jst_sph" }
+initial_velocity = ["5*Z", "0", "0"]
+[[support]]
+body = "bar"
+where = "Z <= 0"
+fix = "xyz"
+[[probe]]
+name = "top"
+body = "bar"
+kind = "average"
+where = "Z >= 2"
+quantities = ["displacement_x"]
+[[quantity]]
+name = "sway"
+column = "top.displacement_x"
+take = "maximum"
+unit = "mm"
+[output.frames]
+every = "5 ms"
+[output.pictures]
+every = "10 ms"
+[output.checkpoints]
+every = "5 ms"
+CASE
+
+# expect CODE TEXT COMMAND...: the command ends with this code and says this text.
+expect() {
+  local code=$1 text=$2 said got
+  shift 2
+  said=$("$@" 2>&1)
+  got=$?
+  if [ $got -ne "$code" ]; then
+    echo "FAILED: exit code $got instead of $code: $*"
+    echo "$said"
+    failures=$((failures + 1))
+  fi
+  case "$said" in
+    *"$text"*) ;;
+    *) echo "FAILED: '$text' is missing in: $*"; echo "$said"; failures=$((failures + 1)) ;;
+  esac
+}
+check() {
+  "$@" || { echo "FAILED: $*"; failures=$((failures + 1)); }
+}
+
+expect 0 "run" "$program" --help
+expect 0 "." "$program" --version
+expect 2 "" "$program"
+expect 2 "" "$program" fly
+expect 2 "no such case file" "$program" run nothing.toml
+expect 2 "" "$program" run bar.toml --set run.ende=1
+check test ! -e bar-results
+
+expect 0 "sway = " "$program" run bar.toml
+for file in history.csv summary.json frames/000004.hdf frames.hdf.series frames.xmf pictures/Pressure-000002.png case.toml log.txt; do
+  check test -s "bar-results/$file"
+done
+expect 0 "" "$program" run bar.toml --quiet
+check test -z "$("$program" run bar.toml --quiet 2>&1)"
+expect 2 "holds the results of another case" "$program" run bar.toml --set 'title="Other"' --out bar-results
+expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 240
+expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
+expect 2 "no frames" "$program" render .
+
+# A run that lost its newest checkpoint continues to the same bytes.
+cp -r bar-results parts
+rm "$(ls parts/checkpoints/*.h5 | tail -1)"
+expect 0 "completed" "$program" resume parts
+check cmp bar-results/history.csv parts/history.csv
+check cmp bar-results/frames/000004.hdf parts/frames/000004.hdf
+
+# A damaged newest checkpoint is passed over.
+cp -r bar-results damaged
+truncate -s 2000 "$(ls damaged/checkpoints/*.h5 | tail -1)"
+expect 0 "warning: " "$program" resume damaged
+check cmp bar-results/history.csv damaged/history.csv
+echo "# changed" >> damaged/case.toml
+expect 2 "is not the case that this run was started with" "$program" resume damaged
+expect 2 "holds no case.toml" "$program" resume .
+
+# A signal leads to a checkpoint and exit code 4.
+"$program" run bar.toml --set run.end='"1000 s"' --out long --quiet &
+child=$!
+for _ in $(seq 100); do
+  [ -e long/checkpoints ] && ls long/checkpoints/*.h5 > /dev/null 2>&1 && break
+  sleep 0.1
+done
+kill -TERM $child
+wait $child
+code=$?
+[ $code -eq 4 ] || { echo "FAILED: exit code $code after SIGTERM"; failures=$((failures + 1)); }
+check grep -q '"status": "stopped"' long/summary.json
+
+# The physics fails: the state is kept and explained.
+expect 3 "docs/user/when-it-stops.md" "$program" run bar.toml --out broken --set 'body.bar.initial_velocity=["0","0","-20000*Z"]'
+check grep -q '"status": "failed"' broken/summary.json
+check test -s broken/checkpoints/failed.h5
+
+# A folder that cannot be written, a disk that is full.
+expect 1 "cannot be written" "$program" run bar.toml --out /proc/piola
+(ulimit -f 60; expect 1 "cannot be written, File too large" "$program" run bar.toml --out full --set output.frames.compress=false --set output.frames.every='"1 ms"'; exit $failures)
+failures=$?
+
+[ $failures -eq 0 ] && echo "all good"
+exit $((failures > 0))
