@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "commands.hpp"
 #include "run_support.hpp"
 #include <fmt/format.h>
 #include <memory>
@@ -18,7 +18,9 @@ struct Options {
 int resume(Options const& options) {
   std::filesystem::path const file = std::filesystem::path(options.folder) / "case.toml";
   if (!std::filesystem::exists(file)) {
-    throw InputError(fmt::format("{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to", options.folder));
+    throw InputError(fmt::format(
+        "{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to",
+        options.folder));
   }
   CaseSpec spec = read_case(file);
   spec.source = read_text_file(file);  // to the letter: it is compared with the case in the checkpoint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/results_folder.hpp"
+#include "commands.hpp"
 #include "run_support.hpp"
 #include <memory>
 
@@ -19,7 +19,9 @@ int run(Options const& options) {
   CaseSpec spec = read_case(file, options.from.overrides());
   if (options.no_pictures) spec.output.pictures_every = 0;
   Simulation simulation = build(std::move(spec));
-  RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out), .resume = false, .force = options.force};
+  RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
+                         .resume = false,
+                         .force = options.force};
   return run_and_report(simulation, where, options.quiet);
 }
 
@@ -27,7 +29,8 @@ int run(Options const& options) {
 
 void add_run(CLI::App& program, Action& action) {
   auto const options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("run", "Run a case: frames, history, pictures and checkpoints go to a results folder");
+  CLI::App* command =
+      program.add_subcommand("run", "Run a case: frames, history, pictures and checkpoints go to a results folder");
   options->from.add_to(*command);
   command->add_option("--out,-o", options->out, "Folder for the results (default: NAME-results in this folder)");
   command->add_flag("--force", options->force, "Use the folder even if it holds other things");

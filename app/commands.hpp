@@ -24,9 +24,9 @@ void add_bench(CLI::App& program, Action& action);
 
 /// Options that several commands share: how a case is changed on the command line before it is read.
 struct CaseOptions {
-  std::string file;                ///< the case file
-  std::vector<std::string> set;    ///< --set key=value
-  std::string threads, machine;    ///< --threads, --machine: short for --set run.threads=..., run.machine=...
+  std::string file;              ///< the case file
+  std::vector<std::string> set;  ///< --set key=value
+  std::string threads, machine;  ///< --threads, --machine: short for --set run.threads=..., run.machine=...
   void add_to(CLI::App& command, bool with_file = true);
   /// All as "key=value", in the order given; --threads and --machine last.
   std::vector<std::string> overrides() const;

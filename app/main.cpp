@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/version.hpp"
+#include "commands.hpp"
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
@@ -26,7 +26,8 @@ int perform(app::Action const& action) {
   } catch (FileError const& error) {
     return report("", error, app::internal_error);
   } catch (std::bad_alloc const& error) {
-    return report("not enough memory for this many particles - choose fewer ('piola check' tells how much is needed): ", error, app::internal_error);
+    return report("not enough memory for this many particles - choose fewer ('piola check' tells how much is needed): ",
+                  error, app::internal_error);
   } catch (std::exception const& error) {
     return report("internal error, please report it: ", error, app::internal_error);
   }

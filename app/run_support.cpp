@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_support.hpp"
-#include "commands.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "commands.hpp"
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -24,8 +24,9 @@ std::string percent(double share) { return fmt::format("{:3.0f} %", 100 * std::c
 std::string rate_text(double stages_per_second) { return fmt::format("{:.2f} M stages/s", stages_per_second / 1e6); }
 
 std::string progress_line(Progress const& p) {
-  return fmt::format("{}  t = {} of {}  step {}  dt = {}  energy {}  {}  {} left", percent(p.moment.time / p.end), quantity_text(p.moment.time, "s"),
-                     quantity_text(p.end, "s"), count_text(p.moment.step), quantity_text(p.moment.dt, "s", 3), quantity_text(p.total_energy, "J"),
+  return fmt::format("{}  t = {} of {}  step {}  dt = {}  energy {}  {}  {} left", percent(p.moment.time / p.end),
+                     quantity_text(p.moment.time, "s"), quantity_text(p.end, "s"), count_text(p.moment.step),
+                     quantity_text(p.moment.dt, "s", 3), quantity_text(p.total_energy, "J"),
                      rate_text(p.stages_per_second), duration_text(p.seconds_left));
 }
 
@@ -33,8 +34,11 @@ std::string body_line(Body const& body, BodySpec const& spec, int dimension) {
   auto spacing = body.spacing;
   std::sort(spacing.begin(), spacing.begin() + dimension);
   auto const finest = spacing[0], coarsest = spacing[static_cast<std::size_t>(dimension - 1)];
-  std::string const text = finest == coarsest ? quantity_text(finest, "m") : fmt::format("{} to {}", quantity_text(finest, "m"), quantity_text(coarsest, "m"));
-  return fmt::format("  {}: {} particles, spacing {}, {}\n", body.name, count_text(body.last - body.first), text, spec.law);
+  std::string const text = finest == coarsest
+                               ? quantity_text(finest, "m")
+                               : fmt::format("{} to {}", quantity_text(finest, "m"), quantity_text(coarsest, "m"));
+  return fmt::format("  {}: {} particles, spacing {}, {}\n", body.name, count_text(body.last - body.first), text,
+                     spec.law);
 }
 
 }  // namespace
@@ -47,7 +51,8 @@ void catch_stop_signals() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an ordinary write error with a message
 }
 
-Console::Console(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
+Console::Console(bool quiet)
+    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
 Console::~Console() { clear(); }
 
 void Console::clear() {
@@ -76,24 +81,32 @@ void Console::warning(std::string const& text) {
 }
 
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
-  std::string text = fmt::format("{}\n{} in {}D, {} particles, {} thread{}\n", s.spec.title, s.formulation_name, s.particles.dimension,
-                                 count_text(s.particles.size()), s.threads, s.threads == 1 ? "" : "s");
-  for (std::size_t b = 0; b < s.spec.bodies.size() && b < s.particles.bodies.size(); ++b) text += body_line(s.particles.bodies[b], s.spec.bodies[b], s.particles.dimension);
-  text += fmt::format("  first step {}, end {}\n  results in {}\n", quantity_text(s.formulation->stable_time_step(), "s", 3), quantity_text(s.spec.run.end, "s"),
+  std::string text =
+      fmt::format("{}\n{} in {}D, {} particles, {} thread{}\n", s.spec.title, s.formulation_name, s.particles.dimension,
+                  count_text(s.particles.size()), s.threads, s.threads == 1 ? "" : "s");
+  for (std::size_t b = 0; b < s.spec.bodies.size() && b < s.particles.bodies.size(); ++b)
+    text += body_line(s.particles.bodies[b], s.spec.bodies[b], s.particles.dimension);
+  text += fmt::format("  first step {}, end {}\n  results in {}\n",
+                      quantity_text(s.formulation->stable_time_step(), "s", 3), quantity_text(s.spec.run.end, "s"),
                       folder.string());
   return text;
 }
 
 std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& folder) {
   Summary const& s = outcome.summary;
-  std::string text = fmt::format("{} at t = {} after {} steps, {} of wall time, {}\n", s.status, quantity_text(s.end_time, "s"), count_text(s.steps),
-                                 duration_text(s.wall_seconds), rate_text(s.stages_per_second));
-  text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it; momentum drift: linear {:.2g}, angular {:.2g}\n", quantity_text(s.energy_initial, "J"),
-                      quantity_text(s.energy_final, "J"), s.energy_max_increase, s.linear_drift, s.angular_drift);
-  for (MeasuredQuantity const& q : s.quantities) text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value), q.unit == "1" ? "" : " " + q.unit);
+  std::string text =
+      fmt::format("{} at t = {} after {} steps, {} of wall time, {}\n", s.status, quantity_text(s.end_time, "s"),
+                  count_text(s.steps), duration_text(s.wall_seconds), rate_text(s.stages_per_second));
+  text += fmt::format(
+      "  energy: {} at start, {} at end, largest rise {:.2g} of it; momentum drift: linear {:.2g}, angular {:.2g}\n",
+      quantity_text(s.energy_initial, "J"), quantity_text(s.energy_final, "J"), s.energy_max_increase, s.linear_drift,
+      s.angular_drift);
+  for (MeasuredQuantity const& q : s.quantities)
+    text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value), q.unit == "1" ? "" : " " + q.unit);
   if (!outcome.last_picture.empty()) text += fmt::format("  picture: {}\n", outcome.last_picture.string());
   if (!outcome.index.empty()) text += fmt::format("  for ParaView: {}\n", outcome.index.string());
-  if (outcome.ending == Ending::stopped) text += fmt::format("  a checkpoint was written; continue with: piola resume {}\n", folder.string());
+  if (outcome.ending == Ending::stopped)
+    text += fmt::format("  a checkpoint was written; continue with: piola resume {}\n", folder.string());
   return text;
 }
 
@@ -116,7 +129,8 @@ int run_and_report(Simulation& simulation, RunOptions const& options, bool quiet
 
 std::filesystem::path case_file(std::filesystem::path const& given) {
   std::filesystem::path const file = std::filesystem::is_directory(given) ? given / "case.toml" : given;
-  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: there is no such case file - check the path", file.string()));
+  if (!std::filesystem::exists(file))
+    throw InputError(fmt::format("{}: there is no such case file - check the path", file.string()));
   return file;
 }
 

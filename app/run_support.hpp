@@ -11,7 +11,8 @@ namespace piola::app {
 extern std::atomic<int> stop_signal;
 void catch_stop_signals();
 
-/// Shows progress on stderr: one line that is renewed on a terminal, otherwise a line about every ten seconds. Warnings always.
+/// Shows progress on stderr: one line that is renewed on a terminal, otherwise a line about every ten seconds. Warnings
+/// always.
 class Console : public Listener {
  public:
   explicit Console(bool quiet);

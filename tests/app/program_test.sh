@@ -76,7 +76,8 @@ expect 2 "" "$program" run bar.toml --set run.ende=1
 check test ! -e bar-results
 
 expect 0 "sway = " "$program" run bar.toml
-for file in history.csv summary.json frames/000004.hdf frames.hdf.series frames.xmf pictures/Pressure-000002.png case.toml log.txt; do
+for file in history.csv summary.json frames/000004.hdf frames.hdf.series frames.xmf \
+  pictures/Pressure-000002.png case.toml log.txt; do
   check test -s "bar-results/$file"
 done
 expect 0 "" "$program" run bar.toml --quiet
@@ -116,13 +117,19 @@ code=$?
 check grep -q '"status": "stopped"' long/summary.json
 
 # The physics fails: the state is kept and explained.
-expect 3 "docs/user/when-it-stops.md" "$program" run bar.toml --out broken --set 'body.bar.initial_velocity=["0","0","-20000*Z"]'
+expect 3 "docs/user/when-it-stops.md" "$program" run bar.toml --out broken \
+  --set 'body.bar.initial_velocity=["0","0","-20000*Z"]'
 check grep -q '"status": "failed"' broken/summary.json
 check test -s broken/checkpoints/failed.h5
 
 # A folder that cannot be written, a disk that is full.
 expect 1 "cannot be written" "$program" run bar.toml --out /proc/piola
-(ulimit -f 60; expect 1 "cannot be written, File too large" "$program" run bar.toml --out full --set output.frames.compress=false --set output.frames.every='"1 ms"'; exit $failures)
+(
+  ulimit -f 60
+  expect 1 "cannot be written, File too large" "$program" run bar.toml --out full \
+    --set output.frames.compress=false --set output.frames.every='"1 ms"'
+  exit $failures
+)
 failures=$?
 
 [ $failures -eq 0 ] && echo "all good"

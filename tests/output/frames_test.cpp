@@ -34,11 +34,14 @@ TEST_P(FramesAsStored, AreReadByAnIndependentProgram) {
   FrameWriter writer(folder.path(), {}, GetParam());
   write_frames(writer, set, {0.125});
   std::string const script = std::string(PIOLA_SOURCE_DIR) + "/tests/output/read_frame.py";
-  int const status = std::system(fmt::format("/usr/bin/python3 '{}' '{}' 0.125 {}", script, (folder / "frames/000000.hdf").string(), set.size()).c_str());
+  int const status = std::system(
+      fmt::format("/usr/bin/python3 '{}' '{}' 0.125 {}", script, (folder / "frames/000000.hdf").string(), set.size())
+          .c_str());
   if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-h5py is not installed";
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
-INSTANTIATE_TEST_SUITE_P(Frames, FramesAsStored, ::testing::Bool(), [](auto const& compress) { return compress.param ? "Compressed" : "Contiguous"; });
+INSTANTIATE_TEST_SUITE_P(Frames, FramesAsStored, ::testing::Bool(),
+                         [](auto const& compress) { return compress.param ? "Compressed" : "Contiguous"; });
 
 TEST(Frames, AreSmallerWhenCompressed) {
   TemporaryFolder const folder;
@@ -46,7 +49,8 @@ TEST(Frames, AreSmallerWhenCompressed) {
   FrameWriter plain(folder / "plain", {}, false), packed(folder / "packed", {}, true);
   write_frames(plain, set, {0});
   write_frames(packed, set, {0});
-  EXPECT_LT(2 * std::filesystem::file_size(folder / "packed/frames/000000.hdf"), std::filesystem::file_size(folder / "plain/frames/000000.hdf"));
+  EXPECT_LT(2 * std::filesystem::file_size(folder / "packed/frames/000000.hdf"),
+            std::filesystem::file_size(folder / "plain/frames/000000.hdf"));
 }
 
 TEST(Frames, AreListedInBothIndices) {
@@ -92,7 +96,8 @@ TEST(Frames, NameTheFieldsThereAreWhenOneIsMissing) {
     read_frame(folder / "frames/000000.hdf", "Presure");
     FAIL();
   } catch (InputError const& error) {
-    EXPECT_NE(std::string(error.what()).find("has no field 'Presure' (it has Body, CauchyStress,"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("has no field 'Presure' (it has Body, CauchyStress,"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -113,7 +118,9 @@ int write_beyond_the_limit(std::filesystem::path const& folder) {
     if (text.find("000001.hdf: cannot be written, File too large - ") == std::string::npos) return 2;
   }
   if (testing::text_of(folder / "frames/000000.hdf") != before) return 3;
-  if (std::filesystem::exists(folder / "frames/000001.hdf") || std::filesystem::exists(folder / "frames/000001.hdf.part")) return 4;
+  if (std::filesystem::exists(folder / "frames/000001.hdf") ||
+      std::filesystem::exists(folder / "frames/000001.hdf.part"))
+    return 4;
   return list_frames(folder).size() == 1 ? 0 : 5;
 }
 
@@ -131,15 +138,19 @@ TEST(Files, SayWhyAFolderCannotBeWritten) {
     write_whole_file("/proc/piola/file", std::string_view("text"));
     FAIL();
   } catch (FileError const& error) {
-    EXPECT_STREQ(error.what(), "/proc/piola/file: cannot be written, No such file or directory - give another folder with --out; what was written before is intact");
+    EXPECT_STREQ(error.what(),
+                 "/proc/piola/file: cannot be written, No such file or directory - give another folder with --out; "
+                 "what was written before is intact");
   }
   EXPECT_THROW(make_folder("/proc/piola"), FileError);
 }
 
 TEST(Files, SayThatTheDiskIsFull) {
   std::string const text = cannot_write("results/frames/000003.hdf", ENOSPC);
-  EXPECT_EQ(text, "results/frames/000003.hdf: cannot be written, No space left on device - free some space or give another folder with --out; "
-                  "what was written before is intact");
+  EXPECT_EQ(text,
+            "results/frames/000003.hdf: cannot be written, No space left on device - free some space or give another "
+            "folder with --out; "
+            "what was written before is intact");
 }
 
 }  // namespace

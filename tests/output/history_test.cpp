@@ -17,9 +17,12 @@ TEST(History, StartsWithTheAgreedColumns) {
   auto const names = diagnostic_columns(d);
   std::string line;
   for (auto const& c : names) line += (line.empty() ? "" : ",") + c.name;
-  EXPECT_EQ(line, "time,step,dt,kinetic_energy,strain_energy,total_energy,stabilisation_loss,external_work,linear_momentum_x,linear_momentum_y,"
-                  "linear_momentum_z,angular_momentum_x,angular_momentum_y,angular_momentum_z,jacobian_min,jacobian_max,pressure_min,pressure_max,"
-                  "pressure_oscillation,projection_loss,plastic_work");
+  EXPECT_EQ(line,
+            "time,step,dt,kinetic_energy,strain_energy,total_energy,stabilisation_loss,external_work,linear_momentum_x,"
+            "linear_momentum_y,"
+            "linear_momentum_z,angular_momentum_x,angular_momentum_y,angular_momentum_z,jacobian_min,jacobian_max,"
+            "pressure_min,pressure_max,"
+            "pressure_oscillation,projection_loss,plastic_work");
   EXPECT_EQ(diagnostic_values(1, 2, 3, d).size(), names.size());
   EXPECT_EQ(names.back().unit, "J");
 }

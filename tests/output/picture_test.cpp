@@ -52,10 +52,10 @@ TEST(Picture, HasTheSizeAskedForAndIsReadBackFromPng) {
 TEST(Picture, ShowsBodyColourBarTitleAndTime) {
   Image const image = draw(Scene(), {1000, 800, {}, {}});
   EXPECT_EQ(image.at(3, 400), (Colour{255, 255, 255}));
-  EXPECT_NE(image.at(430, 420), (Colour{255, 255, 255}));                     // the body in the middle
-  EXPECT_GT(dark_pixels(image, 20, 200, 10, 60), 50);                         // title
-  EXPECT_GT(dark_pixels(image, 800, 1000, 10, 60), 50);                       // time
-  EXPECT_GT(dark_pixels(image, 895, 1000, 160, 700), 50);                     // numbers beside the bar
+  EXPECT_NE(image.at(430, 420), (Colour{255, 255, 255}));  // the body in the middle
+  EXPECT_GT(dark_pixels(image, 20, 200, 10, 60), 50);      // title
+  EXPECT_GT(dark_pixels(image, 800, 1000, 10, 60), 50);    // time
+  EXPECT_GT(dark_pixels(image, 895, 1000, 160, 700), 50);  // numbers beside the bar
   std::set<Colour> bar;
   for (int y = 165; y < 685; ++y) bar.insert(image.at(885, y));
   EXPECT_GT(bar.size(), 100U);
@@ -130,7 +130,8 @@ TEST(ColourMap, IsGreyAtZeroWhenTheRangeSpansIt) {
 
 TEST(ColourMap, TakesAnyRange) {
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  for (auto const& range : {std::array{0.0, 0.0}, std::array{5.0, 5.0}, std::array{nan, 1.0}, std::array{-1e300, 1e300}, std::array{1e-300, 2e-300}}) {
+  for (auto const& range : {std::array{0.0, 0.0}, std::array{5.0, 5.0}, std::array{nan, 1.0}, std::array{-1e300, 1e300},
+                            std::array{1e-300, 2e-300}}) {
     ColourMap const map(range[0], range[1]);
     EXPECT_LT(map.low(), map.high());
     EXPECT_LE(map.ticks().size(), 20U);

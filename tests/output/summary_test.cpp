@@ -15,9 +15,11 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
   auto const json = nlohmann::ordered_json::parse(to_json(s));
   std::vector<std::string> keys;
   for (auto const& item : json.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys, (std::vector<std::string>{"status", "title", "version", "formulation", "particles", "steps", "end_time", "wall_seconds", "stages_per_second",
-                                            "threads", "energy", "momentum", "quantities", "warnings"}));
-  EXPECT_TRUE(json["energy"].contains("initial") && json["energy"].contains("final") && json["energy"].contains("max_increase"));
+  EXPECT_EQ(keys, (std::vector<std::string>{"status", "title", "version", "formulation", "particles", "steps",
+                                            "end_time", "wall_seconds", "stages_per_second", "threads", "energy",
+                                            "momentum", "quantities", "warnings"}));
+  EXPECT_TRUE(json["energy"].contains("initial") && json["energy"].contains("final") &&
+              json["energy"].contains("max_increase"));
   EXPECT_TRUE(json["momentum"].contains("linear_drift") && json["momentum"].contains("angular_drift"));
   EXPECT_EQ(json["quantities"]["peak"]["value"], 2.5);
   EXPECT_EQ(json["quantities"]["peak"]["unit"], "MPa");

@@ -12,7 +12,8 @@ namespace {
 /// A plate turned by an angle about the z axis and stretched along y.
 class Turned : public testing::Springs {
  public:
-  Turned(ParticleSet const& set, double angle, double stretch) : Springs(set), set_(set), angle_(angle), stretch_(stretch) {}
+  Turned(ParticleSet const& set, double angle, double stretch)
+      : Springs(set), set_(set), angle_(angle), stretch_(stretch) {}
   void sample(std::string_view field, std::span<double> values) const override {
     if (field != "Displacement") return Springs::sample(field, values);
     for (std::size_t i = 0; i < set_.X.size(); ++i) {
@@ -82,7 +83,8 @@ TEST(Probe, MeasuresTwistWithSign) {
   ParticleSet const set = testing::make_plate(4);
   auto s = spec(ProbeSpec::Kind::twist);
   s.axis = 2;
-  for (double angle : {-3.0, -0.5, 0.0, 0.7, 3.1}) EXPECT_NEAR(evaluate(s, Turned(set, angle, 1), set)[0], angle, 1e-12);
+  for (double angle : {-3.0, -0.5, 0.0, 0.7, 3.1})
+    EXPECT_NEAR(evaluate(s, Turned(set, angle, 1), set)[0], angle, 1e-12);
   EXPECT_EQ(Probe(s, set).columns()[0].name, "p.twist_angle");
 }
 

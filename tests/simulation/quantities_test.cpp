@@ -20,7 +20,13 @@ HistoryTable table() {
 }
 
 double value(Take take, double threshold = 0, std::string const& unit = "1") {
-  QuantitySpec spec{.name = "q", .column = "y", .take = take, .threshold = threshold, .time = 0.1234567, .reference = Expression("0-2*sin(5*t)+0.5"), .unit = unit};
+  QuantitySpec spec{.name = "q",
+                    .column = "y",
+                    .take = take,
+                    .threshold = threshold,
+                    .time = 0.1234567,
+                    .reference = Expression("0-2*sin(5*t)+0.5"),
+                    .unit = unit};
   std::string why;
   auto const q = measure(spec, table(), why);
   EXPECT_TRUE(q) << why;
@@ -68,7 +74,8 @@ TEST(Quantity, SaysWhyItIsMissing) {
   std::string why;
   EXPECT_FALSE(measure({.name = "q", .column = "z", .reference = {}}, table(), why));
   EXPECT_EQ(why, "quantity 'q': history.csv has no column 'z'");
-  EXPECT_FALSE(measure({.name = "q", .column = "y", .take = Take::first_time_above, .threshold = 99, .reference = {}}, table(), why));
+  EXPECT_FALSE(measure({.name = "q", .column = "y", .take = Take::first_time_above, .threshold = 99, .reference = {}},
+                       table(), why));
   EXPECT_NE(why.find("does not contain it"), std::string::npos);
 }
 

@@ -15,7 +15,8 @@ TEST(Render, DrawsOnePictureForEachFrame) {
   Listener listener;
   std::atomic<int> const none{0};
   run_case(s, {.folder = folder / "r"}, listener, none);
-  auto const paths = render_frames(folder / "r", {.field = "Velocity", .range = {}, .view = {}, .width = 300, .height = 250});
+  auto const paths =
+      render_frames(folder / "r", {.field = "Velocity", .range = {}, .view = {}, .width = 300, .height = 250});
   ASSERT_EQ(paths.size(), 5U);
   EXPECT_EQ(paths[4].filename(), "Velocity-000004.png");
   Image const image = read_png(paths[4]);

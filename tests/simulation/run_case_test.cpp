@@ -16,7 +16,8 @@ using testing::springs;
 using testing::TemporaryFolder;
 using testing::text_of;
 
-CaseOutcome run(Simulation& s, std::filesystem::path const& folder, bool resume = false, std::atomic<int>* stop = nullptr) {
+CaseOutcome run(Simulation& s, std::filesystem::path const& folder, bool resume = false,
+                std::atomic<int>* stop = nullptr) {
   Listener listener;
   std::atomic<int> none{0};
   return run_case(s, {.folder = folder, .resume = resume, .force = false}, listener, stop ? *stop : none);
@@ -30,13 +31,18 @@ Simulation probed() {
   probe.kind = ProbeSpec::Kind::twist;
   probe.axis = 2;
   s.spec.probes.push_back(probe);
-  s.spec.quantities.push_back({.name = "twist", .column = "all.twist_angle", .take = QuantitySpec::Take::first_peak, .reference = {}, .unit = "degree"});
+  s.spec.quantities.push_back({.name = "twist",
+                               .column = "all.twist_angle",
+                               .take = QuantitySpec::Take::first_peak,
+                               .reference = {},
+                               .unit = "degree"});
   return s;
 }
 
 /// Files that a resumed run must leave like an uninterrupted one.
 void expect_same_results(std::filesystem::path const& a, std::filesystem::path const& b) {
-  for (char const* name : {"history.csv", "frames.hdf.series", "frames.xmf", "frames/000000.hdf", "frames/000003.hdf", "frames/000004.hdf"}) {
+  for (char const* name : {"history.csv", "frames.hdf.series", "frames.xmf", "frames/000000.hdf", "frames/000003.hdf",
+                           "frames/000004.hdf"}) {
     EXPECT_TRUE(text_of(a / name) == text_of(b / name)) << name;
   }
   auto const ca = list_checkpoints(a), cb = list_checkpoints(b);
@@ -54,7 +60,8 @@ TEST(RunCase, WritesAllThatAUserExpects) {
   s.spec.output.picture_height = 240;
   CaseOutcome const outcome = run(s, folder / "r");
   EXPECT_EQ(outcome.ending, Ending::completed);
-  for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "frames.xmf", "case.toml", "log.txt", "frames/000004.hdf", "pictures/Pressure-000002.png"}) {
+  for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "frames.xmf", "case.toml", "log.txt",
+                           "frames/000004.hdf", "pictures/Pressure-000002.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "r" / name)) << name;
   }
   EXPECT_EQ(outcome.last_picture.filename(), "Pressure-000002.png");
@@ -90,7 +97,8 @@ TEST(RunCase, IsTheSameWithAndWithoutOutput) {
   quiet.spec.output.history_every = 1;
   run(loud, folder / "loud");
   run(quiet, folder / "quiet");
-  EXPECT_EQ(read_checkpoint(list_checkpoints(folder / "loud")[0]).state.arrays(), read_checkpoint(list_checkpoints(folder / "quiet")[0]).state.arrays());
+  EXPECT_EQ(read_checkpoint(list_checkpoints(folder / "loud")[0]).state.arrays(),
+            read_checkpoint(list_checkpoints(folder / "quiet")[0]).state.arrays());
 }
 
 TEST(RunCase, ContinuesBitForBitAfterAStop) {
@@ -142,8 +150,10 @@ TEST(RunCase, KeepsTheLastStateOfAFailedRunAndExplains) {
   springs(s).fail_at = 40;
   CaseOutcome const outcome = run(s, folder / "r");
   EXPECT_EQ(outcome.ending, Ending::failed);
-  for (char const* part : {"stopped at step 40, t = ", "particle 3 (body 'plate', X = (3, 0, 0) m, x = (0.5, 0.25, 0) m) is inverted, det F = -0.02, neighbours = 27",
-                           "limited by the wave speed", "docs/user/when-it-stops.md"}) {
+  for (char const* part :
+       {"stopped at step 40, t = ",
+        "particle 3 (body 'plate', X = (3, 0, 0) m, x = (0.5, 0.25, 0) m) is inverted, det F = -0.02, neighbours = 27",
+        "limited by the wave speed", "docs/user/when-it-stops.md"}) {
     EXPECT_NE(outcome.failure.find(part), std::string::npos) << part << "\n" << outcome.failure;
   }
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["status"], "failed");
@@ -157,7 +167,8 @@ TEST(RunCase, TakesACollapsedStepForAFailure) {
   springs(s).collapse_at = 40;
   CaseOutcome const outcome = run(s, folder / "r");
   EXPECT_EQ(outcome.ending, Ending::failed);
-  EXPECT_NE(outcome.failure.find("the time step collapsed, stable step [s] = 1e-30"), std::string::npos) << outcome.failure;
+  EXPECT_NE(outcome.failure.find("the time step collapsed, stable step [s] = 1e-30"), std::string::npos)
+      << outcome.failure;
 }
 
 TEST(RunCase, WarnsOfCellsThatAreNotNumbers) {
@@ -182,7 +193,8 @@ TEST(RunCase, ReplacesItsOwnResultsOnly) {
     run(other, folder / "r");
     FAIL();
   } catch (InputError const& error) {
-    EXPECT_NE(std::string(error.what()).find("holds the results of another case, \"Springs\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("holds the results of another case, \"Springs\""), std::string::npos)
+        << error.what();
   }
   std::filesystem::create_directories(folder / "mine");
   std::ofstream(folder / "mine/thesis.tex") << "x";

@@ -41,12 +41,15 @@ void write(std::filesystem::path const& path, std::string const& text) {
   std::ofstream(path) << text;
 }
 
-std::vector<VerificationRow> verify_springs(testing::TemporaryFolder const& folder, bool short_only, bool failing = false) {
+std::vector<VerificationRow> verify_springs(testing::TemporaryFolder const& folder, bool short_only,
+                                            bool failing = false) {
   write(folder / "cases/toys/springs/checks.toml", checks);
-  VerifyOptions const options{.cases = folder / "cases", .names = {"springs"}, .short_only = short_only, .out = folder / "out"};
+  VerifyOptions const options{
+      .cases = folder / "cases", .names = {"springs"}, .short_only = short_only, .out = folder / "out"};
   auto const prepare = [&](std::filesystem::path const&, std::vector<std::string> const&) {
     Simulation s = testing::make_springs();
-    s.spec.quantities.push_back({.name = "start", .column = "kinetic_energy", .take = QuantitySpec::Take::initial_value, .reference = {}});
+    s.spec.quantities.push_back(
+        {.name = "start", .column = "kinetic_energy", .take = QuantitySpec::Take::initial_value, .reference = {}});
     if (failing) testing::springs(s).fail_at = 30;
     return s;
   };
@@ -84,15 +87,28 @@ TEST(Verify, PrintsJsonMarkdownAndATable) {
   testing::TemporaryFolder const folder;
   auto const rows = verify_springs(folder, true);
   auto const json = nlohmann::json::parse(verification_json(rows));
-  for (char const* key : {"case", "quantity", "reference", "source", "measured", "tolerance", "verdict", "note"}) EXPECT_TRUE(json["rows"][0].contains(key)) << key;
+  for (char const* key : {"case", "quantity", "reference", "source", "measured", "tolerance", "verdict", "note"})
+    EXPECT_TRUE(json["rows"][0].contains(key)) << key;
   EXPECT_NE(verification_markdown(rows).find("| toys/springs | coarse | start | 1.2 "), std::string::npos);
   EXPECT_NE(verification_table(rows).find("fall short"), std::string::npos);
 }
 
 TEST(Verify, JudgesEachKindOfCheck) {
-  char const* summary = R"({"status": "completed", "quantities": {"a": {"value": 2.0, "unit": "ms"}}, "energy": {"max_increase": 0.01}})";
-  auto const verdict = [&](std::string quantity, std::string reference, double tolerance, bool relative, Check::Kind kind) {
-    return compare("c", {{.variant = "v", .quantity = quantity, .reference = reference, .tolerance = tolerance, .relative = relative, .kind = kind, .source = {}, .note = {}}}, summary)[0].verdict;
+  char const* summary =
+      R"({"status": "completed", "quantities": {"a": {"value": 2.0, "unit": "ms"}}, "energy": {"max_increase": 0.01}})";
+  auto const verdict = [&](std::string quantity, std::string reference, double tolerance, bool relative,
+                           Check::Kind kind) {
+    return compare("c",
+                   {{.variant = "v",
+                     .quantity = quantity,
+                     .reference = reference,
+                     .tolerance = tolerance,
+                     .relative = relative,
+                     .kind = kind,
+                     .source = {},
+                     .note = {}}},
+                   summary)[0]
+        .verdict;
   };
   EXPECT_EQ(verdict("a", "0.0021 s", 0.06, true, Check::Kind::within), "pass");
   EXPECT_EQ(verdict("a", "0.0021 s", 0.04, true, Check::Kind::within), "fall short");
@@ -106,13 +122,15 @@ TEST(Verify, JudgesEachKindOfCheck) {
 
 TEST(ReadChecks, ReportsAllThatIsWrong) {
   testing::TemporaryFolder const folder;
-  write(folder / "checks.toml", "[[check]]\nquantity = \"a\"\nreferense = 1\nkind = \"near\"\nsource = \"s\"\ntolerance = \"1 m\"\n");
+  write(folder / "checks.toml",
+        "[[check]]\nquantity = \"a\"\nreferense = 1\nkind = \"near\"\nsource = \"s\"\ntolerance = \"1 m\"\n");
   try {
     read_checks(folder / "checks.toml");
     FAIL();
   } catch (InputError const& error) {
     std::string const text = error.what();
-    for (char const* part : {"does not know 'referense'", "did you mean", "needs 'reference'", "'kind' has the wrong kind", "'tolerance' has the wrong kind"}) {
+    for (char const* part : {"does not know 'referense'", "did you mean", "needs 'reference'",
+                             "'kind' has the wrong kind", "'tolerance' has the wrong kind"}) {
       EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
     }
   }

@@ -26,8 +26,8 @@ inline ParticleSet make_plate(int n) {
   return set;
 }
 
-/// Each particle on a spring of its own: u'' = -k u with unit mass, symplectic Euler with a step that wanders, so that a
-/// resumed run is right only if every number was restored.
+/// Each particle on a spring of its own: u'' = -k u with unit mass, symplectic Euler with a step that wanders, so that
+/// a resumed run is right only if every number was restored.
 class Springs : public Formulation {
  public:
   explicit Springs(ParticleSet const& set) : set_(set), u_(3 * set.X.size()), v_(3 * set.X.size()) {
@@ -36,7 +36,9 @@ class Springs : public Formulation {
       v_[3 * i + 1] = -0.1 * set.X[i][0];
     }
   }
-  double stable_time_step() const override { return steps_ >= collapse_at ? 1e-30 : 0.01 * (1 + 0.3 * std::sin(v_[3 * 3])); }
+  double stable_time_step() const override {
+    return steps_ >= collapse_at ? 1e-30 : 0.01 * (1 + 0.3 * std::sin(v_[3 * 3]));
+  }
   void step(double, double dt) override {
     for (std::size_t i = 0; i < u_.size(); ++i) {
       v_[i] -= dt * stiffness * u_[i];
@@ -61,11 +63,16 @@ class Springs : public Formulation {
     d.more = {{"plastic_work", 0.25}};
     return d;
   }
-  std::vector<FieldInfo> fields() const override { return {{"Displacement", "m", 3}, {"Velocity", "m/s", 3}, {"Pressure", "Pa", 1}, {"CauchyStress", "Pa", 6}}; }
+  std::vector<FieldInfo> fields() const override {
+    return {{"Displacement", "m", 3}, {"Velocity", "m/s", 3}, {"Pressure", "Pa", 1}, {"CauchyStress", "Pa", 6}};
+  }
   void sample(std::string_view field, std::span<double> values) const override {
-    if (field == "Displacement") std::copy(u_.begin(), u_.end(), values.begin());
-    else if (field == "Velocity") std::copy(v_.begin(), v_.end(), values.begin());
-    else for (std::size_t k = 0; k < values.size(); ++k) values[k] = 1e6 * std::sin(0.3 * static_cast<double>(k));
+    if (field == "Displacement")
+      std::copy(u_.begin(), u_.end(), values.begin());
+    else if (field == "Velocity")
+      std::copy(v_.begin(), v_.end(), values.begin());
+    else
+      for (std::size_t k = 0; k < values.size(); ++k) values[k] = 1e6 * std::sin(0.3 * static_cast<double>(k));
   }
   void save(StateWriter& writer) const override {
     writer.put("u", u_);

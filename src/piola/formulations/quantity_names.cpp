@@ -44,10 +44,12 @@ std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;
   for (FieldWord const& f : fields) {
     for (int c = 0; c < f.components; ++c) {
-      table.push_back({std::string(f.word) + std::string(suffix(f.components, c)), std::string(f.field), c, std::string(f.unit)});
+      table.push_back(
+          {std::string(f.word) + std::string(suffix(f.components, c)), std::string(f.field), c, std::string(f.unit)});
     }
     if (f.components == 3) {
-      table.push_back({std::string(f.word) + "_magnitude", std::string(f.field), FieldQuantity::magnitude, std::string(f.unit)});
+      table.push_back(
+          {std::string(f.word) + "_magnitude", std::string(f.field), FieldQuantity::magnitude, std::string(f.unit)});
     }
   }
   return table;

@@ -36,7 +36,8 @@ NamedState get_state(hdf5::Reader const& file, std::string const& group) {
     std::string const path = group + "/" + name;
     auto const values = file.dataset<double>(path);
     if (check_sum(values) != file.integer(path, "check_sum")) {
-      throw FileError(fmt::format("{}: '{}' does not have the check sum it was written with - the file is damaged", file.path().string(), path));
+      throw FileError(fmt::format("{}: '{}' does not have the check sum it was written with - the file is damaged",
+                                  file.path().string(), path));
     }
     state.put(file.text(path, "name"), values);
   }
@@ -52,7 +53,8 @@ void NamedState::put(std::string_view name, std::span<double const> values) {
 std::vector<double> const& NamedState::all(std::string_view name) const {
   auto const found = arrays_.find(name);
   if (found == arrays_.end()) {
-    throw FileError(fmt::format("checkpoint: has no '{}' - it was written by another version or formulation; run the case again", name));
+    throw FileError(fmt::format(
+        "checkpoint: has no '{}' - it was written by another version or formulation; run the case again", name));
   }
   return found->second;
 }
@@ -60,7 +62,8 @@ std::vector<double> const& NamedState::all(std::string_view name) const {
 void NamedState::get(std::string_view name, std::span<double> values) {
   auto const& kept = all(name);
   if (kept.size() != values.size()) {
-    throw FileError(fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name, kept.size(), values.size()));
+    throw FileError(fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name,
+                                kept.size(), values.size()));
   }
   std::copy(kept.begin(), kept.end(), values.begin());
 }
@@ -85,7 +88,8 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c) {
 Checkpoint read_checkpoint(std::filesystem::path const& path) {
   hdf5::Reader const file(path);
   if (file.integer("/", "piola_checkpoint") != layout_version) {
-    throw FileError(fmt::format("{}: was written in another layout of checkpoints - resume with the version that wrote it", path.string()));
+    throw FileError(fmt::format(
+        "{}: was written in another layout of checkpoints - resume with the version that wrote it", path.string()));
   }
   Checkpoint c;
   c.version = file.text("/", "version");
@@ -111,7 +115,8 @@ std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const&
   std::error_code missing_folder;
   for (auto const& entry : std::filesystem::directory_iterator(results / "checkpoints", missing_folder)) {
     std::string const stem = entry.path().stem().string();
-    bool const number = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+    bool const number =
+        !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (number && entry.path().extension() == ".h5") found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end(), std::greater<>());
@@ -132,7 +137,9 @@ Checkpoint read_newest_checkpoint(std::filesystem::path const& results, std::vec
       warnings.push_back(fmt::format("{}; the checkpoint before it is used", error.what()));
     }
   }
-  throw InputError(fmt::format("{}: holds no checkpoint that can be read (a run writes checkpoints/*.h5) - run the case again", results.string()));
+  throw InputError(
+      fmt::format("{}: holds no checkpoint that can be read (a run writes checkpoints/*.h5) - run the case again",
+                  results.string()));
 }
 
 }  // namespace piola

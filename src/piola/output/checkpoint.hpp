@@ -26,15 +26,15 @@ class NamedState : public StateWriter, public StateReader {
 
 /// Everything that a run needs to continue bit for bit.
 struct Checkpoint {
-  double time = 0;        ///< s
+  double time = 0;  ///< s
   std::int64_t step = 0;
-  double dt = 0;          ///< s, the last step
-  double first_dt = 0;    ///< s, the first stable step: the measure of a collapsed one
+  double dt = 0;                                  ///< s, the last step
+  double first_dt = 0;                            ///< s, the first stable step: the measure of a collapsed one
   double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far
-  std::string version;    ///< of the program that wrote it
-  std::string source;     ///< the case as run
-  NamedState state;       ///< of the formulation
-  NamedState observers;   ///< next output times, twist angles, times of frames
+  std::string version;                            ///< of the program that wrote it
+  std::string source;                             ///< the case as run
+  NamedState state;                               ///< of the formulation
+  NamedState observers;                           ///< next output times, twist angles, times of frames
 };
 
 /// Writes one file (whole, synced, renamed). Throws FileError.
@@ -48,7 +48,8 @@ std::filesystem::path checkpoint_path(std::filesystem::path const& results, std:
 std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results);
 /// Writes the checkpoint of its step and removes all but the last two.
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint);
-/// The newest checkpoint that is whole. Damaged ones are skipped, each with a line in `warnings`. Throws InputError if none is left.
+/// The newest checkpoint that is whole. Damaged ones are skipped, each with a line in `warnings`. Throws InputError if
+/// none is left.
 Checkpoint read_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings);
 
 /// The name of the last state of a run that failed; it is kept for study, never resumed from.

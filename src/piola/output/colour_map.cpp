@@ -10,15 +10,24 @@ namespace piola {
 namespace {
 
 // Control points at equal distances; lightness (CIE L*) rises about evenly along the first list.
-constexpr std::array<Colour, 8> sequential{{{52, 14, 84}, {62, 52, 134}, {50, 92, 146}, {36, 128, 142}, {36, 160, 130}, {94, 190, 98}, {172, 212, 58}, {250, 230, 60}}};
-constexpr std::array<Colour, 7> blue_to_red{{{28, 52, 140}, {66, 116, 190}, {150, 188, 224}, {232, 232, 230}, {238, 172, 136}, {208, 88, 72}, {142, 14, 40}}};
+constexpr std::array<Colour, 8> sequential{{{52, 14, 84},
+                                            {62, 52, 134},
+                                            {50, 92, 146},
+                                            {36, 128, 142},
+                                            {36, 160, 130},
+                                            {94, 190, 98},
+                                            {172, 212, 58},
+                                            {250, 230, 60}}};
+constexpr std::array<Colour, 7> blue_to_red{
+    {{28, 52, 140}, {66, 116, 190}, {150, 188, 224}, {232, 232, 230}, {238, 172, 136}, {208, 88, 72}, {142, 14, 40}}};
 
 Colour between(std::span<Colour const> points, double share) {
   double const at = std::clamp(share, 0.0, 1.0) * static_cast<double>(points.size() - 1);
   auto const k = std::min(static_cast<std::size_t>(at), points.size() - 2);
   double const s = at - static_cast<double>(k);
   Colour mixed{};
-  for (std::size_t c = 0; c < 3; ++c) mixed[c] = static_cast<std::uint8_t>(std::lround((1 - s) * points[k][c] + s * points[k + 1][c]));
+  for (std::size_t c = 0; c < 3; ++c)
+    mixed[c] = static_cast<std::uint8_t>(std::lround((1 - s) * points[k][c] + s * points[k + 1][c]));
   return mixed;
 }
 
@@ -59,7 +68,8 @@ std::string field_words(std::string_view field) {
     auto const c = static_cast<unsigned char>(field[i]);
     bool const starts = i > 0 && std::isupper(c) && !std::isupper(static_cast<unsigned char>(field[i - 1]));
     if (starts) out += ' ';
-    bool const proper = field.substr(i).starts_with("Mises") || field.substr(i).starts_with("Piola") || field.substr(i).starts_with("Cauchy");
+    bool const proper = field.substr(i).starts_with("Mises") || field.substr(i).starts_with("Piola") ||
+                        field.substr(i).starts_with("Cauchy");
     out += proper ? field[i] : static_cast<char>(std::tolower(c));
   }
   return out;

@@ -8,8 +8,8 @@
 
 namespace piola {
 
-/// From numbers to colours over a range: dark violet to yellow with evenly rising lightness, or, if the range has zero well
-/// inside, blue through light grey (zero) to red.
+/// From numbers to colours over a range: dark violet to yellow with evenly rising lightness, or, if the range has zero
+/// well inside, blue through light grey (zero) to red.
 class ColourMap {
  public:
   ColourMap(double low, double high);
@@ -28,7 +28,8 @@ class ColourMap {
 /// A field name as people write it: "VonMisesStress" -> "von Mises stress".
 std::string field_words(std::string_view field);
 
-/// The decimal prefix for showing values of this size: {1e6, "MPa"} for 3e7 and "Pa"; a unit that takes no prefix gets {1e6, "1e6 kg/m^3"}.
+/// The decimal prefix for showing values of this size: {1e6, "MPa"} for 3e7 and "Pa"; a unit that takes no prefix gets
+/// {1e6, "1e6 kg/m^3"}.
 struct ShownUnit {
   double factor = 1;
   std::string text;

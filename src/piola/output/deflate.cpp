@@ -23,7 +23,8 @@ void group_bytes(std::span<std::byte const> in, std::span<std::byte> out, std::s
   }
 }
 
-std::vector<std::byte> deflate_one(libdeflate_compressor* compressor, std::span<std::byte const> part, std::size_t chunk, std::size_t width) {
+std::vector<std::byte> deflate_one(libdeflate_compressor* compressor, std::span<std::byte const> part,
+                                   std::size_t chunk, std::size_t width) {
   std::vector<std::byte> plain(chunk), shuffled(chunk);
   std::memcpy(plain.data(), part.data(), part.size());
   group_bytes(plain, shuffled, width);
@@ -35,10 +36,12 @@ std::vector<std::byte> deflate_one(libdeflate_compressor* compressor, std::span<
 
 }  // namespace
 
-std::vector<std::vector<std::byte>> deflate_chunks(std::span<std::byte const> bytes, std::size_t chunk, std::size_t width) {
+std::vector<std::vector<std::byte>> deflate_chunks(std::span<std::byte const> bytes, std::size_t chunk,
+                                                   std::size_t width) {
   std::size_t const count = (bytes.size() + chunk - 1) / chunk;
   std::vector<std::vector<std::byte>> packed(count);
-  std::size_t const workers = std::clamp<std::size_t>(static_cast<std::size_t>(exec_host::threads()), 1, std::max<std::size_t>(count, 1));
+  std::size_t const workers =
+      std::clamp<std::size_t>(static_cast<std::size_t>(exec_host::threads()), 1, std::max<std::size_t>(count, 1));
   std::vector<Compressor> compressors;  // made here so that a lack of memory is reported before any thread starts
   for (std::size_t w = 0; w < workers; ++w) {
     compressors.emplace_back(libdeflate_alloc_compressor(level), &libdeflate_free_compressor);

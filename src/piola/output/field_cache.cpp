@@ -32,7 +32,8 @@ std::vector<double> FieldCache::make(std::string_view field, std::size_t compone
   auto const count = static_cast<std::size_t>(particles_.size());
   std::vector<double> out(count * components);
   if (field == "Body") {
-    std::transform(particles_.body.begin(), particles_.body.end(), out.begin(), [](int body) { return static_cast<double>(body); });
+    std::transform(particles_.body.begin(), particles_.body.end(), out.begin(),
+                   [](int body) { return static_cast<double>(body); });
   } else if (field == "Id") {
     for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(i);
   } else if (field == "Position") {

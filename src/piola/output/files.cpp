@@ -31,10 +31,16 @@ class Descriptor {
   explicit Descriptor(int fd) : fd_(fd) {}
   Descriptor(Descriptor const&) = delete;
   Descriptor& operator=(Descriptor const&) = delete;
-  ~Descriptor() { if (fd_ >= 0) ::close(fd_); }
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
   int get() const { return fd_; }
   /// Closes now and says whether that went well (a network disk may report a full disk only here).
-  bool close() { int const fd = fd_; fd_ = -1; return ::close(fd) == 0; }
+  bool close() {
+    int const fd = fd_;
+    fd_ = -1;
+    return ::close(fd) == 0;
+  }
 
  private:
   int fd_;
@@ -63,7 +69,8 @@ void sync_folder(std::filesystem::path const& folder) {
 }  // namespace
 
 std::string cannot_write(std::filesystem::path const& path, int error) {
-  return fmt::format("{}: cannot be written, {} - {}", path.string(), std::generic_category().message(error), advice(error));
+  return fmt::format("{}: cannot be written, {} - {}", path.string(), std::generic_category().message(error),
+                     advice(error));
 }
 
 void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content) {
@@ -87,7 +94,8 @@ std::string read_text_file(std::filesystem::path const& path) {
   std::ostringstream text;
   if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
   if (!in.is_open() || in.bad()) {
-    throw FileError(fmt::format("{}: cannot be read - check that the file exists and that you may read it", path.string()));
+    throw FileError(
+        fmt::format("{}: cannot be read - check that the file exists and that you may read it", path.string()));
   }
   return text.str();
 }

@@ -8,8 +8,9 @@
 
 namespace piola {
 
-/// Writes a file so that a reader sees either the old content or all of the new one: to "PATH.part", synced to the disk,
-/// then renamed. Throws FileError with path, reason and advice (the part file is removed, other files are untouched).
+/// Writes a file so that a reader sees either the old content or all of the new one: to "PATH.part", synced to the
+/// disk, then renamed. Throws FileError with path, reason and advice (the part file is removed, other files are
+/// untouched).
 void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content);
 void write_whole_file(std::filesystem::path const& path, std::string_view content);
 

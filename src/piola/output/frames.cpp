@@ -13,8 +13,7 @@ namespace {
 
 using hdf5::Storage;
 
-template <class T>
-std::span<T const> one(T const& value) { return {&value, 1}; }
+template <class T> std::span<T const> one(T const& value) { return {&value, 1}; }
 
 std::vector<float> to_float(std::span<double const> values) {
   std::vector<float> out(values.size());
@@ -108,7 +107,8 @@ void FrameWriter::write(double time, FieldCache& cache) {
 
 void FrameWriter::continue_after(std::vector<double> times) {
   times_ = std::move(times);
-  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k)); ++k) {}
+  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k)); ++k) {
+  }
 }
 
 void FrameWriter::write_series() const {
@@ -116,22 +116,28 @@ void FrameWriter::write_series() const {
   for (std::size_t k = 0; k < times_.size(); ++k) {
     entries.push_back(fmt::format(R"(    {{ "name": "{}", "time": {} }})", frame_name(k), times_[k]));
   }
-  write_whole_file(folder_ / "frames.hdf.series",
-                   fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", fmt::join(entries, ",\n")));
+  write_whole_file(
+      folder_ / "frames.hdf.series",
+      fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", fmt::join(entries, ",\n")));
 }
 
 void FrameWriter::write_xdmf(std::vector<FieldInfo> const& fields, std::int64_t particles) const {
-  std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
-                     "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+      "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t k = 0; k < times_.size(); ++k) {
     std::string const file = frame_name(k);
     text += fmt::format("<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", times_[k]);
-    text += fmt::format("<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"{}\">{}</Topology>\n", particles,
-                        xdmf_item(file, "/VTKHDF/Connectivity", particles, 1, true));
-    text += fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n", xdmf_item(file, "/VTKHDF/Points", particles, 3, false));
+    text += fmt::format(
+        "<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"{}\">{}</Topology>\n",
+        particles, xdmf_item(file, "/VTKHDF/Connectivity", particles, 1, true));
+    text += fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                        xdmf_item(file, "/VTKHDF/Points", particles, 3, false));
     for (FieldInfo const& info : fields) {
-      text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", info.name, xdmf_kind(info.components),
-                          xdmf_item(file, "/VTKHDF/PointData/" + info.name, particles, info.components, is_integer(info.name)));
+      text += fmt::format(
+          "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", info.name,
+          xdmf_kind(info.components),
+          xdmf_item(file, "/VTKHDF/PointData/" + info.name, particles, info.components, is_integer(info.name)));
     }
     text += "</Grid>\n";
   }
@@ -148,18 +154,21 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   frame.field_names = file.names("/VTKHDF/PointData");
   std::string const data = "/VTKHDF/PointData/" + field;
   if (!file.has(data)) {
-    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field", path.string(), field,
-                                 fmt::join(frame.field_names, ", ")));
+    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field",
+                                 path.string(), field, fmt::join(frame.field_names, ", ")));
   }
   auto const shape = file.shape(data);
-  frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"), shape.size() > 1 ? static_cast<int>(shape[1]) : 1};
+  frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"),
+                shape.size() > 1 ? static_cast<int>(shape[1]) : 1};
   frame.values = file.dataset<double>(data);
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
   frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
   frame.dimension = static_cast<int>(file.integer("/", "dimension"));
   bool const fits = frame.values.size() == frame.points.size() * static_cast<std::size_t>(frame.info.components) &&
                     frame.volume.size() == frame.points.size() && frame.body.size() == frame.points.size();
-  if (!fits) throw FileError(fmt::format("{}: the field '{}' has not one value per point - the frame is damaged", path.string(), field));
+  if (!fits)
+    throw FileError(
+        fmt::format("{}: the field '{}' has not one value per point - the frame is damaged", path.string(), field));
   return frame;
 }
 
@@ -172,7 +181,8 @@ std::vector<std::pair<double, std::filesystem::path>> list_frames(std::filesyste
       frames.emplace_back(entry.at("time").get<double>(), folder / entry.at("name").get<std::string>());
     }
   } catch (nlohmann::json::exception const&) {
-    throw FileError(fmt::format("{}: is not an index of frames - run the case again, or open the frames one by one", index.string()));
+    throw FileError(fmt::format("{}: is not an index of frames - run the case again, or open the frames one by one",
+                                index.string()));
   }
   return frames;
 }

@@ -37,17 +37,17 @@ std::string frame_name(std::size_t number);
 /// One frame read back, as `piola render` needs it.
 struct Frame {
   double time = 0;
-  std::vector<std::array<double, 3>> points;    ///< m
+  std::vector<std::array<double, 3>> points;  ///< m
   std::vector<std::string> field_names;
-  FieldInfo info;                               ///< of the field that was asked for; its unit comes from the file
-  std::vector<double> values;                   ///< values[i * components + c]
-  std::vector<double> volume;                   ///< tributary volume, m^Dim
+  FieldInfo info;              ///< of the field that was asked for; its unit comes from the file
+  std::vector<double> values;  ///< values[i * components + c]
+  std::vector<double> volume;  ///< tributary volume, m^Dim
   std::vector<int> body;
   int dimension = 3;
 };
 
-/// Reads points and one field. Throws FileError if the file is damaged, InputError (with the names there are) if the frame
-/// has no such field.
+/// Reads points and one field. Throws FileError if the file is damaged, InputError (with the names there are) if the
+/// frame has no such field.
 Frame read_frame(std::filesystem::path const& path, std::string const& field);
 
 /// Frame files and times of a results folder, in order of time, from frames.hdf.series. Throws FileError.

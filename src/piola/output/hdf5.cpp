@@ -9,7 +9,8 @@
 namespace piola::hdf5 {
 namespace {
 
-constexpr std::size_t chunk_bytes = std::size_t{1} << 20;  // large enough to compress well, small enough to share among threads
+constexpr std::size_t chunk_bytes = std::size_t{1}
+                                    << 20;  // large enough to compress well, small enough to share among threads
 
 template <class T> hid_t native_type();
 template <> hid_t native_type<float>() { return H5T_NATIVE_FLOAT; }
@@ -23,7 +24,8 @@ template <> hid_t native_type<char>() { return H5T_NATIVE_CHAR; }
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 void check(herr_t result, std::string_view what) {
-  if (result < 0) throw FileError(fmt::format("HDF5 cannot make {} - this is a defect of the program, please report it", what));
+  if (result < 0)
+    throw FileError(fmt::format("HDF5 cannot make {} - this is a defect of the program, please report it", what));
 }
 
 Handle new_file_in_memory() {
@@ -44,7 +46,8 @@ Handle open_file(std::filesystem::path const& path) {
 }
 
 /// Compresses all chunks in threads, then hands them to HDF5 in order.
-void write_chunks(hid_t dataset, std::span<std::byte const> bytes, std::size_t row_bytes, std::size_t chunk_rows, std::size_t width) {
+void write_chunks(hid_t dataset, std::span<std::byte const> bytes, std::size_t row_bytes, std::size_t chunk_rows,
+                  std::size_t width) {
   auto const chunks = deflate_chunks(bytes, row_bytes * chunk_rows, width);
   for (std::size_t k = 0; k < chunks.size(); ++k) {
     std::array<hsize_t, 2> const offset{k * chunk_rows, 0};
@@ -55,7 +58,9 @@ void write_chunks(hid_t dataset, std::span<std::byte const> bytes, std::size_t r
 }  // namespace
 
 Handle::Handle(hid_t id, Close close, std::string_view what) : id_(id), close_(close) {
-  if (id < 0) throw FileError(fmt::format("HDF5 cannot make or open {} - this is a defect of the program, please report it", what));
+  if (id < 0)
+    throw FileError(
+        fmt::format("HDF5 cannot make or open {} - this is a defect of the program, please report it", what));
 }
 
 Image::Image() : file_(new_file_in_memory()) {}
@@ -73,7 +78,8 @@ void Image::dataset(std::string const& path, std::span<T const> values, int colu
   int const rank = columns > 1 ? 2 : 1;
   Handle const space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, path);
   Handle const layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
-  std::size_t const chunk_rows = std::clamp<std::size_t>(chunk_bytes / (sizeof(T) * width), 1, std::max<std::size_t>(shape[0], 1));
+  std::size_t const chunk_rows =
+      std::clamp<std::size_t>(chunk_bytes / (sizeof(T) * width), 1, std::max<std::size_t>(shape[0], 1));
   check(H5Pset_obj_track_times(layout.id(), false), path);  // the same data give the same file
   bool const compress = storage == Storage::compressed && shape[0] > 1;
   if (compress) {
@@ -84,7 +90,8 @@ void Image::dataset(std::string const& path, std::span<T const> values, int colu
     check(H5Pset_fill_time(layout.id(), H5D_FILL_TIME_NEVER), path);
   }
   hid_t const type = native_type<T>();
-  Handle const set(H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT), H5Dclose, path);
+  Handle const set(H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
+                   H5Dclose, path);
   if (values.empty()) return;
   if (compress) {
     write_chunks(set.id(), std::as_bytes(values), sizeof(T) * width, chunk_rows, sizeof(T));
@@ -106,7 +113,8 @@ void Image::attribute(std::string const& object, std::string const& name, std::s
   check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), name);
   Handle const space(H5Screate(H5S_SCALAR), H5Sclose, name);
   Handle const owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose, object);
-  Handle const made(H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  Handle const made(H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                    name);
   std::string const padded = text.empty() ? std::string(1, '\0') : std::string(text);
   check(H5Awrite(made.id(), type.id(), padded.data()), name);
 }
@@ -115,14 +123,16 @@ void Image::attribute(std::string const& object, std::string const& name, std::s
   hsize_t const count = values.size();
   Handle const space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
   Handle const owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose, object);
-  Handle const made(H5Acreate2(owner.id(), name.c_str(), H5T_STD_I64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  Handle const made(H5Acreate2(owner.id(), name.c_str(), H5T_STD_I64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                    name);
   check(H5Awrite(made.id(), H5T_NATIVE_INT64, values.data()), name);
 }
 
 void Image::attribute(std::string const& object, std::string const& name, double value) {
   Handle const space(H5Screate(H5S_SCALAR), H5Sclose, name);
   Handle const owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose, object);
-  Handle const made(H5Acreate2(owner.id(), name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  Handle const made(H5Acreate2(owner.id(), name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose, name);
   check(H5Awrite(made.id(), H5T_NATIVE_DOUBLE, &value), name);
 }
 
@@ -138,7 +148,8 @@ std::vector<std::byte> Image::bytes() {
 Reader::Reader(std::filesystem::path const& path) : path_(path), file_(open_file(path)) {}
 
 void Reader::fail(std::string_view what) const {
-  throw FileError(fmt::format("{}: has no readable '{}' - the file is damaged or was written by another program", path_.string(), what));
+  throw FileError(fmt::format("{}: has no readable '{}' - the file is damaged or was written by another program",
+                              path_.string(), what));
 }
 
 bool Reader::has(std::string const& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
@@ -166,8 +177,7 @@ std::vector<std::uint64_t> Reader::shape(std::string const& path) const {
   return {dims.begin(), dims.begin() + rank};
 }
 
-template <class T>
-std::vector<T> Reader::dataset(std::string const& path) const {
+template <class T> std::vector<T> Reader::dataset(std::string const& path) const {
   std::size_t count = 1;
   for (std::uint64_t const n : shape(path)) count *= n;
   std::vector<T> values(count);

@@ -22,7 +22,9 @@ class Handle {
   Handle(Handle const&) = delete;
   Handle& operator=(Handle const&) = delete;
   Handle& operator=(Handle&&) = delete;
-  ~Handle() { if (id_ >= 0) close_(id_); }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
   hid_t id() const { return id_; }
 
  private:
@@ -42,7 +44,8 @@ class Image {
   void group(std::string const& path);
   /// values[row * columns + c]; columns = 1 gives a one-dimensional data set.
   template <class T>
-  void dataset(std::string const& path, std::span<T const> values, int columns = 1, Storage storage = Storage::contiguous);
+  void dataset(std::string const& path, std::span<T const> values, int columns = 1,
+               Storage storage = Storage::contiguous);
   void attribute(std::string const& object, std::string const& name, std::string_view text);
   void attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values);
   void attribute(std::string const& object, std::string const& name, double value);
@@ -60,8 +63,7 @@ class Reader {
   bool has(std::string const& path) const;
   std::vector<std::string> names(std::string const& group) const;  ///< members, sorted
   std::vector<std::uint64_t> shape(std::string const& dataset) const;
-  template <class T>
-  std::vector<T> dataset(std::string const& path) const;
+  template <class T> std::vector<T> dataset(std::string const& path) const;
   std::string text(std::string const& object, std::string const& name) const;
   double number(std::string const& object, std::string const& name) const;
   std::int64_t integer(std::string const& object, std::string const& name) const;

@@ -49,7 +49,8 @@ std::vector<double> read_row(std::string_view line, std::size_t columns) {
 }  // namespace
 
 std::optional<std::size_t> HistoryTable::find(std::string_view column) const {
-  auto const found = std::find_if(columns.begin(), columns.end(), [&](HistoryColumn const& c) { return c.name == column; });
+  auto const found =
+      std::find_if(columns.begin(), columns.end(), [&](HistoryColumn const& c) { return c.name == column; });
   if (found == columns.end()) return std::nullopt;
   return static_cast<std::size_t>(found - columns.begin());
 }
@@ -63,13 +64,26 @@ std::vector<double> HistoryTable::values(std::string_view column) const {
 }
 
 std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {
-  std::vector<HistoryColumn> columns{
-      {"time", "s"}, {"step", "1"}, {"dt", "s"}, {"kinetic_energy", "J"}, {"strain_energy", "J"}, {"total_energy", "J"},
-      {"stabilisation_loss", "J"}, {"external_work", "J"},
-      {"linear_momentum_x", "kg m/s"}, {"linear_momentum_y", "kg m/s"}, {"linear_momentum_z", "kg m/s"},
-      {"angular_momentum_x", "kg m^2/s"}, {"angular_momentum_y", "kg m^2/s"}, {"angular_momentum_z", "kg m^2/s"},
-      {"jacobian_min", "1"}, {"jacobian_max", "1"}, {"pressure_min", "Pa"}, {"pressure_max", "Pa"}, {"pressure_oscillation", "1"},
-      {"projection_loss", "J"}};
+  std::vector<HistoryColumn> columns{{"time", "s"},
+                                     {"step", "1"},
+                                     {"dt", "s"},
+                                     {"kinetic_energy", "J"},
+                                     {"strain_energy", "J"},
+                                     {"total_energy", "J"},
+                                     {"stabilisation_loss", "J"},
+                                     {"external_work", "J"},
+                                     {"linear_momentum_x", "kg m/s"},
+                                     {"linear_momentum_y", "kg m/s"},
+                                     {"linear_momentum_z", "kg m/s"},
+                                     {"angular_momentum_x", "kg m^2/s"},
+                                     {"angular_momentum_y", "kg m^2/s"},
+                                     {"angular_momentum_z", "kg m^2/s"},
+                                     {"jacobian_min", "1"},
+                                     {"jacobian_max", "1"},
+                                     {"pressure_min", "Pa"},
+                                     {"pressure_max", "Pa"},
+                                     {"pressure_oscillation", "1"},
+                                     {"projection_loss", "J"}};
   for (auto const& extra : diagnostics.more) columns.push_back({extra.first, unit_of_extra(extra.first)});
   return columns;
 }
@@ -77,9 +91,26 @@ std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {
 std::vector<double> diagnostic_values(double time, std::int64_t step, double dt, Diagnostics const& d) {
   auto const& p = d.linear_momentum;
   auto const& l = d.angular_momentum;
-  std::vector<double> row{time, static_cast<double>(step), dt, d.kinetic_energy, d.strain_energy, d.total_energy(),
-                          d.stabilisation_loss, d.external_work, p[0], p[1], p[2], l[0], l[1], l[2],
-                          d.jacobian_min, d.jacobian_max, d.pressure_min, d.pressure_max, d.pressure_oscillation, d.projection_loss};
+  std::vector<double> row{time,
+                          static_cast<double>(step),
+                          dt,
+                          d.kinetic_energy,
+                          d.strain_energy,
+                          d.total_energy(),
+                          d.stabilisation_loss,
+                          d.external_work,
+                          p[0],
+                          p[1],
+                          p[2],
+                          l[0],
+                          l[1],
+                          l[2],
+                          d.jacobian_min,
+                          d.jacobian_max,
+                          d.pressure_min,
+                          d.pressure_max,
+                          d.pressure_oscillation,
+                          d.projection_loss};
   for (auto const& extra : d.more) row.push_back(extra.second);
   return row;
 }
@@ -90,12 +121,14 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> 
   put(header(table_.columns));
 }
 
-HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time) : path_(std::move(path)) {
+HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time)
+    : path_(std::move(path)) {
   table_.columns = std::move(columns);
   std::string const text = read_text_file(path_);
   std::string const first = header(table_.columns);
   if (!text.starts_with(first)) {
-    throw FileError(fmt::format("{}: has other columns than this run would write - run the case again in a new folder", path_.string()));
+    throw FileError(fmt::format("{}: has other columns than this run would write - run the case again in a new folder",
+                                path_.string()));
   }
   std::size_t kept = first.size();
   for (std::size_t at = kept, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {

@@ -34,8 +34,8 @@ class HistoryFile {
  public:
   /// Starts a new file. Throws FileError.
   HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns);
-  /// Continues a file after its last row with time <= `time`; later rows are cut off. Throws FileError if the file is missing
-  /// or has other columns.
+  /// Continues a file after its last row with time <= `time`; later rows are cut off. Throws FileError if the file is
+  /// missing or has other columns.
   HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time);
   /// Adds a line. Numbers that are not finite become empty cells; returns the names of their columns.
   std::vector<std::string> append(std::vector<double> const& row);

@@ -71,10 +71,13 @@ Image reduce(Image const& fine, int factor) {
 
 void draw_line(Image& image, std::array<double, 2> from, std::array<double, 2> to, double width, Colour colour) {
   double const reach = width / 2 + 1;
-  int const x0 = static_cast<int>(std::floor(std::min(from[0], to[0]) - reach)), x1 = static_cast<int>(std::ceil(std::max(from[0], to[0]) + reach));
-  int const y0 = static_cast<int>(std::floor(std::min(from[1], to[1]) - reach)), y1 = static_cast<int>(std::ceil(std::max(from[1], to[1]) + reach));
+  int const x0 = static_cast<int>(std::floor(std::min(from[0], to[0]) - reach)),
+            x1 = static_cast<int>(std::ceil(std::max(from[0], to[0]) + reach));
+  int const y0 = static_cast<int>(std::floor(std::min(from[1], to[1]) - reach)),
+            y1 = static_cast<int>(std::ceil(std::max(from[1], to[1]) + reach));
   for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) image.blend(x, y, colour, width / 2 + 0.5 - distance_to_segment(x + 0.5, y + 0.5, from, to));
+    for (int x = x0; x <= x1; ++x)
+      image.blend(x, y, colour, width / 2 + 0.5 - distance_to_segment(x + 0.5, y + 0.5, from, to));
   }
 }
 
@@ -97,7 +100,8 @@ Image read_png(std::filesystem::path const& path) {
     image = Image(static_cast<int>(header.width), static_cast<int>(header.height), {0, 0, 0});
     good = png_image_finish_read(&header, nullptr, image.rgb.data(), 0, nullptr) != 0;
   }
-  if (!good) throw FileError(fmt::format("{}: is not a PNG picture ({}) - check the file", path.string(), header.message));
+  if (!good)
+    throw FileError(fmt::format("{}: is not a PNG picture ({}) - check the file", path.string(), header.message));
   return image;
 }
 

@@ -7,9 +7,10 @@ namespace piola {
 
 enum class Align { left, centre, right };
 
-/// Draws a line of printable ASCII with a pen of our own strokes; anything else shows as '?'. (x, y) is the baseline point
-/// that `align` names, in pixels; `height` is that of a capital letter.
-void draw_text(Image& image, double x, double y, std::string_view text, double height, Colour colour, Align align = Align::left);
+/// Draws a line of printable ASCII with a pen of our own strokes; anything else shows as '?'. (x, y) is the baseline
+/// point that `align` names, in pixels; `height` is that of a capital letter.
+void draw_text(Image& image, double x, double y, std::string_view text, double height, Colour colour,
+               Align align = Align::left);
 
 /// Length of a line of text in pixels.
 double text_width(std::string_view text, double height);

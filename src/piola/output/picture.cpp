@@ -27,14 +27,20 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 struct Layout {
   double unit, text, left, right, top, bottom;
   explicit Layout(PictureStyle const& style)
-      : unit(std::min(style.height / 800.0, style.width / 900.0)), text(13 * unit), left(30 * unit), right(style.width - 165 * unit), top(70 * unit), bottom(style.height - 40 * unit) {}
+      : unit(std::min(style.height / 800.0, style.width / 900.0)),
+        text(13 * unit),
+        left(30 * unit),
+        right(style.width - 165 * unit),
+        top(70 * unit),
+        bottom(style.height - 40 * unit) {}
 };
 
 /// From metres to pixels: the window is centred in the free area.
 struct Projection {
   Point right, up, towards;
   double scale, x_shift, y_shift;
-  Projection(View const& view, Window const& w, Layout const& area) : right(view.right()), up(view.up()), towards(view.towards_viewer()) {
+  Projection(View const& view, Window const& w, Layout const& area)
+      : right(view.right()), up(view.up()), towards(view.towards_viewer()) {
     double const wide = std::max(w.x1 - w.x0, 1e-300), high = std::max(w.y1 - w.y0, 1e-300);
     scale = std::min((area.right - area.left) / wide, (area.bottom - area.top) / high);
     x_shift = (area.left + area.right) / 2 - scale * (w.x0 + w.x1) / 2;
@@ -48,7 +54,9 @@ struct DepthImage {
   Image colour;
   std::vector<float> depth;
   DepthImage(int width, int height)
-      : colour(width, height, background), depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -std::numeric_limits<float>::infinity()) {}
+      : colour(width, height, background),
+        depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+              -std::numeric_limits<float>::infinity()) {}
 };
 
 /// Light of a ball's surface with this normal (x right, y down, z to the viewer): 1 keeps the colour of the value.
@@ -58,8 +66,10 @@ double light(double nx, double ny, double nz) {
 }
 
 void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colour colour, bool flat) {
-  int const x0 = std::max(0, static_cast<int>(std::floor(centre[0] - radius))), x1 = std::min(out.colour.width - 1, static_cast<int>(std::ceil(centre[0] + radius)));
-  int const y0 = std::max(0, static_cast<int>(std::floor(centre[1] - radius))), y1 = std::min(out.colour.height - 1, static_cast<int>(std::ceil(centre[1] + radius)));
+  int const x0 = std::max(0, static_cast<int>(std::floor(centre[0] - radius))),
+            x1 = std::min(out.colour.width - 1, static_cast<int>(std::ceil(centre[0] + radius)));
+  int const y0 = std::max(0, static_cast<int>(std::floor(centre[1] - radius))),
+            y1 = std::min(out.colour.height - 1, static_cast<int>(std::ceil(centre[1] + radius)));
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       double const nx = (x + 0.5 - centre[0]) / radius, ny = (y + 0.5 - centre[1]) / radius;
@@ -67,7 +77,8 @@ void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colou
       if (inside < 0) continue;
       double const nz = std::sqrt(inside);
       auto const here = static_cast<float>(depth + radius * nz);
-      auto const at = static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width) + static_cast<std::size_t>(x);
+      auto const at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width) + static_cast<std::size_t>(x);
       if (here <= out.depth[at]) continue;
       out.depth[at] = here;
       double const shade = flat ? 0.9 + 0.1 * nz : light(nx, ny, nz);
@@ -103,7 +114,9 @@ void draw_colour_bar(Image& image, PictureData const& data, ColourMap const& map
   double const u = layout.unit;
   int const x0 = static_cast<int>(image.width - 125 * u), x1 = static_cast<int>(image.width - 101 * u);
   int const top = static_cast<int>(image.height * 0.2), bottom = static_cast<int>(image.height * 0.86);
-  auto const row = [&](double value) { return bottom - (value - map.low()) / (map.high() - map.low()) * (bottom - top); };
+  auto const row = [&](double value) {
+    return bottom - (value - map.low()) / (map.high() - map.low()) * (bottom - top);
+  };
   for (int y = top; y <= bottom; ++y) {
     Colour const colour = map(map.low() + (map.high() - map.low()) * (bottom - y) / (bottom - top));
     for (int x = x0; x <= x1; ++x) image.set(x, y, colour);
@@ -131,7 +144,8 @@ void draw_axes(Image& image, View const& view, int dimension, Layout const& layo
     if (std::hypot(dx, dy) < 0.1 * length) continue;  // points at the viewer
     draw_line(image, origin, {origin[0] + dx, origin[1] + dy}, 1.8 * layout.unit, faint_ink);
     double const beyond = 1 + 11 * layout.unit / std::hypot(dx, dy);
-    draw_text(image, origin[0] + dx * beyond, origin[1] + dy * beyond + 4 * layout.unit, names[k], 11 * layout.unit, faint_ink, Align::centre);
+    draw_text(image, origin[0] + dx * beyond, origin[1] + dy * beyond + 4 * layout.unit, names[k], 11 * layout.unit,
+              faint_ink, Align::centre);
   }
 }
 

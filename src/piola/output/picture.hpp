@@ -9,8 +9,8 @@
 
 namespace piola {
 
-/// Where one looks from: azimuth about the y axis and elevation above the x-z plane [deg]; (0, 0) shows x to the right and
-/// y upwards. Parallel projection.
+/// Where one looks from: azimuth about the y axis and elevation above the x-z plane [deg]; (0, 0) shows x to the right
+/// and y upwards. Parallel projection.
 struct View {
   double azimuth = 30, elevation = 20;
   std::array<double, 3> right() const;
@@ -18,8 +18,8 @@ struct View {
   std::array<double, 3> towards_viewer() const;
 };
 
-/// The part of the projected plane that is shown [m]. It starts from the first points and only grows, in generous steps,
-/// so that pictures of one run have the same scale almost always.
+/// The part of the projected plane that is shown [m]. It starts from the first points and only grows, in generous
+/// steps, so that pictures of one run have the same scale almost always.
 struct Window {
   bool set = false;
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -34,7 +34,7 @@ struct PictureData {
   std::string label;                              ///< of the values, e.g. "pressure"
   std::string unit;                               ///< SI
   std::string title;
-  double time = 0;                                ///< s
+  double time = 0;  ///< s
   int dimension = 3;
 };
 
@@ -47,15 +47,16 @@ struct PictureStyle {
 /// Particles as shaded balls, with title, time, colour bar and axes.
 Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window);
 
-/// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a little
-/// more, so that a body looks closed.
+/// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a
+/// little more, so that a body looks closed.
 std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension);
 
-/// One number per particle for the picture: scalars as they are, vectors by their length, of six stress components the von
-/// Mises stress, of other tensors the largest absolute component.
+/// One number per particle for the picture: scalars as they are, vectors by their length, of six stress components the
+/// von Mises stress, of other tensors the largest absolute component.
 std::vector<double> picture_values(std::span<double const> values, int components);
-/// The range between the lowest and the highest hundredth of the values, so that a few extreme particles (at the edge of a
-/// clamp, say) do not take the colours from all others. All values if there are fewer than a hundred; (0, 0) if there are none.
+/// The range between the lowest and the highest hundredth of the values, so that a few extreme particles (at the edge
+/// of a clamp, say) do not take the colours from all others. All values if there are fewer than a hundred; (0, 0) if
+/// there are none.
 std::array<double, 2> typical_range(std::span<double const> values);
 /// What that number is called, e.g. "velocity magnitude".
 std::string picture_label(std::string const& field, int components);

@@ -26,6 +26,8 @@ std::string to_json(Summary const& s) {
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void write_summary(std::filesystem::path const& path, Summary const& summary) { write_whole_file(path, to_json(summary)); }
+void write_summary(std::filesystem::path const& path, Summary const& summary) {
+  write_whole_file(path, to_json(summary));
+}
 
 }  // namespace piola

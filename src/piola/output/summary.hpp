@@ -18,13 +18,14 @@ struct Summary {
   std::string status;  ///< "completed", "failed" or "stopped"
   std::string title, version, formulation;
   std::int64_t particles = 0, steps = 0;
-  double end_time = 0;      ///< s, time reached
-  double wall_seconds = 0;  ///< over all parts of a resumed run
+  double end_time = 0;           ///< s, time reached
+  double wall_seconds = 0;       ///< over all parts of a resumed run
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone
   int threads = 1;
   double energy_initial = 0, energy_final = 0;  ///< J
-  double energy_max_increase = 0;  ///< largest rise of (total energy - external work) over its start, by the largest total energy
-  double linear_drift = 0, angular_drift = 0;   ///< largest change of momentum by a momentum scale of the run
+  double energy_max_increase =
+      0;  ///< largest rise of (total energy - external work) over its start, by the largest total energy
+  double linear_drift = 0, angular_drift = 0;  ///< largest change of momentum by a momentum scale of the run
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;
 };

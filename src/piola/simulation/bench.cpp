@@ -98,7 +98,8 @@ struct Subject {
 
 BenchReport bench_jst_sph(BenchOptions const& options) {
   jst_sph::Machine const* const machine = jst_sph::find_machine(options.machine.c_str());
-  if (machine == nullptr) throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
+  if (machine == nullptr)
+    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
   BenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;
@@ -110,7 +111,8 @@ BenchReport bench_jst_sph(BenchOptions const& options) {
                                   {"robust, regular lattice", "robust", 0, false, false},
                                   {"paper, plain scalar path", "paper", 0, true, false}};
   for (auto const& subject : subjects) {
-    auto const assembly = spinning_cube(options.particles_per_side, subject.scheme, subject.jitter, subject.scalar ? "scalar" : machine->name);
+    auto const assembly = spinning_cube(options.particles_per_side, subject.scheme, subject.jitter,
+                                        subject.scalar ? "scalar" : machine->name);
     auto const formulation = make_formulation(assembly);
     auto const particles = static_cast<double>(assembly.particles.size());
     report.particles = static_cast<long>(assembly.particles.size());
@@ -131,7 +133,8 @@ BenchReport bench_jst_sph(BenchOptions const& options) {
         report.bytes_per_stage = doubles_per_stage * sizeof(double);
         report.arithmetic_bound = report.fma_per_second * report.lanes / (operations_per_pair * row.neighbours);
         report.memory_bound = report.copy_bytes_per_second / report.bytes_per_stage;
-        row.roofline_fraction = row.stages_per_cpu_second / threads / std::min(report.arithmetic_bound, report.memory_bound);
+        row.roofline_fraction =
+            row.stages_per_cpu_second / threads / std::min(report.arithmetic_bound, report.memory_bound);
       }
       report.rows.push_back(row);
     }
@@ -167,19 +170,22 @@ std::string to_text(BenchReport const& report) {
   std::string text = fmt::format(
       "JST-SPH, full right-hand side of {{p,F}}: whole time steps of {} particles, double, threads pinned\n"
       "machine {}: {:.2f} G vector multiply-adds/s of {} lanes, copy {:.1f} GB/s (one core)\n"
-      "roofline of the regular lattice: arithmetic {:.1f} M, memory {:.1f} M particle-stages/s per core ({:.0f} operations per pair, "
+      "roofline of the regular lattice: arithmetic {:.1f} M, memory {:.1f} M particle-stages/s per core ({:.0f} "
+      "operations per pair, "
       "{:.0f} bytes per stage)\n\n"
       "{:<28} {:>8} {:>8} {:>6} {:>11} {:>13} {:>13} {:>9}\n",
       report.particles, report.machine, report.fma_per_second * 1e-9, report.lanes, report.copy_bytes_per_second * 1e-9,
-      report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair, report.bytes_per_stage, "", "machine",
-      "threads", "pairs", "bytes/part.", "M stages/s", "M st./cpu s", "roofline");
+      report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair, report.bytes_per_stage,
+      "", "machine", "threads", "pairs", "bytes/part.", "M stages/s", "M st./cpu s", "roofline");
   for (auto const& row : report.rows) {
     std::string const fraction = row.roofline_fraction > 0 ? fmt::format("{:.0f} %", 100 * row.roofline_fraction) : "";
-    text += fmt::format("{:<28} {:>8} {:>8} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f} {:>9}\n", row.name, row.machine, row.threads,
-                        row.neighbours, row.bytes_per_particle, row.stages_per_second * 1e-6, row.stages_per_cpu_second * 1e-6, fraction);
+    text += fmt::format("{:<28} {:>8} {:>8} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f} {:>9}\n", row.name, row.machine,
+                        row.threads, row.neighbours, row.bytes_per_particle, row.stages_per_second * 1e-6,
+                        row.stages_per_cpu_second * 1e-6, fraction);
   }
   text +=
-      "\nM stages/s: by wall time; M st./cpu s: by processor time, the figure to compare on a machine that others use too\n";
+      "\nM stages/s: by wall time; M st./cpu s: by processor time, the figure to compare on a machine that others use "
+      "too\n";
   return text;
 }
 

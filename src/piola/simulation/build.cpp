@@ -10,8 +10,7 @@ namespace piola {
 namespace {
 
 /// Calls visit(id) for every particle of a body.
-template <class Visit>
-void for_each_id(Body const& body, Visit const& visit) {
+template <class Visit> void for_each_id(Body const& body, Visit const& visit) {
   for (std::int64_t id = body.first; id < body.last; ++id) visit(static_cast<std::size_t>(id));
 }
 
@@ -32,7 +31,9 @@ void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
   if (from.initial_deformation_gradient) {
     constexpr std::array<double, 9> identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
     if (a.initial_deformation_gradient.empty()) a.initial_deformation_gradient.resize(X.size(), identity);
-    for_each_id(body, [&](std::size_t i) { a.initial_deformation_gradient[i] = values_at(*from.initial_deformation_gradient, X[i]); });
+    for_each_id(body, [&](std::size_t i) {
+      a.initial_deformation_gradient[i] = values_at(*from.initial_deformation_gradient, X[i]);
+    });
   }
 }
 
@@ -42,7 +43,8 @@ void report_mixed_start(CaseSpec const& spec, Problems& problems) {
   if (std::none_of(spec.bodies.begin(), spec.bodies.end(), given)) return;
   for (BodySpec const& body : spec.bodies) {
     if (!body.initial_displacement || given(body)) continue;
-    problems.add({}, "body '" + body.name + "' has an initial displacement while another body has an initial deformation gradient " +
+    problems.add({}, "body '" + body.name +
+                         "' has an initial displacement while another body has an initial deformation gradient " +
                          "(all displaced bodies need one then) - give initial_deformation_gradient for this body, too");
   }
 }
@@ -57,7 +59,8 @@ Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
 
 double mass_of(MaterialParameters const& material, Body const& body, ParticleSet const& particles) {
   LawInfo const law = laws()[static_cast<std::size_t>(material.law)];
-  auto const density = std::find_if(law.parameters.begin(), law.parameters.end(), [](Parameter const& p) { return p.name == "density"; });
+  auto const density = std::find_if(law.parameters.begin(), law.parameters.end(),
+                                    [](Parameter const& p) { return p.name == "density"; });
   if (density == law.parameters.end()) return 0;
   double volume = 0;
   for_each_id(body, [&](std::size_t i) { volume += particles.volume[i]; });

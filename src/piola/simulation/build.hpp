@@ -18,11 +18,12 @@ struct Simulation {
   int threads = 1;
 };
 
-/// What the formulation is built from: the particles of a case, and its formulas evaluated there. Throws InputError with all
-/// that is wrong with regions and formulas.
+/// What the formulation is built from: the particles of a case, and its formulas evaluated there. Throws InputError
+/// with all that is wrong with regions and formulas.
 Assembly assemble(CaseSpec const& spec);
 
-/// Builds the whole simulation and sets the number of threads. Throws InputError, also for what the formulation refuses.
+/// Builds the whole simulation and sets the number of threads. Throws InputError, also for what the formulation
+/// refuses.
 Simulation build(CaseSpec spec);
 
 }  // namespace piola

@@ -14,12 +14,14 @@ namespace {
 /// One [[variant]] or [[check]] while it is read.
 class Entry {
  public:
-  Entry(Node const& table, std::string what, Problems& problems) : table_(table), what_(std::move(what)), problems_(problems) {}
+  Entry(Node const& table, std::string what, Problems& problems)
+      : table_(table), what_(std::move(what)), problems_(problems) {}
 
   void only(std::vector<std::string> const& known) {
     for (Node::Entry const& e : table_.entries) {
       if (std::find(known.begin(), known.end(), e.key) != known.end()) continue;
-      problems_.add(e.place, fmt::format("{} does not know '{}' (known: {}) - {}", what_, e.key, joined(known), advice_for_name(e.key, known)));
+      problems_.add(e.place, fmt::format("{} does not know '{}' (known: {}) - {}", what_, e.key, joined(known),
+                                         advice_for_name(e.key, known)));
     }
   }
   Node const* find(std::string_view key, bool required) {
@@ -39,7 +41,8 @@ class Entry {
     return node && node->flag;
   }
   void wrong(Node const& node, std::string_view key, std::string_view expected) {
-    problems_.add(node.place, fmt::format("{}: '{}' has the wrong kind ({} is expected) - correct it", what_, key, expected));
+    problems_.add(node.place,
+                  fmt::format("{}: '{}' has the wrong kind ({} is expected) - correct it", what_, key, expected));
   }
 
  private:
@@ -55,8 +58,10 @@ CheckVariant read_variant(Node const& table, Problems& problems) {
   if (Node const* set = entry.find("set", false)) {
     if (!set->is_array()) entry.wrong(*set, "set", "a list of \"key=value\"");
     for (Node const& item : set->items) {
-      if (item.is_text()) variant.set.push_back(item.text);
-      else entry.wrong(item, "set", "a list of \"key=value\"");
+      if (item.is_text())
+        variant.set.push_back(item.text);
+      else
+        entry.wrong(item, "set", "a list of \"key=value\"");
     }
   }
   return variant;
@@ -74,16 +79,20 @@ void read_tolerance(Entry& entry, Check& check) {
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), check.tolerance);
   std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
   while (rest.starts_with(' ')) rest.remove_prefix(1);
-  if (!node->is_text() || error != std::errc() || rest != "%") entry.wrong(*node, "tolerance", "a number, or \"1 %\" of the reference");
+  if (!node->is_text() || error != std::errc() || rest != "%")
+    entry.wrong(*node, "tolerance", "a number, or \"1 %\" of the reference");
   check.relative = true;
   check.tolerance /= 100;
 }
 
 void read_kind(Entry& entry, Check& check) {
   std::string const word = entry.text("kind", false);
-  if (word == "below") check.kind = Check::Kind::below;
-  else if (word == "above") check.kind = Check::Kind::above;
-  else if (!word.empty() && word != "within") entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\" or \"above\"");
+  if (word == "below")
+    check.kind = Check::Kind::below;
+  else if (word == "above")
+    check.kind = Check::Kind::above;
+  else if (!word.empty() && word != "within")
+    entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\" or \"above\"");
 }
 
 Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
@@ -98,12 +107,18 @@ Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
   read_kind(entry, check);
   read_tolerance(entry, check);
   if (Node const* node = entry.find("reference", true)) {
-    if (node->is_number()) check.reference = exact_text(node->number());
-    else if (node->is_text()) check.reference = node->text;
-    else entry.wrong(*node, "reference", "a number, or a number with unit in quotes");
+    if (node->is_number())
+      check.reference = exact_text(node->number());
+    else if (node->is_text())
+      check.reference = node->text;
+    else
+      entry.wrong(*node, "reference", "a number, or a number with unit in quotes");
   }
-  bool const known = std::any_of(file.variants.begin(), file.variants.end(), [&](CheckVariant const& v) { return v.name == check.variant; });
-  if (!known) problems.add(table.place, fmt::format("check: there is no variant '{}' - give the name of a [[variant]]", check.variant));
+  bool const known = std::any_of(file.variants.begin(), file.variants.end(),
+                                 [&](CheckVariant const& v) { return v.name == check.variant; });
+  if (!known)
+    problems.add(table.place,
+                 fmt::format("check: there is no variant '{}' - give the name of a [[variant]]", check.variant));
   return check;
 }
 
@@ -115,7 +130,8 @@ CheckFile read_checks(std::filesystem::path const& path) {
   auto const document = parse_document(read_text_file(path), path.string(), problems);
   problems.raise_if_any();
   for (Node::Entry const& e : document->root.entries) {
-    if (e.key != "variant" && e.key != "check") problems.add(e.place, fmt::format("checks do not know '{}' (known: variant, check) - remove it", e.key));
+    if (e.key != "variant" && e.key != "check")
+      problems.add(e.place, fmt::format("checks do not know '{}' (known: variant, check) - remove it", e.key));
   }
   if (Node const* list = document->root.find("variant")) {
     for (Node const& table : list->items) file.variants.push_back(read_variant(table, problems));

@@ -8,16 +8,20 @@
 namespace piola {
 namespace {
 
-std::string point_text(std::array<double, 3> const& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", p[0], p[1], p[2]); }
+std::string point_text(std::array<double, 3> const& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", p[0], p[1], p[2]);
+}
 
 std::string subject(Failure const& f) {
   if (f.particle < 0) return "the " + f.what;
-  return fmt::format("particle {} (body '{}', X = {}, x = {}) {}", f.particle, f.body, point_text(f.X), point_text(f.x), f.what);
+  return fmt::format("particle {} (body '{}', X = {}, x = {}) {}", f.particle, f.body, point_text(f.X), point_text(f.x),
+                     f.what);
 }
 
 std::string values_text(Failure const& f) {
   std::string text;
-  for (auto const& [name, value] : f.values) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", name, value);
+  for (auto const& [name, value] : f.values)
+    text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 
@@ -25,22 +29,30 @@ std::string limit_text(Moment const& m, double cfl) {
   if (m.step == 0) return "no step was done: the initial state itself is not admissible";
   std::string const by = m.bounded_by_max_step ? "run.max_step" : "the wave speed of the stiffest, finest particle";
   std::string const factor = std::isfinite(cfl) ? fmt::format(" with run.cfl = {}", cfl) : "";
-  return fmt::format("dt = {} at the last step (the first was {}), limited by {}{}", quantity_text(m.dt, "s"), quantity_text(m.first_dt, "s"), by, factor);
+  return fmt::format("dt = {} at the last step (the first was {}), limited by {}{}", quantity_text(m.dt, "s"),
+                     quantity_text(m.first_dt, "s"), by, factor);
 }
 
 std::string causes(Failure const& f, Moment const& m) {
-  if (m.step < 5) return "often the initial velocity or deformation is wrong (units, sign), or a material constant is; try 'piola check'";
-  if (f.particle < 0) return "often one particle is crushed or far from its neighbours: look at Jacobian and Velocity of the last frame; a smaller run.cfl or finer particles may help";
-  return "often the step is too large (try half of run.cfl), the particles too coarse for the deformation, or the stabilisation too weak";
+  if (m.step < 5)
+    return "often the initial velocity or deformation is wrong (units, sign), or a material constant is; try 'piola "
+           "check'";
+  if (f.particle < 0)
+    return "often one particle is crushed or far from its neighbours: look at Jacobian and Velocity of the last frame; "
+           "a smaller run.cfl or finer particles may help";
+  return "often the step is too large (try half of run.cfl), the particles too coarse for the deformation, or the "
+         "stabilisation too weak";
 }
 
 }  // namespace
 
-std::string failure_text(Failure const& failure, Moment const& moment, double cfl, std::filesystem::path const& results) {
+std::string failure_text(Failure const& failure, Moment const& moment, double cfl,
+                         std::filesystem::path const& results) {
   std::string const values = values_text(failure);
-  return fmt::format("stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  last state: {} and {}; see docs/user/when-it-stops.md", moment.step, moment.time,
-                     subject(failure), values.empty() ? "" : ", ", values, limit_text(moment, cfl), causes(failure, moment),
-                     (results / "frames.hdf.series").string(), (results / failed_checkpoint).string());
+  return fmt::format(
+      "stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  last state: {} and {}; see docs/user/when-it-stops.md",
+      moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values, limit_text(moment, cfl),
+      causes(failure, moment), (results / "frames.hdf.series").string(), (results / failed_checkpoint).string());
 }
 
 }  // namespace piola

@@ -7,8 +7,9 @@
 
 namespace piola {
 
-/// What the user is told when the physics fails: particle, place, step, values, what limits the step, likely causes, and
-/// where the last state lies.
-std::string failure_text(Failure const& failure, Moment const& moment, double cfl, std::filesystem::path const& results);
+/// What the user is told when the physics fails: particle, place, step, values, what limits the step, likely causes,
+/// and where the last state lies.
+std::string failure_text(Failure const& failure, Moment const& moment, double cfl,
+                         std::filesystem::path const& results);
 
 }  // namespace piola

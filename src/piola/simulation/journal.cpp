@@ -11,7 +11,8 @@ namespace piola {
 void Journal::write(std::string const& line, char const* mode) {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(file_.c_str(), mode), &std::fclose);
   std::string const text = line + "\n";
-  bool const good = file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() && std::fflush(file.get()) == 0;
+  bool const good =
+      file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() && std::fflush(file.get()) == 0;
   if (!good) throw FileError(cannot_write(file_, errno));
 }
 

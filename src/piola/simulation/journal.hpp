@@ -11,10 +11,10 @@ namespace piola {
 /// What a progress line may show.
 struct Progress {
   Moment moment;
-  double end = 0;           ///< s
-  double total_energy = 0;  ///< J, at the last row of the history
+  double end = 0;                ///< s
+  double total_energy = 0;       ///< J, at the last row of the history
   double stages_per_second = 0;  ///< particle-stages per second of the steps
-  double seconds_left = 0;  ///< wall time, estimated
+  double seconds_left = 0;       ///< wall time, estimated
 };
 
 /// Where a run reports to; the program decides what is shown. Library code never prints.

@@ -6,13 +6,13 @@ namespace piola {
 
 /// Where a run stands.
 struct Moment {
-  double time = 0;           ///< s
-  std::int64_t step = 0;     ///< steps done
-  double dt = 0;             ///< s, the last step
-  double first_dt = 0;       ///< s, the first stable step
+  double time = 0;                   ///< s
+  std::int64_t step = 0;             ///< steps done
+  double dt = 0;                     ///< s, the last step
+  double first_dt = 0;               ///< s, the first stable step
   bool bounded_by_max_step = false;  ///< the last step was limited by run.max_step, not by the waves
-  double wall_seconds = 0;       ///< since the start, over all parts of a resumed run
-  double stepping_seconds = 0;   ///< of these, inside the formulation
+  double wall_seconds = 0;           ///< since the start, over all parts of a resumed run
+  double stepping_seconds = 0;       ///< of these, inside the formulation
 };
 
 /// How a run ends.

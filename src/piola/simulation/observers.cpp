@@ -24,7 +24,8 @@ void keep(StateWriter& writer, std::string_view name, double value) { writer.put
 
 }  // namespace
 
-HistoryObserver::HistoryObserver(Results results) : results_(std::move(results)), schedule_(history_interval(results_.spec)) {
+HistoryObserver::HistoryObserver(Results results)
+    : results_(std::move(results)), schedule_(history_interval(results_.spec)) {
   for (ProbeSpec const& probe : results_.spec.probes) probes_.emplace_back(probe, results_.particles);
 }
 
@@ -51,7 +52,8 @@ void HistoryObserver::write_row(Formulation const& formulation, Moment const& mo
   }
   for (std::string const& column : file_->append(row)) {
     if (!warned_.insert(column).second) continue;
-    results_.journal.warn(fmt::format("history.csv: {} is not a number at t = {} s; such cells are left empty", column, moment.time));
+    results_.journal.warn(
+        fmt::format("history.csv: {} is not a number at t = {} s; such cells are left empty", column, moment.time));
   }
 }
 
@@ -110,7 +112,8 @@ void FrameObserver::load(NamedState& reader) {
   writer_.continue_after(reader.all("frame_times"));
 }
 
-PictureObserver::PictureObserver(Results results) : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
+PictureObserver::PictureObserver(Results results)
+    : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
   auto const& particles = results_.particles;
   if (schedule_.ever()) radii_ = ball_radii(particles.volume, particles.body, particles.dimension);
 }
@@ -119,7 +122,8 @@ void PictureObserver::draw(Formulation const& formulation, double time) {
   auto const& output = results_.spec.output;
   FieldCache cache(formulation, results_.particles);
   if (!cache.knows(output.picture_field)) {
-    results_.journal.warn(fmt::format("pictures: the formulation has no field '{}', so that no picture is drawn", output.picture_field));
+    results_.journal.warn(
+        fmt::format("pictures: the formulation has no field '{}', so that no picture is drawn", output.picture_field));
     return;
   }
   FieldInfo const& info = cache.info(output.picture_field);
@@ -128,10 +132,16 @@ void PictureObserver::draw(Formulation const& formulation, double time) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
   auto const values = picture_values(cache.values(info.name), info.components);
 
-  PictureStyle style{output.picture_width, output.picture_height, {output.picture_view[0], output.picture_view[1]}, output.picture_range};
+  PictureStyle style{output.picture_width,
+                     output.picture_height,
+                     {output.picture_view[0], output.picture_view[1]},
+                     output.picture_range};
   if (results_.particles.dimension < 3) style.view = {0, 0};
   window_.include(style.view, points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
-  PictureData const data{points, radii_, values, picture_label(info.name, info.components), info.unit, results_.spec.title, time, results_.particles.dimension};
+  PictureData const data{points,    radii_,
+                         values,    picture_label(info.name, info.components),
+                         info.unit, results_.spec.title,
+                         time,      results_.particles.dimension};
   make_folder(results_.folder / "pictures");
   last_ = results_.folder / "pictures" / fmt::format("{}-{:06}.png", info.name, static_cast<long>(count_));
   write_png(last_, draw_picture(data, style, window_));
@@ -148,7 +158,8 @@ void PictureObserver::finish(Formulation const& formulation, Moment const& momen
 }
 
 void PictureObserver::save(StateWriter& writer) const {
-  writer.put("pictures", std::array{schedule_.state(), count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0, window_.y1});
+  writer.put("pictures", std::array{schedule_.state(), count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0,
+                                    window_.x1, window_.y0, window_.y1});
 }
 
 void PictureObserver::load(NamedState& reader) {
@@ -166,8 +177,16 @@ CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> o
 }
 
 Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const& moment) const {
-  Checkpoint c{moment.time, moment.step, moment.dt, moment.first_dt, moment.wall_seconds, moment.stepping_seconds,
-               std::string(version()), results_.spec.source, {}, {}};
+  Checkpoint c{moment.time,
+               moment.step,
+               moment.dt,
+               moment.first_dt,
+               moment.wall_seconds,
+               moment.stepping_seconds,
+               std::string(version()),
+               results_.spec.source,
+               {},
+               {}};
   formulation.save(c.state);
   for (Observer const* other : others_) other->save(c.observers);
   save(c.observers);
@@ -189,7 +208,8 @@ void CheckpointObserver::finish(Formulation const& formulation, Moment const& mo
 void CheckpointObserver::save(StateWriter& writer) const { keep(writer, "checkpoints_next", schedule_.state()); }
 void CheckpointObserver::load(NamedState& reader) { schedule_.restore(kept(reader, "checkpoints_next")); }
 
-ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles, HistoryObserver const& history)
+ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles,
+                                   HistoryObserver const& history)
     : listener_(listener), end_(end), particles_(static_cast<double>(particles)), history_(history) {}
 
 void ProgressObserver::see(Formulation const& formulation, Moment const& moment) {
@@ -200,7 +220,8 @@ void ProgressObserver::see(Formulation const& formulation, Moment const& moment)
   last_ = now;
   Progress p{.moment = moment, .end = end_};
   auto const& table = history_.table();
-  if (auto const column = table.find("total_energy"); column && !table.rows.empty()) p.total_energy = table.rows.back()[*column];
+  if (auto const column = table.find("total_energy"); column && !table.rows.empty())
+    p.total_energy = table.rows.back()[*column];
   double const stages = static_cast<double>(moment.step) * formulation.stages_per_step() * particles_;
   if (moment.stepping_seconds > 0) p.stages_per_second = stages / moment.stepping_seconds;
   double const advanced = moment.time - first_->time;

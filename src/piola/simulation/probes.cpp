@@ -17,7 +17,8 @@ Body const& find_body(ParticleSet const& particles, ProbeSpec const& spec) {
   for (Body const& body : particles.bodies) {
     if (body.name == spec.body) return body;
   }
-  throw InputError(fmt::format("probe '{}': there is no body '{}' - give the name of a [[body]]", spec.name, spec.body));
+  throw InputError(
+      fmt::format("probe '{}': there is no body '{}' - give the name of a [[body]]", spec.name, spec.body));
 }
 
 std::vector<std::int64_t> nearest(ParticleSet const& particles, Body const& body, Point const& at) {
@@ -37,8 +38,8 @@ std::vector<std::int64_t> nearest(ParticleSet const& particles, Body const& body
 std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& body, ProbeSpec const& spec) {
   auto ids = select_particles(particles, body, spec.where ? &*spec.where : nullptr);
   if (ids.empty()) {
-    throw InputError(fmt::format("probe '{}': where = \"{}\" selects no particle of body '{}' - widen the region", spec.name,
-                                 spec.where ? spec.where->text() : "", body.name));
+    throw InputError(fmt::format("probe '{}': where = \"{}\" selects no particle of body '{}' - widen the region",
+                                 spec.name, spec.where ? spec.where->text() : "", body.name));
   }
   return ids;
 }
@@ -48,7 +49,9 @@ std::vector<FieldQuantity> quantities_of(ProbeSpec const& spec) {
   if (spec.kind == ProbeSpec::Kind::twist || spec.kind == ProbeSpec::Kind::extent) return list;
   for (std::string const& name : spec.quantities) {
     auto quantity = find_quantity(name);
-    if (!quantity) throw InputError(fmt::format("probe '{}': '{}' is not a known quantity - see docs/user/output.md", spec.name, name));
+    if (!quantity)
+      throw InputError(
+          fmt::format("probe '{}': '{}' is not a known quantity - see docs/user/output.md", spec.name, name));
     list.push_back(*std::move(quantity));
   }
   return list;
@@ -88,7 +91,8 @@ std::vector<double> Probe::evaluate(FieldCache& cache) {
   std::vector<double> out;
   for (FieldQuantity const& q : quantities_) {
     bool const known = cache.knows(q.field);
-    out.push_back(known ? reduce(component_values(cache, q.field, q.component)) : std::numeric_limits<double>::quiet_NaN());
+    out.push_back(known ? reduce(component_values(cache, q.field, q.component))
+                        : std::numeric_limits<double>::quiet_NaN());
   }
   return out;
 }
@@ -116,7 +120,9 @@ double Probe::reduce(std::vector<double> const& values) const {
 /// atan2(sum V X x x, sum V X . x) with both positions projected on the plane across the axis. Right-handed.
 double Probe::twist(FieldCache& cache) {
   auto const x = cache.values("Position");
-  auto const reference = [&](std::int64_t id, std::size_t c) { return cache.particles().X[static_cast<std::size_t>(id)][c]; };
+  auto const reference = [&](std::int64_t id, std::size_t c) {
+    return cache.particles().X[static_cast<std::size_t>(id)][c];
+  };
   auto const current = [&](std::int64_t id, std::size_t c) { return x[static_cast<std::size_t>(id) * 3 + c]; };
   Point const X0 = centroid(ids_, weight_, reference), x0 = centroid(ids_, weight_, current);
   std::size_t const i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;

@@ -16,8 +16,8 @@ class Probe {
   Probe(ProbeSpec const& spec, ParticleSet const& particles);
   /// "NAME.quantity" with units, one for each value of `evaluate`.
   std::vector<HistoryColumn> columns() const;
-  /// Values now [SI]. A twist angle continues the angle of the call before, so that full turns are counted as long as it
-  /// changes by less than half a turn from call to call.
+  /// Values now [SI]. A twist angle continues the angle of the call before, so that full turns are counted as long as
+  /// it changes by less than half a turn from call to call.
   std::vector<double> evaluate(FieldCache& cache);
   std::vector<std::int64_t> const& ids() const { return ids_; }
 
@@ -33,7 +33,7 @@ class Probe {
   std::string name_;
   std::size_t axis_;
   std::vector<std::int64_t> ids_;
-  std::vector<double> weight_;  ///< tributary volumes of ids_
+  std::vector<double> weight_;             ///< tributary volumes of ids_
   std::vector<FieldQuantity> quantities_;  ///< empty for twist and extent
   double last_angle_ = 0;
 };

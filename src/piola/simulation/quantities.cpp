@@ -38,7 +38,8 @@ Peak vertex(double const* t, double const* y) {
   return {t[1] + shift, y[1] + slope * shift + curvature * shift * shift};
 }
 
-/// Time at which the column first passes the threshold upwards (sign = 1) or downwards (sign = -1), linear between samples.
+/// Time at which the column first passes the threshold upwards (sign = 1) or downwards (sign = -1), linear between
+/// samples.
 std::optional<double> first_crossing(Series const& s, double threshold, double sign) {
   for (std::size_t k = 0; k < s.value.size(); ++k) {
     double const above = sign * (s.value[k] - threshold);
@@ -116,7 +117,8 @@ std::optional<MeasuredQuantity> measure(QuantitySpec const& spec, HistoryTable c
   Series const s = series_of(history, spec.column);
   std::optional<double> const value = s.value.empty() ? std::nullopt : evaluate(spec, s);
   if (!value || !std::isfinite(*value)) {
-    why = fmt::format("quantity '{}': the history of '{}' does not contain it (the run may be too short)", spec.name, spec.column);
+    why = fmt::format("quantity '{}': the history of '{}' does not contain it (the run may be too short)", spec.name,
+                      spec.column);
     return std::nullopt;
   }
   std::string const si = is_time(spec.take) ? "s" : history.columns[*column].unit;

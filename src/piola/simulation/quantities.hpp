@@ -8,7 +8,8 @@
 
 namespace piola {
 
-/// The first local maximum of |y| that rises above half of the largest |y|, refined by the parabola through three samples.
+/// The first local maximum of |y| that rises above half of the largest |y|, refined by the parabola through three
+/// samples.
 struct Peak {
   double time = 0;
   double value = 0;  ///< with its sign

@@ -29,16 +29,20 @@ View view_of(Frame const& frame, View const& asked) { return frame.dimension < 3
 
 void look_at(Survey& survey, Frame const& frame, View const& view) {
   auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-  survey.window.include(view_of(frame, view), frame.points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
+  survey.window.include(view_of(frame, view), frame.points,
+                        radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
   auto const range = typical_range(picture_values(frame.values, frame.info.components));
   survey.range = {std::min(survey.range[0], range[0]), std::max(survey.range[1], range[1])};
 }
 
 }  // namespace
 
-std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const& options, std::function<void(fs::path const&)> const& drawn) {
+std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const& options,
+                                    std::function<void(fs::path const&)> const& drawn) {
   if (!fs::exists(folder / "frames.hdf.series")) {
-    throw InputError(fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with output.frames_every set", folder.string()));
+    throw InputError(
+        fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with output.frames_every set",
+                    folder.string()));
   }
   auto const frames = list_frames(folder);
   Survey survey;
@@ -51,8 +55,10 @@ std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const&
     Frame const frame = read_frame(frames[k].second, options.field);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
     auto const values = picture_values(frame.values, frame.info.components);
-    PictureData const data{frame.points, radii, values, picture_label(options.field, frame.info.components), frame.info.unit, title, frame.time, frame.dimension};
-    PictureStyle const style{options.width, options.height, view_of(frame, options.view), options.range ? *options.range : survey.range};
+    PictureData const data{frame.points,    radii, values,     picture_label(options.field, frame.info.components),
+                           frame.info.unit, title, frame.time, frame.dimension};
+    PictureStyle const style{options.width, options.height, view_of(frame, options.view),
+                             options.range ? *options.range : survey.range};
     paths.push_back(folder / "pictures" / fmt::format("{}-{:06}.png", options.field, k));
     write_png(paths.back(), draw_picture(data, style, survey.window));
     if (drawn) drawn(paths.back());

@@ -17,8 +17,8 @@ struct RenderOptions {
   int width = 1000, height = 800;
 };
 
-/// Draws every frame of a finished run to pictures/FIELD-000000.png, all with one range and one window. `drawn` is told of
-/// each. Returns the paths. Throws FileError, or InputError if there are no frames or no such field.
+/// Draws every frame of a finished run to pictures/FIELD-000000.png, all with one range and one window. `drawn` is told
+/// of each. Returns the paths. Throws FileError, or InputError if there are no frames or no such field.
 std::vector<std::filesystem::path> render_frames(std::filesystem::path const& folder, RenderOptions const& options,
                                                  std::function<void(std::filesystem::path const&)> const& drawn = {});
 

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array own_names{"history.csv", "summary.json", "frames", "frames.hdf.series", "frames.xmf", "pictures", "checkpoints", "case.toml", "log.txt"};
+constexpr std::array own_names{"history.csv", "summary.json", "frames", "frames.hdf.series", "frames.xmf", "pictures",
+                               "checkpoints", "case.toml",    "log.txt"};
 
 /// Title of the run whose results lie in a folder; nothing if there are none.
 std::optional<std::string> title_of(fs::path const& folder) {
@@ -47,9 +48,11 @@ void prepare_results(fs::path const& folder, std::string const& title, bool forc
     auto const there = title_of(folder);
     bool const same = there && *there == log_headline(title).substr(log_headline(title).find(": ") + 2);
     if (!same && !force) {
-      std::string const what = there ? fmt::format("holds the results of another case, \"{}\"", *there) : "is not empty and holds no results of Piola";
-      throw InputError(fmt::format("{}: {} (an empty or new folder is needed) - give another folder with --out, or --force to use this one",
-                                   folder.string(), what));
+      std::string const what = there ? fmt::format("holds the results of another case, \"{}\"", *there)
+                                     : "is not empty and holds no results of Piola";
+      throw InputError(fmt::format(
+          "{}: {} (an empty or new folder is needed) - give another folder with --out, or --force to use this one",
+          folder.string(), what));
     }
     remove_own(folder);
   }

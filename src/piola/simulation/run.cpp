@@ -17,7 +17,9 @@ bool collapsed(double stable, RunSpec const& run, Moment const& moment) {
   return !(stable > 0) || !std::isfinite(stable) || stable < least;
 }
 
-Failure collapse(double stable) { return {.what = "time step collapsed", .body = {}, .X = {}, .x = {}, .values = {{"stable step [s]", stable}}}; }
+Failure collapse(double stable) {
+  return {.what = "time step collapsed", .body = {}, .X = {}, .x = {}, .values = {{"stable step [s]", stable}}};
+}
 
 /// The stable step, shortened by the user's bound and to hit the end time exactly. A rest of less than a millionth of a
 /// step is taken along rather than left for a step of its own.

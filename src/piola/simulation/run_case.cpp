@@ -25,14 +25,17 @@ struct Watch {
   ProgressObserver progress;
 
   Watch(Results const& results, Listener& listener)
-      : history(results), frames(results), pictures(results), checkpoints(results, {&history, &frames, &pictures}),
+      : history(results),
+        frames(results),
+        pictures(results),
+        checkpoints(results, {&history, &frames, &pictures}),
         progress(listener, results.spec.run.end, results.particles.size(), history) {}
   std::array<Observer*, 5> all() { return {&history, &frames, &pictures, &checkpoints, &progress}; }
 };
 
 std::string start_text(Simulation const& s) {
-  return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name, count_text(s.particles.size()), s.threads,
-                     s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
+  return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name,
+                     count_text(s.particles.size()), s.threads, s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
 }
 
 /// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.
@@ -50,15 +53,22 @@ Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, W
   std::vector<std::string> warnings;
   Checkpoint c = read_newest_checkpoint(options.folder, warnings);
   if (c.source != s.spec.source) {
-    throw InputError(fmt::format("{}: is not the case that this run was started with (it was changed since) - restore it, or run it anew with 'piola run'",
-                                 (options.folder / "case.toml").string()));
+    throw InputError(
+        fmt::format("{}: is not the case that this run was started with (it was changed since) - restore it, or run it "
+                    "anew with 'piola run'",
+                    (options.folder / "case.toml").string()));
   }
   for (std::string const& warning : warnings) journal.warn(warning);
   journal.note(fmt::format("resumed at step {}, t = {} s; {}", c.step, c.time, start_text(s)));
   s.formulation->load(c.state);
   watch.history.open(*s.formulation, c.time);
   for (Observer* observer : watch.all()) observer->load(c.observers);
-  return {.time = c.time, .step = c.step, .dt = c.dt, .first_dt = c.first_dt, .wall_seconds = c.wall_seconds, .stepping_seconds = c.stepping_seconds};
+  return {.time = c.time,
+          .step = c.step,
+          .dt = c.dt,
+          .first_dt = c.first_dt,
+          .wall_seconds = c.wall_seconds,
+          .stepping_seconds = c.stepping_seconds};
 }
 
 double largest(std::vector<double> const& values) {
@@ -82,7 +92,8 @@ double drift(HistoryTable const& history, std::string const& name) {
 double half_diagonal(ParticleSet const& particles) {
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    auto const [low, high] = std::minmax_element(particles.X.begin(), particles.X.end(), [c](auto const& a, auto const& b) { return a[c] < b[c]; });
+    auto const [low, high] = std::minmax_element(particles.X.begin(), particles.X.end(),
+                                                 [c](auto const& a, auto const& b) { return a[c] < b[c]; });
     if (low != particles.X.end()) sum += ((*high)[c] - (*low)[c]) * ((*high)[c] - (*low)[c]);
   }
   return std::sqrt(sum) / 2;
@@ -109,7 +120,8 @@ std::string status_word(Ending ending) {
   }
 }
 
-Summary summarise(Simulation const& s, Moment const& moment, Ending ending, HistoryTable const& history, Journal& journal) {
+Summary summarise(Simulation const& s, Moment const& moment, Ending ending, HistoryTable const& history,
+                  Journal& journal) {
   Summary summary;
   summary.status = status_word(ending);
   summary.title = s.spec.title;
@@ -120,7 +132,8 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
   summary.end_time = moment.time;
   summary.wall_seconds = moment.wall_seconds;
   summary.threads = s.threads;
-  double const stages = static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
+  double const stages =
+      static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
   summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
   add_conservation(summary, history, s);
   for (QuantitySpec const& spec : s.spec.quantities) {
@@ -156,11 +169,14 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
   March const end = march(*s.formulation, s.spec.run, moment, watch.all(), stop);
   for (Observer* observer : watch.all()) observer->finish(*s.formulation, moment, end.ending);
 
-  CaseOutcome outcome{end.ending, summarise(s, moment, end.ending, watch.history.table(), journal), {}, watch.pictures.last(), {}};
+  CaseOutcome outcome{
+      end.ending, summarise(s, moment, end.ending, watch.history.table(), journal), {}, watch.pictures.last(), {}};
   if (end.failure) outcome.failure = failure_text(*end.failure, moment, s.spec.run.cfl, options.folder);
-  if (std::filesystem::exists(options.folder / "frames.hdf.series")) outcome.index = options.folder / "frames.hdf.series";
+  if (std::filesystem::exists(options.folder / "frames.hdf.series"))
+    outcome.index = options.folder / "frames.hdf.series";
   write_summary(options.folder / "summary.json", outcome.summary);
-  journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time, duration_text(moment.wall_seconds)));
+  journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time,
+                           duration_text(moment.wall_seconds)));
   if (end.failure) journal.note(outcome.failure);
   return outcome;
 }

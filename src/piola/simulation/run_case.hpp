@@ -20,14 +20,15 @@ struct RunOptions {
 struct CaseOutcome {
   Ending ending = Ending::completed;
   Summary summary;
-  std::string failure;  ///< the message for the user if ending is failed
+  std::string failure;                        ///< the message for the user if ending is failed
   std::filesystem::path last_picture, index;  ///< empty if there is none
 };
 
-/// Runs a case from its start (or its newest checkpoint) to its end with all its output. `stop` may be set by a signal handler:
-/// the run then writes a checkpoint and returns with Ending::stopped.
-/// Throws InputError (the folder is refused, nothing to resume from, the case has changed) and FileError (output impossible).
-CaseOutcome run_case(Simulation& simulation, RunOptions const& options, Listener& listener, std::atomic<int> const& stop);
+/// Runs a case from its start (or its newest checkpoint) to its end with all its output. `stop` may be set by a signal
+/// handler: the run then writes a checkpoint and returns with Ending::stopped. Throws InputError (the folder is
+/// refused, nothing to resume from, the case has changed) and FileError (output impossible).
+CaseOutcome run_case(Simulation& simulation, RunOptions const& options, Listener& listener,
+                     std::atomic<int> const& stop);
 
 /// Largest rise of (total energy - external work) above its first value, by the largest total energy of the history.
 double energy_increase(HistoryTable const& history);

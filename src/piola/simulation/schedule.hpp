@@ -12,7 +12,8 @@ class Schedule {
   /// Whether an output is due at this time [s]; if so, the next one is due after it.
   bool due(double time) {
     if (!ever()) return false;
-    double const multiple = std::floor(time / every_ * (1 + 1e-12));  // a multiple missed by round-off counts as reached
+    double const multiple =
+        std::floor(time / every_ * (1 + 1e-12));  // a multiple missed by round-off counts as reached
     if (multiple < next_) return false;
     next_ = multiple + 1;
     return true;

@@ -37,7 +37,8 @@ std::optional<std::pair<double, std::string>> look_up(nlohmann::json const& summ
 }
 
 std::string tolerance_text(Check const& c) {
-  std::string const amount = c.relative ? fmt::format("{} %", number_text(100 * c.tolerance)) : number_text(c.tolerance);
+  std::string const amount =
+      c.relative ? fmt::format("{} %", number_text(100 * c.tolerance)) : number_text(c.tolerance);
   switch (c.kind) {
     case Check::Kind::below: return c.tolerance > 0 ? fmt::format("below, +{}", amount) : "below";
     case Check::Kind::above: return c.tolerance > 0 ? fmt::format("above, -{}", amount) : "above";
@@ -73,13 +74,17 @@ VerificationRow compare_one(std::string const& case_name, Check const& c, nlohma
   Quantity const reference = read_quantity(c.reference, row.unit);
   row.reference = reference.value;
   row.measured = found->first;
-  if (reference.problem) add_note(row, *reference.problem);
-  else if (summary.at("status") != "completed") add_note(row, "the run did not complete");
-  else if (holds(c, *row.measured, row.reference)) row.verdict = passed;
+  if (reference.problem)
+    add_note(row, *reference.problem);
+  else if (summary.at("status") != "completed")
+    add_note(row, "the run did not complete");
+  else if (holds(c, *row.measured, row.reference))
+    row.verdict = passed;
   return row;
 }
 
-std::vector<VerificationRow> run_variant(std::string const& name, fs::path const& case_file, CheckVariant const& variant, std::vector<Check> const& checks,
+std::vector<VerificationRow> run_variant(std::string const& name, fs::path const& case_file,
+                                         CheckVariant const& variant, std::vector<Check> const& checks,
                                          fs::path const& out, Prepare const& prepare, std::atomic<int> const& stop) {
   Listener quiet;
   try {
@@ -105,7 +110,8 @@ std::string unit_text(VerificationRow const& row) { return row.unit == "1" ? "" 
 
 }  // namespace
 
-std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks, std::string const& summary_json) {
+std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
+                                     std::string const& summary_json) {
   auto const summary = nlohmann::json::parse(summary_json);
   std::vector<VerificationRow> rows;
   for (Check const& c : checks) rows.push_back(compare_one(case_name, c, summary));
@@ -119,7 +125,9 @@ std::vector<fs::path> find_cases(fs::path const& cases, std::vector<std::string>
   for (auto const& entry : fs::recursive_directory_iterator(cases, missing)) {
     if (entry.path().filename() == "checks.toml") all.push_back(entry.path().parent_path());
   }
-  if (all.empty()) throw InputError(fmt::format("{}: holds no case with a checks.toml - give the folder of the cases with --cases", cases.string()));
+  if (all.empty())
+    throw InputError(fmt::format("{}: holds no case with a checks.toml - give the folder of the cases with --cases",
+                                 cases.string()));
   std::sort(all.begin(), all.end());
   if (names.empty()) return all;
   for (fs::path const& folder : all) known.push_back(folder.lexically_relative(cases).generic_string());
@@ -129,24 +137,28 @@ std::vector<fs::path> find_cases(fs::path const& cases, std::vector<std::string>
       if (known[k] == name || all[k].filename() == name || known[k].starts_with(name + "/")) chosen.push_back(all[k]);
     }
     if (chosen.size() == before) {
-      throw InputError(fmt::format("there is no case '{}' with checks (there are: {}) - {}", name, joined(known), advice_for_name(name, known)));
+      throw InputError(fmt::format("there is no case '{}' with checks (there are: {}) - {}", name, joined(known),
+                                   advice_for_name(name, known)));
     }
   }
   return chosen;
 }
 
-std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce, std::atomic<int> const& stop) {
+std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
+                                    std::atomic<int> const& stop) {
   std::vector<VerificationRow> rows;
   for (fs::path const& folder : find_cases(options.cases, options.names)) {
     std::string const name = folder.lexically_relative(options.cases).generic_string();
     CheckFile const file = read_checks(folder / "checks.toml");
     for (CheckVariant const& variant : file.variants) {
       std::vector<Check> checks;
-      std::copy_if(file.checks.begin(), file.checks.end(), std::back_inserter(checks), [&](Check const& c) { return c.variant == variant.name; });
+      std::copy_if(file.checks.begin(), file.checks.end(), std::back_inserter(checks),
+                   [&](Check const& c) { return c.variant == variant.name; });
       if (stop.load() != 0) return rows;
       if (checks.empty() || (options.short_only && !variant.is_short)) continue;
       if (announce) announce(name, variant.name);
-      auto const more = run_variant(name, folder / "case.toml", variant, checks, options.out / name / variant.name, prepare, stop);
+      auto const more =
+          run_variant(name, folder / "case.toml", variant, checks, options.out / name / variant.name, prepare, stop);
       rows.insert(rows.end(), more.begin(), more.end());
     }
   }
@@ -156,8 +168,10 @@ std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const&
 std::string verification_json(std::vector<VerificationRow> const& rows) {
   auto list = nlohmann::ordered_json::array();
   for (VerificationRow const& r : rows) {
-    nlohmann::ordered_json row{{"case", r.case_name}, {"variant", r.variant}, {"quantity", r.quantity}, {"unit", r.unit}, {"reference", r.reference},
-                               {"source", r.source}, {"measured", nullptr}, {"tolerance", r.tolerance}, {"verdict", r.verdict}, {"note", r.note}};
+    nlohmann::ordered_json row{{"case", r.case_name}, {"variant", r.variant},     {"quantity", r.quantity},
+                               {"unit", r.unit},      {"reference", r.reference}, {"source", r.source},
+                               {"measured", nullptr}, {"tolerance", r.tolerance}, {"verdict", r.verdict},
+                               {"note", r.note}};
     if (r.measured) row["measured"] = *r.measured;
     list.push_back(std::move(row));
   }
@@ -165,22 +179,26 @@ std::string verification_json(std::vector<VerificationRow> const& rows) {
 }
 
 std::string verification_table(std::vector<VerificationRow> const& rows) {
-  std::string text = fmt::format("{:<28} {:<14} {:<26} {:>12} {:>12} {:<9} {:<16} {}\n", "case", "variant", "quantity", "reference", "measured", "unit", "tolerance", "verdict");
+  std::string text = fmt::format("{:<28} {:<14} {:<26} {:>12} {:>12} {:<9} {:<16} {}\n", "case", "variant", "quantity",
+                                 "reference", "measured", "unit", "tolerance", "verdict");
   for (VerificationRow const& r : rows) {
-    text += fmt::format("{:<28} {:<14} {:<26} {:>12} {:>12} {:<9} {:<16} {}\n", r.case_name, r.variant, r.quantity, number_text(r.reference), measured_text(r),
-                        unit_text(r), r.tolerance, r.verdict);
+    text += fmt::format("{:<28} {:<14} {:<26} {:>12} {:>12} {:<9} {:<16} {}\n", r.case_name, r.variant, r.quantity,
+                        number_text(r.reference), measured_text(r), unit_text(r), r.tolerance, r.verdict);
     if (r.verdict != passed && !r.note.empty()) text += fmt::format("    {}\n", r.note);
   }
   return text;
 }
 
 std::string verification_markdown(std::vector<VerificationRow> const& rows) {
-  std::string text = "| case | variant | quantity | reference | source | measured | tolerance | verdict | note |\n|---|---|---|---|---|---|---|---|---|\n";
+  std::string text =
+      "| case | variant | quantity | reference | source | measured | tolerance | verdict | note "
+      "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (VerificationRow const& r : rows) {
     std::string note = r.note;
     std::replace(note.begin(), note.end(), '\n', ' ');
-    text += fmt::format("| {} | {} | {} | {} {} | {} | {} {} | {} | {} | {} |\n", r.case_name, r.variant, r.quantity, number_text(r.reference), unit_text(r),
-                        r.source, measured_text(r), unit_text(r), r.tolerance, r.verdict, note);
+    text += fmt::format("| {} | {} | {} | {} {} | {} | {} {} | {} | {} | {} |\n", r.case_name, r.variant, r.quantity,
+                        number_text(r.reference), unit_text(r), r.source, measured_text(r), unit_text(r), r.tolerance,
+                        r.verdict, note);
   }
   return text;
 }

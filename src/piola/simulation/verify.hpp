@@ -22,10 +22,10 @@ struct CheckVariant {
 struct Check {
   enum class Kind { within, below, above };
   std::string variant;
-  std::string quantity;    ///< name of a [[quantity]], or a dotted path in summary.json such as "energy.max_increase"
-  std::string reference;   ///< a number, or a number with unit
+  std::string quantity;   ///< name of a [[quantity]], or a dotted path in summary.json such as "energy.max_increase"
+  std::string reference;  ///< a number, or a number with unit
   double tolerance = 0;
-  bool relative = false;   ///< the tolerance is a fraction of the reference
+  bool relative = false;  ///< the tolerance is a fraction of the reference
   Kind kind = Kind::within;
   std::string source, note;
 };
@@ -50,27 +50,31 @@ struct VerificationRow {
 };
 
 /// Compares checks with the text of a summary.json.
-std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks, std::string const& summary_json);
+std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
+                                     std::string const& summary_json);
 
 struct VerifyOptions {
-  std::filesystem::path cases;    ///< folder with the cases
-  std::vector<std::string> names; ///< empty: all
-  bool short_only = false;        ///< only variants marked short
-  std::filesystem::path out;      ///< results go to out/CASE/VARIANT
+  std::filesystem::path cases;     ///< folder with the cases
+  std::vector<std::string> names;  ///< empty: all
+  bool short_only = false;         ///< only variants marked short
+  std::filesystem::path out;       ///< results go to out/CASE/VARIANT
 };
 
 /// Makes a simulation from a case file and overrides.
-using Prepare = std::function<Simulation(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
+using Prepare =
+    std::function<Simulation(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
 /// Told what is about to run.
 using Announce = std::function<void(std::string const& case_name, std::string const& variant)>;
 
-/// Folders below `cases` that hold checks.toml and are asked for by name ("twisting_column", "jst_sph/cable", or a whole
-/// folder "jst_sph"). Throws InputError with the known names if one is not known.
-std::vector<std::filesystem::path> find_cases(std::filesystem::path const& cases, std::vector<std::string> const& names);
+/// Folders below `cases` that hold checks.toml and are asked for by name ("twisting_column", "jst_sph/cable", or a
+/// whole folder "jst_sph"). Throws InputError with the known names if one is not known.
+std::vector<std::filesystem::path> find_cases(std::filesystem::path const& cases,
+                                              std::vector<std::string> const& names);
 
-/// Runs the variants of the chosen cases and compares. A run that cannot be made or fails gives rows that fall short. Ends early, with the
-/// rows so far, when `stop` is set.
-std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce, std::atomic<int> const& stop);
+/// Runs the variants of the chosen cases and compares. A run that cannot be made or fails gives rows that fall short.
+/// Ends early, with the rows so far, when `stop` is set.
+std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
+                                    std::atomic<int> const& stop);
 
 std::string verification_json(std::vector<VerificationRow> const& rows);
 std::string verification_table(std::vector<VerificationRow> const& rows);
