@@ -83,7 +83,7 @@ unit = "ms"
 name = "error"
 column = "tip.displacement_x"
 take = "mean_absolute_difference"
-reference = "0.1*t"
+reference = "L*t"
 )");
   EXPECT_EQ(spec.supports[0].fix, (std::array<bool, 3>{true, true, true}));
   EXPECT_EQ(spec.supports[0].where({0, 0, 0}), 1);
@@ -96,7 +96,7 @@ reference = "0.1*t"
   EXPECT_EQ(spec.quantities[0].unit, "degree");
   EXPECT_DOUBLE_EQ(spec.quantities[1].threshold, 2e6);
   EXPECT_EQ(spec.quantities[1].unit, "ms");
-  EXPECT_DOUBLE_EQ((*spec.quantities[2].reference)({}, 2), 0.2);
+  EXPECT_DOUBLE_EQ((*spec.quantities[2].reference)({}, 2), 12);
 }
 
 TEST(ReadCase, OutputHasItsParts) {
