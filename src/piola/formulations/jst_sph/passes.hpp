@@ -97,8 +97,8 @@ struct UpdateStress {
     for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
     SymMat<D, Lanes> const correction = C.symmetric<D, Lanes>(i);
     Mat<D, Lanes> const gradient = raw * correction;
-    Mat<D, Lanes> const F = deform(i, gradient);
     Lanes const volume = V.scalar<Lanes>(i);
+    Mat<D, Lanes> const F = deform(i, gradient, volume);
     Mat<D, Lanes> const P = restrict_to<D>(law.first_piola(embed<D>(F)));
     A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * (P * correction));
     if constexpr (Laplacian) stabilise(i, in, volume);
@@ -106,13 +106,19 @@ struct UpdateStress {
 
  private:
   /// The F at which stress is evaluated; stores the F that the stage produces and what follows from it.
-  PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient) const {
-    Mat<D, Lanes> F = gradient, next = gradient;
+  PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient, Lanes const& volume) const {
+    Mat<D, Lanes> F = gradient;
+    // Empty slots must stay finite: their values meet zero weights.
+    for (int c = 0; c < D; ++c) F(c, c) = select(volume > 0.0, F(c, c), Lanes(1.0));
+    Mat<D, Lanes> next = F;
     if (k.variables == Variables::momentum_and_deformation) {
       Mat<D, Lanes> const old = F_n.matrix<D, Lanes>(i);
       F = stage.second ? F_star.matrix<D, Lanes>(i) : old;
       next = F + stage.dt * gradient;
       if (stage.second) next = 0.5 * (old + next);
+    } else {  // slots without a particle have no neighbours: they stay undeformed
+      Lanes const empty = select(V.scalar<Lanes>(i) > 0.0, Lanes(0.0), Lanes(1.0));
+      for (int c = 0; c < D; ++c) next(c, c) = F(c, c) = F(c, c) + empty;
     }
     F_out.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
