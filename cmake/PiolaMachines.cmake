@@ -63,8 +63,8 @@ function(piola_add_machine source machine)
   # not vectorise sqrt and conditional arithmetic. -ffast-math is never used: sums keep their order.
   target_compile_options(${target} PRIVATE
     ${PIOLA_MACHINE_OPTIMISATION} -fno-math-errno -fno-trapping-math ${_flags_${machine}})
-  # A product and a sum become one instruction with every compiler, as g++ does by itself. And g++ 12 takes the undefined
-  # operand of its own AVX-512 intrinsics for a mistake (GCC bug 105593).
+  # A product and a sum become one instruction with every compiler, as g++ does by itself. And g++ 12 takes the
+  # undefined operand of its own AVX-512 intrinsics for a mistake (GCC bug 105593), and packs filled lane by lane.
   target_compile_options(${target} PRIVATE -ffp-contract=fast $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized>
                                            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_libraries(${target} PRIVATE piola_options piola_warnings)
