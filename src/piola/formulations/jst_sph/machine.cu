@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of JST-SPH for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this file
+// proves is that the same source makes device code for every dimension, law and stabilisation.
+#include "piola/formulations/jst_sph/passes.hpp"
+#include "piola/materials/laws.hpp"
+
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace {
+
+/// A sweep by itself: sums go to scratch in device memory instead of a core's cache.
+template <class Sweep>
+struct WithScratch {
+  Sweep sweep;
+  exec::Scratch scratch;
+  __host__ __device__ void operator()(Index i) const { sweep(i, scratch); }
+};
+
+template <int D, class Law>
+void launch_law(Range r, UpdateStress<D, true, Law> const& stress, exec::Scratch const& scratch) {
+  exec::for_each(r, WithScratch<UpdateStress<D, true, Law>>{stress, scratch});
+}
+
+template <int D, class... Law>
+void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawList<Law...>) {
+  (launch_law<D>(r, *static_cast<UpdateStress<D, true, Law> const*>(passes), scratch), ...);
+}
+
+template <int D, Biharmonic B>
+void launch_forces(Range r, SumForces<D, B, ListLoader<D>> const& pass, double* partial) {
+  exec::for_each_block(r, exec::BlockSums<ForceTotals<D>::size, SumForces<D, B, ListLoader<D>>>{pass, partial});
+}
+
+template <int D>
+void launch_all(Range r, void const* passes, exec::Scratch const& scratch, double* partial) {
+  using Sweep = DifferentiateVelocity<D, true, ListLoader<D>>;
+  using Unstabilised = DifferentiateVelocity<D, false, ListLoader<D>>;
+  exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
+  exec::for_each(r, WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
+  launch_laws<D>(r, passes, scratch, Laws{});
+  launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, ListLoader<D>> const*>(passes), partial);
+  launch_forces<D, Biharmonic::adjoint>(r, *static_cast<SumForces<D, Biharmonic::adjoint, ListLoader<D>> const*>(passes), partial);
+  launch_forces<D, Biharmonic::literal>(r, *static_cast<SumForces<D, Biharmonic::literal, ListLoader<D>> const*>(passes), partial);
+  exec::for_each(r, *static_cast<AdvanceMomentum<D> const*>(passes));
+  exec::for_each(r, *static_cast<ComputeWaveSpeed<D> const*>(passes));
+  exec::for_each(r, WithScratch<StoreDeformation<D>>{*static_cast<StoreDeformation<D> const*>(passes), scratch});
+  exec::for_each_item(r.last, *static_cast<HoldSupports const*>(passes));
+}
+
+}  // namespace
+
+void launch(int dimension, Range r, void const* passes, exec::Scratch const& scratch, double* partial) {
+  if (dimension == 1) launch_all<1>(r, passes, scratch, partial);
+  if (dimension == 2) launch_all<2>(r, passes, scratch, partial);
+  if (dimension == 3) launch_all<3>(r, passes, scratch, partial);
+}
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE
