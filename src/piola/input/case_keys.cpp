@@ -210,7 +210,7 @@ constexpr std::array keys{
             "",
             {},
             "none",
-            "mean_absolute_difference (required there): formula in t",
+            "mean_absolute_difference (required there): formula in t and the constants",
             {}},
     KeyInfo{"quantity", "unit", text, "", {}, "that of the column", "unit in which the summary shows the number", {}},
 
