@@ -116,9 +116,6 @@ struct UpdateStress {
       F = stage.second ? F_star.matrix<D, Lanes>(i) : old;
       next = F + stage.dt * gradient;
       if (stage.second) next = 0.5 * (old + next);
-    } else {  // slots without a particle have no neighbours: they stay undeformed
-      Lanes const empty = select(V.scalar<Lanes>(i) > 0.0, Lanes(0.0), Lanes(1.0));
-      for (int c = 0; c < D; ++c) next(c, c) = F(c, c) = F(c, c) + empty;
     }
     F_out.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
