@@ -12,11 +12,6 @@ namespace {
 /// Below this ratio of pivots a correction is meaningless: the neighbours do not span the space.
 constexpr double smallest_pivot_ratio = 1e-9;
 
-
-
-/// Lattice offsets at exactly the support radius must not depend on round-off.
-constexpr double edge = 1 - 1e-9;
-
 }  // namespace
 
 ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrder const& order,
@@ -90,7 +85,7 @@ void ReferencePairs::find_offsets(Body const& body) {
 }
 
 void ReferencePairs::search(ParticleSet const&, Body const&) {
-  double const radius = options_.kernel->support * std::max(options_.h_gradient, options_.h_laplacian);
+  double const radius = options_.kernel->support * std::max(options_.h_gradient, options_.h_laplacian) * edge;
   std::vector<std::array<double, 3>> const points(X_.begin(), X_.begin() + particles_);
   CellGrid const grid(points, radius);
   found_begin_.assign(1, 0);

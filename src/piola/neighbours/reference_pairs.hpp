@@ -50,6 +50,8 @@ class ReferencePairs {
   std::size_t bytes() const;
 
  private:
+  /// Lattice neighbours at exactly the support radius do not count, whatever the round-off of their positions.
+  static constexpr double edge = 1 - 1e-9;
   struct Pair {
     Index b;
     std::int32_t offset;  ///< regular bodies
@@ -117,7 +119,7 @@ void ReferencePairs::visit(Index a, F const& f) const {
       f(Pair{b, static_cast<std::int32_t>(k), {o.r[0], o.r[1], o.r[2]}, o.r2, offset_inner_[k] != 0});
     }
   } else {
-    double const inner = options_.kernel->support * options_.h_gradient;
+    double const inner = options_.kernel->support * options_.h_gradient * edge;
     for (std::int64_t k = found_begin_[slot]; k < found_begin_[slot + 1]; ++k) {
       Index const b = found_[static_cast<std::size_t>(k)];
       auto const &Xa = X_[slot], &Xb = X_[static_cast<std::size_t>(b)];
