@@ -98,13 +98,13 @@ struct WriteView {
 inline View read(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride}; }
 inline ReferenceView read_reference(FieldRef const& f) { return {read(f), f.group}; }
 inline View read_neighbours(FieldRef const& f) {
-#if defined(PIOLA_CONTRACTS)
+#if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
   if (f.version != nullptr && f.version->halo != f.version->owner) stale_halo(f.name);
 #endif
   return {f.data, f.component_stride, f.particle_stride};
 }
 inline WriteView write(FieldRef const& f) {
-#if defined(PIOLA_CONTRACTS)
+#if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
   if (f.version != nullptr) ++f.version->owner;
 #endif
   return {f.data, f.component_stride, f.particle_stride};
