@@ -31,9 +31,8 @@ std::string progress_line(Progress const& p) {
 }
 
 std::string body_line(Body const& body, BodySpec const& spec, int dimension) {
-  auto spacing = body.spacing;
-  std::sort(spacing.begin(), spacing.begin() + dimension);
-  auto const finest = spacing[0], coarsest = spacing[static_cast<std::size_t>(dimension - 1)];
+  auto const [least, most] = std::minmax_element(body.spacing.begin(), body.spacing.begin() + dimension);
+  double const finest = *least, coarsest = *most;
   std::string const text = finest == coarsest
                                ? quantity_text(finest, "m")
                                : fmt::format("{} to {}", quantity_text(finest, "m"), quantity_text(coarsest, "m"));
