@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 94> glyphs{
     // [ \ ] ^ _ `
     "2j0j0b2b", "0j3b", "0j2j2b0b", "0h2j4h", "0b4b", "0j1i",
     // a b c d e f
-    "~0c0h4h4c0c 4h4c", "0j0c ~0c0h4h4c0c", "~4g4h0h0c4c4d", "~0c0h4h4c0c 4j4c", "0f4f ~4f4h0h0c4c4d", 
+    "~0c0h4h4c0c 4h4c", "0j0c ~0c0h4h4c0c", "~4g4h0h0c4c4d", "~0c0h4h4c0c 4j4c", "0f4f ~4f4h0h0c4c4d",
     "~3j1j1f 1f1c 0h3h",
     // g h i j k l
     "~0c0h4h4c0c ~4h4a0a0b", "0j0c ~0f0h4h4c 4d4c", "0h0c 0j0j", "~2h2a0a 2j2j", "0j0c 3h0e 1f3c", "0j0c",
