@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every registered law must do. The list of tests follows piola::Laws: a new law needs no line here.
+#include "piola/base/units.hpp"
+#include "piola/materials/laws.hpp"
+#include "math/random.hpp"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <set>
+#include <string>
+
+namespace piola {
+namespace {
+
+using testing::diagonal;
+using testing::Random;
+using testing::size;
+
+/// A plausible value: the default, or that of a soft rubber, or the middle of what is allowed.
+double sample_value(Parameter const& p) {
+  if (!p.required()) return p.default_value;
+  if (p.name == "density") return 1100;
+  if (p.name == "youngs_modulus") return 17e6;
+  if (p.name == "poissons_ratio") return 0.3;
+  if (std::isfinite(p.allowed.low) && std::isfinite(p.allowed.high)) return 0.5 * (p.allowed.low + p.allowed.high);
+  if (same_dimension(p.unit, "Pa")) return 1e6;
+  return std::isfinite(p.allowed.low) ? p.allowed.low + 1 : 1;
+}
+
+template <class Law>
+struct Sample {
+  double values[MaterialParameters::max_values]{};
+  Sample() {
+    std::size_t k = 0;
+    for (Parameter const& p : Law::parameters) values[k++] = sample_value(p);
+  }
+};
+
+template <class Law>
+class LawBattery : public ::testing::Test {
+ protected:
+  Law const law{Sample<Law>().values};
+  double const stiffness = law.rho0 * law.p_wave_speed() * law.p_wave_speed();
+
+  static bool near_identity_only() { return Law::small_strain; }
+  /// Admissible deformations: of any size, or near the identity for laws of small strain.
+  static Mat<3> deformation(Random& random) {
+    if (near_identity_only()) return identity<3>() + random.matrix(1e-2);
+    for (;;) {
+      Mat<3> const F = identity<3>() + random.matrix(0.6);
+      double const J = determinant(F);
+      if (J > 0.3 && J < 3) return F;
+    }
+  }
+};
+
+template <class List>
+struct TypesOf;
+template <class... Law>
+struct TypesOf<LawList<Law...>> {
+  using type = ::testing::Types<Law...>;
+};
+struct LawNames {
+  template <class Law>
+  static std::string GetName(int) {
+    return std::string(Law::name);
+  }
+};
+TYPED_TEST_SUITE(LawBattery, TypesOf<Laws>::type, LawNames);
+
+/// Exact in real numbers; a handful of roundings of numbers as large as the stiffness.
+constexpr double round_off = 1e-14;
+
+TYPED_TEST(LawBattery, HasNoStressWithoutDeformation) {
+  EXPECT_LT(size(this->law.first_piola(identity<3>())), round_off * this->stiffness);
+  EXPECT_LT(std::fabs(this->law.pressure(identity<3>())), round_off * this->stiffness);
+}
+
+TYPED_TEST(LawBattery, HasNoEnergyWithoutDeformation) {
+  EXPECT_LT(std::fabs(this->law.energy(identity<3>())), round_off * this->stiffness);
+}
+
+TYPED_TEST(LawBattery, HasEnergyOfEveryDeformation) {
+  Random random(1);
+  for (int k = 0; k < 200; ++k) {
+    Mat<3> const F = this->deformation(random);
+    // Not of rotations: distance of the stretch from 1.
+    double const strain = size(transpose(F) * F - identity<3>());
+    if (strain < 1e-3) continue;
+    EXPECT_GT(this->law.energy(F), 0);
+  }
+}
+
+TYPED_TEST(LawBattery, DoesNotSeeRotationsOfTheObserver) {
+  if constexpr (TypeParam::small_strain) {
+    GTEST_SKIP() << "a law of small strain and small rotation";
+  } else {
+    Random random(2);
+    for (int k = 0; k < 200; ++k) {
+      Mat<3> const F = this->deformation(random), Q = random.rotation();
+      double const W = this->law.energy(F);
+      Mat<3> const P = this->law.first_piola(F);
+      EXPECT_NEAR(this->law.energy(Q * F), W, 1e-12 * (W + this->stiffness));
+      EXPECT_LT(size(this->law.first_piola(Q * F) - Q * P), 1e-12 * (size(P) + this->stiffness));
+      EXPECT_NEAR(this->law.pressure(Q * F), this->law.pressure(F), 1e-12 * (size(P) + this->stiffness));
+    }
+  }
+}
+
+TYPED_TEST(LawBattery, IsIsotropic) {
+  Random random(3);
+  for (int k = 0; k < 100; ++k) {
+    Mat<3> const F = this->deformation(random), Q = random.rotation();
+    Mat<3> const turned = Q * F * transpose(Q);
+    EXPECT_NEAR(this->law.energy(turned), this->law.energy(F), 1e-12 * (this->law.energy(F) + this->stiffness));
+  }
+}
+
+TYPED_TEST(LawBattery, HasTheStressThatIsTheDerivativeOfItsEnergy) {
+  Random random(4);
+  double const step = 1e-5;  // step^2 W''' ~ 1e-10, round-off of W / step ~ 1e-11
+  for (int k = 0; k < 100; ++k) {
+    Mat<3> const F = this->deformation(random), P = this->law.first_piola(F);
+    Mat<3> difference;
+    for (int c = 0; c < 9; ++c) {
+      Mat<3> more = F, less = F;
+      more.c[c] += step;
+      less.c[c] -= step;
+      difference.c[c] = (this->law.energy(more) - this->law.energy(less)) / (2 * step);
+    }
+    EXPECT_LT(size(P - difference), 1e-7 * (size(P) + this->stiffness));
+  }
+}
+
+/// Acoustic tensor Q_ik = n_J n_L dP_iJ / dF_kL at rest: rho c_p^2 along n, rho c_s^2 across.
+TYPED_TEST(LawBattery, HasTheWaveSpeedsOfItsStiffnessAtRest) {
+  Random random(5);
+  double const step = 1e-5;
+  for (int trial = 0; trial < 10; ++trial) {
+    Vec<3> n = random.vector(1) + Vec<3>{{0, 0, 1.5}};
+    n = (1 / std::sqrt(dot(n, n))) * n;
+    Mat<3> Q;
+    for (int k = 0; k < 3; ++k) {
+      Vec<3> e;
+      e[k] = 1;
+      Mat<3> const change = step * outer(e, n), I = identity<3>();
+      Mat<3> const slope = (0.5 / step) * (this->law.first_piola(I + change) - this->law.first_piola(I - change));
+      Vec<3> const column = slope * n;
+      for (int i = 0; i < 3; ++i) Q(i, k) = column[i];
+    }
+    double const along = dot(n, Q * n);
+    EXPECT_NEAR(along, this->stiffness, 1e-7 * this->stiffness);
+    if constexpr (requires { this->law.s_wave_speed(); }) {
+      double const shear = this->law.rho0 * this->law.s_wave_speed() * this->law.s_wave_speed();
+      EXPECT_NEAR(0.5 * (trace(Q) - along), shear, 1e-7 * this->stiffness);
+    }
+  }
+}
+
+TYPED_TEST(LawBattery, GivesNumbersForAnyVolumeRatio) {
+  Random random(6);
+  for (double J : {1e-6, 1e-3, 0.1, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 1e3, 1e6}) {
+    double const l = std::cbrt(J);
+    Mat<3> const F = random.rotation() * diagonal(l * 1.2, l / 1.2, l);
+    Mat<3> const P = this->law.first_piola(F);
+    for (double const c : P.c) EXPECT_TRUE(std::isfinite(c)) << "J = " << J;
+    EXPECT_TRUE(std::isfinite(this->law.energy(F))) << "J = " << J;
+    EXPECT_TRUE(std::isfinite(this->law.pressure(F))) << "J = " << J;
+  }
+}
+
+TYPED_TEST(LawBattery, CountsPressurePositiveInTension) {
+  EXPECT_GT(this->law.pressure(diagonal(1.01, 1.01, 1.01)), 0);
+  EXPECT_LT(this->law.pressure(diagonal(0.99, 0.99, 0.99)), 0);
+  // Under equal stretch there is no shear: P = p l^2 I, to first order in the strain for laws of small strain.
+  double const l = 1.001, p = this->law.pressure(diagonal(l, l, l));
+  EXPECT_NEAR(this->law.first_piola(diagonal(l, l, l))(0, 0), p, 3 * (l - 1) * std::fabs(p));
+}
+
+TYPED_TEST(LawBattery, TakesItsDensityFromItsParameters) {
+  auto const& parameters = TypeParam::parameters;
+  auto const at = std::find_if(parameters.begin(), parameters.end(), [](auto const& p) { return p.name == "density"; });
+  ASSERT_NE(at, parameters.end());
+  Sample<TypeParam> sample;
+  sample.values[at - parameters.begin()] = 4321;
+  EXPECT_EQ(TypeParam(sample.values).rho0, 4321);
+}
+
+TYPED_TEST(LawBattery, DeclaresParametersThatCanBeReadAndChecked) {
+  std::set<std::string_view> names;
+  EXPECT_LE(TypeParam::parameters.size(), static_cast<std::size_t>(MaterialParameters::max_values));
+  for (Parameter const& p : TypeParam::parameters) {
+    EXPECT_TRUE(names.insert(p.name).second) << p.name << " is declared twice";
+    EXPECT_TRUE(same_dimension(p.unit, p.unit)) << p.name << ": unit " << p.unit << " is not known";
+    EXPECT_FALSE(p.meaning.empty()) << p.name;
+    EXPECT_LT(p.allowed.low, p.allowed.high) << p.name;
+    EXPECT_TRUE(p.allowed.contains(sample_value(p))) << p.name;
+    if (!p.required()) {
+      EXPECT_TRUE(p.allowed.contains(p.default_value)) << p.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piola

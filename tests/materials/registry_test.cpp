@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/materials/registry.hpp"
+#include "piola/materials/laws.hpp"
+#include <gtest/gtest.h>
+#include <string_view>
+
+namespace piola {
+namespace {
+
+TEST(Laws, AreFoundByTheirNamesAndNumberedInOrder) {
+  int index = 0;
+  for (LawInfo const& law : laws()) {
+    EXPECT_EQ(law.index, index++);
+    ASSERT_TRUE(find_law(law.name).has_value());
+    EXPECT_EQ(find_law(law.name)->index, law.index);
+    EXPECT_FALSE(law.about.empty());
+  }
+  EXPECT_EQ(index, Laws::size);
+  EXPECT_FALSE(find_law("no_such_law").has_value());
+}
+
+TEST(Laws, AreEachPickedByTheirNumber) {
+  for (LawInfo const& law : laws()) {
+    MaterialParameters material;
+    material.law = law.index;
+    material.value[0] = 1000;
+    material.value[1] = 1e6;
+    int calls = 0;
+    with_law(material, [&](auto const& picked) {
+      ++calls;
+      EXPECT_EQ(std::decay_t<decltype(picked)>::name, law.name);
+      EXPECT_EQ(picked.rho0, 1000);
+    });
+    EXPECT_EQ(calls, 1);
+  }
+}
+
+TEST(Laws, OfANumberThatDoesNotExistAreNotCalled) {
+  MaterialParameters material;
+  for (int const number : {-1, Laws::size}) {
+    material.law = number;
+    with_law(material, [](auto const&) { ADD_FAILURE() << "no law has this number"; });
+  }
+}
+
+TEST(ElasticConstants, FollowFromYoungsModulusAndPoissonsRatio) {
+  double const values[] = {1000, 2.5, 0.25};
+  ElasticConstants const c(values);
+  EXPECT_EQ(c.rho0, 1000);
+  EXPECT_DOUBLE_EQ(c.mu, 1);
+  EXPECT_DOUBLE_EQ(c.lambda, 1);
+  EXPECT_DOUBLE_EQ(c.kappa, 5.0 / 3);
+  EXPECT_DOUBLE_EQ(c.p_wave_speed(), std::sqrt(3.0 / 1000));
+  EXPECT_DOUBLE_EQ(c.s_wave_speed(), std::sqrt(1.0 / 1000));
+}
+
+TEST(ElasticConstants, RefuseAnIncompressibleSolid) {
+  Interval const allowed = ElasticConstants::parameters[2].allowed;
+  EXPECT_FALSE(allowed.contains(0.5));
+  EXPECT_TRUE(allowed.contains(0.499));
+  EXPECT_FALSE(allowed.contains(-1));
+}
+
+}  // namespace
+}  // namespace piola
