@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same step on every instruction set, with every loader, for any number of threads.
+#include "formulations/small_bodies.hpp"
+#include <cstring>
+
+namespace piola {
+namespace {
+
+using namespace testing;
+
+constexpr double dt = 1e-4;
+constexpr int steps = 20;
+
+Values end_state(Assembly const& a) {
+  auto const f = make_formulation(a);
+  advance(*f, dt, steps);
+  auto const n = a.particles.X.size();
+  Values all = sample(*f, "Velocity", n);
+  for (double& v : all) v /= 20;  // m/s, the speed of the motion: all numbers are then of size 1
+  for (std::string const field : {"Displacement", "DeformationGradient"}) {
+    Values const more = sample(*f, field, n);
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+struct Setting {
+  int dimension;
+  double jitter;
+  std::string scheme, variables;
+};
+
+class EveryMachine : public ::testing::TestWithParam<Setting> {
+ protected:
+  Assembly assembly(std::string const& machine) const {
+    auto const& s = GetParam();
+    Assembly a = tumbling_box(s.dimension, s.dimension == 1 ? 21 : s.dimension == 2 ? 9 : 6, s.jitter);
+    choose(a, "scheme", s.scheme);
+    choose(a, "variables", s.variables);
+    if (s.scheme == "paper") choose(a, "eps2_momentum", 1.0 / 32);
+    support(a, {true, true, true}, [](Point const& X) { return X[0] < 1e-9; });
+    a.machine = machine;
+    return a;
+  }
+};
+
+TEST_P(EveryMachine, GivesTheSameMotion) {
+  Values const reference = end_state(assembly("scalar"));
+  ASSERT_GT(largest(reference), 0.5);
+  for (auto const& machine : machines())
+    EXPECT_LT(largest_difference(end_state(assembly(machine)), reference), 1e-10) << machine;
+}
+
+TEST_P(EveryMachine, GivesTheSameBitsForOneAndTwoThreads) {
+  for (auto const& machine : machines()) {
+    Values one, two;
+    {
+      Threads const keep(1);
+      one = end_state(assembly(machine));
+    }
+    {
+      Threads const keep(2);
+      two = end_state(assembly(machine));
+    }
+    ASSERT_EQ(one.size(), two.size());
+    EXPECT_EQ(std::memcmp(one.data(), two.data(), one.size() * sizeof(double)), 0) << machine;
+  }
+}
+
+/// Patterns of a lattice against lists of the same particles: geometry rounds differently, nothing else.
+TEST_P(EveryMachine, GivesTheSameMotionWithPatternsAndWithLists) {
+  if (GetParam().jitter > 0) GTEST_SKIP() << "irregular bodies always use lists";
+  for (auto const& machine : machines()) {
+    Assembly a = assembly(machine);
+    Values const patterns = end_state(a);
+    a.particles.bodies[0].regular = false;
+    EXPECT_LT(largest_difference(end_state(a), patterns), 1e-11) << machine;
+  }
+}
+
+std::vector<Setting> settings() {
+  std::vector<Setting> r;
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (double const jitter : {0.0, 0.2})
+      for (auto const* scheme : {"robust", "paper"}) r.push_back({dimension, jitter, scheme, "pF"});
+  for (double const jitter : {0.0, 0.2}) r.push_back({3, jitter, "robust", "displacement"});
+  return r;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryMachine, ::testing::ValuesIn(settings()), [](auto const& p) {
+  auto const& s = p.param;
+  return std::to_string(s.dimension) + "D_" + (s.jitter > 0 ? "jittered_" : "regular_") + s.scheme + "_" + s.variables;
+});
+
+TEST(Machines, AreListedBestFirstAndFoundByName) {
+  auto const names = machines();
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(jst_sph::find_machine("auto")->name, names.front());
+  int lanes = 1 << 10;
+  for (auto const& name : names) {
+    jst_sph::Machine const* const machine = jst_sph::find_machine(name.c_str());
+    ASSERT_NE(machine, nullptr);
+    EXPECT_EQ(machine->name, name);
+    EXPECT_LE(machine->lanes, lanes);
+    lanes = machine->lanes;
+  }
+  EXPECT_EQ(jst_sph::find_machine("abacus"), nullptr);
+}
+
+TEST(Machines, OfTheSameNameBuildTheSameBitsAgain) {
+  Assembly const a = tumbling_box(3, 5);
+  EXPECT_EQ(end_state(a), end_state(a));
+}
+
+}  // namespace
+}  // namespace piola

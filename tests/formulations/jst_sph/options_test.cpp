@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_sph/options.hpp"
+#include "piola/base/problems.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace piola::jst_sph {
+namespace {
+
+Options options(std::map<std::string, std::string, std::less<>> words = {},
+                std::map<std::string, double, std::less<>> numbers = {}) {
+  return read_options({"jst_sph", std::move(numbers), std::move(words)}, std::nan(""));
+}
+
+TEST(JstOptions, AreTheRobustSetByDefault) {
+  Options const o = options();
+  EXPECT_EQ(o.variables, Variables::momentum_and_deformation);
+  EXPECT_EQ(o.biharmonic, Biharmonic::adjoint);
+  EXPECT_EQ(o.gradient_support, 0.8);
+  EXPECT_EQ(o.laplacian_support, 1.2);
+  EXPECT_EQ(o.eps2, 0);
+  EXPECT_EQ(o.eps4, 0.125);
+  EXPECT_EQ(o.cfl, 0.3);
+  EXPECT_TRUE(o.project);
+  ASSERT_NE(o.kernel, nullptr);
+  EXPECT_EQ(o.kernel->name, "cubic_spline");
+}
+
+TEST(JstOptions, OfThePaperAreTheOperatorsAsPrinted) {
+  Options const o = options({{"scheme", "paper"}});
+  EXPECT_EQ(o.biharmonic, Biharmonic::literal);
+  EXPECT_EQ(o.gradient_support, 1.2);
+  EXPECT_EQ(o.laplacian_support, 1.2);
+}
+
+TEST(JstOptions, GivenOneByOneOverrideTheScheme) {
+  Options const o = options({{"scheme", "paper"}, {"biharmonic", "adjoint"}, {"angular_momentum_projection", "off"}},
+                            {{"gradient_support", 0.75}, {"eps2_momentum", 0.5}});
+  EXPECT_EQ(o.biharmonic, Biharmonic::adjoint);
+  EXPECT_EQ(o.gradient_support, 0.75);
+  EXPECT_EQ(o.eps2, 0.5);
+  EXPECT_FALSE(o.project);
+}
+
+TEST(JstOptions, OfDisplacementVariablesHaveNoStabilisationAndNoProjection) {
+  Options const o = options({{"variables", "displacement"}}, {{"eps2_momentum", 0.5}});
+  EXPECT_EQ(o.variables, Variables::displacement);
+  EXPECT_EQ(o.biharmonic, Biharmonic::none);
+  EXPECT_EQ(o.eps2, 0);
+  EXPECT_EQ(o.eps4, 0);
+  EXPECT_FALSE(o.project);
+}
+
+TEST(JstOptions, WithoutStabilisationNeedNoLaplacian) {
+  EXPECT_EQ(options({}, {{"eps4_momentum", 0}}).biharmonic, Biharmonic::none);
+  EXPECT_EQ(options({}, {{"eps4_momentum", 0}, {"eps2_momentum", 0.1}}).biharmonic, Biharmonic::adjoint);
+}
+
+TEST(JstOptions, TakeTheCourantNumberThatIsGiven) { EXPECT_EQ(read_options({"jst_sph", {}, {}}, 0.1).cfl, 0.1); }
+
+TEST(JstOptions, RefuseALaplacianThatReachesLessFarThanTheGradient) {
+  try {
+    (void)options({}, {{"gradient_support", 1.5}});
+    FAIL() << "accepted";
+  } catch (InputError const& e) {
+    std::string const text = e.what();
+    EXPECT_NE(text.find("laplacian_support = 1.2"), std::string::npos) << text;
+    EXPECT_NE(text.find("gradient_support = 1.5"), std::string::npos) << text;
+  }
+  EXPECT_NO_THROW((void)options({}, {{"gradient_support", 1.5}, {"eps4_momentum", 0}}));
+}
+
+}  // namespace
+}  // namespace piola::jst_sph

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/registry.hpp"
+#include "piola/base/units.hpp"
+#include "piola/materials/registry.hpp"
+#include <gtest/gtest.h>
+#include <set>
+
+namespace piola {
+namespace {
+
+TEST(Formulations, AreFoundByTheirNames) {
+  ASSERT_FALSE(formulations().empty());
+  for (auto const& info : formulations()) {
+    ASSERT_TRUE(find_formulation(info.name).has_value());
+    EXPECT_EQ(find_formulation(info.name)->about, info.about);
+    EXPECT_FALSE(info.about.empty());
+  }
+  EXPECT_FALSE(find_formulation("alchemy").has_value());
+}
+
+TEST(Formulations, DeclareKeysThatCanBeReadAndChecked) {
+  for (auto const& info : formulations()) {
+    std::set<std::string_view> keys;
+    for (Parameter const& p : info.parameters) {
+      EXPECT_TRUE(keys.insert(p.name).second) << p.name << " is declared twice";
+      EXPECT_TRUE(same_dimension(p.unit, p.unit)) << p.name;
+      EXPECT_FALSE(p.meaning.empty()) << p.name;
+      if (!p.required()) {
+        EXPECT_TRUE(p.allowed.contains(p.default_value)) << p.name;
+      }
+    }
+    for (Choice const& c : info.choices) {
+      EXPECT_TRUE(keys.insert(c.name).second) << c.name << " is declared twice";
+      EXPECT_FALSE(c.allowed.empty()) << c.name;
+      EXPECT_EQ(std::set<std::string_view>(c.allowed.begin(), c.allowed.end()).size(), c.allowed.size()) << c.name;
+    }
+  }
+}
+
+TEST(Formulations, NameOnlyLawsThatExist) {
+  for (auto const& info : formulations()) {
+    EXPECT_FALSE(info.laws.empty());
+    for (auto const law : info.laws) EXPECT_TRUE(find_law(law).has_value()) << law;
+  }
+}
+
+}  // namespace
+}  // namespace piola

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/formulations/make.hpp"
+#include "exec/thread_count.hpp"
+#include "particles/lattices.hpp"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Small bodies under JST-SPH, as tests build and watch them: through the face of Formulation only.
+namespace piola::testing {
+
+using Point = std::array<double, 3>;
+using Values = std::vector<double>;
+
+inline MaterialParameters material(std::string_view law, double rho0, double youngs_modulus, double poissons_ratio) {
+  MaterialParameters m;
+  m.law = find_law(law).value().index;
+  m.value[0] = rho0;
+  m.value[1] = youngs_modulus;
+  m.value[2] = poissons_ratio;
+  return m;
+}
+
+/// The soft rubber of the paper's examples.
+inline MaterialParameters rubber(std::string_view law = "neo_hookean", double poissons_ratio = 0.3) {
+  return material(law, 1100, 17e6, poissons_ratio);
+}
+
+/// One JST-SPH body of rubber at rest.
+inline Assembly assemble(ParticleSet set, MaterialParameters const& m = rubber()) {
+  Assembly a;
+  a.materials.assign(set.bodies.size(), m);
+  a.formulations.assign(set.bodies.size(), FormulationSpec{"jst_sph", {}, {}});
+  a.particles = std::move(set);
+  return a;
+}
+inline void choose(Assembly& a, std::string const& key, std::string const& word) {
+  for (auto& f : a.formulations) f.words[key] = word;
+}
+inline void choose(Assembly& a, std::string const& key, double number) {
+  for (auto& f : a.formulations) f.numbers[key] = number;
+}
+
+/// v0 = f(X)
+template <class F>
+void give_velocity(Assembly& a, F const& f) {
+  a.initial_velocity.clear();
+  for (auto const& X : a.particles.X) a.initial_velocity.push_back(f(X));
+}
+/// Displacement f(X).
+template <class F>
+void displace(Assembly& a, F const& f) {
+  a.initial_displacement.clear();
+  for (auto const& X : a.particles.X) a.initial_displacement.push_back(f(X));
+}
+/// Holds the components `fix` of the particles for which where(X).
+template <class F>
+void support(Assembly& a, std::array<bool, 3> fix, F const& where) {
+  Support s;
+  s.fix = fix;
+  for (std::int64_t id = 0; id < a.particles.size(); ++id)
+    if (where(a.particles.X[static_cast<std::size_t>(id)])) s.particles.push_back(id);
+  a.supports.push_back(s);
+}
+
+inline Values sample(Formulation const& f, std::string_view field, std::size_t particles) {
+  for (auto const& info : f.fields())
+    if (info.name == field) {
+      Values values(particles * static_cast<std::size_t>(info.components));
+      f.sample(field, values);
+      return values;
+    }
+  ADD_FAILURE() << "no field is named " << field;
+  return {};
+}
+
+/// n steps of dt.
+inline void advance(Formulation& f, double dt, int n) {
+  for (int k = 0; k < n; ++k) f.step(k * dt, dt);
+}
+
+inline double largest(Values const& a) {
+  double most = 0;
+  for (double const v : a) most = std::isfinite(v) ? std::max(most, std::fabs(v)) : v;
+  return most;
+}
+inline double largest_difference(Values const& a, Values const& b) {
+  Values d = a;
+  for (std::size_t k = 0; k < d.size(); ++k) d[k] -= b[k];
+  return largest(d);
+}
+
+/// Instruction sets that this program has and this processor can run.
+inline std::vector<std::string> machines() {
+  std::vector<std::string> r;
+  for (auto names = jst_sph::machine_names(); *names != nullptr; ++names) r.push_back(*names);
+  return r;
+}
+
+/// A checkpoint in memory.
+struct SavedState : StateWriter, StateReader {
+  std::map<std::string, Values, std::less<>> values;
+  void put(std::string_view name, std::span<double const> v) override {
+    values[std::string(name)].assign(v.begin(), v.end());
+  }
+  void get(std::string_view name, std::span<double> v) override {
+    auto const at = values.find(name);
+    ASSERT_NE(at, values.end()) << name;
+    ASSERT_EQ(at->second.size(), v.size()) << name;
+    std::copy(at->second.begin(), at->second.end(), v.begin());
+  }
+};
+inline SavedState saved(Formulation const& f) {
+  SavedState s;
+  f.save(s);
+  return s;
+}
+
+/// The unit box that tumbles and stretches: everything that a step computes is busy.
+inline Assembly tumbling_box(int dimension, int n, double jitter = 0) {
+  Assembly a = assemble(unit_box(dimension, n, jitter));
+  give_velocity(a, [&](Point const& X) {
+    Point v{3 * X[0] + 8 * X[0] * X[0], 0, 0};
+    if (dimension > 1) v = {20 * X[1] + 8 * X[0] * X[0], -20 * X[0] + 5 * X[1], 0};
+    if (dimension > 2) v[2] = 6 * X[0] * X[2] - 10 * X[1];
+    return v;
+  });
+  return a;
+}
+
+}  // namespace piola::testing
