@@ -47,7 +47,7 @@ TEST_P(Conservation, OfBothMomentaHoldsToRoundOffForAFreeSpinningCube) {
 
 TEST_P(Conservation, OfAngularMomentumFailsWithoutItsProjection) {
   auto const f = make_formulation(spinning_cube(GetParam(), "off"));
-  EXPECT_GT(drift(*f, 200).angular, 1e-8);
+  EXPECT_GT(drift(*f, 200).angular, 1e-3);  // 1 % (robust) and 19 % (paper) were seen
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, Conservation, ::testing::Values("robust", "paper"));
