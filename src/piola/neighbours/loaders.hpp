@@ -9,6 +9,7 @@
 ///   static constexpr int sums;    // number of sums
 ///   static constexpr int fields;  // values it reads of a neighbour; those of outer pairs first
 ///   static constexpr int outer_fields;
+///   static constexpr bool smooths;  // it uses the kernel itself and nothing else of the geometry
 ///   View gathered;                // where these values are
 ///   template <class V> Own<V> own(Index i)           what it needs of the particle (or of the lanes) itself
 ///   pair(sums, own, geometry, f)  inner pair;  outer(sums, own, geometry, f)  outer pair
@@ -24,6 +25,7 @@ struct PairGeometry {
   V r2;
   V l;           ///< raw Laplacian weight
   V weight;      ///< 1, or 0 for a lane without this neighbour
+  V kernel;      ///< W of the Laplacian's support, where tables hold it
 };
 
 /// Lanes are consecutive particles of a regular lattice: neighbours arrive by unit-stride loads, geometry is the same for
@@ -64,6 +66,7 @@ struct StencilLoader {
     }
     g.r2 = Lanes(o.r2);
     g.l = Lanes(o.l);
+    if constexpr (Body::smooths) g.kernel = Lanes(table.kernel[e.offset]);
     if constexpr (Masked) {
       g.weight = load<Lanes>(table.weights + e.weights);
       g.sr = g.weight * g.sr;
@@ -113,6 +116,7 @@ struct ListLoader {
   PIOLA_FN void visit(Index a, std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
     constexpr int fields = Inner ? Body::fields : Body::outer_fields;
     std::ptrdiff_t const stride = body.gathered.particle_stride;
+    if constexpr (Body::smooths) return smooth(k, body, own, sums);
     double const* const base = body.gathered.data - D;
     Lanes record[D + fields], f[fields];
     load_records(base, stride, table.neighbour + k, record);
@@ -129,6 +133,21 @@ struct ListLoader {
       body.template pair<false>(sums, own, g, f);
     else
       body.template outer<false>(sums, own, g, f);
+  }
+
+  /// One value per neighbour and no geometry: no record is worth loading.
+  template <class Body, class Own>
+  PIOLA_FN void smooth(std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
+    Lanes f[1];
+    View const& from = body.gathered;
+#if PIOLA_HAS_PACKS
+    for (int l = 0; l < lane_count; ++l) f[0][l] = from.data[table.neighbour[k + l] * from.particle_stride];
+#else
+    f[0] = from.data[table.neighbour[k] * from.particle_stride];
+#endif
+    PairGeometry<D, Lanes> g{};
+    g.kernel = load<Lanes>(table.kernel + k);
+    body.template pair<false>(sums, own, g, f);
   }
 };
 

@@ -78,12 +78,14 @@ void ReferencePairs::make_list() {
       list_neighbour_.push_back(a);
       list_s_.push_back(0);
       if (!equal_supports) list_l_.push_back(0);
+      if (options_.kernel_table) list_kernel_.push_back(0);
     }
   };
   auto const add = [&](Pair const& p) {
     list_neighbour_.push_back(p.b);
     list_s_.push_back(p.inner ? s_of(p.r2) : 0);
     if (!equal_supports) list_l_.push_back(l_of(p.r2));
+    if (options_.kernel_table) list_kernel_.push_back(kernel_of(p.r2));
   };
   for (Index a = 0; a < static_cast<Index>(id_.size()); ++a) {
     list_begin_.push_back(static_cast<std::int64_t>(list_neighbour_.size()));

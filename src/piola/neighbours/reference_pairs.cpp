@@ -55,6 +55,11 @@ double ReferencePairs::l_of(double r2) const {
   return -2 * kernel_volume_ * scale * options_.kernel->dw(r / h) / r;
 }
 
+double ReferencePairs::kernel_of(double r2) const {
+  double const h = options_.h_laplacian;
+  return options_.kernel->sigma(dimension_) / std::pow(h, dimension_) * options_.kernel->w(std::sqrt(r2) / h);
+}
+
 void ReferencePairs::find_offsets(Body const& body) {
   double const radius = options_.kernel->support * std::max(options_.h_gradient, options_.h_laplacian) * edge;
   double const inner = options_.kernel->support * options_.h_gradient * edge;
@@ -74,6 +79,7 @@ void ReferencePairs::find_offsets(Body const& body) {
         lattice_offset_.push_back({i, j, k});
         offsets_.push_back({{s * r[0], s * r[1], s * r[2]}, {r[0], r[1], r[2]}, r2, l_of(r2)});
         offset_inner_.push_back(is_inner ? 1 : 0);
+        if (options_.kernel_table) offset_kernel_.push_back(kernel_of(r2));
       }
   auto const points = static_cast<std::size_t>(lattice_[0]) * static_cast<std::size_t>(lattice_[1]) *
                       static_cast<std::size_t>(lattice_[2]);
@@ -211,18 +217,47 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body) {
 }
 
 StencilTable ReferencePairs::stencil() const {
-  return {offsets_.data(), entries_.data(), patterns_.data(), pattern_of_.data(), weights_.data()};
+  return {offsets_.data(), entries_.data(), patterns_.data(), pattern_of_.data(), weights_.data(), offset_kernel_.data()};
 }
 
 ListTable ReferencePairs::list() const {
   return {list_begin_.data(), list_inner_.data(), list_neighbour_.data(), list_s_.data(),
-          list_l_.empty() ? nullptr : list_l_.data()};
+          list_l_.empty() ? nullptr : list_l_.data(), list_kernel_.empty() ? nullptr : list_kernel_.data()};
+}
+
+ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& volume) const {
+  constexpr int most = 200;
+  constexpr double close = 1e-8;
+  auto const n = static_cast<std::size_t>(particles_);
+  Filter filter{std::vector<double>(id_.size(), 1.0), std::vector<double>(id_.size(), 0.0)};
+  auto& d = filter.scale;
+  std::vector<double> neighbours(n);
+  double const self = kernel_of(0);
+  for (int sweep = 0;; ++sweep) {
+    for (Index a = 0; a < particles_; ++a) {
+      double sum = 0;
+      visit(a, [&](Pair const& p) {
+        auto const b = static_cast<std::size_t>(p.b);
+        sum += kernel_of(p.r2) * volume[b] * d[b];
+      });
+      neighbours[static_cast<std::size_t>(a)] = sum;
+    }
+    double worst = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+      filter.sum[a] = d[a] * neighbours[a];
+      neighbours[a] += self * volume[a] * d[a];
+      worst = std::max(worst, std::abs(d[a] * neighbours[a] - 1));
+    }
+    if (worst < close || sweep == most) break;
+    for (std::size_t a = 0; a < n; ++a) d[a] = std::sqrt(d[a] / neighbours[a]);
+  }
+  return filter;
 }
 
 std::size_t ReferencePairs::bytes() const {
   return offsets_.size() * sizeof(StencilOffset) + entries_.size() * sizeof(StencilEntry) +
          patterns_.size() * sizeof(StencilPattern) + pattern_of_.size() * 4 + weights_.size() * 8 +
-         list_begin_.size() * 12 + list_neighbour_.size() * 4 + (list_s_.size() + list_l_.size()) * 8;
+         list_begin_.size() * 12 + list_neighbour_.size() * 4 + (list_s_.size() + list_l_.size() + list_kernel_.size()) * 8;
 }
 
 }  // namespace piola

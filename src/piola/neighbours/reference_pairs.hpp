@@ -20,6 +20,7 @@ struct PairOptions {
   double h_gradient = 0;   ///< smoothing length of the gradient [m]
   double h_laplacian = 0;  ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
   int lanes = 1;           ///< lane count of the machine that will use the tables
+  bool kernel_table = false;    ///< tables hold the kernel of the Laplacian's support (filter)
   bool stencils = true;    ///< use lattice patterns where the body is a regular lattice
 };
 
@@ -45,6 +46,13 @@ class ReferencePairs {
   ListTable list() const;
   Corrections const& corrections() const { return corrections_; }
   Index max_delta() const { return max_delta_; }  ///< largest distance in memory between neighbours
+  /// Scaling d of the doubly stochastic filter s_ab = d_a W_ab d_b, per slot: sum_b s_ab V_b = 1 with b = a included, by
+  /// d <- sqrt(d / sum_b W_ab V_b d_b). Row sums are then within 1e-8 of 1; the filter's diagonal makes them exact.
+  struct Filter {
+    std::vector<double> scale;  ///< d
+    std::vector<double> sum;    ///< sum_{b != a} s_ab V_b
+  };
+  Filter make_filter(std::vector<double> const& volume) const;
   std::int64_t pair_count() const { return pairs_; }
   double stencil_fill() const { return fill_; }   ///< share of lanes with a neighbour, regular bodies
   std::size_t bytes() const;
@@ -65,6 +73,7 @@ class ReferencePairs {
   void visit(Index a, F const& f) const;
   double s_of(double r2) const;
   double l_of(double r2) const;
+  double kernel_of(double r2) const;
   void correct(ParticleSet const& set, Body const& body);
   [[noreturn]] void refuse(ParticleSet const& set, Body const& body, Index a, int found, char const* operation) const;
   void make_stencils();
@@ -96,7 +105,8 @@ class ReferencePairs {
   std::vector<std::int64_t> list_begin_;
   std::vector<std::int32_t> list_inner_;
   std::vector<Index> list_neighbour_;
-  std::vector<double> list_s_, list_l_;
+  std::vector<double> list_s_, list_l_, list_kernel_;
+  std::vector<double> offset_kernel_;
 };
 
 /// f(pair) for every neighbour of the particle in slot a, in an order that depends on the particles alone.

@@ -39,6 +39,7 @@ struct StencilTable {
   StencilPattern const* patterns = nullptr;
   std::int32_t const* pattern_of = nullptr;  ///< per group of W particles
   double const* weights = nullptr;
+  double const* kernel = nullptr;  ///< per offset: W of the Laplacian's support [m^-D]
 };
 
 /// Any set of points: a list per particle, inner pairs first; both parts padded to a multiple of the lane count with the
@@ -49,6 +50,7 @@ struct ListTable {
   Index const* neighbour = nullptr;
   double const* s = nullptr;
   double const* l = nullptr;                 ///< nullptr: l = 2 s (equal supports)
+  double const* kernel = nullptr;            ///< W of the Laplacian's support [m^-D]; nullptr: not wanted
 };
 
 }  // namespace piola

@@ -4,7 +4,9 @@
 #include "piola/formulations/jst_sph/passes.hpp"
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
+#include <tuple>
 
 namespace piola::jst_sph {
 
@@ -21,9 +23,11 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   share_reference(machine.lanes);
   allocate();
   fill_reference(machine.lanes);
+  if (options_.filter) fill_filter();
   fill_initial(assembly, machine);
   take_supports(assembly);
   machine.update_wave_speed(state_);
+  if (options_.integrator == Integrator::verlet) machine.step(state_, 0);  // the accelerations of the start
 }
 
 void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
@@ -34,6 +38,8 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
   pair.h_laplacian = options_.biharmonic == Biharmonic::none ? 0 : options_.laplacian_support * spacing;
+  if (options_.filter) pair.h_laplacian = options_.laplacian_support * spacing;
+  pair.kernel_table = options_.filter;
   pair.lanes = machine.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
   pair.stencils = machine.lanes > 1;
@@ -45,14 +51,22 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   state_.dimension = D_;
   state_.slots = {0, order_.slots()};
   state_.material = material;
+  double mu = 0, kappa = 0;
   with_law(material, [&](auto const& law) {
+    mu = law.mu;
+    kappa = law.kappa;
     k.rho0 = law.rho0;
     k.c_p0 = law.p_wave_speed();
   });
   k.kernel_volume = set.kernel_volume[static_cast<std::size_t>(body_.first)];
   k.h_min = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
-  k.eps2 = options_.eps2;
-  k.eps4 = options_.eps4;
+  double const speed_ratio = options_.shear_speed ? std::min(1.0, std::sqrt((7.0 / 3.0) * mu / k.rho0) / k.c_p0) : 1.0;
+  k.eps2 = options_.eps2 * speed_ratio;
+  k.eps4 = options_.eps4 * speed_ratio;
+  k.kappa_local = options_.filter ? std::min(kappa, mu) : kappa;
+  k.kappa_filtered = kappa - k.kappa_local;
+  k.filter_passes = options_.filter_passes;
+  k.integrator = options_.integrator;
   k.variables = options_.variables;
   k.biharmonic = options_.biharmonic;
   k.project = options_.project;
@@ -73,78 +87,85 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
     state_.list = pairs_->list();
 }
 
+bool JstBody::wanted(Field const& f) const {
+  bool const displacement = options_.variables == Variables::displacement, verlet = options_.integrator == Integrator::verlet;
+  auto const among = [&](std::initializer_list<Field const*> fields) {
+    return std::find(fields.begin(), fields.end(), &f) != fields.end();
+  };
+  if (among({&fields_.stage_position})) return displacement;
+  if (among({&fields_.v_n, &fields_.F_star, &fields_.wave_speed_next})) return !verlet;
+  if (among({&fields_.volume_ratio})) return verlet;
+  if (among({&fields_.filtered_ratio, &fields_.filtered_pressure, &fields_.filter_scale, &fields_.filter_sum,
+             &fields_.filter_source_a, &fields_.filter_source_b}))
+    return options_.filter;
+  return true;
+}
+
 void JstBody::allocate() {
-  Index const guard = state_.regular ? pairs_->max_delta() + SlotOrder::alignment : 0;
   place_gathered();
+  Index const guard = state_.regular ? pairs_->max_delta() + SlotOrder::alignment : 0;
   fields_.each([&](Field& f) {
-    bool const unused = &f == &fields_.stage_position && options_.variables != Variables::displacement;
-    bool const shared = state_.regular && f.role() == Role::reference;
-    if (f.size() == 0 && !unused) f.allocate(shared ? stored_slots_ : order_.slots(), state_.regular ? guard : 0);
+    bool const per_slot = &f == &fields_.filter_scale || &f == &fields_.filter_sum;
+    bool const shared = state_.regular && f.role() == Role::reference && !per_slot;
+    if (f.size() == 0 && wanted(f)) f.allocate(shared ? stored_slots_ : order_.slots(), guard);
     if (shared) f.share(group_.data());
   });
   auto& s = state_;
-  s.V = fields_.V.ref();
-  s.C = fields_.C.ref();
-  s.G = fields_.G.ref();
-  s.alpha = fields_.alpha.ref();
-  s.beta = fields_.beta.ref();
-  s.diagonal = fields_.diagonal.ref();
-  s.x = fields_.x.ref();
-  s.v = fields_.v.ref();
-  s.F = fields_.F.ref();
-  s.wave_speed = fields_.wave_speed.ref();
-  s.u = options_.variables == Variables::displacement ? fields_.stage_position.ref() : fields_.v.ref();
-  s.w = fields_.w.ref();
-  s.A = fields_.A.ref();
-  s.v_n = fields_.v_n.ref();
-  s.F_star = fields_.F_star.ref();
-  s.wave_speed_next = fields_.wave_speed_next.ref();
-  s.rate = fields_.rate.ref();
+  auto const& f = fields_;
+  std::tie(s.V, s.C, s.G, s.alpha, s.beta, s.diagonal) =
+      std::tuple(f.V.ref(), f.C.ref(), f.G.ref(), f.alpha.ref(), f.beta.ref(), f.diagonal.ref());
+  std::tie(s.x, s.v, s.F, s.wave_speed) = std::tuple(f.x.ref(), f.v.ref(), f.F.ref(), f.wave_speed.ref());
+  std::tie(s.w, s.A, s.v_n, s.F_star, s.wave_speed_next, s.rate) =
+      std::tuple(f.w.ref(), f.A.ref(), f.v_n.ref(), f.F_star.ref(), f.wave_speed_next.ref(), f.rate.ref());
+  std::tie(s.volume_ratio, s.filtered_ratio, s.filtered_pressure, s.filter_scale, s.filter_sum) =
+      std::tuple(f.volume_ratio.ref(), f.filtered_ratio.ref(), f.filtered_pressure.ref(), f.filter_scale.ref(),
+                 f.filter_sum.ref());
+  s.filter_source[0] = f.filter_source_a.ref();
+  s.filter_source[1] = f.filter_source_b.ref();
+  s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
 }
 
-/// What the sweeps read of neighbours lies together: as records [X, values] for lists, as arrays for lattices.
-void JstBody::place_gathered() {
-  Field& first = options_.variables == Variables::displacement ? fields_.stage_position : fields_.v;
-  bool const adjoint = options_.biharmonic == Biharmonic::adjoint;
-  bool const stabilised = options_.biharmonic != Biharmonic::none;
-  std::ptrdiff_t const before_A = adjoint ? 2 * D_ + 1 : stabilised ? D_ : 0, values = before_A + D_ * D_;
-  Index const n = order_.slots();
-  auto const slots = static_cast<std::size_t>(n);
-  std::ptrdiff_t component, particle, start;
+/// Memory for what a sweep reads of neighbours: arrays for lattices; records [X, values] for lists.
+JstBody::Gathered JstBody::gather(int values) const {
+  Gathered g;
+  auto const n = static_cast<std::ptrdiff_t>(order_.slots());
   if (state_.regular) {
-    auto const guard = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
-    component = 8 * (((n + 7) / 8 + 2 * guard / 8) | 1);
-    particle = 1;
-    start = guard;
-    second_gathered_ = Memory(static_cast<std::size_t>(component * values + 2 * guard));
-    first.allocate(n, pairs_->max_delta() + SlotOrder::alignment);
-  } else {
-    component = 1;
-    particle = (D_ + values + 7) / 8 * 8;
-    start = D_;
-    second_gathered_ = Memory(slots * static_cast<std::size_t>(particle) + 8);
-    first_records_ = Memory(slots * 8 + 8);
-    first.place(first_records_.data(), 1, 8, D_, n);
-    for (Index i = 0; i < order_.particles; ++i)
-      for (int c = 0; c < D_; ++c) {
-        double const X = set_->X[static_cast<std::size_t>(id(i))][static_cast<std::size_t>(c)];
-        first_records_.data()[i * 8 + c] = X;
-        second_gathered_.data()[i * particle + c] = X;
-      }
+    g.start = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
+    g.component = 8 * (((n + 7) / 8 + 2 * g.start / 8) | 1);
+    g.memory = Memory(static_cast<std::size_t>(g.component * values + 2 * g.start));
+    return g;
   }
-  double* const data = second_gathered_.data();
-  state_.second = {data + start, component, particle, &second_version_, "second sweep"};
-  auto const part = [&](Field& f, std::ptrdiff_t offset) {
-    f.place(data, component, particle, start + offset * component, n, &second_version_);
+  g.component = 1;
+  g.particle = (D_ + values + 7) / 8 * 8;
+  g.start = D_;
+  g.memory = Memory(static_cast<std::size_t>(n * g.particle + 8));
+  for (Index i = 0; i < order_.particles; ++i)
+    for (int c = 0; c < D_; ++c) g.memory.data()[i * g.particle + c] = X(i)[static_cast<std::size_t>(c)];
+  return g;
+}
+
+void JstBody::place_gathered() {
+  bool const verlet = options_.integrator == Integrator::verlet, adjoint = options_.biharmonic == Biharmonic::adjoint;
+  bool const stabilised = options_.biharmonic != Biharmonic::none;
+  Index const n = order_.slots();
+  auto const place = [n](Field& f, Gathered& g, std::ptrdiff_t offset) {
+    f.place(g.memory.data(), g.component, g.particle, g.start + offset * g.component, n, &g.version);
   };
-  if (stabilised) part(fields_.w, 0);
-  part(fields_.A, before_A);
+  first_ = gather(verlet ? 2 * D_ : D_);
+  place(options_.variables == Variables::displacement ? fields_.stage_position : fields_.v, first_, 0);
+  if (verlet) place(fields_.x, first_, D_);
+
+  int const before_A = adjoint ? 2 * D_ + 1 : stabilised ? D_ : 0;
+  second_ = gather(before_A + D_ * D_);
+  state_.second = {second_.memory.data() + second_.start, second_.component, second_.particle, &second_.version, "second sweep"};
+  if (stabilised) place(fields_.w, second_, 0);
+  place(fields_.A, second_, before_A);
   auto const& corrections = pairs_->corrections();
   for (Index i = 0; adjoint && i < order_.particles; ++i) {
-    double* const at = data + start + i * particle;
+    double* const at = state_.second.data + i * second_.particle;
     for (int c = 0; c < D_; ++c)
-      at[(D_ + c) * component] = corrections.alpha[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
-    at[2 * D_ * component] = corrections.beta[static_cast<std::size_t>(i)];
+      at[(D_ + c) * second_.component] = corrections.alpha[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+    at[2 * D_ * second_.component] = corrections.beta[static_cast<std::size_t>(i)];
   }
 }
 
@@ -165,7 +186,10 @@ void JstBody::share_reference(int lanes) {
 
 void JstBody::fill_reference(int lanes) {
   for (Index i = 0; i < order_.slots(); ++i)
-    for (int c = 0; c < D_; ++c) fields_.F.at(i, c * D_ + c) = fields_.F_star.at(i, c * D_ + c) = 1;
+    for (int c = 0; c < D_; ++c) {
+      fields_.F.at(i, c * D_ + c) = 1;
+      if (wanted(fields_.F_star)) fields_.F_star.at(i, c * D_ + c) = 1;
+    }
   auto const& corrections = pairs_->corrections();
   static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
   for (Index to = 0; to < stored_slots_; ++to) {
@@ -181,6 +205,16 @@ void JstBody::fill_reference(int lanes) {
     }
     fields_.beta.at(to) = corrections.beta[slot];
     fields_.diagonal.at(to) = corrections.diagonal[slot];
+  }
+}
+
+void JstBody::fill_filter() {
+  std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
+  for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = volume(i);
+  auto const filter = pairs_->make_filter(volumes);
+  for (Index i = 0; i < order_.particles; ++i) {
+    fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];
+    fields_.filter_sum.at(i) = filter.sum[static_cast<std::size_t>(i)];
   }
 }
 
@@ -260,7 +294,7 @@ Mat<3> JstBody::F(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  std::size_t total = pairs_->bytes() + first_records_.bytes() + second_gathered_.bytes();
+  std::size_t total = pairs_->bytes() + first_.memory.bytes() + second_.memory.bytes();
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

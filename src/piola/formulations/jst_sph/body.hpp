@@ -47,7 +47,16 @@ class JstBody {
  private:
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
+  /// Memory that fields share because sweeps read them together at neighbours.
+  struct Gathered {
+    Memory memory;
+    std::ptrdiff_t component = 0, particle = 1, start = 0;
+    FieldVersion version;
+  };
+  Gathered gather(int values) const;
   void place_gathered();
+  bool wanted(Field const& f) const;
+  void fill_filter();
   void share_reference(int lanes);
   void fill_reference(int lanes);
   void fill_initial(Assembly const& assembly, Machine const& machine);
@@ -62,8 +71,7 @@ class JstBody {
   ParticleSet const* set_;
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
-  Memory first_records_, second_gathered_;
-  FieldVersion second_version_;
+  Gathered first_, second_;
   std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
   Index stored_slots_ = 0;
   std::vector<Index> group_first_;   // per stored group: a slot where it begins

@@ -18,6 +18,13 @@ struct Fields {
         v("Velocity", "m/s", D, Role::evolved),
         F("DeformationGradient", "1", D * D, Role::evolved),
         wave_speed("WaveSpeed", "m/s", 1, Role::evolved),
+        filter_scale("FilterScale", "1", 1, Role::reference),
+        filter_sum("FilterSum", "1", 1, Role::reference),
+        volume_ratio("VolumeRatio", "1", 1, Role::derived),
+        filtered_ratio("FilteredVolumeRatio", "1", 1, Role::derived),
+        filtered_pressure("FilteredPressure", "Pa", 1, Role::derived),
+        filter_source_a("FilterSourceA", "1", 1, Role::derived),
+        filter_source_b("FilterSourceB", "1", 1, Role::derived),
         w("StabilisationArgument", "m/s", D, Role::derived),
         A("WeightedStress", "Pa", D * D, Role::derived),
         stage_position("StagePosition", "m", D, Role::derived),
@@ -28,11 +35,14 @@ struct Fields {
 
   Field V, C, G, alpha, beta, diagonal;
   Field x, v, F, wave_speed;
+  Field filter_scale, filter_sum, volume_ratio, filtered_ratio, filtered_pressure, filter_source_a, filter_source_b;
   Field w, A, stage_position, v_n, F_star, wave_speed_next, rate;
 
   template <class Visit>
   void each(Visit&& visit) {
-    for (Field* f : {&V, &C, &G, &alpha, &beta, &diagonal, &x, &v, &F, &wave_speed, &w, &A, &stage_position, &v_n, &F_star,
+    for (Field* f : {&V, &C, &G, &alpha, &beta, &diagonal, &x, &v, &F, &wave_speed,
+                     &filter_scale, &filter_sum, &volume_ratio, &filtered_ratio, &filtered_pressure, &filter_source_a,
+                     &filter_source_b, &w, &A, &stage_position, &v_n, &F_star,
                      &wave_speed_next, &rate})
       visit(*f);
   }

@@ -2,33 +2,38 @@
 // The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
 #include "piola/exec/peak.hpp"
 #include "piola/formulations/jst_sph/step.hpp"
+#include "piola/formulations/jst_sph/verlet_step.hpp"
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 namespace {
 
 /// f(Step) with the step of the body's dimension and neighbour table.
-template <int D, class F>
+template <template <int, class> class Kind, int D, class F>
 void with_loader(BodyState& body, F const& f) {
   if (body.regular)
-    f(Step<D, StencilLoader<D>>(body, {body.stencil}));
+    f(Kind<D, StencilLoader<D>>(body, {body.stencil}));
   else
-    f(Step<D, ListLoader<D>>(body, {body.list}));
+    f(Kind<D, ListLoader<D>>(body, {body.list}));
 }
-template <class F>
+template <template <int, class> class Kind, class F>
 void with_step(BodyState& body, F const& f) {
   switch (body.dimension) {
-    case 1: return with_loader<1>(body, f);
-    case 2: return with_loader<2>(body, f);
-    default: return with_loader<3>(body, f);
+    case 1: return with_loader<Kind, 1>(body, f);
+    case 2: return with_loader<Kind, 2>(body, f);
+    default: return with_loader<Kind, 3>(body, f);
   }
 }
 
 void step(BodyState& body, double dt) {
-  with_step(body, [&](auto one_step) { one_step(dt); });
+  auto const take = [&](auto one_step) { one_step(dt); };
+  if (body.constants.integrator == Integrator::verlet)
+    with_step<VerletStep>(body, take);
+  else
+    with_step<Step>(body, take);
 }
 
 void update_deformation(BodyState& body) {
-  with_step(body, [](auto one_step) { one_step.update_deformation(); });
+  with_step<Step>(body, [](auto one_step) { one_step.update_deformation(); });
 }
 
 template <int D>

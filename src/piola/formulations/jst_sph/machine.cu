@@ -32,8 +32,8 @@ void launch_forces(Range r, SumForces<D, B, ListLoader<D>> const& pass, double* 
 
 template <int D>
 void launch_all(Range r, void const* passes, exec::Scratch const& scratch, double* partial) {
-  using Sweep = DifferentiateVelocity<D, true, ListLoader<D>>;
-  using Unstabilised = DifferentiateVelocity<D, false, ListLoader<D>>;
+  using Sweep = DifferentiateVelocity<D, 1, ListLoader<D>>;
+  using Unstabilised = DifferentiateVelocity<D, 0, ListLoader<D>>;
   exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
   exec::for_each(r, WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
   launch_laws<D>(r, passes, scratch, Laws{});

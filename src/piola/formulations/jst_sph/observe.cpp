@@ -50,6 +50,34 @@ void add_oscillation(ParticleSet const& set, Body const& body, std::vector<doubl
 
 }  // namespace
 
+namespace {
+
+/// Smooth pressure (kappa / kappa_f) q where the volumetric energy is filtered.
+template <class Law>
+double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
+  auto const& k = body.state().constants;
+  if (!(k.kappa_filtered > 0)) return law.pressure(F);
+  return law.kappa / k.kappa_filtered * JstBody::value(body.state().filtered_pressure, i);
+}
+
+/// The pressure that enters the momentum equation.
+template <class Law>
+double acting_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
+  auto const& k = body.state().constants;
+  if (!(k.kappa_filtered > 0)) return law.pressure(F);
+  return k.kappa_local * (law.volume_ratio(F) - 1) + JstBody::value(body.state().filtered_pressure, i);
+}
+
+template <class Law>
+double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
+  auto const& k = body.state().constants;
+  if (!(k.kappa_filtered > 0)) return law.energy(F);
+  double const local = law.volume_ratio(F) - 1, filtered = JstBody::value(body.state().filtered_ratio, i) - 1;
+  return law.isochoric_energy(F) + 0.5 * k.kappa_local * local * local + 0.5 * k.kappa_filtered * filtered * filtered;
+}
+
+}  // namespace
+
 void observe(JstBody const& body, int, Observation& o) {
   auto& d = o.totals;
   std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
@@ -57,8 +85,8 @@ void observe(JstBody const& body, int, Observation& o) {
   with_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
-      double const V = body.volume(i), J = determinant(F), p = law.pressure(F);
-      strain += V * law.energy(F);
+      double const V = body.volume(i), J = determinant(F), p = observed_pressure(body, law, F, i);
+      strain += V * stored_energy(body, law, F, i);
       d.jacobian_min = o.volume > 0 ? std::min(d.jacobian_min, J) : J;
       d.jacobian_max = o.volume > 0 ? std::max(d.jacobian_max, J) : J;
       d.pressure_min = o.volume > 0 ? std::min(d.pressure_min, p) : p;
@@ -148,7 +176,7 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
   with_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
-      Particle const p{body.X(i),   body.x(i), body.v(i), F, law.first_piola(F), determinant(F), law.pressure(F), law.rho0,
+      Particle const p{body.X(i),   body.x(i), body.v(i), F, law.stress_with_pressure(F, acting_pressure(body, law, F, i)), determinant(F), observed_pressure(body, law, F, i), law.rho0,
                        static_cast<double>(body_number),
                        static_cast<double>(body.pairs().corrections().neighbours[static_cast<std::size_t>(i)]),
                        static_cast<double>(body.id(i))};

@@ -14,14 +14,18 @@ struct Options {
   double eps2 = 0, eps4 = 0;      ///< harmonic and biharmonic coefficients for p
   double gradient_support = 0;    ///< h of the gradient in particle spacings
   double laplacian_support = 0;   ///< h of the Laplacian in particle spacings
+  Integrator integrator = Integrator::verlet;
+  bool shear_speed = true;        ///< stabilise with the shear-type wave speed instead of c_p
+  bool filter = true;             ///< filter the volumetric energy of nearly incompressible materials
+  int filter_passes = 2;
   bool project = true;            ///< angular and linear momentum projection
-  double cfl = 0.3;               ///< alpha_CFL of eq. (44)
+  double cfl = 0;                 ///< alpha of eq. (44); 0: from the stability limit of the scheme
 };
 
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
 /// Options of a body. Throws InputError for combinations that cannot work.
-Options read_options(FormulationSpec const& spec, double cfl);
+Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl);
 
 }  // namespace piola::jst_sph

@@ -12,25 +12,28 @@
 /// docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian weight l.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
-/// First sums over neighbours: raw velocity gradient and first Laplacian.
+/// First sums over neighbours: raw velocity gradient and first Laplacians.
 ///   sum_b s (u_b - u_a) (x) r            (raw form of eqs. 21, 33a, 34)
 ///   sum_b l~ (u_b - u_a),  l~ = l + alpha_a.r + beta_a r.r          (A.1, A.2)
-template <int D, bool Laplacian>
+/// With two Laplacians the gathered values are u and x, and L x follows L u.
+template <int D, int Laplacians>
 struct FirstSums {
-  static constexpr int fields = D, outer_fields = Laplacian ? D : 0;
-  static constexpr int sums = D * D + (Laplacian ? D : 0);
-  View gathered;              ///< u
+  static constexpr bool smooths = false;
+  static constexpr int fields = Laplacians == 2 ? 2 * D : D, outer_fields = Laplacians * D;
+  static constexpr int sums = D * D + Laplacians * D;
+  View gathered;              ///< u, and x for two Laplacians
   ReferenceView alpha, beta;  ///< corrections of the Laplacian
 
   template <class V>
   struct Own {
-    Vec<D, V> u, alpha;
+    Vec<fields, V> u;
+    Vec<D, V> alpha;
     V beta;
   };
   template <class V>
   PIOLA_FN Own<V> own(Index a) const {
-    Own<V> r{gathered.vector<D, V>(a), {}, V(0.0)};
-    if constexpr (Laplacian) {
+    Own<V> r{gathered.vector<fields, V>(a), {}, V(0.0)};
+    if constexpr (Laplacians > 0) {
       r.alpha = alpha.vector<D, V>(a);
       r.beta = beta.scalar<V>(a);
     }
@@ -43,23 +46,23 @@ struct FirstSums {
       V const du = u_b[i] - own.u[i];
       for (int j = 0; j < D; ++j) sum[i * D + j] = sum[i * D + j] + du * g.sr[j];
     }
-    if constexpr (Laplacian) outer<Masked>(sum, own, g, u_b);
+    if constexpr (Laplacians > 0) outer<Masked>(sum, own, g, u_b);
   }
   template <bool Masked, class O, class G, class V>
   PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* u_b) const {
     V l = g.l + own.beta * g.r2;
     for (int i = 0; i < D; ++i) l = l + own.alpha[i] * g.r[i];
     if constexpr (Masked) l = g.weight * l;
-    for (int i = 0; i < D; ++i) sum[D * D + i] = sum[D * D + i] + l * (u_b[i] - own.u[i]);
+    for (int i = 0; i < outer_fields; ++i) sum[D * D + i] = sum[D * D + i] + l * (u_b[i] - own.u[i]);
   }
 };
 
 /// The sweep that fills a block's scratch with FirstSums.
-template <int D, bool Laplacian, class Loader>
+template <int D, int Laplacians, class Loader>
 struct DifferentiateVelocity {
-  static constexpr int sums = FirstSums<D, Laplacian>::sums;
+  static constexpr int sums = FirstSums<D, Laplacians>::sums;
   Loader loader;
-  FirstSums<D, Laplacian> body;
+  FirstSums<D, Laplacians> body;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
     Lanes sum[sums];
@@ -67,6 +70,12 @@ struct DifferentiateVelocity {
     for (int c = 0; c < sums; ++c) store(sum[c], out.at(i, c));
   }
 };
+
+/// Records the lanes whose det F is not positive, or not a number.
+PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J) {
+  for (int l = 0; l < lane_count; ++l)
+    if (!(lane(J, l) > 0)) exec::record(failure, i + l, 1);
+}
 
 /// What a stage does with F: eq. (43) for F, and the checks and wave speed of its result.
 struct StageUpdate {
@@ -119,8 +128,9 @@ struct UpdateStress {
     }
     F_out.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
-    auto const good = determinant(full) > 0.0;
-    if (any(!good)) report(i, full);
+    Lanes const J = determinant(full);
+    auto const good = J > 0.0;
+    if (any(!good)) record_inverted(failure, i, J);
     if (stage.second) {
       Lanes const stretch2 = maximum(smallest_stretch_squared(full), Lanes(1e-12));
       wave_speed_next.scalar(i, k.c_p0 / square_root(stretch2));
@@ -140,14 +150,6 @@ struct UpdateStress {
       if (k.eps2 > 0) rate.scalar(i, harmonic * Lv, j);
     }
   }
-
-  PIOLA_FN void report(Index i, Mat<3, Lanes> const& F) const {
-    for (int l = 0; l < lane_count; ++l) {
-      Mat<3> one;
-      for (int c = 0; c < 9; ++c) one.c[c] = lane(F.c[c], l);
-      if (!(determinant(one) > 0)) exec::record(failure, i + l, 1);
-    }
-  }
 };
 
 /// Second sums over neighbours: internal force and second Laplacian.
@@ -155,6 +157,7 @@ struct UpdateStress {
 ///   literal: sum_b (l + alpha_a.r + beta_a r.r) (w_b - w_a);   adjoint: sum_b (l - alpha_b.r + beta_b r.r) w_b
 template <int D, Biharmonic B>
 struct SecondSums {
+  static constexpr bool smooths = false;
   static constexpr bool adjoint = B == Biharmonic::adjoint, laplacian = B != Biharmonic::none;
   static constexpr int outer_fields = adjoint ? 2 * D + 1 : laplacian ? D : 0;  // w, and alpha beta
   static constexpr int fields = outer_fields + D * D;                           // then A

@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
+#include "piola/formulations/jst_sph/stability.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -11,19 +12,23 @@ namespace {
 
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
+  /// Share of the stability limit that is used: the limit is that of the undeformed body.
+  static constexpr double margin = 0.8;
+
  public:
   explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options = read_options(assembly.formulations[k], assembly.cfl);
+      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
+      alpha_.push_back(options.cfl > 0 ? options.cfl : margin * stability_limit(*bodies_.back(), *machine_).alpha());
     }
   }
 
   double stable_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
-    for (auto const& body : bodies_) {
-      auto& state = body->state();
-      dt = std::min(dt, body->options().cfl * state.constants.h_min / machine_->largest_wave_speed(state));  // (44)
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      auto& state = bodies_[k]->state();
+      dt = std::min(dt, alpha_[k] * state.constants.h_min / machine_->largest_wave_speed(state));  // (44)
     }
     return dt;
   }
@@ -54,7 +59,9 @@ class Solver final : public Formulation {
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
 
-  int stages_per_step() const override { return 2; }
+  int stages_per_step() const override {
+    return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2;
+  }
   std::size_t memory_bytes() const override {
     std::size_t total = 0;
     for (auto const& body : bodies_) total += body->bytes();
@@ -80,6 +87,7 @@ class Solver final : public Formulation {
   ParticleSet set_;
   Machine const* machine_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
+  std::vector<double> alpha_;  ///< of eq. (44), per body
 };
 
 std::optional<Failure> Solver::failure() const {
@@ -113,6 +121,11 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
   f(fmt::format("body{}_velocity", number), s.v, D);
   f(fmt::format("body{}_deformation_gradient", number), s.F, D * D);
   f(fmt::format("body{}_wave_speed", number), s.wave_speed, 1);
+  if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
+  if (s.constants.kappa_filtered > 0) {
+    f(fmt::format("body{}_filtered_ratio", number), s.filtered_ratio, 1);
+    f(fmt::format("body{}_filtered_pressure", number), s.filtered_pressure, 1);
+  }
 }
 
 void Solver::save(StateWriter& writer) const {

@@ -24,16 +24,26 @@ struct SupportComponent {
   double position;  ///< where the support holds it [m]
 };
 
+/// How a step is taken.
+enum class Integrator {
+  tvd_rk2,  ///< two stages, eq. (43)
+  verlet    ///< kick, drift, kick: one right-hand side, exact angular momentum
+};
+
 struct Constants {
   double rho0;           ///< reference density [kg/m^3]
   double kernel_volume;  ///< volume of a particle in kernel sums [m^D]
   double h_min;          ///< smallest particle spacing [m]
   double c_p0;           ///< p-wave speed at F = I [m/s]
-  double eps2, eps4;     ///< harmonic and biharmonic coefficients for p
+  double eps2, eps4;     ///< harmonic and biharmonic coefficients for p, times (stabilisation speed / c_p0)
+  double kappa_local;    ///< part of the bulk modulus that acts on the local volume ratio [Pa]
+  double kappa_filtered; ///< part that acts on the filtered volume ratio [Pa]; 0: no filter
+  int filter_passes;     ///< n of B = S^n
   double total_volume;   ///< sum of tributary volumes [m^D]
   double centre[3];      ///< origin of arms [m], near the body: keeps sums of moments accurate
   Variables variables;
   Biharmonic biharmonic;
+  Integrator integrator;
   bool project;          ///< angular and linear momentum projection
 };
 
@@ -61,6 +71,9 @@ struct BodyState {
   FieldRef second;  ///< all that the second sweep reads: w, then for the adjoint form alpha and beta, then A
   FieldRef w;       ///< part of `second`: what the second Laplacian is applied to
   FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
+  // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum of
+  // the filter's weights without the diagonal; two buffers of d V f that sweeps read at neighbours.
+  FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
   // Within a step.
   FieldRef v_n, F_star, wave_speed_next, rate;
 

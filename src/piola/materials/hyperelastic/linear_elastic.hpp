@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/elastic_constants.hpp"
+#include "piola/materials/hyperelastic/volumetric_split.hpp"
 #include "piola/math/tensor.hpp"
 #include <string_view>
 
@@ -10,29 +10,31 @@ namespace piola::inline PIOLA_MACHINE {
 ///   W = mu (e:e - (tr e)^2/3) + kappa/2 (tr e)^2
 ///   P = mu (F + F^T - 2/3 tr F I) + p I,   p = kappa (tr F - 3)
 /// (Lee et al. 2016, examples 8.1 and 8.2.) Not objective under large rotation: for small displacement only.
-struct LinearElastic : ElasticConstants {
+struct LinearElastic : VolumetricSplit<LinearElastic> {
   static constexpr std::string_view name = "linear_elastic";
   static constexpr std::string_view about = "linear elasticity, small strain and small rotation";
   static constexpr bool small_strain = true;
-  using ElasticConstants::ElasticConstants;
-  using ElasticConstants::parameters;
+  using VolumetricSplit::VolumetricSplit;
 
+  /// Linearised volume ratio 1 + tr e.
   template <class T>
-  PIOLA_FN T pressure(Mat<3, T> const& F) const {
-    return kappa * (trace(F) - 3.0);
+  PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
+    return trace(F) - 2.0;
   }
+  /// P with the pressure p given, for schemes that do not take it from this F alone.
   template <class T>
-  PIOLA_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
+  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, T const& p) const {
     Mat<3, T> P = mu * (F + transpose(F));
-    T const diagonal = pressure(F) - (2.0 / 3.0) * mu * trace(F);
+    T const diagonal = p - (2.0 / 3.0) * mu * trace(F);
     for (int i = 0; i < 3; ++i) P(i, i) = P(i, i) + diagonal;
     return P;
   }
+  /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T energy(Mat<3, T> const& F) const {
+  PIOLA_FN T isochoric_energy(Mat<3, T> const& F) const {
     Mat<3, T> const e = 0.5 * (F + transpose(F)) - identity<3, T>();
     T const volume = trace(e);
-    return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume)) + 0.5 * kappa * (volume * volume);
+    return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume));
   }
 };
 

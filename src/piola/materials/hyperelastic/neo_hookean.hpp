@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/elastic_constants.hpp"
+#include "piola/materials/hyperelastic/volumetric_split.hpp"
 #include "piola/math/tensor.hpp"
 #include <string_view>
 
@@ -10,31 +10,32 @@ namespace piola::inline PIOLA_MACHINE {
 ///   W = mu/2 (J^(-2/3) F:F - 3) + kappa/2 (J - 1)^2
 ///   P = mu J^(-2/3) (F - (F:F)/(3J) H) + p H,   p = kappa (J - 1)
 /// (Lee et al. 2016, Section 2.1 with xi = 0, zeta = mu/2; eqs. 9-12.) Pressure is positive in tension. Valid for J > 0.
-struct NeoHookean : ElasticConstants {
+struct NeoHookean : VolumetricSplit<NeoHookean> {
   static constexpr std::string_view name = "neo_hookean";
   static constexpr std::string_view about = "nearly incompressible neo-Hookean solid, large elastic strain";
   static constexpr bool small_strain = false;
-  using ElasticConstants::ElasticConstants;
-  using ElasticConstants::parameters;
+  using VolumetricSplit::VolumetricSplit;
 
+  /// Volume ratio that the volumetric energy kappa/2 (J - 1)^2 sees.
   template <class T>
-  PIOLA_FN T pressure(Mat<3, T> const& F) const {
-    return kappa * (determinant(F) - 1.0);
+  PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
+    return determinant(F);
   }
+  /// P with the pressure p given, for schemes that do not take it from this F alone.
   template <class T>
-  PIOLA_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
+  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, T const& p) const {
     Mat<3, T> const H = cofactor(F);
     T const J = F(0, 0) * H(0, 0) + F(0, 1) * H(0, 1) + F(0, 2) * H(0, 2);
     T const a = power_minus_third(J);
     T const shear = mu * (a * a);
-    T const along_H = kappa * (J - 1.0) - shear * contract(F, F) / (3.0 * J);
+    T const along_H = p - shear * contract(F, F) / (3.0 * J);
     return shear * F + along_H * H;
   }
+  /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T energy(Mat<3, T> const& F) const {
-    T const J = determinant(F);
-    T const a = power_minus_third(J);
-    return 0.5 * mu * (a * a * contract(F, F) - 3.0) + 0.5 * kappa * ((J - 1.0) * (J - 1.0));
+  PIOLA_FN T isochoric_energy(Mat<3, T> const& F) const {
+    T const a = power_minus_third(determinant(F));
+    return 0.5 * mu * (a * a * contract(F, F) - 3.0);
   }
 };
 

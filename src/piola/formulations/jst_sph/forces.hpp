@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/jst_sph/passes.hpp"
+
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+
+/// Sums of a body in the form that mechanics/rigid_rate.hpp wants: arms x, and a rate with its moments.
+template <int D, class At, int N>
+RateSums rate_sums(exec::Totals<N> const& sums, int rate, int moment, double total_volume) {
+  static constexpr int to3[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
+  RateSums r;
+  r.volume = total_volume;
+  for (int c = 0; c < D; ++c) {
+    r.x[c] = sums.v[At::x + c];
+    r.f[c] = sums.v[rate + c];
+  }
+  for (int c = 0; c < SymMat<D>::size; ++c) r.xx[to3[D - 1][c]] = sums.v[At::xx + c];
+  for (int c = 0; c < spins<D>; ++c) r.moment[D == 3 ? c : 2] = sums.v[moment + c];
+  return r;
+}
+
+/// The second sweep of a stage: -T + D of every particle, and the rigid rate that removes their resultant and moment.
+template <int D, class Loader>
+class Forces {
+ public:
+  Forces(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
+
+  /// `time`: how long these forces act, for the books of energy [s].
+  RigidRate operator()(double time) {
+    switch (b_.constants.biharmonic) {
+      case Biharmonic::adjoint: return sum<Biharmonic::adjoint>(time);
+      case Biharmonic::literal: return sum<Biharmonic::literal>(time);
+      default: return sum<Biharmonic::none>(time);
+    }
+  }
+
+ private:
+  template <Biharmonic B>
+  RigidRate sum(double time) {
+    SumForces<D, B, Loader> const pass{loader_,
+                                       {read_neighbours(b_.second), read_reference(b_.alpha), read_reference(b_.beta)},
+                                       b_.constants,
+                                       read(b_.A),
+                                       read(b_.w),
+                                       read_reference(b_.V),
+                                       read_reference(b_.G),
+                                       read_reference(b_.diagonal),
+                                       read(b_.wave_speed),
+                                       read(b_.x),
+                                       read(b_.v),
+                                       write(b_.rate),
+                                       read(b_.rate)};
+    return project(exec::reduce<At::size>(b_.slots, pass, b_.partial), time);
+  }
+
+  /// Projections of T and D (47)-(49) and their powers.
+  RigidRate project(exec::Totals<ForceTotals<D>::size> const& sums, double time) {
+    auto const of = [&](int rate, int moment) {
+      return rate_sums<D, At>(sums, rate, moment, b_.constants.total_volume);
+    };
+    RigidRate on_T, on_D;
+    if (b_.constants.project) {
+      on_T = balancing_rate(of(At::T, At::moment_T), D);
+      on_D = balancing_rate(of(At::stabilisation, At::moment_stabilisation), D);
+    }
+    RateSums const v = of(At::v, At::moment_v);
+    double const weight = time * b_.constants.rho0;
+    b_.totals.projection_loss -= weight * power_of(on_T, v);
+    b_.totals.stabilisation_loss -= weight * (sums.v[At::power_stabilisation] + power_of(on_D, v));
+    RigidRate both = on_T;
+    for (int c = 0; c < 3; ++c) {
+      both.spin[c] += on_D.spin[c];
+      both.push[c] += on_D.push[c];
+      both.centre[c] += b_.constants.centre[c];
+    }
+    return both;
+  }
+
+  using At = ForceTotals<D>;
+  BodyState& b_;
+  Loader loader_;
+};
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE

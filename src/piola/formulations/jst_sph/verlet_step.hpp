@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/jst_sph/forces.hpp"
+#include "piola/formulations/jst_sph/verlet_passes.hpp"
+#include "piola/materials/laws.hpp"
+#include "piola/parallel/halo.hpp"
+
+/// One time step of the default scheme: kick, drift, forces, kick. Derivation: docs/theory/jst-sph-default.md.
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+
+template <int D, class Loader>
+class VerletStep {
+ public:
+  VerletStep(BodyState& body, Loader const& loader) : b_(body), loader_(loader), forces_(body, loader) {}
+
+  /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations a^n of the state are made.
+  void operator()(double dt) {
+    RigidRate const without_rigid = kick_and_drift(dt);                      // v^(n+1/2), x^(n+1)
+    halo_.refresh(b_.u);
+    bool const filtered = b_.constants.kappa_filtered > 0;
+    if (b_.constants.biharmonic == Biharmonic::none)
+      deform<0>(dt, without_rigid, filtered);                                // F^(n+1), J
+    else
+      deform<2>(dt, without_rigid, filtered);                                // F^(n+1), J, L v'
+    if (filtered) {
+      filter();                                                              // q = B* kappa_f (B J - 1)
+      weight_stress();                                                       // P(F, kappa_l (J - 1) + q), A
+    }
+    halo_.refresh(b_.second);
+    RigidRate const balance = forces_(dt);                                   // -T + D at n + 1
+    kick(dt, balance);                                                       // v^(n+1)
+  }
+
+ private:
+  using At = MotionTotals<D>;
+
+  RigidRate kick_and_drift(double dt) {
+    KickAndDrift<D> const pass{dt,          b_.constants, read_reference(b_.V), read(b_.rate), read(b_.v),
+                               read(b_.x),  write(b_.v),  write(b_.x)};
+    auto const sums = exec::reduce<At::size>(b_.slots, pass, b_.partial);
+    return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
+  }
+
+  template <int Laplacians>
+  void deform(double dt, RigidRate const& without_rigid, bool filtered) {
+    DifferentiateVelocity<D, Laplacians, Loader> const sweep{
+        loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
+    with_law(b_.material, [&](auto const& law) {
+      using Law = std::decay_t<decltype(law)>;
+      Deform<D, Laplacians> const shape{dt,
+                                        b_.constants,
+                                        Law::small_strain,
+                                        without_rigid,
+                                        read_reference(b_.C),
+                                        read_reference(b_.V),
+                                        read(b_.F),
+                                        write(b_.F),
+                                        write(b_.wave_speed),
+                                        write(b_.volume_ratio),
+                                        write(b_.w),
+                                        write(b_.rate),
+                                        b_.failure};
+      if (filtered) return exec::for_each_then(b_.slots, sweep, exec::erased(shape));
+      DeformAndWeightStress<D, Laplacians, Law> const both{shape, stress_pass(law)};
+      exec::for_each_then(b_.slots, sweep, exec::erased(both));
+    });
+  }
+
+  template <class Law>
+  WeightStress<D, Law> stress_pass(Law const& law) {
+    return {law,          b_.constants,          read_reference(b_.C),     read_reference(b_.V),
+            read(b_.F),   read(b_.volume_ratio), read(b_.filtered_pressure), write(b_.A)};
+  }
+  void weight_stress() {
+    with_law(b_.material, [&](auto const& law) { exec::for_each(b_.slots, stress_pass(law)); });
+  }
+
+  /// q = B* kappa_f (B J - 1), B = S^n; S is its own adjoint in the tributary volumes.
+  void filter() {
+    int const n = b_.constants.filter_passes;
+    exec::for_each(b_.slots, PrepareFilter{read_reference(b_.V), read(b_.volume_ratio), read(b_.filter_scale),
+                                           write(b_.filter_source[0])});
+    for (int k = 0; k < n; ++k)
+      smooth(k, k == 0 ? b_.volume_ratio : b_.filtered_ratio, b_.filtered_ratio);
+    pressure_of_filtered_ratio();
+    for (int k = 0; k < n; ++k) smooth(n + 1 + k, b_.filtered_pressure, b_.filtered_pressure);
+  }
+
+  /// q = kappa_f (Jf - 1) and its source for the passes of B*.
+  void pressure_of_filtered_ratio() {
+    int const to = (b_.constants.filter_passes + 1) % 2;
+    exec::for_each(b_.slots, Compress{b_.constants.kappa_filtered, read_reference(b_.V), read(b_.filtered_ratio),
+                                      read(b_.filter_scale), write(b_.filtered_pressure), write(b_.filter_source[to])});
+  }
+
+  void smooth(int pass_number, FieldRef const& from, FieldRef const& to) {
+    FieldRef const &source = b_.filter_source[pass_number % 2], &next = b_.filter_source[(pass_number + 1) % 2];
+    halo_.refresh(source);
+    exec::for_each(b_.slots,
+                   Smooth<Loader>{loader_, {read_neighbours(source)}, read_reference(b_.V), read(from),
+                                  read(b_.filter_scale), read(b_.filter_sum), write(to), write(next)});
+  }
+
+  void kick(double dt, RigidRate const& balance) {
+    exec::for_each(b_.slots, Kick<D>{dt, balance, read(b_.rate), read(b_.v), read(b_.x), write(b_.rate), write(b_.v)});
+    exec::for_each_item(b_.support_count, HoldVelocity{b_.supports, write(b_.v), write(b_.rate)});
+  }
+
+  BodyState& b_;
+  Loader loader_;
+  Forces<D, Loader> forces_;
+  Halo halo_;
+};
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE

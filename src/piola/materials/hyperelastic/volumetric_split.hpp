@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/elastic_constants.hpp"
+#include "piola/math/tensor.hpp"
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law gives
+/// isochoric_energy(F), volume_ratio(F) and first_piola(F, p) with the pressure given; the rest follows here. Schemes that
+/// take the pressure from elsewhere (an evolved or filtered J) use the three questions directly.
+template <class Law>
+struct VolumetricSplit : ElasticConstants {
+  using ElasticConstants::ElasticConstants;
+  using ElasticConstants::parameters;
+
+  /// p = kappa (J - 1), positive in tension (eq. 11) [Pa].
+  template <class T>
+  PIOLA_FN T pressure(Mat<3, T> const& F) const {
+    return kappa * (law().volume_ratio(F) - 1.0);
+  }
+  /// P(F) [Pa] with the pressure of the same F.
+  template <class T>
+  PIOLA_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
+    return law().stress_with_pressure(F, pressure(F));
+  }
+  /// Stored energy per reference volume [J/m^3].
+  template <class T>
+  PIOLA_FN T energy(Mat<3, T> const& F) const {
+    T const change = law().volume_ratio(F) - 1.0;
+    return law().isochoric_energy(F) + 0.5 * kappa * (change * change);
+  }
+
+ private:
+  PIOLA_FN Law const& law() const { return static_cast<Law const&>(*this); }
+};
+
+}  // namespace piola::inline PIOLA_MACHINE
