@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/simulation/bench.hpp"
+#include "commands.hpp"
 #include <fmt/format.h>
 #include <memory>
 
@@ -30,13 +30,17 @@ int bench(Options options) {
 
 void add_bench(CLI::App& program, Action& action) {
   auto const options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("bench", "Measure particle-stages per second of the full right-hand side on this computer");
+  CLI::App* command = program.add_subcommand(
+      "bench", "Measure particle-stages per second of the full right-hand side on this computer");
   command->add_option("formulation", options->formulation, "What to measure (default: jst_sph)");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quick", options->quick, "A few seconds only: 24^3 particles");
-  command->add_option("--side", options->bench.particles_per_side, "Particles per side of the cube (default 64)")->check(CLI::Range(8, 512));
-  command->add_option("--repeats", options->bench.repeats, "Time steps per measurement, the fastest counts (default 8)")->check(CLI::Range(1, 1000));
-  command->add_option("--threads", options->bench.threads, "Numbers of threads (default 1 2)")->check(CLI::Range(1, 1024));
+  command->add_option("--side", options->bench.particles_per_side, "Particles per side of the cube (default 64)")
+      ->check(CLI::Range(8, 512));
+  command->add_option("--repeats", options->bench.repeats, "Time steps per measurement, the fastest counts (default 8)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--threads", options->bench.threads, "Numbers of threads (default 1 2)")
+      ->check(CLI::Range(1, 1024));
   command->add_option("--machine", options->bench.machine, "Instruction set beside the scalar path (default auto)");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

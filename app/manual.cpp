@@ -143,7 +143,8 @@ std::string describe_section(SectionInfo const& section, Layout layout) {
   return text + (markdown ? "" : "\n");
 }
 
-template <class Items> std::string short_list(std::string_view heading, Items const& items) {
+template <class Items>
+std::string short_list(std::string_view heading, Items const& items) {
   std::string text = fmt::format("{}\n", heading);
   for (auto const& item : items) text += fmt::format("  {:<16} {}\n", item.name, item.about);
   return text;

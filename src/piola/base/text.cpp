@@ -9,7 +9,8 @@
 namespace piola {
 namespace {
 
-template <class Word> std::string join(std::span<Word const> words, std::string_view separator) {
+template <class Word>
+std::string join(std::span<Word const> words, std::string_view separator) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += separator;

@@ -24,14 +24,14 @@ struct FieldRef {
   std::ptrdiff_t particle_stride = 1;
   FieldVersion* version = nullptr;
   char const* name = "";
-  /// Reference fields of regular lattices, where most groups of lanes are alike: where a group of lanes is stored, counted
-  /// in groups. nullptr: particle i is stored at i.
+  /// Reference fields of regular lattices, where most groups of lanes are alike: where a group of lanes is stored,
+  /// counted in groups. nullptr: particle i is stored at i.
   std::int32_t const* group = nullptr;
 };
 
-/// A particle field. By itself: one array per component, one after the other, with `guard` readable zeros before the first
-/// and after the last particle, so that a loop over lanes may read beyond the ends. Or a part of memory that several
-/// fields share, for loops that read them together.
+/// A particle field. By itself: one array per component, one after the other, with `guard` readable zeros before the
+/// first and after the last particle, so that a loop over lanes may read beyond the ends. Or a part of memory that
+/// several fields share, for loops that read them together.
 class Field {
  public:
   Field(char const* name, char const* unit, int components, Role role)
@@ -47,8 +47,8 @@ class Field {
     ref_ = {memory_.data() + pad, 8 * lines, 1, &version_, name_};
     particles_ = particles;
   }
-  /// Lives in memory that several fields share: component c of particle i at data[first + c * component + i * particle].
-  /// Fields that are exchanged together share a version.
+  /// Lives in memory that several fields share: component c of particle i at data[first + c * component + i *
+  /// particle]. Fields that are exchanged together share a version.
   void place(double* data, std::ptrdiff_t component, std::ptrdiff_t particle, std::ptrdiff_t first, Index particles,
              FieldVersion* version = nullptr) {
     ref_ = {data + first, component, particle, version != nullptr ? version : &version_, name_};

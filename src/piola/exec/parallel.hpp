@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/math/lanes.hpp"
 #include "piola/exec/threads.hpp"
+#include "piola/math/lanes.hpp"
 #include <type_traits>
 
 namespace piola {
@@ -24,8 +24,8 @@ struct FailureSlot {
 namespace piola::inline PIOLA_MACHINE {
 namespace exec {
 
-/// Particles that one thread works on at a time: the scratch of fused sweeps stays in the first-level cache, and partial
-/// sums belong to blocks, not threads, so that results do not depend on the number of threads.
+/// Particles that one thread works on at a time: the scratch of fused sweeps stays in the first-level cache, and
+/// partial sums belong to blocks, not threads, so that results do not depend on the number of threads.
 inline constexpr Index block_size = 64;
 
 inline Index block_count(Range r) { return (r.last - r.first + block_size - 1) / block_size; }
@@ -38,8 +38,8 @@ PIOLA_FN Range block(Range r, Index k) {
 /// Results of the first half of a fused sweep, for the particles of one block: sum c of particle i.
 struct Scratch {
   double* data;
-  Index first;    ///< particle of data[0]
-  Index stride;   ///< between sums
+  Index first;   ///< particle of data[0]
+  Index stride;  ///< between sums
   PIOLA_FN double* at(Index i, int c) const { return data + static_cast<std::ptrdiff_t>(c) * stride + (i - first); }
 };
 
@@ -79,7 +79,8 @@ void for_each_block(Range r, Pass const& pass) {
   if (r.last > r.first) each_block<<<grid(block_count(r)), threads_per_block>>>(r, pass);
 }
 #else
-/// Threads for the particles of r: a thread is worth its start and its barrier only with some thousand particles to work on.
+/// Threads for the particles of r: a thread is worth its start and its barrier only with some thousand particles to
+/// work on.
 inline int team(Range r) {
   constexpr Index least = 2048;
   Index const worth = (r.last - r.first) / least + 1;

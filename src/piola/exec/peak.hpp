@@ -6,8 +6,8 @@
 namespace piola::inline PIOLA_MACHINE {
 namespace exec {
 
-/// Executes 16 independent chains of `rounds` fused multiply-adds on packs of lanes; returns a number that depends on all
-/// of them, so that none is left out. Operations: 16 * rounds vector instructions.
+/// Executes 16 independent chains of `rounds` fused multiply-adds on packs of lanes; returns a number that depends on
+/// all of them, so that none is left out. Operations: 16 * rounds vector instructions.
 inline constexpr int fma_chains = 16;
 inline double run_fma_chains(long rounds) {
   Lanes chain[fma_chains];

@@ -20,26 +20,26 @@ struct FieldInfo {
 
 /// Integral quantities of the whole system at one time, SI units.
 struct Diagnostics {
-  double kinetic_energy = 0;      ///< J
-  double strain_energy = 0;       ///< J
-  double stabilisation_loss = 0;  ///< J, energy removed by the stabilisation since the start
-  double projection_loss = 0;     ///< J, energy removed by the momentum projections since the start
-  double external_work = 0;       ///< J, work of loads and driven supports since the start
+  double kinetic_energy = 0;                 ///< J
+  double strain_energy = 0;                  ///< J
+  double stabilisation_loss = 0;             ///< J, energy removed by the stabilisation since the start
+  double projection_loss = 0;                ///< J, energy removed by the momentum projections since the start
+  double external_work = 0;                  ///< J, work of loads and driven supports since the start
   std::array<double, 3> linear_momentum{};   ///< kg m/s
   std::array<double, 3> angular_momentum{};  ///< kg m2/s, about the origin
   double jacobian_min = 0, jacobian_max = 0;
-  double pressure_min = 0, pressure_max = 0;  ///< Pa, positive in tension
-  double pressure_oscillation = 0;            ///< 1 for a checkerboard, O(dx^2) for a smooth field
+  double pressure_min = 0, pressure_max = 0;         ///< Pa, positive in tension
+  double pressure_oscillation = 0;                   ///< 1 for a checkerboard, O(dx^2) for a smooth field
   std::vector<std::pair<std::string, double>> more;  ///< columns of this formulation only
   double total_energy() const { return kinetic_energy + strain_energy; }
 };
 
 /// The first particle at which the physics left its admissible range.
 struct Failure {
-  std::string what;              ///< e.g. "is inverted", "has a stress that is not a number"
-  std::int64_t particle = -1;    ///< Id
+  std::string what;            ///< e.g. "is inverted", "has a stress that is not a number"
+  std::int64_t particle = -1;  ///< Id
   std::string body;
-  std::array<double, 3> X{}, x{};  ///< reference and current position, m
+  std::array<double, 3> X{}, x{};                      ///< reference and current position, m
   std::vector<std::pair<std::string, double>> values;  ///< e.g. {"det F", -0.02}, {"neighbours", 27}
 };
 
@@ -62,9 +62,9 @@ class Formulation {
  public:
   virtual ~Formulation() = default;
 
-  virtual double stable_time_step() const = 0;        ///< s, from the current state
-  virtual void step(double time, double dt) = 0;      ///< from time to time + dt
-  virtual std::optional<Failure> failure() const = 0; ///< set once the state is not admissible any more
+  virtual double stable_time_step() const = 0;         ///< s, from the current state
+  virtual void step(double time, double dt) = 0;       ///< from time to time + dt
+  virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;
 
   virtual std::vector<FieldInfo> fields() const = 0;
@@ -74,7 +74,7 @@ class Formulation {
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;
 
-  virtual int stages_per_step() const = 0;    ///< right-hand sides per step
+  virtual int stages_per_step() const = 0;  ///< right-hand sides per step
   virtual std::size_t memory_bytes() const = 0;
 };
 

@@ -33,7 +33,8 @@ std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
   std::string const name = assembly.formulations.empty() ? std::string() : assembly.formulations.front().name;
   for (auto const& other : assembly.formulations)
     if (other.name != name)
-      throw InputError("formulations '" + name + "' and '" + other.name + "' cannot run together - give all bodies the same one");
+      throw InputError("formulations '" + name + "' and '" + other.name +
+                       "' cannot run together - give all bodies the same one");
   for (auto const& entry : all)
     if (entry.info.name == name) return entry.make(assembly);
   throw InputError("no formulation is named '" + name + "'");

@@ -12,11 +12,11 @@ namespace piola {
 
 /// A formulation as the case reader, `piola describe` and the manual see it.
 struct FormulationInfo {
-  std::string_view name;   ///< key `formulation.name` of a case file
-  std::string_view about;  ///< one line, with the paper
-  std::span<Parameter const> parameters;  ///< optional numbers; a default of no_default means "set by `scheme`"
-  std::span<Choice const> choices;        ///< optional words
-  std::span<std::string_view const> laws; ///< names of the laws it can use
+  std::string_view name;                   ///< key `formulation.name` of a case file
+  std::string_view about;                  ///< one line, with the paper
+  std::span<Parameter const> parameters;   ///< optional numbers; a default of no_default means "set by `scheme`"
+  std::span<Choice const> choices;         ///< optional words
+  std::span<std::string_view const> laws;  ///< names of the laws it can use
 };
 
 std::span<FormulationInfo const> formulations();

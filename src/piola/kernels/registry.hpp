@@ -10,8 +10,8 @@ namespace piola {
 struct Kernel {
   std::string_view name;
   std::string_view about;
-  double support;                 ///< in units of h
-  double (*sigma)(int dimension); ///< normalisation
+  double support;                  ///< in units of h
+  double (*sigma)(int dimension);  ///< normalisation
   double (*w)(double q);
   double (*dw)(double q);
 };

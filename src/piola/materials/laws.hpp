@@ -8,8 +8,7 @@
 namespace piola::inline PIOLA_MACHINE {
 
 /// What a total-Lagrangian formulation asks of a law, at one point, in three dimensions. T is double or lanes.
-template <class Law>
-concept Hyperelastic = requires(Law const& law, Mat<3> const& F, double p) {
+template <class Law> concept Hyperelastic = requires(Law const& law, Mat<3> const& F, double p) {
   { law.stress_with_pressure(F, p) } -> std::same_as<Mat<3>>;
   { law.isochoric_energy(F) } -> std::same_as<double>;
   { law.volume_ratio(F) } -> std::same_as<double>;

@@ -18,8 +18,8 @@ struct LawInfo {
 /// A law with the values of its parameters: plain data, so that it may cross to any machine.
 struct MaterialParameters {
   static constexpr int max_values = 24;
-  int law = 0;                  ///< LawInfo::index
-  double value[max_values]{};   ///< in the order of LawInfo::parameters, SI
+  int law = 0;                 ///< LawInfo::index
+  double value[max_values]{};  ///< in the order of LawInfo::parameters, SI
 };
 
 std::span<LawInfo const> laws();

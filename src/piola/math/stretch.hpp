@@ -6,8 +6,8 @@ namespace piola::inline PIOLA_MACHINE {
 
 /// Smallest eigenvalue of C = F^T F, i.e. the square of the smallest principal stretch.
 ///
-/// With q = tr C / 3, B = C - q I, p = sqrt(B:B / 6), r = det(B / p) / 2 the eigenvalues are q + p t with t^3 - 3 t = 2 r.
-/// The smallest root is t = -1 - d, where d sqrt(3 + d) = sqrt(2 (1 - r)); this form has no multiple root, so two
+/// With q = tr C / 3, B = C - q I, p = sqrt(B:B / 6), r = det(B / p) / 2 the eigenvalues are q + p t with t^3 - 3 t = 2
+/// r. The smallest root is t = -1 - d, where d sqrt(3 + d) = sqrt(2 (1 - r)); this form has no multiple root, so two
 /// Newton steps from a rational start reach round-off for every r in [-1, 1], with no trigonometry.
 template <class T>
 PIOLA_FN T smallest_stretch_squared(Mat<3, T> const& F) {

@@ -43,8 +43,8 @@ PIOLA_FN Vec<D, T> operator-(Vec<D, T> a, Vec<D, T> const& b) {
   return a;
 }
 template <int D, class T, class S>
-  requires std::is_convertible_v<S, T>
-PIOLA_FN Vec<D, T> operator*(S const& s, Vec<D, T> a) {
+  requires std::is_convertible_v<S, T> PIOLA_FN Vec<D, T>
+operator*(S const& s, Vec<D, T> a) {
   for (int i = 0; i < D; ++i) a[i] = s * a[i];
   return a;
 }
@@ -70,8 +70,8 @@ PIOLA_FN Mat<D, T> operator-(Mat<D, T> A, Mat<D, T> const& B) {
   return A;
 }
 template <int D, class T, class S>
-  requires std::is_convertible_v<S, T>
-PIOLA_FN Mat<D, T> operator*(S const& s, Mat<D, T> A) {
+  requires std::is_convertible_v<S, T> PIOLA_FN Mat<D, T>
+operator*(S const& s, Mat<D, T> A) {
   for (int k = 0; k < D * D; ++k) A.c[k] = s * A.c[k];
   return A;
 }

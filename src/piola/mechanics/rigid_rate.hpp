@@ -12,9 +12,9 @@ struct RigidRate {
 /// Sums over a body of a rate f with weights V, arms x from any common origin; unused components zero.
 struct RateSums {
   double volume = 0;
-  double x[3]{};    ///< sum V x
-  double xx[6]{};   ///< sum V x (x) x: XX YY ZZ XY YZ XZ
-  double f[3]{};    ///< sum V f
+  double x[3]{};       ///< sum V x
+  double xx[6]{};      ///< sum V x (x) x: XX YY ZZ XY YZ XZ
+  double f[3]{};       ///< sum V f
   double moment[3]{};  ///< sum V x cross f
 };
 
@@ -29,7 +29,8 @@ PIOLA_FN RigidRate balancing_rate(RateSums const& s, int dimension) {
     g.centre[c] = s.x[c] / s.volume;
   }
   double const* const o = g.centre;
-  double const torque[3] = {s.moment[0] - (o[1] * s.f[2] - o[2] * s.f[1]), s.moment[1] - (o[2] * s.f[0] - o[0] * s.f[2]),
+  double const torque[3] = {s.moment[0] - (o[1] * s.f[2] - o[2] * s.f[1]),
+                            s.moment[1] - (o[2] * s.f[0] - o[0] * s.f[2]),
                             s.moment[2] - (o[0] * s.f[1] - o[1] * s.f[0])};
   double const xx = s.xx[0] - s.volume * o[0] * o[0], yy = s.xx[1] - s.volume * o[1] * o[1],
                zz = s.xx[2] - s.volume * o[2] * o[2], xy = s.xx[3] - s.volume * o[0] * o[1],

@@ -40,7 +40,8 @@ CellGrid::CellGrid(std::vector<std::array<double, 3>> const& points, double cell
 std::array<std::int64_t, 3> CellGrid::cell_of(std::array<double, 3> const& x) const {
   std::array<std::int64_t, 3> c{};
   for (std::size_t k = 0; k < 3; ++k)
-    c[k] = std::clamp(static_cast<std::int64_t>(std::floor((x[k] - origin_[k]) / cell_)), std::int64_t{0}, count_[k] - 1);
+    c[k] =
+        std::clamp(static_cast<std::int64_t>(std::floor((x[k] - origin_[k]) / cell_)), std::int64_t{0}, count_[k] - 1);
   return c;
 }
 

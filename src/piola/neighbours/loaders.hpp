@@ -23,13 +23,13 @@ struct PairGeometry {
   Vec<D, V> sr;  ///< raw gradient s r
   Vec<D, V> r;   ///< X_b - X_a
   V r2;
-  V l;           ///< raw Laplacian weight
-  V weight;      ///< 1, or 0 for a lane without this neighbour
-  V kernel;      ///< W of the Laplacian's support, where tables hold it
+  V l;       ///< raw Laplacian weight
+  V weight;  ///< 1, or 0 for a lane without this neighbour
+  V kernel;  ///< W of the Laplacian's support, where tables hold it
 };
 
-/// Lanes are consecutive particles of a regular lattice: neighbours arrive by unit-stride loads, geometry is the same for
-/// all lanes and comes from a small table.
+/// Lanes are consecutive particles of a regular lattice: neighbours arrive by unit-stride loads, geometry is the same
+/// for all lanes and comes from a small table.
 template <int D>
 struct StencilLoader {
   StencilTable table;
@@ -53,7 +53,8 @@ struct StencilLoader {
 
  private:
   template <bool Masked, bool Inner, class Body, class Own>
-  PIOLA_FN void visit(Index i, StencilEntry const& e, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
+  PIOLA_FN void visit(Index i, StencilEntry const& e, Body const& body, Own const& own,
+                      Lanes (&sums)[Body::sums]) const {
     constexpr int fields = Inner ? Body::fields : Body::outer_fields;
     StencilOffset const& o = table.offsets[e.offset];
     Lanes f[fields];
@@ -78,8 +79,8 @@ struct StencilLoader {
   }
 };
 
-/// Lanes are neighbours of one particle, taken from a list; their records are loaded and transposed. On a machine without
-/// packs (and on a GPU) this is the plain loop over neighbours.
+/// Lanes are neighbours of one particle, taken from a list; their records are loaded and transposed. On a machine
+/// without packs (and on a GPU) this is the plain loop over neighbours.
 template <int D>
 struct ListLoader {
   ListTable table;

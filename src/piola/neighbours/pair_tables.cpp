@@ -40,7 +40,7 @@ void ReferencePairs::make_stencils() {
   std::map<Shape, std::int32_t> known;
   std::int64_t lanes_present = 0, lanes_all = 0;
   std::vector<LanePair> pairs;
-  auto const add = [&](Shape const& shape, int group, bool masked, std::int32_t (&run)[2]) {
+  auto const add = [&](Shape const& shape, int group, bool masked, std::int32_t(&run)[2]) {
     run[0] = static_cast<std::int32_t>(entries_.size());
     for (auto const& e : shape) {
       if (e[0] != group || (e[3] != full) != masked) continue;
@@ -52,7 +52,9 @@ void ReferencePairs::make_stencils() {
   for (Index first = 0; first < static_cast<Index>(id_.size()); first += W) {
     pairs.clear();
     for (int lane = 0; lane < W && first + lane < particles_; ++lane)
-      visit(first + lane, [&](Pair const& p) { pairs.push_back({p.inner ? 0 : 1, p.b - (first + lane), p.offset, lane}); });
+      visit(first + lane, [&](Pair const& p) {
+        pairs.push_back({p.inner ? 0 : 1, p.b - (first + lane), p.offset, lane});
+      });
     Shape const shape = shape_of(pairs);
     lanes_present += static_cast<std::int64_t>(pairs.size());
     lanes_all += static_cast<std::int64_t>(shape.size()) * W;
@@ -97,7 +99,8 @@ void ReferencePairs::make_list() {
       pad(a);
     };
     run(true);
-    list_inner_.push_back(static_cast<std::int32_t>(static_cast<std::int64_t>(list_neighbour_.size()) - list_begin_.back()));
+    list_inner_.push_back(
+        static_cast<std::int32_t>(static_cast<std::int64_t>(list_neighbour_.size()) - list_begin_.back()));
     run(false);
   }
   list_begin_.push_back(static_cast<std::int64_t>(list_neighbour_.size()));

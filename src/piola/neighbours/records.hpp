@@ -5,8 +5,9 @@
 #include <immintrin.h>
 #endif
 
-/// Gathering whole records of neighbours (load and transpose) and adding up lanes. A gather instruction costs as much as
-/// the scalar loads it replaces; loading each neighbour's record as a vector and transposing is two to four times faster.
+/// Gathering whole records of neighbours (load and transpose) and adding up lanes. A gather instruction costs as much
+/// as the scalar loads it replaces; loading each neighbour's record as a vector and transposing is two to four times
+/// faster.
 namespace piola::inline PIOLA_MACHINE {
 
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
@@ -46,7 +47,8 @@ template <int N>
 PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
   for (int first = 0; first < N; first += 8) {
     __m512d r[8], s[4], x[2];
-    for (int c = 0; c < 8; ++c) r[c] = first + c < N ? static_cast<__m512d>(a[first + c < N ? first + c : 0]) : _mm512_setzero_pd();
+    for (int c = 0; c < 8; ++c)
+      r[c] = first + c < N ? static_cast<__m512d>(a[first + c < N ? first + c : 0]) : _mm512_setzero_pd();
     for (int k = 0; k < 4; ++k)
       s[k] = _mm512_add_pd(_mm512_unpacklo_pd(r[2 * k], r[2 * k + 1]), _mm512_unpackhi_pd(r[2 * k], r[2 * k + 1]));
     for (int k = 0; k < 2; ++k)
@@ -77,9 +79,11 @@ template <int N>
 PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
   for (int first = 0; first < N; first += 4) {
     __m256d r[4], s[2];
-    for (int c = 0; c < 4; ++c) r[c] = first + c < N ? static_cast<__m256d>(a[first + c < N ? first + c : 0]) : _mm256_setzero_pd();
+    for (int c = 0; c < 4; ++c)
+      r[c] = first + c < N ? static_cast<__m256d>(a[first + c < N ? first + c : 0]) : _mm256_setzero_pd();
     for (int k = 0; k < 2; ++k) s[k] = _mm256_hadd_pd(r[2 * k], r[2 * k + 1]);
-    _mm256_storeu_pd(out + first, _mm256_add_pd(_mm256_permute2f128_pd(s[0], s[1], 0x20), _mm256_permute2f128_pd(s[0], s[1], 0x31)));
+    _mm256_storeu_pd(out + first,
+                     _mm256_add_pd(_mm256_permute2f128_pd(s[0], s[1], 0x20), _mm256_permute2f128_pd(s[0], s[1], 0x31)));
   }
 }
 #else

@@ -122,9 +122,9 @@ void ReferencePairs::refuse(ParticleSet const& set, Body const& body, Index a, i
 namespace {
 
 struct Moments {
-  double M[6]{};         // sum s r (x) r
-  double G[3]{};         // sum s r
-  double L[16]{};        // left-hand side of (A.5) in units of h
+  double M[6]{};   // sum s r (x) r
+  double G[3]{};   // sum s r
+  double L[16]{};  // left-hand side of (A.5) in units of h
   double rhs[4]{};
   int inner = 0, all = 0;
 };
@@ -217,12 +217,17 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body) {
 }
 
 StencilTable ReferencePairs::stencil() const {
-  return {offsets_.data(), entries_.data(), patterns_.data(), pattern_of_.data(), weights_.data(), offset_kernel_.data()};
+  return {offsets_.data(),    entries_.data(), patterns_.data(),
+          pattern_of_.data(), weights_.data(), offset_kernel_.data()};
 }
 
 ListTable ReferencePairs::list() const {
-  return {list_begin_.data(), list_inner_.data(), list_neighbour_.data(), list_s_.data(),
-          list_l_.empty() ? nullptr : list_l_.data(), list_kernel_.empty() ? nullptr : list_kernel_.data()};
+  return {list_begin_.data(),
+          list_inner_.data(),
+          list_neighbour_.data(),
+          list_s_.data(),
+          list_l_.empty() ? nullptr : list_l_.data(),
+          list_kernel_.empty() ? nullptr : list_kernel_.data()};
 }
 
 ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& volume) const {
@@ -257,7 +262,8 @@ ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& vo
 std::size_t ReferencePairs::bytes() const {
   return offsets_.size() * sizeof(StencilOffset) + entries_.size() * sizeof(StencilEntry) +
          patterns_.size() * sizeof(StencilPattern) + pattern_of_.size() * 4 + weights_.size() * 8 +
-         list_begin_.size() * 12 + list_neighbour_.size() * 4 + (list_s_.size() + list_l_.size() + list_kernel_.size()) * 8;
+         list_begin_.size() * 12 + list_neighbour_.size() * 4 +
+         (list_s_.size() + list_l_.size() + list_kernel_.size()) * 8;
 }
 
 }  // namespace piola

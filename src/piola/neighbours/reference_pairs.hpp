@@ -17,11 +17,11 @@ inline double squared(std::array<double, 3> const& r) { return r[0] * r[0] + r[1
 /// Supports of one body's kernel sums.
 struct PairOptions {
   Kernel const* kernel = nullptr;
-  double h_gradient = 0;   ///< smoothing length of the gradient [m]
-  double h_laplacian = 0;  ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
-  int lanes = 1;           ///< lane count of the machine that will use the tables
-  bool kernel_table = false;    ///< tables hold the kernel of the Laplacian's support (filter)
-  bool stencils = true;    ///< use lattice patterns where the body is a regular lattice
+  double h_gradient = 0;      ///< smoothing length of the gradient [m]
+  double h_laplacian = 0;     ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
+  int lanes = 1;              ///< lane count of the machine that will use the tables
+  bool kernel_table = false;  ///< tables hold the kernel of the Laplacian's support (filter)
+  bool stencils = true;       ///< use lattice patterns where the body is a regular lattice
 };
 
 /// Per-particle corrections; SoA, slot by slot. See tables.hpp for the operators.
@@ -30,7 +30,7 @@ struct Corrections {
   std::vector<std::array<double, 3>> G;      ///< sum s r
   std::vector<std::array<double, 3>> alpha;  ///< eq. (A.2), for r = X_b - X_a
   std::vector<double> beta;
-  std::vector<double> diagonal;              ///< sum (l + alpha.r + beta r.r)
+  std::vector<double> diagonal;  ///< sum (l + alpha.r + beta r.r)
   std::vector<int> neighbours;
 };
 
@@ -46,15 +46,15 @@ class ReferencePairs {
   ListTable list() const;
   Corrections const& corrections() const { return corrections_; }
   Index max_delta() const { return max_delta_; }  ///< largest distance in memory between neighbours
-  /// Scaling d of the doubly stochastic filter s_ab = d_a W_ab d_b, per slot: sum_b s_ab V_b = 1 with b = a included, by
-  /// d <- sqrt(d / sum_b W_ab V_b d_b). Row sums are then within 1e-8 of 1; the filter's diagonal makes them exact.
+  /// Scaling d of the doubly stochastic filter s_ab = d_a W_ab d_b, per slot: sum_b s_ab V_b = 1 with b = a included,
+  /// by d <- sqrt(d / sum_b W_ab V_b d_b). Row sums are then within 1e-8 of 1; the filter's diagonal makes them exact.
   struct Filter {
     std::vector<double> scale;  ///< d
     std::vector<double> sum;    ///< sum_{b != a} s_ab V_b
   };
   Filter make_filter(std::vector<double> const& volume) const;
   std::int64_t pair_count() const { return pairs_; }
-  double stencil_fill() const { return fill_; }   ///< share of lanes with a neighbour, regular bodies
+  double stencil_fill() const { return fill_; }  ///< share of lanes with a neighbour, regular bodies
   std::size_t bytes() const;
 
  private:
@@ -85,14 +85,14 @@ class ReferencePairs {
   double kernel_volume_;
   Index particles_;
   std::vector<std::int64_t> id_;
-  std::vector<std::array<double, 3>> X_;        // per slot
-  std::vector<std::array<int, 3>> at_;          // per slot: lattice index
-  std::vector<Index> slot_at_;                  // per lattice point
+  std::vector<std::array<double, 3>> X_;  // per slot
+  std::vector<std::array<int, 3>> at_;    // per slot: lattice index
+  std::vector<Index> slot_at_;            // per lattice point
   std::array<int, 3> lattice_;
   std::vector<std::array<int, 3>> lattice_offset_;
   std::vector<StencilOffset> offsets_;
   std::vector<char> offset_inner_;
-  std::vector<std::int64_t> found_begin_;       // irregular bodies
+  std::vector<std::int64_t> found_begin_;  // irregular bodies
   std::vector<Index> found_;
   Corrections corrections_;
   Index max_delta_ = 0;

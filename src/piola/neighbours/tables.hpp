@@ -42,15 +42,15 @@ struct StencilTable {
   double const* kernel = nullptr;  ///< per offset: W of the Laplacian's support [m^-D]
 };
 
-/// Any set of points: a list per particle, inner pairs first; both parts padded to a multiple of the lane count with the
-/// particle itself and zero weights.
+/// Any set of points: a list per particle, inner pairs first; both parts padded to a multiple of the lane count with
+/// the particle itself and zero weights.
 struct ListTable {
-  std::int64_t const* begin = nullptr;       ///< per particle: first inner pair; begin[n] is the end of the last
-  std::int32_t const* inner = nullptr;       ///< per particle: number of inner pairs with padding
+  std::int64_t const* begin = nullptr;  ///< per particle: first inner pair; begin[n] is the end of the last
+  std::int32_t const* inner = nullptr;  ///< per particle: number of inner pairs with padding
   Index const* neighbour = nullptr;
   double const* s = nullptr;
-  double const* l = nullptr;                 ///< nullptr: l = 2 s (equal supports)
-  double const* kernel = nullptr;            ///< W of the Laplacian's support [m^-D]; nullptr: not wanted
+  double const* l = nullptr;       ///< nullptr: l = 2 s (equal supports)
+  double const* kernel = nullptr;  ///< W of the Laplacian's support [m^-D]; nullptr: not wanted
 };
 
 }  // namespace piola

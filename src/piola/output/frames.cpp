@@ -13,7 +13,10 @@ namespace {
 
 using hdf5::Storage;
 
-template <class T> std::span<T const> one(T const& value) { return {&value, 1}; }
+template <class T>
+std::span<T const> one(T const& value) {
+  return {&value, 1};
+}
 
 std::vector<float> to_float(std::span<double const> values) {
   std::vector<float> out(values.size());

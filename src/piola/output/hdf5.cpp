@@ -12,13 +12,32 @@ namespace {
 constexpr std::size_t chunk_bytes = std::size_t{1}
                                     << 20;  // large enough to compress well, small enough to share among threads
 
-template <class T> hid_t native_type();
-template <> hid_t native_type<float>() { return H5T_NATIVE_FLOAT; }
-template <> hid_t native_type<double>() { return H5T_NATIVE_DOUBLE; }
-template <> hid_t native_type<std::int64_t>() { return H5T_NATIVE_INT64; }
-template <> hid_t native_type<std::int32_t>() { return H5T_NATIVE_INT32; }
-template <> hid_t native_type<std::uint8_t>() { return H5T_NATIVE_UINT8; }
-template <> hid_t native_type<char>() { return H5T_NATIVE_CHAR; }
+template <class T>
+hid_t native_type();
+template <>
+hid_t native_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t native_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+hid_t native_type<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+hid_t native_type<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+template <>
+hid_t native_type<char>() {
+  return H5T_NATIVE_CHAR;
+}
 
 /// HDF5 would print its own stack of errors; ours are exceptions.
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
@@ -177,7 +196,8 @@ std::vector<std::uint64_t> Reader::shape(std::string const& path) const {
   return {dims.begin(), dims.begin() + rank};
 }
 
-template <class T> std::vector<T> Reader::dataset(std::string const& path) const {
+template <class T>
+std::vector<T> Reader::dataset(std::string const& path) const {
   std::size_t count = 1;
   for (std::uint64_t const n : shape(path)) count *= n;
   std::vector<T> values(count);

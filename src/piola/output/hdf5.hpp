@@ -63,7 +63,8 @@ class Reader {
   bool has(std::string const& path) const;
   std::vector<std::string> names(std::string const& group) const;  ///< members, sorted
   std::vector<std::uint64_t> shape(std::string const& dataset) const;
-  template <class T> std::vector<T> dataset(std::string const& path) const;
+  template <class T>
+  std::vector<T> dataset(std::string const& path) const;
   std::string text(std::string const& object, std::string const& name) const;
   double number(std::string const& object, std::string const& name) const;
   std::int64_t integer(std::string const& object, std::string const& name) const;

@@ -8,7 +8,8 @@ namespace piola {
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   constexpr int rows = 8;
-  auto const longest = static_cast<std::size_t>(std::max_element(body.lattice.begin(), body.lattice.end()) - body.lattice.begin());
+  auto const longest =
+      static_cast<std::size_t>(std::max_element(body.lattice.begin(), body.lattice.end()) - body.lattice.begin());
   std::array<std::size_t, 3> const axis{longest, longest == 0 ? 1U : 0U, longest == 2 ? 1U : 2U};
   auto const key = [&](std::int64_t id) {
     auto const& at = set.lattice_index[static_cast<std::size_t>(id)];

@@ -10,7 +10,8 @@ namespace piola {
 namespace {
 
 /// Calls visit(id) for every particle of a body.
-template <class Visit> void for_each_id(Body const& body, Visit const& visit) {
+template <class Visit>
+void for_each_id(Body const& body, Visit const& visit) {
   for (std::int64_t id = body.first; id < body.last; ++id) visit(static_cast<std::size_t>(id));
 }
 

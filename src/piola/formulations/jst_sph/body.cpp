@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/body.hpp"
-#include "piola/materials/laws.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
+#include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -88,7 +88,8 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
 }
 
 bool JstBody::wanted(Field const& f) const {
-  bool const displacement = options_.variables == Variables::displacement, verlet = options_.integrator == Integrator::verlet;
+  bool const displacement = options_.variables == Variables::displacement,
+             verlet = options_.integrator == Integrator::verlet;
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
@@ -157,7 +158,8 @@ void JstBody::place_gathered() {
 
   int const before_A = adjoint ? 2 * D_ + 1 : stabilised ? D_ : 0;
   second_ = gather(before_A + D_ * D_);
-  state_.second = {second_.memory.data() + second_.start, second_.component, second_.particle, &second_.version, "second sweep"};
+  state_.second = {second_.memory.data() + second_.start, second_.component, second_.particle, &second_.version,
+                   "second sweep"};
   if (stabilised) place(fields_.w, second_, 0);
   place(fields_.A, second_, before_A);
   auto const& corrections = pairs_->corrections();

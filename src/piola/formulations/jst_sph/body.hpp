@@ -74,7 +74,7 @@ class JstBody {
   Gathered first_, second_;
   std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
   Index stored_slots_ = 0;
-  std::vector<Index> group_first_;   // per stored group: a slot where it begins
+  std::vector<Index> group_first_;  // per stored group: a slot where it begins
   std::vector<SupportComponent> supports_;
   std::vector<double> partial_;
   FailureSlot failure_;

@@ -4,8 +4,8 @@
 
 namespace piola::jst_sph {
 
-/// The one list of JST-SPH's particle fields, for a body of dimension D: memory, layout, checkpoint and the table of the
-/// manual follow from it. Component counts of tensors are D x D, of symmetric tensors D (D + 1) / 2.
+/// The one list of JST-SPH's particle fields, for a body of dimension D: memory, layout, checkpoint and the table of
+/// the manual follow from it. Component counts of tensors are D x D, of symmetric tensors D (D + 1) / 2.
 struct Fields {
   explicit Fields(int D)
       : V("TributaryVolume", "m3", 1, Role::reference),
@@ -40,10 +40,30 @@ struct Fields {
 
   template <class Visit>
   void each(Visit&& visit) {
-    for (Field* f : {&V, &C, &G, &alpha, &beta, &diagonal, &x, &v, &F, &wave_speed,
-                     &filter_scale, &filter_sum, &volume_ratio, &filtered_ratio, &filtered_pressure, &filter_source_a,
-                     &filter_source_b, &w, &A, &stage_position, &v_n, &F_star,
-                     &wave_speed_next, &rate})
+    for (Field* f : {&V,
+                     &C,
+                     &G,
+                     &alpha,
+                     &beta,
+                     &diagonal,
+                     &x,
+                     &v,
+                     &F,
+                     &wave_speed,
+                     &filter_scale,
+                     &filter_sum,
+                     &volume_ratio,
+                     &filtered_ratio,
+                     &filtered_pressure,
+                     &filter_source_a,
+                     &filter_source_b,
+                     &w,
+                     &A,
+                     &stage_position,
+                     &v_n,
+                     &F_star,
+                     &wave_speed_next,
+                     &rate})
       visit(*f);
   }
 };

@@ -63,8 +63,8 @@ double largest_wave_speed(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,         &step,
-                                      &update_wave_speed,        &largest_wave_speed, &update_deformation,
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,          &step,
+                      &update_wave_speed,        &largest_wave_speed, &update_deformation,
                       &exec::run_fma_chains,     &exec::copy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE

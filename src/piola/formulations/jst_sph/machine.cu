@@ -37,9 +37,12 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch, doubl
   exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
   exec::for_each(r, WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
   launch_laws<D>(r, passes, scratch, Laws{});
-  launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, ListLoader<D>> const*>(passes), partial);
-  launch_forces<D, Biharmonic::adjoint>(r, *static_cast<SumForces<D, Biharmonic::adjoint, ListLoader<D>> const*>(passes), partial);
-  launch_forces<D, Biharmonic::literal>(r, *static_cast<SumForces<D, Biharmonic::literal, ListLoader<D>> const*>(passes), partial);
+  launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, ListLoader<D>> const*>(passes),
+                                     partial);
+  launch_forces<D, Biharmonic::adjoint>(
+      r, *static_cast<SumForces<D, Biharmonic::adjoint, ListLoader<D>> const*>(passes), partial);
+  launch_forces<D, Biharmonic::literal>(
+      r, *static_cast<SumForces<D, Biharmonic::literal, ListLoader<D>> const*>(passes), partial);
   exec::for_each(r, *static_cast<AdvanceMomentum<D> const*>(passes));
   exec::for_each(r, *static_cast<ComputeWaveSpeed<D> const*>(passes));
   exec::for_each(r, WithScratch<StoreDeformation<D>>{*static_cast<StoreDeformation<D> const*>(passes), scratch});

@@ -24,7 +24,8 @@ void add_momenta(Point const& x, Point const& v, double mass, Diagnostics& d) {
 /// Adds the squares of second differences of p along the lattice lines of a body.
 void add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p, Observation& o) {
   auto const index = [&](std::array<int, 3> const& at) {
-    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(body.lattice[1]) + static_cast<std::size_t>(at[1])) *
+    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(body.lattice[1]) +
+            static_cast<std::size_t>(at[1])) *
                static_cast<std::size_t>(body.lattice[0]) +
            static_cast<std::size_t>(at[0]);
   };
@@ -147,10 +148,16 @@ struct Observed {
 };
 
 constexpr std::array table{
-    Observed{"Displacement", "m", 3, [](Particle const& p, double* out) { for (std::size_t c = 0; c < 3; ++c) out[c] = p.x[c] - p.X[c]; }},
+    Observed{"Displacement", "m", 3,
+             [](Particle const& p, double* out) {
+               for (std::size_t c = 0; c < 3; ++c) out[c] = p.x[c] - p.X[c];
+             }},
     Observed{"Position", "m", 3, [](Particle const& p, double* out) { std::copy(p.x.begin(), p.x.end(), out); }},
     Observed{"Velocity", "m/s", 3, [](Particle const& p, double* out) { std::copy(p.v.begin(), p.v.end(), out); }},
-    Observed{"Momentum", "kg/(m2 s)", 3, [](Particle const& p, double* out) { for (std::size_t c = 0; c < 3; ++c) out[c] = p.rho0 * p.v[c]; }},
+    Observed{"Momentum", "kg/(m2 s)", 3,
+             [](Particle const& p, double* out) {
+               for (std::size_t c = 0; c < 3; ++c) out[c] = p.rho0 * p.v[c];
+             }},
     Observed{"Pressure", "Pa", 1, [](Particle const& p, double* out) { *out = p.pressure; }},
     Observed{"CauchyStress", "Pa", 6, [](Particle const& p, double* out) { put_symmetric(cauchy(p), out); }},
     Observed{"FirstPiolaStress", "Pa", 9, [](Particle const& p, double* out) { std::copy(p.P.c, p.P.c + 9, out); }},
@@ -176,7 +183,14 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
   with_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
-      Particle const p{body.X(i),   body.x(i), body.v(i), F, law.stress_with_pressure(F, acting_pressure(body, law, F, i)), determinant(F), observed_pressure(body, law, F, i), law.rho0,
+      Particle const p{body.X(i),
+                       body.x(i),
+                       body.v(i),
+                       F,
+                       law.stress_with_pressure(F, acting_pressure(body, law, F, i)),
+                       determinant(F),
+                       observed_pressure(body, law, F, i),
+                       law.rho0,
                        static_cast<double>(body_number),
                        static_cast<double>(body.pairs().corrections().neighbours[static_cast<std::size_t>(i)]),
                        static_cast<double>(body.id(i))};

@@ -9,8 +9,8 @@ namespace piola::jst_sph {
 /// Sums over bodies that Diagnostics are made of.
 struct Observation {
   Diagnostics totals;
-  double pressure_square = 0;      ///< sum V p^2
-  double volume = 0;               ///< sum V
+  double pressure_square = 0;  ///< sum V p^2
+  double volume = 0;           ///< sum V
   double second_difference_square = 0;
   double second_difference_count = 0;
 };

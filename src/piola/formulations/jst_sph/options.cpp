@@ -19,7 +19,8 @@ constexpr std::array<std::string_view, 3> speed_words{"as_scheme", "shear", "pre
 constexpr std::array<std::string_view, 3> filter_words{"as_scheme", "on", "off"};
 
 constexpr std::array choices{
-    Choice{"variables", "pF: momentum and deformation gradient; displacement: classical total-Lagrangian SPH, no stabilisation",
+    Choice{"variables",
+           "pF: momentum and deformation gradient; displacement: classical total-Lagrangian SPH, no stabilisation",
            variable_words},
     Choice{"scheme",
            "filtered: no locking, smooth pressure, one right-hand side per step; robust: compact gradient, dissipative "
@@ -29,9 +30,10 @@ constexpr std::array choices{
     Choice{"biharmonic", "adjoint: -L*(eps4 c h^3 L p), never feeds energy; literal: -eps4 c h^3 L(L p), eq. 37b",
            biharmonic_words},
     Choice{"integrator", "verlet: kick, drift, kick; tvd_rk2: two stages, eq. 43", integrator_words},
-    Choice{"stabilisation_speed", "wave speed in the stabilisation: shear: that of shear-type modes; pressure: c_p, eqs. 36-37",
-           speed_words},
-    Choice{"volumetric_filter", "filter the volumetric energy: as_scheme: for Poisson's ratios from 0.45 on", filter_words},
+    Choice{"stabilisation_speed",
+           "wave speed in the stabilisation: shear: that of shear-type modes; pressure: c_p, eqs. 36-37", speed_words},
+    Choice{"volumetric_filter", "filter the volumetric energy: as_scheme: for Poisson's ratios from 0.45 on",
+           filter_words},
     Choice{"angular_momentum_projection", "projection of internal force and stabilisation, eqs. 45-49", switch_words}};
 
 constexpr std::array parameters{
@@ -80,13 +82,15 @@ std::string_view chosen(FormulationSpec const& spec, std::string_view name, std:
 void check(Options const& o) {
   if (o.kernel == nullptr) throw InputError("formulation: the kernel is not known");
   if (o.biharmonic != Biharmonic::none && o.laplacian_support < o.gradient_support)
-    throw InputError(fmt::format(
-        "formulation: laplacian_support = {} is smaller than gradient_support = {} (the Laplacian must reach at least as "
-        "far as the gradient) - raise laplacian_support or lower gradient_support",
-        o.laplacian_support, o.gradient_support));
+    throw InputError(
+        fmt::format("formulation: laplacian_support = {} is smaller than gradient_support = {} (the Laplacian must "
+                    "reach at least as "
+                    "far as the gradient) - raise laplacian_support or lower gradient_support",
+                    o.laplacian_support, o.gradient_support));
   if (o.filter && o.integrator != Integrator::verlet)
     throw InputError(
-        "formulation: volumetric_filter = \"on\" needs integrator = \"verlet\" - switch the filter off or take the other integrator");
+        "formulation: volumetric_filter = \"on\" needs integrator = \"verlet\" - switch the filter off or take the "
+        "other integrator");
 }
 
 }  // namespace

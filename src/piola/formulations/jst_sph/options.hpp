@@ -11,15 +11,15 @@ struct Options {
   Variables variables = Variables::momentum_and_deformation;
   Biharmonic biharmonic = Biharmonic::adjoint;
   Kernel const* kernel = nullptr;
-  double eps2 = 0, eps4 = 0;      ///< harmonic and biharmonic coefficients for p
-  double gradient_support = 0;    ///< h of the gradient in particle spacings
-  double laplacian_support = 0;   ///< h of the Laplacian in particle spacings
+  double eps2 = 0, eps4 = 0;     ///< harmonic and biharmonic coefficients for p
+  double gradient_support = 0;   ///< h of the gradient in particle spacings
+  double laplacian_support = 0;  ///< h of the Laplacian in particle spacings
   Integrator integrator = Integrator::verlet;
-  bool shear_speed = true;        ///< stabilise with the shear-type wave speed instead of c_p
-  bool filter = true;             ///< filter the volumetric energy of nearly incompressible materials
+  bool shear_speed = true;  ///< stabilise with the shear-type wave speed instead of c_p
+  bool filter = true;       ///< filter the volumetric energy of nearly incompressible materials
   int filter_passes = 2;
-  bool project = true;            ///< angular and linear momentum projection
-  double cfl = 0;                 ///< alpha of eq. (44); 0: from the stability limit of the scheme
+  bool project = true;  ///< angular and linear momentum projection
+  double cfl = 0;       ///< alpha of eq. (44); 0: from the stability limit of the scheme
 };
 
 /// Registry entry: keys, meanings, defaults, laws.

@@ -8,8 +8,8 @@
 #include "piola/mechanics/rigid_rate.hpp"
 #include "piola/neighbours/loaders.hpp"
 
-/// Passes of JST-SPH: what one particle does. Equation numbers: Lee, Gil, Greto, Kulasegaram, Bonet (2016), as repaired in
-/// docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian weight l.
+/// Passes of JST-SPH: what one particle does. Equation numbers: Lee, Gil, Greto, Kulasegaram, Bonet (2016), as repaired
+/// in docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian weight l.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
 /// First sums over neighbours: raw velocity gradient and first Laplacians.
@@ -141,9 +141,8 @@ struct UpdateStress {
   PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& volume) const {
     Lanes const c = wave_speed.scalar<Lanes>(i);
     Lanes const harmonic = (k.eps2 * k.h_min) * c;
-    Lanes const factor = k.biharmonic == Biharmonic::adjoint
-                             ? (k.eps4 * k.h_min * k.h_min * k.h_min) * (c * volume)
-                             : Lanes(1.0);
+    Lanes const factor =
+        k.biharmonic == Biharmonic::adjoint ? (k.eps4 * k.h_min * k.h_min * k.h_min) * (c * volume) : Lanes(1.0);
     for (int j = 0; j < D; ++j) {
       Lanes const Lv = load<Lanes>(in.at(i, D * D + j));
       w.scalar(i, factor * Lv, j);
@@ -202,7 +201,9 @@ struct SecondSums {
 
 /// Number of components of an angular momentum.
 template <int D>
-inline constexpr int spins = D == 3 ? 3 : D == 2 ? 1 : 0;
+inline constexpr int spins = D == 3   ? 3
+                             : D == 2 ? 1
+                                      : 0;
 
 /// x cross f, D = 3: a vector; D = 2: its component out of the plane.
 template <int D, class T>
@@ -226,8 +227,8 @@ struct ForceTotals {
   static constexpr int moment_stabilisation = stabilisation + D;
   static constexpr int v = moment_stabilisation + spins<D>;  // sum V v
   static constexpr int moment_v = v + D;
-  static constexpr int power_T = moment_v + spins<D>;        // sum V v.a_T
-  static constexpr int power_stabilisation = power_T + 1;    // sum V v.a_D
+  static constexpr int power_T = moment_v + spins<D>;      // sum V v.a_T
+  static constexpr int power_stabilisation = power_T + 1;  // sum V v.a_D
   static constexpr int size = power_stabilisation + 1;
 };
 

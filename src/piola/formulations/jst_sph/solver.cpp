@@ -59,9 +59,7 @@ class Solver final : public Formulation {
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
 
-  int stages_per_step() const override {
-    return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2;
-  }
+  int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
   std::size_t memory_bytes() const override {
     std::size_t total = 0;
     for (auto const& body : bodies_) total += body->bytes();
@@ -135,7 +133,8 @@ void Solver::save(StateWriter& writer) const {
       std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < components; ++c)
-          values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] = JstBody::value(field, i, c);
+          values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] =
+              JstBody::value(field, i, c);
       writer.put(name, values);
     });
     auto const& totals = body.state().totals;
@@ -152,11 +151,13 @@ void Solver::load(StateReader& reader) {
       reader.get(name, values);
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < components; ++c)
-          JstBody::set(field, i, c, values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)]);
+          JstBody::set(field, i, c,
+                       values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)]);
     });
     if (body.options().variables == Variables::displacement)
       for (Index i = 0; i < body.particles(); ++i)
-        for (int c = 0; c < set_.dimension; ++c) JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
+        for (int c = 0; c < set_.dimension; ++c)
+          JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
     std::array<double, 2> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.state().totals = {books[0], books[1]};

@@ -14,8 +14,11 @@ constexpr int iterations = 40;
 class Kept {
  public:
   Kept(BodyState const& state, int dimension) : state_(state), slots_(state.slots.last) {
-    for (auto const& [field, components] : {std::pair{state.x, dimension}, {state.v, dimension}, {state.rate, dimension},
-                                            {state.F, dimension * dimension}, {state.wave_speed, 1}})
+    for (auto const& [field, components] : {std::pair{state.x, dimension},
+                                            {state.v, dimension},
+                                            {state.rate, dimension},
+                                            {state.F, dimension * dimension},
+                                            {state.wave_speed, 1}})
       parts_.push_back({field, components, values_of(field, components)});
   }
   void restore() const {

@@ -31,20 +31,20 @@ enum class Integrator {
 };
 
 struct Constants {
-  double rho0;           ///< reference density [kg/m^3]
-  double kernel_volume;  ///< volume of a particle in kernel sums [m^D]
-  double h_min;          ///< smallest particle spacing [m]
-  double c_p0;           ///< p-wave speed at F = I [m/s]
-  double eps2, eps4;     ///< harmonic and biharmonic coefficients for p, times (stabilisation speed / c_p0)
-  double kappa_local;    ///< part of the bulk modulus that acts on the local volume ratio [Pa]
-  double kappa_filtered; ///< part that acts on the filtered volume ratio [Pa]; 0: no filter
-  int filter_passes;     ///< n of B = S^n
-  double total_volume;   ///< sum of tributary volumes [m^D]
-  double centre[3];      ///< origin of arms [m], near the body: keeps sums of moments accurate
+  double rho0;            ///< reference density [kg/m^3]
+  double kernel_volume;   ///< volume of a particle in kernel sums [m^D]
+  double h_min;           ///< smallest particle spacing [m]
+  double c_p0;            ///< p-wave speed at F = I [m/s]
+  double eps2, eps4;      ///< harmonic and biharmonic coefficients for p, times (stabilisation speed / c_p0)
+  double kappa_local;     ///< part of the bulk modulus that acts on the local volume ratio [Pa]
+  double kappa_filtered;  ///< part that acts on the filtered volume ratio [Pa]; 0: no filter
+  int filter_passes;      ///< n of B = S^n
+  double total_volume;    ///< sum of tributary volumes [m^D]
+  double centre[3];       ///< origin of arms [m], near the body: keeps sums of moments accurate
   Variables variables;
   Biharmonic biharmonic;
   Integrator integrator;
-  bool project;          ///< angular and linear momentum projection
+  bool project;  ///< angular and linear momentum projection
 };
 
 /// What a step adds to the books of the body.
@@ -71,8 +71,8 @@ struct BodyState {
   FieldRef second;  ///< all that the second sweep reads: w, then for the adjoint form alpha and beta, then A
   FieldRef w;       ///< part of `second`: what the second Laplacian is applied to
   FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
-  // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum of
-  // the filter's weights without the diagonal; two buffers of d V f that sweeps read at neighbours.
+  // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum
+  // of the filter's weights without the diagonal; two buffers of d V f that sweeps read at neighbours.
   FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
   // Within a step.
   FieldRef v_n, F_star, wave_speed_next, rate;
@@ -88,11 +88,11 @@ struct BodyState {
 struct Machine {
   char const* name;
   int lanes;
-  void (*step)(BodyState& body, double dt);         ///< Algorithm 1, one step of one body
-  void (*update_wave_speed)(BodyState& body);       ///< from the current F
-  double (*largest_wave_speed)(BodyState& body);    ///< m/s
-  void (*update_deformation)(BodyState& body);      ///< displacement variables: F from x
-  double (*run_fma_chains)(long rounds);            ///< for benchmarks, see exec/peak.hpp
+  void (*step)(BodyState& body, double dt);       ///< Algorithm 1, one step of one body
+  void (*update_wave_speed)(BodyState& body);     ///< from the current F
+  double (*largest_wave_speed)(BodyState& body);  ///< m/s
+  void (*update_deformation)(BodyState& body);    ///< displacement variables: F from x
+  double (*run_fma_chains)(long rounds);          ///< for benchmarks, see exec/peak.hpp
   void (*copy)(double const* from, double* to, Index n);
 };
 

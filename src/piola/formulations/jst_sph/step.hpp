@@ -14,9 +14,9 @@ class Step {
 
   /// From t^n to t^(n+1) = t^n + dt by TVD Runge-Kutta of second order.
   void operator()(double dt) {
-    stage({dt, false});                                                      // U* = U^n + dt U_dot(U^n)           (43)
-    stage({dt, true});                                                       // U^(n+1) = (U^n + U* + dt U_dot*)/2 (43)
-    FieldRef const next = b_.wave_speed_next;                                // c_p of the next step          step 2
+    stage({dt, false});                        // U* = U^n + dt U_dot(U^n)           (43)
+    stage({dt, true});                         // U^(n+1) = (U^n + U* + dt U_dot*)/2 (43)
+    FieldRef const next = b_.wave_speed_next;  // c_p of the next step          step 2
     b_.wave_speed_next = b_.wave_speed;
     b_.wave_speed = next;
   }
@@ -25,7 +25,7 @@ class Step {
   void update_deformation() {
     halo_.refresh(b_.u);
     StoreDeformation<D> const store_F{read_reference(b_.C), write(b_.F)};
-    exec::for_each_then(b_.slots, first_sweep<0>(), exec::erased(store_F));    // F = GRAD x                         (34)
+    exec::for_each_then(b_.slots, first_sweep<0>(), exec::erased(store_F));  // F = GRAD x                         (34)
   }
 
  private:
@@ -33,13 +33,13 @@ class Step {
     halo_.refresh(b_.u);
     bool const stabilised = b_.constants.biharmonic != Biharmonic::none;
     if (stabilised)
-      differentiate<true>(stage);                                            // F_dot, L v, P, F, A, D2       (33) (36) (12)
+      differentiate<true>(stage);  // F_dot, L v, P, F, A, D2       (33) (36) (12)
     else
       differentiate<false>(stage);
     halo_.refresh(b_.second);
-    RigidRate const balance = forces_(0.5 * stage.dt);                           // T, D4 and their projections   (29c) (37) (48)
-    advance(stage, balance);                                                 // v, x                          (43) (47) (49)
-    hold_supports();                                                         // v_c = 0                       step 8
+    RigidRate const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48)
+    advance(stage, balance);                            // v, x                          (43) (47) (49)
+    hold_supports();                                    // v_c = 0                       step 8
   }
 
   template <int Laplacians>
@@ -49,21 +49,31 @@ class Step {
 
   template <bool Laplacian>
   void differentiate(StageUpdate const& stage) {
-    auto const sweep = first_sweep<Laplacian ? 1 : 0>();
+    auto const sweep = first_sweep < Laplacian ? 1 : 0 > ();
     bool const to_F = stage.second || b_.constants.variables == Variables::displacement;
     with_law(b_.material, [&](auto const& law) {
-      UpdateStress<D, Laplacian, std::decay_t<decltype(law)>> const update{
-          law,           b_.constants,   stage,        read_reference(b_.C), read_reference(b_.V),
-          read(b_.wave_speed), read(b_.F), read(b_.F_star), write(to_F ? b_.F : b_.F_star), write(b_.A),
-          write(b_.w),   write(b_.rate), write(b_.wave_speed_next), b_.failure};
+      UpdateStress<D, Laplacian, std::decay_t<decltype(law)>> const update{law,
+                                                                           b_.constants,
+                                                                           stage,
+                                                                           read_reference(b_.C),
+                                                                           read_reference(b_.V),
+                                                                           read(b_.wave_speed),
+                                                                           read(b_.F),
+                                                                           read(b_.F_star),
+                                                                           write(to_F ? b_.F : b_.F_star),
+                                                                           write(b_.A),
+                                                                           write(b_.w),
+                                                                           write(b_.rate),
+                                                                           write(b_.wave_speed_next),
+                                                                           b_.failure};
       exec::for_each_then(b_.slots, sweep, exec::erased(update));
     });
   }
 
   void advance(StageUpdate const& stage, RigidRate const& balance) {
-    AdvanceMomentum<D> const pass{stage,         balance,        b_.constants.variables, read(b_.rate),
-                                  read(b_.v),    read(b_.v_n),   read(b_.x),             write(b_.v),
-                                  write(b_.v_n), write(b_.x),    write(b_.u)};
+    AdvanceMomentum<D> const pass{
+        stage,      balance,     b_.constants.variables, read(b_.rate), read(b_.v), read(b_.v_n),
+        read(b_.x), write(b_.v), write(b_.v_n),          write(b_.x),   write(b_.u)};
     exec::for_each(b_.slots, pass);
   }
 

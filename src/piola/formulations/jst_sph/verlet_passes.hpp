@@ -9,10 +9,10 @@ namespace piola::jst_sph::inline PIOLA_MACHINE {
 /// Positions in the sums of KickAndDrift; x are arms from `centre`.
 template <int D>
 struct MotionTotals {
-  static constexpr int x = 0;                    // sum V x
-  static constexpr int xx = x + D;               // sum V x (x) x
-  static constexpr int v = xx + SymMat<D>::size; // sum V v
-  static constexpr int moment_v = v + D;         // sum V x cross v
+  static constexpr int x = 0;                     // sum V x
+  static constexpr int xx = x + D;                // sum V x (x) x
+  static constexpr int v = xx + SymMat<D>::size;  // sum V v
+  static constexpr int moment_v = v + D;          // sum V x cross v
   static constexpr int size = moment_v + spins<D>;
 };
 
@@ -184,9 +184,7 @@ struct PrepareFilter {
   ReferenceView V;
   View f, d;
   WriteView g;
-  PIOLA_FN void operator()(Index i) const {
-    g.scalar(i, d.scalar<Lanes>(i) * V.scalar<Lanes>(i) * f.scalar<Lanes>(i));
-  }
+  PIOLA_FN void operator()(Index i) const { g.scalar(i, d.scalar<Lanes>(i) * V.scalar<Lanes>(i) * f.scalar<Lanes>(i)); }
 };
 
 /// q = kappa_f (Jf - 1) and g = d V q.

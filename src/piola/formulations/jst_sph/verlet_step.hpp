@@ -15,28 +15,28 @@ class VerletStep {
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations a^n of the state are made.
   void operator()(double dt) {
-    RigidRate const without_rigid = kick_and_drift(dt);                      // v^(n+1/2), x^(n+1)
+    RigidRate const without_rigid = kick_and_drift(dt);  // v^(n+1/2), x^(n+1)
     halo_.refresh(b_.u);
     bool const filtered = b_.constants.kappa_filtered > 0;
     if (b_.constants.biharmonic == Biharmonic::none)
-      deform<0>(dt, without_rigid, filtered);                                // F^(n+1), J
+      deform<0>(dt, without_rigid, filtered);  // F^(n+1), J
     else
-      deform<2>(dt, without_rigid, filtered);                                // F^(n+1), J, L v'
+      deform<2>(dt, without_rigid, filtered);  // F^(n+1), J, L v'
     if (filtered) {
-      filter();                                                              // q = B* kappa_f (B J - 1)
-      weight_stress();                                                       // P(F, kappa_l (J - 1) + q), A
+      filter();         // q = B* kappa_f (B J - 1)
+      weight_stress();  // P(F, kappa_l (J - 1) + q), A
     }
     halo_.refresh(b_.second);
-    RigidRate const balance = forces_(dt);                                   // -T + D at n + 1
-    kick(dt, balance);                                                       // v^(n+1)
+    RigidRate const balance = forces_(dt);  // -T + D at n + 1
+    kick(dt, balance);                      // v^(n+1)
   }
 
  private:
   using At = MotionTotals<D>;
 
   RigidRate kick_and_drift(double dt) {
-    KickAndDrift<D> const pass{dt,          b_.constants, read_reference(b_.V), read(b_.rate), read(b_.v),
-                               read(b_.x),  write(b_.v),  write(b_.x)};
+    KickAndDrift<D> const pass{dt,         b_.constants, read_reference(b_.V), read(b_.rate),
+                               read(b_.v), read(b_.x),   write(b_.v),          write(b_.x)};
     auto const sums = exec::reduce<At::size>(b_.slots, pass, b_.partial);
     return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
   }
@@ -68,8 +68,8 @@ class VerletStep {
 
   template <class Law>
   WeightStress<D, Law> stress_pass(Law const& law) {
-    return {law,          b_.constants,          read_reference(b_.C),     read_reference(b_.V),
-            read(b_.F),   read(b_.volume_ratio), read(b_.filtered_pressure), write(b_.A)};
+    return {law,        b_.constants,          read_reference(b_.C),       read_reference(b_.V),
+            read(b_.F), read(b_.volume_ratio), read(b_.filtered_pressure), write(b_.A)};
   }
   void weight_stress() {
     with_law(b_.material, [&](auto const& law) { exec::for_each(b_.slots, stress_pass(law)); });
@@ -80,8 +80,7 @@ class VerletStep {
     int const n = b_.constants.filter_passes;
     exec::for_each(b_.slots, PrepareFilter{read_reference(b_.V), read(b_.volume_ratio), read(b_.filter_scale),
                                            write(b_.filter_source[0])});
-    for (int k = 0; k < n; ++k)
-      smooth(k, k == 0 ? b_.volume_ratio : b_.filtered_ratio, b_.filtered_ratio);
+    for (int k = 0; k < n; ++k) smooth(k, k == 0 ? b_.volume_ratio : b_.filtered_ratio, b_.filtered_ratio);
     pressure_of_filtered_ratio();
     for (int k = 0; k < n; ++k) smooth(n + 1 + k, b_.filtered_pressure, b_.filtered_pressure);
   }
@@ -96,9 +95,14 @@ class VerletStep {
   void smooth(int pass_number, FieldRef const& from, FieldRef const& to) {
     FieldRef const &source = b_.filter_source[pass_number % 2], &next = b_.filter_source[(pass_number + 1) % 2];
     halo_.refresh(source);
-    exec::for_each(b_.slots,
-                   Smooth<Loader>{loader_, {read_neighbours(source)}, read_reference(b_.V), read(from),
-                                  read(b_.filter_scale), read(b_.filter_sum), write(to), write(next)});
+    exec::for_each(b_.slots, Smooth<Loader>{loader_,
+                                            {read_neighbours(source)},
+                                            read_reference(b_.V),
+                                            read(from),
+                                            read(b_.filter_scale),
+                                            read(b_.filter_sum),
+                                            write(to),
+                                            write(next)});
   }
 
   void kick(double dt, RigidRate const& balance) {

@@ -9,7 +9,8 @@ namespace piola::inline PIOLA_MACHINE {
 /// Nearly incompressible neo-Hookean solid: isochoric shear part and quadratic volumetric part.
 ///   W = mu/2 (J^(-2/3) F:F - 3) + kappa/2 (J - 1)^2
 ///   P = mu J^(-2/3) (F - (F:F)/(3J) H) + p H,   p = kappa (J - 1)
-/// (Lee et al. 2016, Section 2.1 with xi = 0, zeta = mu/2; eqs. 9-12.) Pressure is positive in tension. Valid for J > 0.
+/// (Lee et al. 2016, Section 2.1 with xi = 0, zeta = mu/2; eqs. 9-12.) Pressure is positive in tension. Valid for J >
+/// 0.
 struct NeoHookean : VolumetricSplit<NeoHookean> {
   static constexpr std::string_view name = "neo_hookean";
   static constexpr std::string_view about = "nearly incompressible neo-Hookean solid, large elastic strain";

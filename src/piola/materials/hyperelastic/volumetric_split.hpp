@@ -6,8 +6,8 @@
 namespace piola::inline PIOLA_MACHINE {
 
 /// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law gives
-/// isochoric_energy(F), volume_ratio(F) and first_piola(F, p) with the pressure given; the rest follows here. Schemes that
-/// take the pressure from elsewhere (an evolved or filtered J) use the three questions directly.
+/// isochoric_energy(F), volume_ratio(F) and first_piola(F, p) with the pressure given; the rest follows here. Schemes
+/// that take the pressure from elsewhere (an evolved or filtered J) use the three questions directly.
 template <class Law>
 struct VolumetricSplit : ElasticConstants {
   using ElasticConstants::ElasticConstants;
