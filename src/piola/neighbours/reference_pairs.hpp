@@ -20,8 +20,8 @@ struct PairOptions {
   double h_gradient = 0;      ///< smoothing length of the gradient [m]
   double h_laplacian = 0;     ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
   int lanes = 1;              ///< lane count of the machine that will use the tables
-  bool kernel_table = false;  ///< tables hold the kernel of the Laplacian's support (filter)
   bool stencils = true;       ///< use lattice patterns where the body is a regular lattice
+  bool kernel_table = false;  ///< tables hold the kernel of the Laplacian's support (filter)
 };
 
 /// Per-particle corrections; SoA, slot by slot. See tables.hpp for the operators.

@@ -7,13 +7,48 @@
 namespace piola::jst_sph {
 namespace {
 
-Options options(std::map<std::string, std::string, std::less<>> words = {},
-                std::map<std::string, double, std::less<>> numbers = {}) {
-  return read_options({"jst_sph", std::move(numbers), std::move(words)}, std::nan(""));
+MaterialParameters rubber(double poissons_ratio) {
+  MaterialParameters material;
+  material.law = find_law("neo_hookean")->index;
+  material.value[0] = 1100;
+  material.value[1] = 17e6;
+  material.value[2] = poissons_ratio;
+  return material;
 }
 
-TEST(JstOptions, AreTheRobustSetByDefault) {
+Options options(std::map<std::string, std::string, std::less<>> words = {},
+                std::map<std::string, double, std::less<>> numbers = {}) {
+  return read_options({"jst_sph", std::move(numbers), std::move(words)}, rubber(0.3), std::nan(""));
+}
+
+TEST(JstOptions, AreTheFilteredSchemeByDefault) {
   Options const o = options();
+  EXPECT_EQ(o.integrator, Integrator::verlet);
+  EXPECT_EQ(o.biharmonic, Biharmonic::adjoint);
+  EXPECT_TRUE(o.shear_speed);
+  EXPECT_TRUE(o.project);
+  EXPECT_EQ(o.cfl, 0) << "the step comes from the stability limit";
+}
+
+TEST(JstOptions, FilterTheVolumeOfNearlyIncompressibleMaterialsOnly) {
+  auto const filter = [](double poissons_ratio) {
+    return read_options({"jst_sph", {}, {}}, rubber(poissons_ratio), std::nan("")).filter;
+  };
+  EXPECT_FALSE(filter(0.3));
+  EXPECT_FALSE(filter(0.44));
+  EXPECT_TRUE(filter(0.45));
+  EXPECT_TRUE(filter(0.499));
+}
+
+TEST(JstOptions, RefuseAFilterWithRungeKutta) {
+  EXPECT_THROW((void)options({{"scheme", "robust"}, {"volumetric_filter", "on"}}), InputError);
+}
+
+TEST(JstOptions, OfTheRobustSchemeAreTheCompactSet) {
+  Options const o = options({{"scheme", "robust"}});
+  EXPECT_EQ(o.integrator, Integrator::tvd_rk2);
+  EXPECT_FALSE(o.shear_speed);
+  EXPECT_FALSE(o.filter);
   EXPECT_EQ(o.variables, Variables::momentum_and_deformation);
   EXPECT_EQ(o.biharmonic, Biharmonic::adjoint);
   EXPECT_EQ(o.gradient_support, 0.8);
@@ -56,7 +91,9 @@ TEST(JstOptions, WithoutStabilisationNeedNoLaplacian) {
   EXPECT_EQ(options({}, {{"eps4_momentum", 0}, {"eps2_momentum", 0.1}}).biharmonic, Biharmonic::adjoint);
 }
 
-TEST(JstOptions, TakeTheCourantNumberThatIsGiven) { EXPECT_EQ(read_options({"jst_sph", {}, {}}, 0.1).cfl, 0.1); }
+TEST(JstOptions, TakeTheCourantNumberThatIsGiven) {
+  EXPECT_EQ(read_options({"jst_sph", {}, {}}, rubber(0.3), 0.1).cfl, 0.1);
+}
 
 TEST(JstOptions, RefuseALaplacianThatReachesLessFarThanTheGradient) {
   try {

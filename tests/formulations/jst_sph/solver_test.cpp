@@ -96,7 +96,7 @@ TEST_P(HeldParticles, NeverMoveInTheDirectionsThatAreHeld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HeldParticles,
-                         ::testing::Combine(::testing::Values("robust", "paper"),
+                         ::testing::Combine(::testing::Values("filtered", "robust", "paper"),
                                             ::testing::Values("pF", "displacement")));
 
 TEST(HeldParticles, StayWhereTheInitialDisplacementPutThem) {
@@ -268,9 +268,12 @@ TEST(Solver, RefusesABodyWithTooFewParticles) {
   EXPECT_NE(refusal(assemble(testing::box({1, 0.1, 0.1}, {11, 1, 1}))).find("too few"), std::string::npos);
 }
 
-TEST(Solver, HasTwoStagesAndKnowsItsMemory) {
+TEST(Solver, KnowsItsStagesAndItsMemory) {
   auto const small = make_formulation(assemble(unit_box(3, 4))), large = make_formulation(assemble(unit_box(3, 9)));
   EXPECT_EQ(small->stages_per_step(), 2);
+  Assembly verlet = assemble(unit_box(3, 4));
+  choose(verlet, "scheme", "filtered");
+  EXPECT_EQ(make_formulation(verlet)->stages_per_step(), 1);
   EXPECT_GT(large->memory_bytes(), small->memory_bytes());
   EXPECT_GT(small->memory_bytes(), 64 * 3 * 8 * 3U);
 }
