@@ -75,7 +75,7 @@ TEST(FilteredScheme, ConservesItsEnergyToSecondOrderWithoutStabilisation) {
   };
   for (double const jitter : {0.0, 0.2}) {
     double const coarse = change(jitter, 100), fine = change(jitter, 200);
-    EXPECT_LT(fine, 1e-4);  // (omega dt)^2 / 8 of the energy in the stiffest modes: omega dt is about 0.2 here
+    EXPECT_LT(fine, 1e-4);  // (omega dt)^2 / 8 of the energy in the stiffest modes: omega dt is about 0.1 here
     EXPECT_GT(coarse / fine, 3) << coarse << " " << fine;  // second order: 4, up to the next order
   }
 }
