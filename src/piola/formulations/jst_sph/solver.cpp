@@ -13,7 +13,7 @@ namespace {
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
   /// Share of the stability limit that is used: the limit is that of the undeformed body.
-  static constexpr double margin = 0.8;
+  static constexpr double margin = 0.85;
 
  public:
   explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
