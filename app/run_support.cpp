@@ -96,10 +96,11 @@ std::string end_report(CaseOutcome const& outcome, bool supported, std::filesyst
   std::string text =
       fmt::format("{} at t = {} after {} steps, {} of wall time, {}\n", s.status, quantity_text(s.end_time, "s"),
                   count_text(s.steps), duration_text(s.wall_seconds), rate_text(s.stages_per_second));
-  text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it\n", quantity_text(s.energy_initial, "J"),
-                      quantity_text(s.energy_final, "J"), s.energy_max_increase);
+  text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it\n",
+                      quantity_text(s.energy_initial, "J"), quantity_text(s.energy_final, "J"), s.energy_max_increase);
   if (!supported)
-    text += fmt::format("  momentum drift: linear {:.2g}, angular {:.2g} of its scale\n", s.linear_drift, s.angular_drift);
+    text +=
+        fmt::format("  momentum drift: linear {:.2g}, angular {:.2g} of its scale\n", s.linear_drift, s.angular_drift);
   for (MeasuredQuantity const& q : s.quantities)
     text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value), q.unit == "1" ? "" : " " + q.unit);
   if (!outcome.last_picture.empty()) text += fmt::format("  picture: {}\n", outcome.last_picture.string());

@@ -102,5 +102,18 @@ TEST(Memory, OfEqualSizesStartsAtDifferentPlacesWithinAPage) {
   EXPECT_NE(offset(b), offset(c));
 }
 
+TEST(Field, KeepsTheComponentsOfATileTogetherWhereItIsOnlyStreamed) {
+  Field f("Tensor", "1", 9, Role::evolved);
+  f.allocate_tiled(40);
+  for (Index i = 0; i < 40; ++i)
+    for (int c = 0; c < 9; ++c) f.at(i, c) = 100 * i + c;
+  for (Index i = 0; i < 40; ++i)
+    for (int c = 0; c < 9; ++c) EXPECT_EQ(f.at(i, c), 100 * i + c) << "every place is used once";
+  EXPECT_EQ(&f.at(15, 0) - &f.at(0, 0), 15) << "lanes of a tile lie side by side";
+  EXPECT_EQ(&f.at(0, 1) - &f.at(0, 0), tile_size);
+  EXPECT_EQ(&f.at(16, 0) - &f.at(0, 0), 9 * tile_size);
+  EXPECT_EQ(read(f.ref()).scalar<double>(37, 5), 3705);
+}
+
 }  // namespace
 }  // namespace piola

@@ -2,6 +2,7 @@
 #include "piola/input/read_case.hpp"
 #include "piola/input/check_case.hpp"
 #include "support/sample_case.hpp"
+#include "support/temporary_folder.hpp"
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -210,13 +211,11 @@ TEST(ReadCase, OverridesReplaceValuesAndTheSourceRepeatsThem) {
 }
 
 TEST(ReadCase, AFolderStandsForItsCaseFile) {
-  auto const folder = std::filesystem::temp_directory_path() / "piola_read_case_test";
-  std::filesystem::create_directories(folder);
+  testing::TemporaryFolder const folder;
   std::ofstream(folder / "case.toml") << sample_case();
-  EXPECT_EQ(read_case(folder).title, "Twisting column");
+  EXPECT_EQ(read_case(folder.path()).title, "Twisting column");
   EXPECT_EQ(read_case(folder / "case.toml").title, "Twisting column");
   EXPECT_THROW(read_case(folder / "missing.toml"), InputError);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ReadCase, TooManyParticlesAreRefusedBeforeTheyAreMade) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `piola check` and `piola describe` say, by running the program.
 #include "support/sample_case.hpp"
+#include "support/temporary_folder.hpp"
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -29,17 +30,14 @@ Answer ask(std::string const& arguments) {
   return answer;
 }
 
+/// A folder of its own with a case: tests run side by side.
 class CaseFolder {
  public:
-  explicit CaseFolder(std::string const& text) {
-    std::filesystem::create_directories(path_);
-    std::ofstream(path_ / "case.toml") << text;
-  }
-  ~CaseFolder() { std::filesystem::remove_all(path_); }
-  std::string argument() const { return "'" + path_.string() + "/case.toml'"; }
+  explicit CaseFolder(std::string const& text) { std::ofstream(folder_ / "case.toml") << text; }
+  std::string argument() const { return "'" + (folder_ / "case.toml").string() + "'"; }
 
  private:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "piola_describe_messages_test";
+  testing::TemporaryFolder folder_;
 };
 
 bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
@@ -67,7 +65,8 @@ TEST(CheckCommand, WarnsOfImplausibleNumbersAndRefusesBadOnes) {
       << warned.text;
   Answer const refused = ask("check " + folder.argument() + " --set run.end=x");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(contains(refused.text, "--set run.end=x: run.end cannot be read: \"x\" is not a number with a unit"));
+  EXPECT_TRUE(contains(refused.text, "--set run.end=x: run.end cannot be read: \"x\" is not a number with a unit"))
+      << refused.text;
 }
 
 TEST(DescribeCommand, ExplainsOneThingOrListsAll) {

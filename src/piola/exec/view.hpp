@@ -13,11 +13,11 @@ namespace piola::inline PIOLA_MACHINE {
 /// Reading access to a field at particle i, or at the lanes that start at i.
 struct View {
   double const* data;
-  std::ptrdiff_t component_stride, particle_stride;
+  std::ptrdiff_t component_stride, particle_stride, tile_extra = 0;
 
   template <class V>
   PIOLA_FN V scalar(Index i, int c = 0) const {
-    double const* p = data + c * component_stride + i * particle_stride;
+    double const* p = data + c * component_stride + i * particle_stride + (i >> tile_bits) * tile_extra;
     if constexpr (std::is_same_v<V, double>) {
       return *p;
     } else {
@@ -72,11 +72,11 @@ struct ReferenceView {
 /// Writing access; the pass that holds it owns the particles it writes.
 struct WriteView {
   double* data;
-  std::ptrdiff_t component_stride, particle_stride;
+  std::ptrdiff_t component_stride, particle_stride, tile_extra = 0;
 
   template <class V>
   PIOLA_FN void scalar(Index i, V const& value, int c = 0) const {
-    double* p = data + c * component_stride + i * particle_stride;
+    double* p = data + c * component_stride + i * particle_stride + (i >> tile_bits) * tile_extra;
     if constexpr (std::is_same_v<V, double>) {
       *p = value;
     } else {
@@ -95,19 +95,19 @@ struct WriteView {
 };
 
 /// The only three ways from a field to a view: they show the data flow of a step and count it in contract builds.
-inline View read(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride}; }
+inline View read(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
 inline ReferenceView read_reference(FieldRef const& f) { return {read(f), f.group}; }
 inline View read_neighbours(FieldRef const& f) {
 #if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
   if (f.version != nullptr && f.version->halo != f.version->owner) stale_halo(f.name);
 #endif
-  return {f.data, f.component_stride, f.particle_stride};
+  return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
 }
 inline WriteView write(FieldRef const& f) {
 #if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
   if (f.version != nullptr) ++f.version->owner;
 #endif
-  return {f.data, f.component_stride, f.particle_stride};
+  return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
 }
 
 }  // namespace piola::inline PIOLA_MACHINE

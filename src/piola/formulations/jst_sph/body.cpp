@@ -108,7 +108,13 @@ void JstBody::allocate() {
   fields_.each([&](Field& f) {
     bool const per_slot = &f == &fields_.filter_scale || &f == &fields_.filter_sum;
     bool const shared = state_.regular && f.role() == Role::reference && !per_slot;
-    if (f.size() == 0 && wanted(f)) f.allocate(shared ? stored_slots_ : order_.slots(), guard);
+    if (f.size() == 0 && wanted(f)) {  // what neighbours read was placed before; the rest is streamed through
+      Index const size = shared ? stored_slots_ : order_.slots();
+      if (f.components() > 1)
+        f.allocate_tiled(size);
+      else
+        f.allocate(size, guard);
+    }
     if (shared) f.share(group_.data());
   });
   auto& s = state_;
@@ -158,8 +164,8 @@ void JstBody::place_gathered() {
 
   int const before_A = adjoint ? 2 * D_ + 1 : stabilised ? D_ : 0;
   second_ = gather(before_A + D_ * D_);
-  state_.second = {second_.memory.data() + second_.start, second_.component, second_.particle, &second_.version,
-                   "second sweep"};
+  state_.second = {
+      second_.memory.data() + second_.start, second_.component, second_.particle, 0, &second_.version, "second sweep"};
   if (stabilised) place(fields_.w, second_, 0);
   place(fields_.A, second_, before_A);
   auto const& corrections = pairs_->corrections();

@@ -37,12 +37,8 @@ class JstBody {
   Mat<3> F(Index slot) const;
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
 
-  static double value(FieldRef const& f, Index slot, int c = 0) {
-    return f.data[c * f.component_stride + slot * f.particle_stride];
-  }
-  static void set(FieldRef const& f, Index slot, int c, double value) {
-    f.data[c * f.component_stride + slot * f.particle_stride] = value;
-  }
+  static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
+  static void set(FieldRef const& f, Index slot, int c, double value) { value_at(f, slot, c) = value; }
 
  private:
   void make_pairs(ParticleSet const& set, Machine const& machine);
