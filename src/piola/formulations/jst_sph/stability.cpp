@@ -13,7 +13,7 @@ constexpr int iterations = 40;
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
  public:
-  Kept(BodyState const& state, int dimension) : state_(state), slots_(state.slots.last) {
+  Kept(BodyState const& state, int dimension) : slots_(state.slots.last) {
     for (auto const& [field, components] : {std::pair{state.x, dimension},
                                             {state.v, dimension},
                                             {state.rate, dimension},
@@ -42,7 +42,6 @@ class Kept {
     for (Index i = 0; i < slots_; ++i)
       for (int c = 0; c < components; ++c) JstBody::set(field, i, c, values[k++]);
   }
-  BodyState const& state_;
   Index slots_;
   std::vector<Part> parts_;
 };
