@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,8 +16,18 @@ namespace {
 
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
+std::atomic<long> second_of_first_signal{0};
+
+/// Tools that stop programs often signal twice, the process and its group: only a signal that comes later means
+/// impatience.
 extern "C" void on_stop_signal(int signal) {
-  if (stop_signal.exchange(signal) != 0) std::_Exit(128 + signal);
+  constexpr long patience = 2;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (stop_signal.exchange(signal) == 0)
+    second_of_first_signal = now.tv_sec;
+  else if (now.tv_sec - second_of_first_signal >= patience)
+    std::_Exit(128 + signal);
 }
 
 std::string percent(double share) { return fmt::format("{:3.0f} %", 100 * std::clamp(share, 0.0, 1.0)); }

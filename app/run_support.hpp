@@ -7,7 +7,7 @@
 
 namespace piola::app {
 
-/// Set by SIGINT and SIGTERM to the number of the signal. A second signal ends the program at once.
+/// Set by SIGINT and SIGTERM to the number of the signal. Another one two seconds later ends the program at once.
 extern std::atomic<int> stop_signal;
 void catch_stop_signals();
 
