@@ -130,7 +130,7 @@ struct Moments {
 };
 
 template <int D>
-bool invert(Moments const& m, double h, std::array<double, 6>& C) {
+bool invert(Moments const& m, std::array<double, 6>& C) {
   static constexpr int at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   bool good = true;
   for (int column = 0; column < D; ++column) {
@@ -142,7 +142,6 @@ bool invert(Moments const& m, double h, std::array<double, 6>& C) {
     good = good && solve_in_place<D>(A, b) > smallest_pivot_ratio;
     for (int i = 0; i < D; ++i) C[static_cast<std::size_t>(at[i][column])] = b[i];
   }
-  (void)h;
   return good;
 }
 
@@ -199,7 +198,7 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body) {
     corrections_.neighbours[slot] = m.all;
     corrections_.G[slot] = {m.G[0], m.G[1], m.G[2]};
     auto& C = corrections_.C[slot];
-    bool const spans = dimension_ == 3 ? invert<3>(m, h, C) : dimension_ == 2 ? invert<2>(m, h, C) : invert<1>(m, h, C);
+    bool const spans = dimension_ == 3 ? invert<3>(m, C) : dimension_ == 2 ? invert<2>(m, C) : invert<1>(m, C);
     if (!spans) refuse(set, body, a, m.inner, "gradient");
     if (options_.h_laplacian <= 0) continue;
     auto& alpha = corrections_.alpha[slot];

@@ -37,8 +37,8 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   PairOptions pair;
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
-  pair.h_laplacian = options_.biharmonic == Biharmonic::none ? 0 : options_.laplacian_support * spacing;
-  if (options_.filter) pair.h_laplacian = options_.laplacian_support * spacing;
+  bool const wide = options_.biharmonic != Biharmonic::none || options_.filter;
+  pair.h_laplacian = wide ? options_.laplacian_support * spacing : 0;
   pair.kernel_table = options_.filter;
   pair.lanes = machine.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.

@@ -79,7 +79,7 @@ double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index
 
 }  // namespace
 
-void observe(JstBody const& body, int, Observation& o) {
+void observe(JstBody const& body, Observation& o) {
   auto& d = o.totals;
   std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
   double strain = 0;

@@ -15,7 +15,7 @@ struct Observation {
   double second_difference_count = 0;
 };
 
-void observe(JstBody const& body, int dimension, Observation& observation);
+void observe(JstBody const& body, Observation& observation);
 
 /// Energies, momenta, extrema over all bodies; pressure oscillation: rms over all lattice lines of
 /// (p[i+1] - 2 p[i] + p[i-1]) / 4, divided by the volume-weighted rms of p.

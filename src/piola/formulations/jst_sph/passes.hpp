@@ -71,6 +71,28 @@ struct DifferentiateVelocity {
   }
 };
 
+/// spin cross a for a spin of three components.
+template <int D>
+PIOLA_FN Vec<D, Lanes> turned(double const (&spin)[3], Vec<D, Lanes> const& a) {
+  Vec<D, Lanes> r;
+  if constexpr (D == 3) {
+    r = {{spin[1] * a[2] - spin[2] * a[1], spin[2] * a[0] - spin[0] * a[2], spin[0] * a[1] - spin[1] * a[0]}};
+  } else if constexpr (D == 2) {
+    r = {{-spin[2] * a[1], spin[2] * a[0]}};
+  } else {
+    r[0] = 0.0 * a[0];
+  }
+  return r;
+}
+
+/// The raw velocity gradient that the first sweep left in scratch.
+template <int D>
+PIOLA_FN Mat<D, Lanes> raw_gradient(exec::Scratch const& in, Index i) {
+  Mat<D, Lanes> raw;
+  for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
+  return raw;
+}
+
 /// Records the lanes whose det F is not positive, or not a number.
 PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J) {
   for (int l = 0; l < lane_count; ++l)
@@ -102,10 +124,8 @@ struct UpdateStress {
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    Mat<D, Lanes> raw;
-    for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
     SymMat<D, Lanes> const correction = C.symmetric<D, Lanes>(i);
-    Mat<D, Lanes> const gradient = raw * correction;
+    Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * correction;
     Lanes const volume = V.scalar<Lanes>(i);
     Mat<D, Lanes> const F = deform(i, gradient, volume);
     Mat<D, Lanes> const P = restrict_to<D>(law.first_piola(embed<D>(F)));
@@ -334,15 +354,7 @@ struct AdvanceMomentum {
     Vec<D, Lanes> arm = x_a;
     for (int c = 0; c < D; ++c) arm[c] = x_a[c] - rigid.centre[c];
     for (int c = 0; c < D; ++c) a[c] = a[c] + rigid.push[c];
-    double const* const s = rigid.spin;
-    if constexpr (D == 3) {
-      a[0] = a[0] + (s[1] * arm[2] - s[2] * arm[1]);
-      a[1] = a[1] + (s[2] * arm[0] - s[0] * arm[2]);
-      a[2] = a[2] + (s[0] * arm[1] - s[1] * arm[0]);
-    } else if constexpr (D == 2) {
-      a[0] = a[0] - s[2] * arm[1];
-      a[1] = a[1] + s[2] * arm[0];
-    }
+    if constexpr (D > 1) a = a + turned<D>(rigid.spin, arm);
   }
 };
 
@@ -364,9 +376,7 @@ struct StoreDeformation {
   ReferenceView C;
   WriteView F;
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    Mat<D, Lanes> raw;
-    for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
-    F.matrix<D>(i, raw * C.symmetric<D, Lanes>(i));
+    F.matrix<D>(i, raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i));
   }
 };
 

@@ -42,7 +42,7 @@ class Solver final : public Formulation {
     Observation all;
     for (auto const& body : bodies_) {
       refresh(*body);
-      observe(*body, set_.dimension, all);
+      observe(*body, all);
     }
     return finish(all);
   }

@@ -48,20 +48,6 @@ struct KickAndDrift {
   }
 };
 
-/// spin cross a for a spin of three components.
-template <int D>
-PIOLA_FN Vec<D, Lanes> turned(double const (&spin)[3], Vec<D, Lanes> const& a) {
-  Vec<D, Lanes> r;
-  if constexpr (D == 3) {
-    r = {{spin[1] * a[2] - spin[2] * a[1], spin[2] * a[0] - spin[0] * a[2], spin[0] * a[1] - spin[1] * a[0]}};
-  } else if constexpr (D == 2) {
-    r = {{-spin[2] * a[1], spin[2] * a[0]}};
-  } else {
-    r[0] = 0.0 * a[0];
-  }
-  return r;
-}
-
 /// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and what the second Laplacian is applied to,
 ///   L v' = L v + spin cross L x,  v' = v + spin cross (x - centre) + push: the motion without its rigid part.
 /// Records the first particle whose new F is inverted or not a number.
@@ -77,9 +63,7 @@ struct Deform {
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    Mat<D, Lanes> raw;
-    for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
-    Mat<D, Lanes> const next = F_in.matrix<D, Lanes>(i) + dt * (raw * C.symmetric<D, Lanes>(i));
+    Mat<D, Lanes> const next = F_in.matrix<D, Lanes>(i) + dt * (raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i));
     F.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
     Lanes const J = determinant(full);
