@@ -1,20 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/expression.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace piola {
 
-/// Particles whose velocity is held at zero in some directions.
+/// Particles whose velocity is prescribed in some directions: at zero, or as `velocity` says.
 struct Support {
+  enum class Frame {
+    axes,    ///< the directions in `fix`
+    normal,  ///< along `normal`: a roller on an oblique plane
+    tangent  ///< across `normal`: the particle may move along the normal alone
+  };
   std::vector<std::int64_t> particles;  ///< ids
   std::array<bool, 3> fix{};
+  Frame frame = Frame::axes;
+  std::array<double, 3> normal{};                          ///< unit vector
+  std::optional<std::array<Expression, 3>> velocity;       ///< m/s, in X, Y, Z, t; nothing: at rest
+  double until = std::numeric_limits<double>::infinity();  ///< s: released then
+};
+
+/// A dead load: particle k feels the acceleration value(X, t) * factor[k].
+struct Load {
+  std::vector<std::int64_t> particles;  ///< ids
+  std::vector<double> factor;  ///< traction [Pa]: area / mass; force per volume [N/m^3]: 1 / density; acceleration: 1
+  std::array<Expression, 3> value;
+  double until = std::numeric_limits<double>::infinity();  ///< s: gone then
+};
+
+/// A face of a box across which the body is continued by its mirror image.
+struct MirrorPlane {
+  std::size_t body = 0;
+  int axis = 0;
+  bool upper = false;  ///< at the largest coordinate, else at the smallest
 };
 
 /// Everything that a formulation is built from: plain numbers in Id order, no input text.
@@ -27,6 +53,8 @@ struct Assembly {
   std::vector<std::array<double, 9>>
       initial_deformation_gradient;  ///< row by row, one per particle, or empty: from the displacement
   std::vector<Support> supports;
+  std::vector<Load> loads;
+  std::vector<MirrorPlane> mirrors;
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v2, v3, v4
 };

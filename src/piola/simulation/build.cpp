@@ -51,7 +51,8 @@ void report_mixed_start(CaseSpec const& spec, Problems& problems) {
 }
 
 Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
-  Support support{{}, spec.fix};
+  Support support;
+  support.fix = spec.fix;
   for (Body const& body : particles.bodies) {
     if (body.name == spec.body) support.particles = select_particles(particles, body, &spec.where);
   }
