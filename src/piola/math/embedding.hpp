@@ -16,6 +16,17 @@ PIOLA_FN Mat<3, T> embed(Mat<D, T> const& F) {
   return r;
 }
 
+/// A rate of F: missing directions do not stretch.
+template <int D, class T>
+PIOLA_FN Mat<3, T> embed_rate(Mat<D, T> const& F_dot) {
+  if constexpr (D == 3) return F_dot;
+  Mat<3, T> r;
+  for (int c = 0; c < 9; ++c) r.c[c] = T(0.0);
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) r(i, j) = F_dot(i, j);
+  return r;
+}
+
 /// The components of a 3D stress that do work on a D-dimensional motion.
 template <int D, class T>
 PIOLA_FN Mat<D, T> restrict_to(Mat<3, T> const& P) {

@@ -27,4 +27,19 @@ PIOLA_FN T smallest_stretch_squared(Mat<3, T> const& F) {
   return q - p * (1.0 + d);
 }
 
+/// All eigenvalues of C = F^T F, smallest first. Near a double root the two larger ones carry the square root of the
+/// round-off.
+template <class T>
+PIOLA_FN Vec<3, T> principal_stretches_squared(Mat<3, T> const& F) {
+  Mat<3, T> B = transpose(F) * F;
+  T const q = trace(B) * (1.0 / 3.0);
+  for (int i = 0; i < 3; ++i) B(i, i) = B(i, i) - q;
+  T const p = square_root(contract(B, B) * (1.0 / 6.0));
+  T const first = smallest_stretch_squared(F);
+  // Of t^3 - 3 t = 2 r divided by its smallest root t_1: t^2 + t_1 t + t_1^2 - 3 = 0.
+  T const t_1 = maximum((first - q) / maximum(p, T(1e-150)), T(-2.0));
+  T const apart = 0.5 * square_root(maximum(12.0 - 3.0 * (t_1 * t_1), T(0.0)));
+  return {{first, q + p * (-0.5 * t_1 - apart), q + p * (-0.5 * t_1 + apart)}};
+}
+
 }  // namespace piola::inline PIOLA_MACHINE

@@ -136,16 +136,19 @@ struct ListLoader {
       body.template outer<false>(sums, own, g, f);
   }
 
-  /// One value per neighbour and no geometry: no record is worth loading.
+  /// Few values per neighbour and no geometry: no record is worth loading.
   template <class Body, class Own>
   PIOLA_FN void smooth(std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
-    Lanes f[1];
+    Lanes f[Body::fields];
     View const& from = body.gathered;
+    for (int c = 0; c < Body::fields; ++c) {
+      double const* const value = from.data + c * from.component_stride;
 #if PIOLA_HAS_PACKS
-    for (int l = 0; l < lane_count; ++l) f[0][l] = from.data[table.neighbour[k + l] * from.particle_stride];
+      for (int l = 0; l < lane_count; ++l) f[c][l] = value[table.neighbour[k + l] * from.particle_stride];
 #else
-    f[0] = from.data[table.neighbour[k] * from.particle_stride];
+      f[c] = value[table.neighbour[k] * from.particle_stride];
 #endif
+    }
     PairGeometry<D, Lanes> g{};
     g.kernel = load<Lanes>(table.kernel + k);
     body.template pair<false>(sums, own, g, f);

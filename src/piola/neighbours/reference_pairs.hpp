@@ -53,6 +53,14 @@ class ReferencePairs {
     std::vector<double> sum;    ///< sum_{b != a} s_ab V_b
   };
   Filter make_filter(std::vector<double> const& volume) const;
+  /// Corrected gradient of the corrected kernel (Lee et al. eq. 23), for tables with a kernel and one support:
+  ///   GRAD f_a = sum_b (f_b - f_a) (x) (s r - V W gamma_a) C_a,  gamma_a = sum V grad W / sum V W, b = a included.
+  struct CorrectedKernel {
+    std::vector<std::array<double, 3>> gamma;  ///< per slot [1/m]
+    std::vector<std::array<double, 9>> C;      ///< row by row, not symmetric
+    double at_zero = 0;                        ///< V W(0)
+  };
+  CorrectedKernel correct_kernel() const;
   std::int64_t pair_count() const { return pairs_; }
   double stencil_fill() const { return fill_; }  ///< share of lanes with a neighbour, regular bodies
   std::size_t bytes() const;

@@ -40,8 +40,20 @@ TEST(JstOptions, FilterTheVolumeOfNearlyIncompressibleMaterialsOnly) {
   EXPECT_TRUE(filter(0.499));
 }
 
-TEST(JstOptions, RefuseAFilterWithRungeKutta) {
-  EXPECT_THROW((void)options({{"scheme", "robust"}, {"volumetric_filter", "on"}}), InputError);
+TEST(JstOptions, RefuseWhatTheSchemesDoNotHave) {
+  using Words = std::map<std::string, std::string, std::less<>>;
+  Words const filtered{{"scheme", "robust"}, {"volumetric_filter", "on"}};
+  EXPECT_TRUE(options(filtered).filter);
+  for (auto const* evolved : {"pFJ", "pFHJ"}) {
+    Words words = filtered;
+    words["variables"] = evolved;
+    EXPECT_THROW((void)options(words), InputError) << evolved;
+    EXPECT_THROW((void)options({{"variables", evolved}}, {{"eps4_volume", 0.1}}), InputError) << evolved;
+    EXPECT_NO_THROW((void)options({{"variables", evolved}, {"scheme", "paper"}}, {{"eps4_volume", 0.1}})) << evolved;
+  }
+  EXPECT_THROW((void)options({{"scheme", "paper"}}, {{"eps4_volume", 0.1}}), InputError) << "J is not an unknown";
+  EXPECT_THROW((void)options({{"gradient", "uncorrected"}}), InputError) << "not with Verlet";
+  EXPECT_THROW((void)options({{"scheme", "robust"}, {"gradient", "corrected_kernel"}}), InputError) << "two supports";
 }
 
 TEST(JstOptions, OfTheRobustSchemeAreTheCompactSet) {
@@ -49,7 +61,7 @@ TEST(JstOptions, OfTheRobustSchemeAreTheCompactSet) {
   EXPECT_EQ(o.integrator, Integrator::tvd_rk2);
   EXPECT_FALSE(o.shear_speed);
   EXPECT_FALSE(o.filter);
-  EXPECT_EQ(o.variables, Variables::momentum_and_deformation);
+  EXPECT_EQ(o.variables, Variables::pF);
   EXPECT_EQ(o.biharmonic, Biharmonic::adjoint);
   EXPECT_EQ(o.gradient_support, 0.8);
   EXPECT_EQ(o.laplacian_support, 1.2);

@@ -24,10 +24,15 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   allocate();
   fill_reference(machine.lanes);
   if (options_.filter) fill_filter();
+  if (options_.corrected_kernel()) fill_corrected_kernel(machine.lanes);
   fill_initial(assembly, machine);
   take_supports(assembly);
+  fill_evolved_geometry();
   machine.update_wave_speed(state_);
-  if (options_.integrator == Integrator::verlet) machine.step(state_, 0);  // the accelerations of the start
+  if (options_.integrator != Integrator::verlet) return;
+  state_.starting = true;
+  machine.step(state_, 0);  // the accelerations of the start
+  state_.starting = false;
 }
 
 void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
@@ -37,9 +42,10 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   PairOptions pair;
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
-  bool const wide = options_.biharmonic != Biharmonic::none || options_.filter;
+  bool const kernel_table = options_.filter || options_.corrected_kernel();
+  bool const wide = options_.biharmonic != Biharmonic::none || kernel_table;
   pair.h_laplacian = wide ? options_.laplacian_support * spacing : 0;
-  pair.kernel_table = options_.filter;
+  pair.kernel_table = kernel_table;
   pair.lanes = machine.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
   pair.stencils = machine.lanes > 1;
@@ -66,10 +72,16 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   k.kappa_local = options_.filter ? std::min(kappa, mu) : kappa;
   k.kappa_filtered = kappa - k.kappa_local;
   k.filter_passes = options_.filter_passes;
+  k.eps2_J = options_.eps2_J * speed_ratio;
+  k.eps4_J = options_.eps4_J * speed_ratio;
+  k.gradient = options_.gradient;
+  k.force = options_.force;
+  k.exact_speed = options_.exact_speed;
   k.integrator = options_.integrator;
   k.variables = options_.variables;
   k.biharmonic = options_.biharmonic;
   k.project = options_.project;
+  k.without_rigid = options_.without_rigid();
   for (auto id = body_.first; id < body_.last; ++id) {
     auto const at = static_cast<std::size_t>(id);
     k.total_volume += set.volume[at];
@@ -89,13 +101,23 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
 
 bool JstBody::wanted(Field const& f) const {
   bool const displacement = options_.variables == Variables::displacement,
-             verlet = options_.integrator == Integrator::verlet;
+             verlet = options_.integrator == Integrator::verlet, area = options_.variables == Variables::pFHJ,
+             volume = area || options_.variables == Variables::pFJ, smoothed_J = options_.smoothed_volume();
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
   if (among({&fields_.stage_position})) return displacement;
   if (among({&fields_.v_n, &fields_.F_star, &fields_.wave_speed_next})) return !verlet;
-  if (among({&fields_.volume_ratio})) return verlet;
+  if (among({&fields_.volume_ratio})) return verlet || options_.filter;
+  if (among({&fields_.H})) return area;
+  if (among({&fields_.H_star})) return area && !verlet;
+  if (among({&fields_.J})) return volume && !options_.filter;
+  if (among({&fields_.ratio_increment})) return volume && options_.filter;
+  if (among({&fields_.J_n})) return volume && !verlet;
+  if (among({&fields_.J_next, &fields_.J_rate, &fields_.w_J})) return smoothed_J;
+  if (among({&fields_.full_correction, &fields_.gamma, &fields_.kernel_difference, &fields_.kernel_force,
+             &fields_.kernel_force_sum}))
+    return options_.corrected_kernel();
   if (among({&fields_.filtered_ratio, &fields_.filtered_pressure, &fields_.filter_scale, &fields_.filter_sum,
              &fields_.filter_source_a, &fields_.filter_source_b}))
     return options_.filter;
@@ -127,6 +149,11 @@ void JstBody::allocate() {
   std::tie(s.volume_ratio, s.filtered_ratio, s.filtered_pressure, s.filter_scale, s.filter_sum) =
       std::tuple(f.volume_ratio.ref(), f.filtered_ratio.ref(), f.filtered_pressure.ref(), f.filter_scale.ref(),
                  f.filter_sum.ref());
+  std::tie(s.H, s.J, s.H_star, s.J_n, s.J_next, s.J_rate, s.ratio_increment) = std::tuple(
+      f.H.ref(), f.J.ref(), f.H_star.ref(), f.J_n.ref(), f.J_next.ref(), f.J_rate.ref(), f.ratio_increment.ref());
+  std::tie(s.full_correction, s.gamma, s.kernel_difference, s.kernel_force, s.kernel_force_sum) =
+      std::tuple(f.full_correction.ref(), f.gamma.ref(), f.kernel_difference.ref(), f.kernel_force.ref(),
+                 f.kernel_force_sum.ref());
   s.filter_source[0] = f.filter_source_a.ref();
   s.filter_source[1] = f.filter_source_b.ref();
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
@@ -158,22 +185,32 @@ void JstBody::place_gathered() {
   auto const place = [n](Field& f, Gathered& g, std::ptrdiff_t offset) {
     f.place(g.memory.data(), g.component, g.particle, g.start + offset * g.component, n, &g.version);
   };
-  first_ = gather(verlet ? 2 * D_ : D_);
+  bool const smoothed_J = options_.smoothed_volume();
+  bool const with_x = verlet || options_.without_rigid();
+  first_ = gather(with_x ? 2 * D_ : smoothed_J ? D_ + 1 : D_);
   place(options_.variables == Variables::displacement ? fields_.stage_position : fields_.v, first_, 0);
-  if (verlet) place(fields_.x, first_, D_);
+  if (with_x) place(fields_.x, first_, D_);
+  if (smoothed_J) place(fields_.J, first_, D_);
+  if (options_.corrected_kernel()) {
+    kernel_ = gather(D_);
+    place(fields_.kernel_force, kernel_, 0);
+  }
 
-  int const before_A = adjoint ? 2 * D_ + 1 : stabilised ? D_ : 0;
+  int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
+  int const before_A = adjoint ? smoothed + D_ + 1 : smoothed;
   second_ = gather(before_A + D_ * D_);
   state_.second = {
       second_.memory.data() + second_.start, second_.component, second_.particle, 0, &second_.version, "second sweep"};
   if (stabilised) place(fields_.w, second_, 0);
+  if (smoothed_J) place(fields_.w_J, second_, D_);
   place(fields_.A, second_, before_A);
   auto const& corrections = pairs_->corrections();
   for (Index i = 0; adjoint && i < order_.particles; ++i) {
     double* const at = state_.second.data + i * second_.particle;
     for (int c = 0; c < D_; ++c)
-      at[(D_ + c) * second_.component] = corrections.alpha[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
-    at[2 * D_ * second_.component] = corrections.beta[static_cast<std::size_t>(i)];
+      at[(smoothed + c) * second_.component] =
+          corrections.alpha[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+    at[(smoothed + D_) * second_.component] = corrections.beta[static_cast<std::size_t>(i)];
   }
 }
 
@@ -192,6 +229,14 @@ void JstBody::share_reference(int lanes) {
   stored_slots_ = static_cast<Index>(group_first_.size()) * lanes;
 }
 
+template <class Visit>
+void JstBody::each_stored(int lanes, Visit const& visit) const {
+  for (Index to = 0; to < stored_slots_; ++to) {
+    Index const i = state_.regular ? group_first_[static_cast<std::size_t>(to / lanes)] + to % lanes : to;
+    if (i < order_.particles) visit(to, i);
+  }
+}
+
 void JstBody::fill_reference(int lanes) {
   for (Index i = 0; i < order_.slots(); ++i)
     for (int c = 0; c < D_; ++c) {
@@ -200,9 +245,7 @@ void JstBody::fill_reference(int lanes) {
     }
   auto const& corrections = pairs_->corrections();
   static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-  for (Index to = 0; to < stored_slots_; ++to) {
-    Index const i = state_.regular ? group_first_[static_cast<std::size_t>(to / lanes)] + to % lanes : to;
-    if (i >= order_.particles) continue;
+  each_stored(lanes, [&](Index to, Index i) {
     auto const slot = static_cast<std::size_t>(i);
     fields_.V.at(to) = volume(i);
     for (int c = 0; c < D_ * (D_ + 1) / 2; ++c)
@@ -213,6 +256,32 @@ void JstBody::fill_reference(int lanes) {
     }
     fields_.beta.at(to) = corrections.beta[slot];
     fields_.diagonal.at(to) = corrections.diagonal[slot];
+  });
+}
+
+void JstBody::fill_corrected_kernel(int lanes) {
+  auto const kernel = pairs_->correct_kernel();
+  state_.constants.kernel_at_zero = kernel.at_zero;
+  each_stored(lanes, [&](Index to, Index i) {
+    auto const slot = static_cast<std::size_t>(i);
+    for (int c = 0; c < D_; ++c) {
+      fields_.gamma.at(to, c) = kernel.gamma[slot][static_cast<std::size_t>(c)];
+      for (int d = 0; d < D_; ++d)
+        fields_.full_correction.at(to, c * D_ + d) = kernel.C[slot][static_cast<std::size_t>(3 * c + d)];
+    }
+  });
+}
+
+/// H and J of the start, where they are unknowns: those of F.
+void JstBody::fill_evolved_geometry() {
+  bool const area = wanted(fields_.H), volume = wanted(fields_.J);
+  for (Index i = 0; i < order_.slots() && (area || volume || wanted(fields_.filtered_ratio)); ++i) {
+    Mat<3> const F = i < order_.particles ? this->F(i) : identity<3>(), H = cofactor(F);
+    for (int c = 0; area && c < 9; ++c) fields_.H.at(i, c) = H.c[c];
+    if (volume) with_law(state_.material, [&](auto const& law) { fields_.J.at(i) = volume_ratio(law, F); });
+    if (wanted(fields_.filtered_ratio)) fields_.filtered_ratio.at(i) = 1;
+    if (wanted(fields_.H_star))
+      for (int c = 0; c < 9; ++c) fields_.H_star.at(i, c) = H.c[c];
   }
 }
 
@@ -237,7 +306,7 @@ void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
       if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
     }
   }
-  bool const mixed = options_.variables == Variables::momentum_and_deformation;
+  bool const mixed = options_.variables != Variables::displacement;
   if (!deformed.empty() && mixed) {
     for (Index i = 0; i < order_.particles; ++i)
       for (int c = 0; c < D_ * D_; ++c)
@@ -249,7 +318,7 @@ void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
 
 void JstBody::deform_to_positions(Machine const& machine) {
   std::vector<double> kept(static_cast<std::size_t>(order_.slots() * D_));
-  bool const mixed = options_.variables == Variables::momentum_and_deformation;
+  bool const mixed = options_.variables != Variables::displacement;
   auto const each = [&](auto const& f) {
     for (Index i = 0; i < order_.slots(); ++i)
       for (int c = 0; c < D_; ++c) f(i, c, kept[static_cast<std::size_t>(i * D_ + c)]);
@@ -301,8 +370,22 @@ Mat<3> JstBody::F(Index slot) const {
   return r;
 }
 
+Mat<3> JstBody::H(Index slot) const {
+  if (!wanted(fields_.H)) return cofactor(F(slot));
+  Mat<3> r;
+  for (int c = 0; c < 9; ++c) r.c[c] = value(state_.H, slot, c);
+  return r;
+}
+
+double JstBody::J(Index slot) const {
+  if (wanted(fields_.J)) return value(state_.J, slot);
+  double J = 0;
+  with_law(state_.material, [&](auto const& law) { J = volume_ratio(law, F(slot)); });
+  return J;
+}
+
 std::size_t JstBody::bytes() const {
-  std::size_t total = pairs_->bytes() + first_.memory.bytes() + second_.memory.bytes();
+  std::size_t total = pairs_->bytes() + first_.memory.bytes() + second_.memory.bytes() + kernel_.memory.bytes();
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

@@ -11,6 +11,12 @@
 
 namespace piola::jst_sph {
 
+/// The volume ratio that a law sees: det F, or 1 + tr e for small strain.
+template <class Law>
+double volume_ratio(Law const& law, Mat<3> const& F) {
+  return law.small_strain ? trace(F) - 2 : determinant(F);
+}
+
 /// One body of a JST-SPH run: owns its memory, hands its state to the loops, answers in Id order.
 class JstBody {
  public:
@@ -35,6 +41,8 @@ class JstBody {
   std::array<double, 3> x(Index slot) const;
   std::array<double, 3> v(Index slot) const;
   Mat<3> F(Index slot) const;
+  Mat<3> H(Index slot) const;  ///< the unknown where there is one, else cof F
+  double J(Index slot) const;  ///< the unknown where there is one, else the volume ratio of F
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
 
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
@@ -53,6 +61,11 @@ class JstBody {
   void place_gathered();
   bool wanted(Field const& f) const;
   void fill_filter();
+  void fill_corrected_kernel(int lanes);
+  void fill_evolved_geometry();
+  /// f(place, slot) for every stored place of a reference field that holds a particle.
+  template <class Visit>
+  void each_stored(int lanes, Visit const& visit) const;
   void share_reference(int lanes);
   void fill_reference(int lanes);
   void fill_initial(Assembly const& assembly, Machine const& machine);
@@ -67,7 +80,7 @@ class JstBody {
   ParticleSet const* set_;
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
-  Gathered first_, second_;
+  Gathered first_, second_, kernel_;
   std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
   Index stored_slots_ = 0;
   std::vector<Index> group_first_;  // per stored group: a slot where it begins

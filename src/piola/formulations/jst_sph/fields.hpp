@@ -31,12 +31,27 @@ struct Fields {
         v_n("VelocityAtStepStart", "m/s", D, Role::derived),
         F_star("DeformationGradientOfStage", "1", D * D, Role::derived),
         wave_speed_next("NextWaveSpeed", "m/s", 1, Role::derived),
-        rate("Acceleration", "m/s2", D, Role::derived) {}
+        rate("Acceleration", "m/s2", D, Role::derived),
+        H("AreaMap", "1", 9, Role::evolved),
+        J("EvolvedVolumeRatio", "1", 1, Role::evolved),
+        H_star("AreaMapOfStage", "1", 9, Role::derived),
+        J_n("VolumeRatioAtStepStart", "1", 1, Role::derived),
+        J_next("NextVolumeRatio", "1", 1, Role::derived),
+        J_rate("VolumeRatioStabilisation", "1/s", 1, Role::derived),
+        w_J("VolumeStabilisationArgument", "1", 1, Role::derived),
+        ratio_increment("VolumeRatioIncrement", "1", 1, Role::derived),
+        full_correction("FullGradientCorrection", "1", D * D, Role::reference),
+        gamma("KernelGradientMean", "1/m", D, Role::reference),
+        kernel_difference("KernelDifference", "m/s", D, Role::derived),
+        kernel_force("KernelForce", "Pa/m", D, Role::derived),
+        kernel_force_sum("KernelForceSum", "Pa/m", D, Role::derived) {}
 
   Field V, C, G, alpha, beta, diagonal;
   Field x, v, F, wave_speed;
   Field filter_scale, filter_sum, volume_ratio, filtered_ratio, filtered_pressure, filter_source_a, filter_source_b;
   Field w, A, stage_position, v_n, F_star, wave_speed_next, rate;
+  Field H, J, H_star, J_n, J_next, J_rate, w_J, ratio_increment;
+  Field full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
 
   template <class Visit>
   void each(Visit&& visit) {
@@ -63,7 +78,20 @@ struct Fields {
                      &v_n,
                      &F_star,
                      &wave_speed_next,
-                     &rate})
+                     &rate,
+                     &H,
+                     &J,
+                     &H_star,
+                     &J_n,
+                     &J_next,
+                     &J_rate,
+                     &w_J,
+                     &ratio_increment,
+                     &full_correction,
+                     &gamma,
+                     &kernel_difference,
+                     &kernel_force,
+                     &kernel_force_sum})
       visit(*f);
   }
 };

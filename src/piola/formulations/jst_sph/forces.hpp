@@ -19,6 +19,12 @@ RateSums rate_sums(exec::Totals<N> const& sums, int rate, int moment, double tot
   return r;
 }
 
+/// What is added to the rates of a stage so that they balance.
+struct StageBalance {
+  RigidRate rigid;    ///< removes resultant and moment of T and D(p), eqs. (47)-(49)
+  double J_rate = 0;  ///< mean of D(J), eq. (51) [1/s]
+};
+
 /// The second sweep of a stage: -T + D of every particle, and the rigid rate that removes their resultant and moment.
 template <int D, class Loader>
 class Forces {
@@ -26,35 +32,45 @@ class Forces {
   Forces(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
 
   /// `time`: how long these forces act, for the books of energy [s].
-  RigidRate operator()(double time) {
-    switch (b_.constants.biharmonic) {
-      case Biharmonic::adjoint: return sum<Biharmonic::adjoint>(time);
-      case Biharmonic::literal: return sum<Biharmonic::literal>(time);
-      default: return sum<Biharmonic::none>(time);
-    }
+  StageBalance operator()(double time) {
+    bool const with_J = b_.constants.eps2_J > 0 || b_.constants.eps4_J > 0;
+    return with_J ? sum<D + 1>(time) : sum<D>(time);
   }
 
  private:
-  template <Biharmonic B>
-  RigidRate sum(double time) {
-    SumForces<D, B, Loader> const pass{loader_,
-                                       {read_neighbours(b_.second), read_reference(b_.alpha), read_reference(b_.beta)},
-                                       b_.constants,
-                                       read(b_.A),
-                                       read(b_.w),
-                                       read_reference(b_.V),
-                                       read_reference(b_.G),
-                                       read_reference(b_.diagonal),
-                                       read(b_.wave_speed),
-                                       read(b_.x),
-                                       read(b_.v),
-                                       write(b_.rate),
-                                       read(b_.rate)};
+  template <int Smoothed>
+  StageBalance sum(double time) {
+    switch (b_.constants.biharmonic) {
+      case Biharmonic::adjoint: return sweep<Biharmonic::adjoint, Smoothed>(time);
+      case Biharmonic::literal: return sweep<Biharmonic::literal, Smoothed>(time);
+      default: return sweep<Biharmonic::none, D>(time);
+    }
+  }
+
+  template <Biharmonic B, int Smoothed>
+  StageBalance sweep(double time) {
+    SumForces<D, B, Smoothed, Loader> const pass{
+        loader_,
+        {read_neighbours(b_.second), read_reference(b_.alpha), read_reference(b_.beta)},
+        b_.constants,
+        read(b_.A),
+        read(b_.w),
+        read_reference(b_.V),
+        read_reference(b_.G),
+        read_reference(b_.diagonal),
+        read(b_.wave_speed),
+        read(b_.x),
+        read(b_.v),
+        write(b_.rate),
+        read(b_.rate),
+        write(b_.J_rate),
+        read(b_.J_rate),
+        read(b_.kernel_force_sum)};
     return project(exec::reduce<At::size>(b_.slots, pass, b_.partial), time);
   }
 
   /// Projections of T and D (47)-(49) and their powers.
-  RigidRate project(exec::Totals<ForceTotals<D>::size> const& sums, double time) {
+  StageBalance project(exec::Totals<ForceTotals<D>::size> const& sums, double time) {
     auto const of = [&](int rate, int moment) {
       return rate_sums<D, At>(sums, rate, moment, b_.constants.total_volume);
     };
@@ -73,7 +89,7 @@ class Forces {
       both.push[c] += on_D.push[c];
       both.centre[c] += b_.constants.centre[c];
     }
-    return both;
+    return {both, sums.v[At::J_rate] / b_.constants.total_volume};
   }
 
   using At = ForceTotals<D>;

@@ -38,7 +38,10 @@ void update_deformation(BodyState& body) {
 
 template <int D>
 void wave_speed_of(BodyState& body) {
-  exec::for_each(body.slots, ComputeWaveSpeed<D>{body.constants.c_p0, read(body.F), write(body.wave_speed)});
+  with_law(body.material, [&](auto const& law) {
+    exec::for_each(body.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, body.constants, read(body.F),
+                                                                                write(body.wave_speed)});
+  });
 }
 
 void update_wave_speed(BodyState& body) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of JST-SPH for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this file
 // proves is that the same source makes device code for every dimension, law and stabilisation.
-#include "piola/formulations/jst_sph/passes.hpp"
+#include "piola/formulations/jst_sph/stress_passes.hpp"
 #include "piola/materials/laws.hpp"
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {

@@ -53,28 +53,53 @@ void add_oscillation(ParticleSet const& set, Body const& body, std::vector<doubl
 
 namespace {
 
+bool evolves_volume(JstBody const& body) {
+  auto const variables = body.options().variables;
+  return variables == Variables::pFJ || variables == Variables::pFHJ;
+}
+
 /// Smooth pressure (kappa / kappa_f) q where the volumetric energy is filtered.
 template <class Law>
 double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
-  auto const& k = body.state().constants;
-  if (!(k.kappa_filtered > 0)) return law.pressure(F);
-  return law.kappa / k.kappa_filtered * JstBody::value(body.state().filtered_pressure, i);
+  if constexpr (Law::volumetric_split) {
+    auto const& k = body.state().constants;
+    if (k.kappa_filtered > 0) return law.kappa / k.kappa_filtered * JstBody::value(body.state().filtered_pressure, i);
+    if (evolves_volume(body)) return law.kappa * (body.J(i) - 1);
+  }
+  return law.pressure(F);
 }
 
-/// The pressure that enters the momentum equation.
+/// P of the momentum equation.
 template <class Law>
-double acting_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
-  auto const& k = body.state().constants;
-  if (!(k.kappa_filtered > 0)) return law.pressure(F);
-  return k.kappa_local * (law.volume_ratio(F) - 1) + JstBody::value(body.state().filtered_pressure, i);
+Mat<3> acting_stress(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
+  auto const& state = body.state();
+  if constexpr (Law::volumetric_split) {
+    if (state.constants.kappa_filtered > 0) {
+      double const p =
+          state.constants.kappa_local * (law.volume_ratio(F) - 1) + JstBody::value(state.filtered_pressure, i);
+      return law.stress_with_pressure(F, body.H(i), determinant(F), p);
+    }
+  }
+  return evolves_volume(body) ? law.stress(F, body.H(i), body.J(i)) : law.first_piola(F);
 }
 
 template <class Law>
 double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
-  auto const& k = body.state().constants;
-  if (!(k.kappa_filtered > 0)) return law.energy(F);
-  double const local = law.volume_ratio(F) - 1, filtered = JstBody::value(body.state().filtered_ratio, i) - 1;
-  return law.isochoric_energy(F) + 0.5 * k.kappa_local * local * local + 0.5 * k.kappa_filtered * filtered * filtered;
+  if constexpr (Law::volumetric_split) {
+    auto const& k = body.state().constants;
+    if (k.kappa_filtered > 0) {
+      double const local = law.volume_ratio(F) - 1, filtered = JstBody::value(body.state().filtered_ratio, i) - 1;
+      return law.isochoric_energy(F) + 0.5 * k.kappa_local * local * local +
+             0.5 * k.kappa_filtered * filtered * filtered;
+    }
+  }
+  return evolves_volume(body) ? law.energy(F, body.H(i), body.J(i)) : law.energy(F);
+}
+
+/// det F minus the volume ratio that the volumetric energy sees, where that is another one.
+double volume_mismatch(JstBody const& body, double J, Index i) {
+  if (body.state().constants.kappa_filtered > 0) return J - JstBody::value(body.state().filtered_ratio, i);
+  return evolves_volume(body) ? J - body.J(i) : 0;
 }
 
 }  // namespace
@@ -92,6 +117,9 @@ void observe(JstBody const& body, Observation& o) {
       d.jacobian_max = o.volume > 0 ? std::max(d.jacobian_max, J) : J;
       d.pressure_min = o.volume > 0 ? std::min(d.pressure_min, p) : p;
       d.pressure_max = o.volume > 0 ? std::max(d.pressure_max, p) : p;
+      double const mismatch = volume_mismatch(body, J, i);
+      o.mismatch_square += V * mismatch * mismatch;
+      o.mismatch_max = std::max(o.mismatch_max, std::abs(mismatch));
       o.pressure_square += V * p * p;
       o.volume += V;
       pressure[static_cast<std::size_t>(body.id(i) - body.body().first)] = p;
@@ -109,6 +137,7 @@ Diagnostics finish(Observation const& o) {
   double const level = std::sqrt(o.pressure_square / o.volume);
   if (level > 0 && o.second_difference_count > 0)
     d.pressure_oscillation = std::sqrt(o.second_difference_square / o.second_difference_count) / level;
+  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square / o.volume)}, {"volume_mismatch_max", o.mismatch_max}};
   return d;
 }
 
@@ -187,7 +216,7 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
                        body.x(i),
                        body.v(i),
                        F,
-                       law.stress_with_pressure(F, acting_pressure(body, law, F, i)),
+                       acting_stress(body, law, F, i),
                        determinant(F),
                        observed_pressure(body, law, F, i),
                        law.rho0,

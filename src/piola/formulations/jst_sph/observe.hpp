@@ -13,6 +13,8 @@ struct Observation {
   double volume = 0;           ///< sum V
   double second_difference_square = 0;
   double second_difference_count = 0;
+  double mismatch_square = 0;  ///< sum V (det F - volume ratio of the volumetric energy)^2
+  double mismatch_max = 0;
 };
 
 void observe(JstBody const& body, Observation& observation);

@@ -9,7 +9,10 @@
 namespace piola::jst_sph {
 namespace {
 
-constexpr std::array<std::string_view, 2> variable_words{"pF", "displacement"};
+constexpr std::array<std::string_view, 4> variable_words{"pF", "pFJ", "pFHJ", "displacement"};
+constexpr std::array<std::string_view, 3> gradient_words{"corrected", "uncorrected", "corrected_kernel"};
+constexpr std::array<std::string_view, 4> force_words{"as_gradient", "corrected", "uncorrected", "corrected_kernel"};
+constexpr std::array<std::string_view, 2> wave_speed_words{"estimate", "exact"};
 constexpr std::array<std::string_view, 3> scheme_words{"filtered", "robust", "paper"};
 constexpr std::array<std::string_view, 1> kernel_words{"cubic_spline"};
 constexpr std::array<std::string_view, 3> biharmonic_words{"as_scheme", "adjoint", "literal"};
@@ -20,7 +23,8 @@ constexpr std::array<std::string_view, 3> filter_words{"as_scheme", "on", "off"}
 
 constexpr std::array choices{
     Choice{"variables",
-           "pF: momentum and deformation gradient; displacement: classical total-Lagrangian SPH, no stabilisation",
+           "pF: momentum and deformation gradient; pFJ: and the volume ratio; pFHJ: and the area map; displacement: "
+           "classical total-Lagrangian SPH, no stabilisation",
            variable_words},
     Choice{"scheme",
            "filtered: no locking, smooth pressure, one right-hand side per step; robust: compact gradient, dissipative "
@@ -34,12 +38,27 @@ constexpr std::array choices{
            "wave speed in the stabilisation: shear: that of shear-type modes; pressure: c_p, eqs. 36-37", speed_words},
     Choice{"volumetric_filter", "filter the volumetric energy: as_scheme: for Poisson's ratios from 0.45 on",
            filter_words},
+    Choice{"gradient",
+           "corrected: eq. 21; uncorrected: eq. 22; corrected_kernel: corrected gradient of the corrected kernel, eq. "
+           "23; the last two need tvd_rk2",
+           gradient_words},
+    Choice{"internal_force",
+           "the form that balances power with a gradient: corrected: eq. 29c; uncorrected: eq. 30; corrected_kernel: "
+           "eq. 31",
+           force_words},
+    Choice{"wave_speed",
+           "estimate: c_p at rest over the smallest stretch; exact: from the law's tangent in the "
+           "principal directions",
+           wave_speed_words},
     Choice{"angular_momentum_projection", "projection of internal force and stabilisation, eqs. 45-49", switch_words}};
 
 constexpr std::array parameters{
     Parameter{"eps2_momentum", "1", "harmonic stabilisation of the momentum, eq. 36", not_negative, 0.0},
     Parameter{"eps4_momentum", "1", "biharmonic stabilisation of the momentum, eq. 37; 0 for displacement variables",
               not_negative, 0.125},
+    Parameter{"eps2_volume", "1", "harmonic stabilisation of the volume ratio (pFJ, pFHJ)", not_negative, 0.0},
+    Parameter{"eps4_volume", "1", "biharmonic stabilisation of the volume ratio (pFJ, pFHJ), eq. 38", not_negative,
+              0.0},
     Parameter{"gradient_support", "1", "smoothing length of the gradient in particle spacings (robust 0.8, paper 1.2)",
               Interval{0.5, 3, true, false}, no_default},
     Parameter{"filter_passes", "1", "passes of the volumetric filter and of its adjoint: 2, or 3 for smoother pressure",
@@ -79,6 +98,17 @@ std::string_view chosen(FormulationSpec const& spec, std::string_view name, std:
   return given == "as_scheme" ? by_scheme : given;
 }
 
+Variables variables_of(std::string_view word) {
+  if (word == "pFJ") return Variables::pFJ;
+  if (word == "pFHJ") return Variables::pFHJ;
+  return word == "displacement" ? Variables::displacement : Variables::pF;
+}
+
+GradientForm form_of(std::string_view word) {
+  if (word == "uncorrected") return GradientForm::uncorrected;
+  return word == "corrected_kernel" ? GradientForm::corrected_kernel : GradientForm::corrected;
+}
+
 void check(Options const& o) {
   if (o.kernel == nullptr) throw InputError("formulation: the kernel is not known");
   if (o.biharmonic != Biharmonic::none && o.laplacian_support < o.gradient_support)
@@ -87,10 +117,36 @@ void check(Options const& o) {
                     "reach at least as "
                     "far as the gradient) - raise laplacian_support or lower gradient_support",
                     o.laplacian_support, o.gradient_support));
-  if (o.filter && o.integrator != Integrator::verlet)
+  bool const verlet = o.integrator == Integrator::verlet;
+  bool const volume = o.variables == Variables::pFJ || o.variables == Variables::pFHJ;
+  if (o.filter && !verlet && volume)
     throw InputError(
-        "formulation: volumetric_filter = \"on\" needs integrator = \"verlet\" - switch the filter off or take the "
-        "other integrator");
+        "formulation: volumetric_filter = \"on\" with variables = \"pFJ\" or \"pFHJ\" needs integrator = \"verlet\" - "
+        "switch the filter off, take the other integrator, or variables = \"pF\"");
+  if (o.smoothed_volume() && !volume)
+    throw InputError(
+        "formulation: eps2_volume and eps4_volume stabilise an evolved volume ratio (variables = \"pFJ\" or \"pFHJ\") "
+        "- "
+        "set them to 0 or choose these variables");
+  if (o.smoothed_volume() && (verlet || o.filter || o.shear_speed))
+    throw InputError(
+        "formulation: eps2_volume and eps4_volume belong to the printed scheme (integrator = \"tvd_rk2\", "
+        "stabilisation_speed = \"pressure\", no volumetric filter) - set them to 0 or choose scheme = \"paper\" or "
+        "\"robust\"");
+  if (o.smoothed_volume() && o.biharmonic == Biharmonic::none)
+    throw InputError(
+        "formulation: eps2_volume and eps4_volume need a stabilised momentum - set eps2_momentum or eps4_momentum");
+  bool const usual = o.gradient == GradientForm::corrected && o.force == GradientForm::corrected;
+  if (verlet && !usual)
+    throw InputError(
+        "formulation: gradient and internal_force other than \"corrected\" need integrator = \"tvd_rk2\" - choose "
+        "scheme "
+        "= \"paper\" or \"robust\", or that integrator");
+  if (o.corrected_kernel() && o.gradient_support != o.laplacian_support)
+    throw InputError(fmt::format(
+        "formulation: \"corrected_kernel\" needs one support for gradient and Laplacian (gradient_support = {}, "
+        "laplacian_support = {}) - set both to the same value",
+        o.gradient_support, o.laplacian_support));
 }
 
 }  // namespace
@@ -100,7 +156,13 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   auto const scheme = word(spec, "scheme");
   bool const paper = scheme == "paper", filtered = scheme == "filtered";
   bool const displacement = word(spec, "variables") == "displacement";
-  o.variables = displacement ? Variables::displacement : Variables::momentum_and_deformation;
+  o.variables = variables_of(word(spec, "variables"));
+  o.gradient = form_of(word(spec, "gradient"));
+  auto const force = word(spec, "internal_force");
+  o.force = force == "as_gradient" ? o.gradient : form_of(force);
+  o.exact_speed = word(spec, "wave_speed") == "exact";
+  o.eps2_J = number(spec, "eps2_volume", 0);
+  o.eps4_J = number(spec, "eps4_volume", 0);
   o.kernel = find_kernel(word(spec, "kernel"));
   o.eps2 = displacement ? 0 : number(spec, "eps2_momentum", 0);
   o.eps4 = displacement ? 0 : number(spec, "eps4_momentum", 0.125);
@@ -117,7 +179,7 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   constexpr double nearly_incompressible = 9.666;
   double ratio = 0;
   with_law(material, [&](auto const& law) { ratio = law.kappa / law.mu; });
-  bool const by_scheme = filtered && verlet && ratio > nearly_incompressible;
+  bool const by_scheme = filtered && !displacement && ratio > nearly_incompressible;
   o.filter = chosen(spec, "volumetric_filter", by_scheme ? "on" : "off") == "on";
   o.filter_passes = static_cast<int>(number(spec, "filter_passes", 2));
   o.cfl = !std::isnan(cfl) ? cfl : verlet ? 0 : 0.3;

@@ -8,18 +8,27 @@ namespace piola::jst_sph {
 
 /// What a user may choose, with every default resolved.
 struct Options {
-  Variables variables = Variables::momentum_and_deformation;
+  Variables variables = Variables::pF;
+  GradientForm gradient = GradientForm::corrected, force = GradientForm::corrected;
   Biharmonic biharmonic = Biharmonic::adjoint;
   Kernel const* kernel = nullptr;
-  double eps2 = 0, eps4 = 0;     ///< harmonic and biharmonic coefficients for p
-  double gradient_support = 0;   ///< h of the gradient in particle spacings
-  double laplacian_support = 0;  ///< h of the Laplacian in particle spacings
+  double eps2 = 0, eps4 = 0;      ///< harmonic and biharmonic coefficients for p
+  double eps2_J = 0, eps4_J = 0;  ///< and for J
+  double gradient_support = 0;    ///< h of the gradient in particle spacings
+  double laplacian_support = 0;   ///< h of the Laplacian in particle spacings
   Integrator integrator = Integrator::verlet;
   bool shear_speed = true;  ///< stabilise with the shear-type wave speed instead of c_p
   bool filter = true;       ///< filter the volumetric energy of nearly incompressible materials
   int filter_passes = 2;
-  bool project = true;  ///< angular and linear momentum projection
-  double cfl = 0;       ///< alpha of eq. (44); 0: from the stability limit of the scheme
+  bool project = true;       ///< angular and linear momentum projection
+  bool exact_speed = false;  ///< p-wave speed from the law's tangent
+  double cfl = 0;            ///< alpha of eq. (44); 0: from the stability limit of the scheme
+
+  bool without_rigid() const { return shear_speed && biharmonic != Biharmonic::none; }
+  bool corrected_kernel() const {
+    return gradient == GradientForm::corrected_kernel || force == GradientForm::corrected_kernel;
+  }
+  bool smoothed_volume() const { return eps2_J > 0 || eps4_J > 0; }
 };
 
 /// Registry entry: keys, meanings, defaults, laws.

@@ -14,14 +14,14 @@ namespace piola::jst_sph::inline PIOLA_MACHINE {
 
 /// First sums over neighbours: raw velocity gradient and first Laplacians.
 ///   sum_b s (u_b - u_a) (x) r            (raw form of eqs. 21, 33a, 34)
-///   sum_b l~ (u_b - u_a),  l~ = l + alpha_a.r + beta_a r.r          (A.1, A.2)
-/// With two Laplacians the gathered values are u and x, and L x follows L u.
-template <int D, int Laplacians>
+///   sum_b l~ (f_b - f_a),  l~ = l + alpha_a.r + beta_a r.r          (A.1, A.2)
+/// f are the first `Smoothed` of the gathered values: none; u; u and J (D + 1 values); u and x (2 D values).
+template <int D, int Smoothed>
 struct FirstSums {
   static constexpr bool smooths = false;
-  static constexpr int fields = Laplacians == 2 ? 2 * D : D, outer_fields = Laplacians * D;
-  static constexpr int sums = D * D + Laplacians * D;
-  View gathered;              ///< u, and x for two Laplacians
+  static constexpr int fields = Smoothed > D ? Smoothed : D, outer_fields = Smoothed;
+  static constexpr int sums = D * D + Smoothed;
+  View gathered;              ///< u, and J or x
   ReferenceView alpha, beta;  ///< corrections of the Laplacian
 
   template <class V>
@@ -33,7 +33,7 @@ struct FirstSums {
   template <class V>
   PIOLA_FN Own<V> own(Index a) const {
     Own<V> r{gathered.vector<fields, V>(a), {}, V(0.0)};
-    if constexpr (Laplacians > 0) {
+    if constexpr (Smoothed > 0) {
       r.alpha = alpha.vector<D, V>(a);
       r.beta = beta.scalar<V>(a);
     }
@@ -46,7 +46,7 @@ struct FirstSums {
       V const du = u_b[i] - own.u[i];
       for (int j = 0; j < D; ++j) sum[i * D + j] = sum[i * D + j] + du * g.sr[j];
     }
-    if constexpr (Laplacians > 0) outer<Masked>(sum, own, g, u_b);
+    if constexpr (Smoothed > 0) outer<Masked>(sum, own, g, u_b);
   }
   template <bool Masked, class O, class G, class V>
   PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* u_b) const {
@@ -58,11 +58,11 @@ struct FirstSums {
 };
 
 /// The sweep that fills a block's scratch with FirstSums.
-template <int D, int Laplacians, class Loader>
+template <int D, int Smoothed, class Loader>
 struct DifferentiateVelocity {
-  static constexpr int sums = FirstSums<D, Laplacians>::sums;
+  static constexpr int sums = FirstSums<D, Smoothed>::sums;
   Loader loader;
-  FirstSums<D, Laplacians> body;
+  FirstSums<D, Smoothed> body;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
     Lanes sum[sums];
@@ -93,106 +93,30 @@ PIOLA_FN Mat<D, Lanes> raw_gradient(exec::Scratch const& in, Index i) {
   return raw;
 }
 
-/// Records the lanes whose det F is not positive, or not a number.
-PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J) {
-  for (int l = 0; l < lane_count; ++l)
-    if (!(lane(J, l) > 0)) exec::record(failure, i + l, 1);
-}
-
-/// What a stage does with F: eq. (43) for F, and the checks and wave speed of its result.
-struct StageUpdate {
-  double dt;
-  bool second;  ///< second Runge-Kutta stage
-};
-
-/// From the first sums to everything that the second sweep needs of a particle:
-///   F_dot_a = (sum_b s (v_b - v_a) (x) r) C_a                         (33a)
-///   A_a = (V_a / V_kernel) P(F_a) C_a                                 (12), folded for (29c)
-///   w_a = L v_a  or  eps4 c_a h^3 V_a L v_a                           (37)
-///   D2_a = eps2 c_a h L v_a, written to `rate`                        (36)
-///   stage 1: F* = F^n + dt F_dot;  stage 2: F^(n+1) = 1/2 (F^n + F* + dt F_dot*)   (43)
-/// For displacement variables F_a = (sum_b s (x_b - x_a) (x) r) C_a instead (34).
-/// Records the first particle whose new F is inverted or not a number.
-template <int D, bool Laplacian, class Law>
-struct UpdateStress {
-  Law law;
-  Constants k;
-  StageUpdate stage;
-  ReferenceView C, V;
-  View wave_speed, F_n, F_star;
-  WriteView F_out, A, w, rate, wave_speed_next;
-  FailureSlot* failure;
-
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    SymMat<D, Lanes> const correction = C.symmetric<D, Lanes>(i);
-    Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * correction;
-    Lanes const volume = V.scalar<Lanes>(i);
-    Mat<D, Lanes> const F = deform(i, gradient, volume);
-    Mat<D, Lanes> const P = restrict_to<D>(law.first_piola(embed<D>(F)));
-    A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * (P * correction));
-    if constexpr (Laplacian) stabilise(i, in, volume);
-  }
-
- private:
-  /// The F at which stress is evaluated; stores the F that the stage produces and what follows from it.
-  PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient, Lanes const& volume) const {
-    Mat<D, Lanes> F = gradient;
-    // Empty slots must stay finite: their values meet zero weights.
-    for (int c = 0; c < D; ++c) F(c, c) = select(volume > 0.0, F(c, c), Lanes(1.0));
-    Mat<D, Lanes> next = F;
-    if (k.variables == Variables::momentum_and_deformation) {
-      Mat<D, Lanes> const old = F_n.matrix<D, Lanes>(i);
-      F = stage.second ? F_star.matrix<D, Lanes>(i) : old;
-      next = F + stage.dt * gradient;
-      if (stage.second) next = 0.5 * (old + next);
-    }
-    F_out.matrix<D>(i, next);
-    Mat<3, Lanes> const full = embed<D>(next);
-    Lanes const J = determinant(full);
-    auto const good = J > 0.0;
-    if (any(!good)) record_inverted(failure, i, J);
-    if (stage.second) {
-      Lanes const stretch2 = maximum(smallest_stretch_squared(full), Lanes(1e-12));
-      wave_speed_next.scalar(i, k.c_p0 / square_root(stretch2));
-    }
-    return F;
-  }
-
-  PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& volume) const {
-    Lanes const c = wave_speed.scalar<Lanes>(i);
-    Lanes const harmonic = (k.eps2 * k.h_min) * c;
-    Lanes const factor =
-        k.biharmonic == Biharmonic::adjoint ? (k.eps4 * k.h_min * k.h_min * k.h_min) * (c * volume) : Lanes(1.0);
-    for (int j = 0; j < D; ++j) {
-      Lanes const Lv = load<Lanes>(in.at(i, D * D + j));
-      w.scalar(i, factor * Lv, j);
-      if (k.eps2 > 0) rate.scalar(i, harmonic * Lv, j);
-    }
-  }
-};
-
 /// Second sums over neighbours: internal force and second Laplacian.
 ///   sum_b s A_b r                                                      (29c) without the particle's own part
 ///   literal: sum_b (l + alpha_a.r + beta_a r.r) (w_b - w_a);   adjoint: sum_b (l - alpha_b.r + beta_b r.r) w_b
-template <int D, Biharmonic B>
+/// of `Smoothed` values w: those of the momentum (D), and that of J (D + 1).
+template <int D, Biharmonic B, int Smoothed>
 struct SecondSums {
   static constexpr bool smooths = false;
   static constexpr bool adjoint = B == Biharmonic::adjoint, laplacian = B != Biharmonic::none;
-  static constexpr int outer_fields = adjoint ? 2 * D + 1 : laplacian ? D : 0;  // w, and alpha beta
-  static constexpr int fields = outer_fields + D * D;                           // then A
-  static constexpr int sums = D + (laplacian ? D : 0);
+  static constexpr int outer_fields = adjoint ? Smoothed + D + 1 : laplacian ? Smoothed : 0;  // w, and alpha beta
+  static constexpr int fields = outer_fields + D * D;                                         // then A
+  static constexpr int sums = D + (laplacian ? Smoothed : 0);
   View gathered;
   ReferenceView alpha, beta;
 
   template <class V>
   struct Own {
-    Vec<D, V> w, alpha;
+    Vec<Smoothed, V> w;
+    Vec<D, V> alpha;
     V beta;
   };
   template <class V>
   PIOLA_FN Own<V> own(Index a) const {
     if constexpr (B == Biharmonic::literal)
-      return {gathered.vector<D, V>(a), alpha.vector<D, V>(a), beta.scalar<V>(a)};
+      return {gathered.vector<Smoothed, V>(a), alpha.vector<D, V>(a), beta.scalar<V>(a)};
     else
       return {{}, {}, V(0.0)};
   }
@@ -208,15 +132,21 @@ struct SecondSums {
   PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
     V l = g.l;
     if constexpr (adjoint) {
-      l = l + f[2 * D] * g.r2;
-      for (int i = 0; i < D; ++i) l = l - f[D + i] * g.r[i];
+      l = l + f[Smoothed + D] * g.r2;
+      for (int i = 0; i < D; ++i) l = l - f[Smoothed + i] * g.r[i];
     } else {
       l = l + own.beta * g.r2;
       for (int i = 0; i < D; ++i) l = l + own.alpha[i] * g.r[i];
     }
     if constexpr (Masked) l = g.weight * l;
-    for (int i = 0; i < D; ++i) sum[D + i] = sum[D + i] + (adjoint ? l * f[i] : l * (f[i] - own.w[i]));
+    for (int i = 0; i < Smoothed; ++i) sum[D + i] = sum[D + i] + (adjoint ? l * f[i] : l * (f[i] - own.w[i]));
   }
+};
+
+/// A Runge-Kutta stage, eq. (43).
+struct StageUpdate {
+  double dt;
+  bool second;  ///< second Runge-Kutta stage
 };
 
 /// Number of components of an angular momentum.
@@ -236,6 +166,46 @@ PIOLA_FN void add_moment(T* sum, T const& weight, Vec<D, T> const& x, Vec<D, T> 
   }
 }
 
+/// Positions in the sums that give the rigid part of a motion; x are arms from `centre`.
+template <int D>
+struct MotionTotals {
+  static constexpr int x = 0;                     // sum V x
+  static constexpr int xx = x + D;                // sum V x (x) x
+  static constexpr int v = xx + SymMat<D>::size;  // sum V v
+  static constexpr int moment_v = v + D;          // sum V x cross v
+  static constexpr int size = moment_v + spins<D>;
+};
+
+/// Adds position x and velocity v of a particle to them.
+template <int D>
+PIOLA_FN void add_motion(Lanes const& volume, Constants const& k, Vec<D, Lanes> const& x, Vec<D, Lanes> const& v,
+                         Lanes* total) {
+  using At = MotionTotals<D>;
+  Vec<D, Lanes> arm = x;
+  for (int c = 0; c < D; ++c) arm[c] = x[c] - k.centre[c];
+  for (int c = 0; c < D; ++c) {
+    Lanes const Vx = volume * arm[c];
+    total[At::x + c] = total[At::x + c] + Vx;
+    total[At::v + c] = total[At::v + c] + volume * v[c];
+    for (int d = c; d < D; ++d) {
+      int const at = At::xx + SymMat<D>::at(c, d);
+      total[at] = total[at] + Vx * arm[d];
+    }
+  }
+  add_moment<D>(total + At::moment_v, volume, arm, v);
+}
+
+/// The sums of a motion that does not change.
+template <int D>
+struct SumMotion {
+  Constants k;
+  ReferenceView V;
+  View x, v;
+  PIOLA_FN void operator()(Index i, Lanes* total) const {
+    add_motion<D>(V.scalar<Lanes>(i), k, x.vector<D, Lanes>(i), v.vector<D, Lanes>(i), total);
+  }
+};
+
 /// Positions in the sums that SumForces makes for the projections and the energy books; x are arms from `centre`.
 template <int D>
 struct ForceTotals {
@@ -249,16 +219,18 @@ struct ForceTotals {
   static constexpr int moment_v = v + D;
   static constexpr int power_T = moment_v + spins<D>;      // sum V v.a_T
   static constexpr int power_stabilisation = power_T + 1;  // sum V v.a_D
-  static constexpr int size = power_stabilisation + 1;
+  static constexpr int J_rate = power_stabilisation + 1;   // sum V D(J)
+  static constexpr int size = J_rate + 1;
 };
 
 /// Rate of velocity from internal force and stabilisation, before projection; and the sums that projections need.
 ///   -T_a = (V_kernel / V_a) [ sum_b s A_b r + A_a G_a ]               (29c), (32)
 ///   D4_a = -eps4 c_a h^3 L w_a   or   -(1 / V_a) [ sum_b ... - w_a sum_b l~_ab ]   (37b) or its adjoint form
-/// The sum over all particles of V T vanishes identically.
-template <int D, Biharmonic B, class Loader>
+/// and D(J) in the same way, where J is stabilised (38). The corrected kernel has sum_b V_kernel W_ab A_b gamma_b with
+/// b = a included instead of A_a G_a (31). The sum over all particles of V T vanishes identically.
+template <int D, Biharmonic B, int Smoothed, class Loader>
 struct SumForces {
-  using Body = SecondSums<D, B>;
+  using Body = SecondSums<D, B, Smoothed>;
   using At = ForceTotals<D>;
   Loader loader;
   Body body;
@@ -267,36 +239,49 @@ struct SumForces {
   ReferenceView V, G, diagonal;
   View wave_speed, x, v;
   WriteView rate;
-  View rate_in;  ///< D2 of UpdateStress
+  View rate_in;           ///< D2 of UpdateStress
+  WriteView J_rate;       ///< D(J); nothing behind it unless Smoothed > D
+  View J_rate_in;         ///< D2 of J
+  View kernel_force_sum;  ///< corrected kernel only
 
   PIOLA_FN void operator()(Index i, Lanes* total) const {
     Lanes sum[Body::sums];
     loader(i, body, sum);
     Lanes const volume = V.scalar<Lanes>(i);
     Lanes const inverse_volume = 1.0 / maximum(volume, Lanes(1e-300));
-    Vec<D, Lanes> force = A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
+    Vec<D, Lanes> force = k.force == GradientForm::corrected_kernel ? kernel_force_sum.vector<D, Lanes>(i)
+                                                                    : A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
     for (int c = 0; c < D; ++c) force[c] = force[c] + sum[c];
     Vec<D, Lanes> const a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
     Vec<D, Lanes> const a_D = stabilisation(i, sum, inverse_volume);
     rate.vector<D>(i, a_T + a_D);
     add(i, volume, a_T, a_D, total);
+    if constexpr (Body::laplacian && Smoothed > D) {
+      Lanes D_J = biharmonic(i, sum, inverse_volume, D);
+      if (k.eps2_J > 0) D_J = D_J + J_rate_in.scalar<Lanes>(i);
+      J_rate.scalar(i, D_J);
+      total[At::J_rate] = total[At::J_rate] + volume * D_J;
+    }
   }
 
  private:
   PIOLA_FN Vec<D, Lanes> stabilisation(Index i, Lanes const* sum, Lanes const& inverse_volume) const {
     Vec<D, Lanes> a;
-    for (int c = 0; c < D; ++c) a[c] = Lanes(0.0);
-    if constexpr (Body::laplacian) {
-      Lanes factor = inverse_volume;
-      if constexpr (!Body::adjoint) factor = (k.eps4 * k.h_min * k.h_min * k.h_min) * wave_speed.scalar<Lanes>(i);
-      for (int c = 0; c < D; ++c) {
-        Lanes L = sum[D + c];
-        if constexpr (Body::adjoint) L = L - w.scalar<Lanes>(i, c) * diagonal.scalar<Lanes>(i);
-        a[c] = -(factor * L);
+    for (int c = 0; c < D; ++c) {
+      a[c] = Lanes(0.0);
+      if constexpr (Body::laplacian) {
+        a[c] = biharmonic(i, sum, inverse_volume, c);
         if (k.eps2 > 0) a[c] = a[c] + rate_in.scalar<Lanes>(i, c);
       }
     }
     return a;
+  }
+  /// D4 of the smoothed value number c.
+  PIOLA_FN Lanes biharmonic(Index i, Lanes const* sum, Lanes const& inverse_volume, int c) const {
+    Lanes const L = sum[D + c];
+    if constexpr (Body::adjoint) return -(inverse_volume * (L - w.scalar<Lanes>(i, c) * diagonal.scalar<Lanes>(i)));
+    double const eps4 = c < D ? k.eps4 : k.eps4_J;
+    return -((eps4 * k.h_min * k.h_min * k.h_min) * wave_speed.scalar<Lanes>(i) * L);
   }
 
   PIOLA_FN void add(Index i, Lanes const& volume, Vec<D, Lanes> const& a_T, Vec<D, Lanes> const& a_D,
@@ -355,28 +340,6 @@ struct AdvanceMomentum {
     for (int c = 0; c < D; ++c) arm[c] = x_a[c] - rigid.centre[c];
     for (int c = 0; c < D; ++c) a[c] = a[c] + rigid.push[c];
     if constexpr (D > 1) a = a + turned<D>(rigid.spin, arm);
-  }
-};
-
-/// c_a = c_p0 / lambda_min(F_a): p-wave speed with the smallest principal stretch (step 2 of Algorithm 1).
-template <int D>
-struct ComputeWaveSpeed {
-  double c_p0;
-  View F;
-  WriteView wave_speed;
-  PIOLA_FN void operator()(Index i) const {
-    Lanes const stretch2 = smallest_stretch_squared(embed<D>(F.matrix<D, Lanes>(i)));
-    wave_speed.scalar(i, c_p0 / square_root(maximum(stretch2, Lanes(1e-12))));
-  }
-};
-
-/// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient that positions imply.
-template <int D>
-struct StoreDeformation {
-  ReferenceView C;
-  WriteView F;
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    F.matrix<D>(i, raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i));
   }
 };
 

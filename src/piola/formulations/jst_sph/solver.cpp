@@ -12,7 +12,7 @@ namespace {
 
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
-  /// Share of the stability limit that is used: the limit is that of the undeformed body.
+  /// Share of the stability limit that is used: power iterations come from below.
   static constexpr double margin = 0.85;
 
  public:
@@ -20,7 +20,8 @@ class Solver final : public Formulation {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
-      alpha_.push_back(options.cfl > 0 ? options.cfl : margin * stability_limit(*bodies_.back(), *machine_).alpha());
+      alpha_.push_back(options.cfl);
+      monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
     }
   }
 
@@ -28,13 +29,16 @@ class Solver final : public Formulation {
     double dt = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       auto& state = bodies_[k]->state();
-      dt = std::min(dt, alpha_[k] * state.constants.h_min / machine_->largest_wave_speed(state));  // (44)
+      double const c = machine_->largest_wave_speed(state);
+      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * state.constants.h_min / c);  // (44)
     }
     return dt;
   }
 
   void step(double, double dt) override {
     for (auto const& body : bodies_) machine_->step(body->state(), dt);
+    for (auto const& monitor : monitors_)
+      if (monitor) monitor->update();
   }
 
   std::optional<Failure> failure() const override;
@@ -85,7 +89,8 @@ class Solver final : public Formulation {
   ParticleSet set_;
   Machine const* machine_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
-  std::vector<double> alpha_;  ///< of eq. (44), per body
+  std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
+  std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
 };
 
 std::optional<Failure> Solver::failure() const {
@@ -95,13 +100,16 @@ std::optional<Failure> Solver::failure() const {
     Mat<3> F = body->F(slot.index);
     double const J = determinant(F);
     Failure f;
-    f.what = J <= 0 ? "is inverted" : "has a deformation that is not a number";
+    f.what = slot.code == 2 ? "has an evolved volume ratio J that is not positive"
+             : J <= 0       ? "is inverted"
+                            : "has a deformation that is not a number";
     f.particle = body->id(slot.index);
     f.body = body->body().name;
     f.X = body->X(slot.index);
     f.x = body->x(slot.index);
     auto const v = body->v(slot.index);
     f.values = {{"det F", J},
+                {"J", body->J(slot.index)},
                 {"neighbours", body->pairs().corrections().neighbours[static_cast<std::size_t>(slot.index)]},
                 {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])},
                 {"wave speed [m/s]", JstBody::value(body->state().wave_speed, slot.index)}};
@@ -119,6 +127,9 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
   f(fmt::format("body{}_velocity", number), s.v, D);
   f(fmt::format("body{}_deformation_gradient", number), s.F, D * D);
   f(fmt::format("body{}_wave_speed", number), s.wave_speed, 1);
+  bool const area = s.constants.variables == Variables::pFHJ, volume = area || s.constants.variables == Variables::pFJ;
+  if (area) f(fmt::format("body{}_area_map", number), s.H, 9);
+  if (volume && !(s.constants.kappa_filtered > 0)) f(fmt::format("body{}_volume_ratio", number), s.J, 1);
   if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
   if (s.constants.kappa_filtered > 0) {
     f(fmt::format("body{}_filtered_ratio", number), s.filtered_ratio, 1);
@@ -140,6 +151,7 @@ void Solver::save(StateWriter& writer) const {
     auto const& totals = body.state().totals;
     std::array const books{totals.stabilisation_loss, totals.projection_loss};
     writer.put(fmt::format("body{}_energy_books", k), books);
+    if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
   }
 }
 
@@ -161,6 +173,10 @@ void Solver::load(StateReader& reader) {
     std::array<double, 2> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.state().totals = {books[0], books[1]};
+    if (!monitors_[k]) continue;
+    std::vector<double> limit = monitors_[k]->state();
+    reader.get(fmt::format("body{}_step_limit", k), limit);
+    monitors_[k]->restore(limit);
   }
 }
 

@@ -3,23 +3,30 @@
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
 namespace piola::jst_sph {
 namespace {
 
-constexpr int iterations = 40;
+constexpr int first_rounds = 40;  ///< power iterations from a random start
+constexpr int later_rounds = 3;   ///< and from the mode of the last measurement
+constexpr int interval = 100;     ///< steps between measurements: they cost 4 right-hand sides
+/// Random part that every measurement adds to its start, so that a mode that has grown elsewhere is found.
+constexpr double fresh = 0.05;
 
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
  public:
-  Kept(BodyState const& state, int dimension) : slots_(state.slots.last) {
-    for (auto const& [field, components] : {std::pair{state.x, dimension},
-                                            {state.v, dimension},
-                                            {state.rate, dimension},
-                                            {state.F, dimension * dimension},
-                                            {state.wave_speed, 1}})
-      parts_.push_back({field, components, values_of(field, components)});
+  Kept(BodyState const& state, int D) : slots_(state.slots.last) {
+    for (auto const& [field, components] : {std::pair{state.x, D},
+                                            {state.v, D},
+                                            {state.rate, D},
+                                            {state.F, D * D},
+                                            {state.wave_speed, 1},
+                                            {state.volume_ratio, 1},
+                                            {state.filtered_ratio, 1},
+                                            {state.filtered_pressure, 1}})
+      if (field.data != nullptr) parts_.push_back({field, components, values_of(field, components)});
   }
   void restore() const {
     for (auto const& part : parts_) put(part.field, part.components, part.values);
@@ -32,9 +39,10 @@ class Kept {
     std::vector<double> values;
   };
   std::vector<double> values_of(FieldRef const& field, int components) const {
-    std::vector<double> values;
+    std::vector<double> values(static_cast<std::size_t>(slots_ * components));
+    std::size_t k = 0;
     for (Index i = 0; i < slots_; ++i)
-      for (int c = 0; c < components; ++c) values.push_back(JstBody::value(field, i, c));
+      for (int c = 0; c < components; ++c) values[k++] = JstBody::value(field, i, c);
     return values;
   }
   void put(FieldRef const& field, int components, std::vector<double> const& values) const {
@@ -53,87 +61,171 @@ double pseudo_random(std::uint64_t k) {
   return static_cast<double>((k ^ (k >> 32)) & 0xffffff) / 0x1000000 - 0.5;
 }
 
-/// |K u| / |u| for the dominant u of the linear operator that `state` (a trial copy) puts into its rate.
-double dominant_rate(JstBody& body, BodyState trial, Machine const& machine) {
-  int const D = trial.dimension;
-  Index const n = body.particles();
-  std::vector<double> u(static_cast<std::size_t>(n * D));
-  for (std::size_t k = 0; k < u.size(); ++k) u[k] = pseudo_random(k);
-  double const size = 1e-6 * trial.constants.h_min;  // small: the law is linear, but det F must stay positive
-  double rate = 0;
-  for (int round = 0; round < iterations; ++round) {
-    double most = 0, before = 0, after = 0;
-    for (double const value : u) most = std::max(most, std::abs(value));
-    if (!(most > 0)) return 0;
-    for (Index i = 0; i < n; ++i) {
-      auto const X = body.X(i);
-      for (int c = 0; c < D; ++c) {
-        double& value = u[static_cast<std::size_t>(i * D + c)];
-        value *= size / most;
-        JstBody::set(trial.v, i, c, value);
-        JstBody::set(trial.x, i, c, X[static_cast<std::size_t>(c)]);
-        JstBody::set(trial.rate, i, c, 0);
-        for (int d = 0; d < D; ++d) JstBody::set(trial.F, i, c * D + d, c == d ? 1 : 0);
-        before += body.volume(i) * value * value;
-      }
-    }
-    machine.step(trial, 1.0);
-    for (Index i = 0; i < n; ++i)
-      for (int c = 0; c < D; ++c) {
-        double const value = JstBody::value(trial.rate, i, c);
-        u[static_cast<std::size_t>(i * D + c)] = value;
-        after += body.volume(i) * value * value;
-      }
-    rate = std::sqrt(after / before);
+/// A linear operator of the body as trial steps see it: displacements to rates of velocity, about F.
+class Operator {
+ public:
+  /// `trial` shares its fields with the body; `F` per slot.
+  Operator(JstBody& body, BodyState const& trial, Machine const& machine, std::vector<double> F)
+      : body_(body), trial_(trial), machine_(machine), D_(trial.dimension), F_(std::move(F)) {
+    none_.resize(static_cast<std::size_t>(body.particles() * D_));
+    rest_ = none_;
+    rest_ = rates_at(none_);
   }
-  return rate;
+
+  /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u.
+  double dominant(std::vector<double>& u, int rounds) {
+    double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
+    double ratio = 0;
+    for (int round = 0; round < rounds; ++round) {
+      double most = 0;
+      for (double const value : u) most = std::max(most, std::abs(value));
+      if (!(most > 0) || !std::isfinite(most)) return 0;
+      for (double& value : u) value *= size / most;
+      double const before = square(u);
+      u = rates_at(u);
+      ratio = std::sqrt(square(u) / before);
+    }
+    return ratio;
+  }
+
+ private:
+  double square(std::vector<double> const& u) const {
+    double sum = 0;
+    for (Index i = 0; i < body_.particles(); ++i)
+      for (int c = 0; c < D_; ++c) {
+        double const value = u[static_cast<std::size_t>(i * D_ + c)];
+        sum += body_.volume(i) * value * value;
+      }
+    return sum;
+  }
+  /// Rates after the displacement u of the kept F, minus those without.
+  std::vector<double> rates_at(std::vector<double> const& u) {
+    for (Index i = 0; i < body_.particles(); ++i)
+      for (int c = 0; c < D_; ++c) {
+        JstBody::set(trial_.v, i, c, u[static_cast<std::size_t>(i * D_ + c)]);
+        JstBody::set(trial_.rate, i, c, 0);
+        for (int d = 0; d < D_; ++d)
+          JstBody::set(trial_.F, i, c * D_ + d, F_[static_cast<std::size_t>((i * D_ + c) * D_ + d)]);
+      }
+    machine_.step(trial_, 1.0);
+    std::vector<double> rates(u.size());
+    for (Index i = 0; i < body_.particles(); ++i)
+      for (int c = 0; c < D_; ++c) {
+        auto const k = static_cast<std::size_t>(i * D_ + c);
+        rates[k] = JstBody::value(trial_.rate, i, c) - rest_[k];
+      }
+    return rates;
+  }
+
+  JstBody& body_;
+  BodyState trial_;
+  Machine const& machine_;
+  int D_;
+  std::vector<double> F_, none_, rest_;
+};
+
+std::vector<double> current_F(JstBody& body) {
+  auto const& s = body.state();
+  int const size = s.dimension * s.dimension;
+  std::vector<double> F;
+  for (Index i = 0; i < body.particles(); ++i)
+    for (int c = 0; c < size; ++c) F.push_back(JstBody::value(s.F, i, c));
+  return F;
 }
 
-/// The linear elastic law with the same moduli, times `factor`.
-MaterialParameters linearised(MaterialParameters const& material, double factor) {
-  MaterialParameters linear;
-  linear.law = find_law(LinearElastic::name)->index;
-  with_law(material, [&](auto const& law) {
-    linear.value[0] = law.rho0;
-    linear.value[1] = factor * 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
-    linear.value[2] = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu));
-  });
-  return linear;
+std::vector<double> identities(JstBody const& body) {
+  int const D = body.state().dimension;
+  std::vector<double> F;
+  for (Index i = 0; i < body.particles(); ++i)
+    for (int c = 0; c < D * D; ++c) F.push_back(c % (D + 1) == 0 ? 1 : 0);
+  return F;
+}
+
+/// A copy of the state for trial steps: forces alone, no supports, no books.
+BodyState trial_of(JstBody& body, FailureSlot& failure) {
+  BodyState trial = body.state();
+  trial.failure = &failure;
+  trial.constants.project = false;
+  trial.constants.variables = Variables::pF;
+  return trial;
+}
+
+/// Rate of the stabilisation per wave speed [1/m]: largest eigenvalue of eps4 h^3 L* L + eps2 h L.
+double damping_per_speed(JstBody& body, Machine const& machine) {
+  auto const& k = body.state().constants;
+  if (k.biharmonic == Biharmonic::none) return 0;
+  FailureSlot failure;
+  BodyState trial = trial_of(body, failure);
+  constexpr double almost_no_stress = 1e-12;
+  trial.constants.eps2 = 0;
+  trial.constants.eps4 = 1;
+  trial.constants.exact_speed = false;
+  // A law so soft that its forces vanish beside the stabilisation.
+  trial.material.law = find_law(LinearElastic::name)->index;
+  trial.material.value[0] = k.rho0;
+  trial.material.value[1] = almost_no_stress * k.rho0 * k.c_p0 * k.c_p0;
+  trial.material.value[2] = 0;
+  trial.constants.kappa_filtered = 0;
+  trial.constants.c_p0 = 1;
+  Operator L_star_L(body, trial, machine, identities(body));
+  std::vector<double> mode(static_cast<std::size_t>(body.particles() * trial.dimension));
+  for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = pseudo_random(i);
+  double const sigma2 = L_star_L.dominant(mode, first_rounds) * k.h_min;  // times h^4
+  return (k.eps4 * sigma2 + k.eps2 * std::sqrt(sigma2)) / k.h_min;
 }
 
 }  // namespace
 
-double StabilityLimit::alpha() const {
+double largest_step(double frequency, double damping) {
   double const w2 = frequency * frequency;
+  if (!(w2 > 0)) return damping > 0 ? 2 / damping : std::numeric_limits<double>::infinity();
   return (-damping + std::sqrt(damping * damping + 4 * w2)) / w2;
 }
 
-StabilityLimit stability_limit(JstBody& body, Machine const& machine) {
-  BodyState& state = body.state();
-  Kept const kept(state, state.dimension);
-  FailureSlot failure;
-  auto const& k = state.constants;
-  StabilityLimit limit;
-
-  BodyState trial = state;
-  trial.failure = &failure;
-  trial.constants.project = false;
-  trial.constants.eps2 = trial.constants.eps4 = 0;
-  trial.material = linearised(state.material, 1);
-  limit.frequency = std::sqrt(dominant_rate(body, trial, machine)) * k.h_min / k.c_p0;
-
-  if (k.biharmonic != Biharmonic::none) {
-    constexpr double almost_no_stress = 1e-9;
-    trial.material = linearised(state.material, almost_no_stress);
-    trial.constants.kappa_local *= almost_no_stress;
-    trial.constants.kappa_filtered *= almost_no_stress;
-    trial.constants.eps4 = 1;
-    trial.constants.c_p0 = 1;
-    double const sigma2 = dominant_rate(body, trial, machine) * k.h_min;  // largest eigenvalue of L* L, times h^4
-    limit.damping = k.eps4 * sigma2 + k.eps2 * std::sqrt(sigma2);
-  }
+StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body_(body), machine_(machine) {
+  Kept const kept(body.state(), body.state().dimension);
+  damping_ = damping_per_speed(body, machine);
   kept.restore();
-  return limit;
+  mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
+  measure(first_rounds);
+}
+
+void StabilityMonitor::measure(int rounds) {
+  BodyState& state = body_.state();
+  Kept const kept(state, state.dimension);
+  wave_speed_ = machine_.largest_wave_speed(state);
+  double most = 0;
+  for (double const value : mode_) most = std::max(most, std::abs(value));
+  for (std::size_t i = 0; i < mode_.size(); ++i)
+    mode_[i] = most > 0 ? mode_[i] / most + fresh * pseudo_random(i) : pseudo_random(i);
+  FailureSlot failure;
+  BodyState trial = trial_of(body_, failure);
+  trial.constants.eps2 = trial.constants.eps4 = 0;
+  Operator tangent(body_, trial, machine_, current_F(body_));
+  frequency_ = std::sqrt(tangent.dominant(mode_, rounds));
+  kept.restore();
+  steps_ = 0;
+}
+
+void StabilityMonitor::update() {
+  if (++steps_ >= interval) measure(later_rounds);
+}
+
+double StabilityMonitor::step(double wave_speed) const {
+  return largest_step(frequency_ * (wave_speed / wave_speed_), damping_ * wave_speed);
+}
+
+std::vector<double> StabilityMonitor::state() const {
+  std::vector<double> s{frequency_, wave_speed_, steps_};
+  s.insert(s.end(), mode_.begin(), mode_.end());
+  return s;
+}
+
+void StabilityMonitor::restore(std::vector<double> const& state) {
+  frequency_ = state[0];
+  wave_speed_ = state[1];
+  steps_ = state[2];
+  std::copy(state.begin() + 3, state.end(), mode_.begin());
 }
 
 }  // namespace piola::jst_sph

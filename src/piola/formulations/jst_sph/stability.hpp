@@ -1,18 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/jst_sph/body.hpp"
+#include "piola/formulations/jst_sph/state.hpp"
+#include <vector>
 
 namespace piola::jst_sph {
 
-/// Stability of velocity Verlet for a body, in the reference configuration. With h the smallest spacing and c_p0 the
-/// p-wave speed: frequency = omega_max h / c_p0 of the internal force, damping = h / c_p0 times the largest rate of the
-/// stabilisation. A step alpha h / c_p0 is stable while alpha^2 frequency^2 + 2 alpha damping <= 4.
-struct StabilityLimit {
-  double frequency = 0, damping = 0;
-  double alpha() const;  ///< the largest stable alpha
-};
+/// Largest step of velocity Verlet with velocity-proportional damping: the roots of the amplification stay in the unit
+/// circle while  dt^2 frequency^2 + 2 dt damping <= 4.  Both in 1/s; infinity if both are zero.
+double largest_step(double frequency, double damping);
 
-/// By power iteration with the machine's own passes; leaves the state of the body as it was.
-StabilityLimit stability_limit(JstBody& body, Machine const& machine);
+/// Follows the step limit of one body: the largest frequency of its internal forces about the current state, by power
+/// iterations that start from the mode found last, and the largest rate of its stabilisation. Between measurements both
+/// scale with the largest wave speed. The state is left as it was.
+class StabilityMonitor {
+ public:
+  /// Measures both from a random start.
+  StabilityMonitor(JstBody& body, Machine const& machine);
+
+  /// Counts a step that was taken, and measures the frequency again if that is due.
+  void update();
+  /// Largest stable step for a state with this largest wave speed [s].
+  double step(double wave_speed) const;
+
+  double frequency() const { return frequency_; }            ///< 1/s, at the last measurement
+  double damping() const { return damping_ * wave_speed_; }  ///< 1/s, at the last measurement
+
+  /// Everything that the next step limit depends on.
+  std::vector<double> state() const;
+  void restore(std::vector<double> const& state);
+
+ private:
+  void measure(int rounds);
+
+  JstBody& body_;
+  Machine const& machine_;
+  std::vector<double> mode_;  ///< in slot order
+  double frequency_ = 0;
+  double wave_speed_ = 0;  ///< m/s, largest one at the last measurement
+  double damping_ = 0;     ///< 1/m: rate of the stabilisation per wave speed
+  double steps_ = 0;       ///< since the last measurement
+};
 
 }  // namespace piola::jst_sph

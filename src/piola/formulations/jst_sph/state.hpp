@@ -8,7 +8,20 @@
 /// One body of a JST-SPH run as its loops see it: plain data that crosses between machines.
 namespace piola::jst_sph {
 
-enum class Variables { momentum_and_deformation, displacement };
+/// The unknowns of the conservation laws; the rest of the geometry follows from them.
+enum class Variables {
+  pF,           ///< momentum and deformation gradient: H = cof F, J = det F
+  pFJ,          ///< and the volume ratio J, eq. (1d): H = cof F
+  pFHJ,         ///< and the area map H, eq. (1c)
+  displacement  ///< F from positions, eq. (34): classical total-Lagrangian SPH
+};
+
+/// How gradients are taken, and the internal force that goes with each by power balance.
+enum class GradientForm {
+  corrected,        ///< corrected gradient, eqs. (21) and (29c)
+  uncorrected,      ///< raw kernel gradient, eqs. (22) and (30)
+  corrected_kernel  ///< corrected gradient of the corrected kernel, eqs. (23) and (31)
+};
 
 /// How the biharmonic stabilisation is formed from the corrected Laplacian L.
 enum class Biharmonic {
@@ -36,15 +49,20 @@ struct Constants {
   double h_min;           ///< smallest particle spacing [m]
   double c_p0;            ///< p-wave speed at F = I [m/s]
   double eps2, eps4;      ///< harmonic and biharmonic coefficients for p, times (stabilisation speed / c_p0)
+  double eps2_J, eps4_J;  ///< the same for J
   double kappa_local;     ///< part of the bulk modulus that acts on the local volume ratio [Pa]
   double kappa_filtered;  ///< part that acts on the filtered volume ratio [Pa]; 0: no filter
   int filter_passes;      ///< n of B = S^n
   double total_volume;    ///< sum of tributary volumes [m^D]
   double centre[3];       ///< origin of arms [m], near the body: keeps sums of moments accurate
+  double kernel_at_zero;  ///< V_kernel W(0) of the gradient's support, for the corrected kernel [1]
   Variables variables;
+  GradientForm gradient, force;
+  bool exact_speed;  ///< p-wave speed from the law's tangent, else the estimate c_p0 / lambda_min
   Biharmonic biharmonic;
   Integrator integrator;
-  bool project;  ///< angular and linear momentum projection
+  bool project;        ///< angular and linear momentum projection
+  bool without_rigid;  ///< stabilise the motion without its rigid part
 };
 
 /// What a step adds to the books of the body.
@@ -66,6 +84,7 @@ struct BodyState {
   FieldRef V, C, G, alpha, beta, diagonal;
   // Evolved. `v` is p / rho0. For the mixed variables `u` is v itself; for displacement it is the stage's position.
   FieldRef x, v, F, wave_speed;
+  FieldRef H, J;  ///< {p,F,H,J}; {p,F,J} and {p,F,H,J}
   // Derived: read at neighbours by the two sweeps.
   FieldRef u;
   FieldRef second;  ///< all that the second sweep reads: w, then for the adjoint form alpha and beta, then A
@@ -74,14 +93,19 @@ struct BodyState {
   // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum
   // of the filter's weights without the diagonal; two buffers of d V f that sweeps read at neighbours.
   FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
+  FieldRef ratio_increment;  ///< filtered {p,F,J} and {p,F,H,J}: what the step adds to the filtered ratio
+  // Corrected kernel: full correction matrix, sum V grad W / sum V W; sum V W (u_b - u_a); A_b gamma_b; sum of these.
+  FieldRef full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
   // Within a step.
   FieldRef v_n, F_star, wave_speed_next, rate;
+  FieldRef H_star, J_n, J_next, J_rate;
 
   SupportComponent const* supports = nullptr;
   Index support_count = 0;
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;
   StepTotals totals;
+  bool starting = false;  ///< the step makes the state of time 0 consistent
 };
 
 /// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.

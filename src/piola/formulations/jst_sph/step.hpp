@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
+#include "piola/formulations/jst_sph/stress_passes.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/parallel/halo.hpp"
 
@@ -24,50 +26,125 @@ class Step {
   /// F from x, for displacement variables.
   void update_deformation() {
     halo_.refresh(b_.u);
-    StoreDeformation<D> const store_F{read_reference(b_.C), write(b_.F)};
+    if (b_.constants.gradient == GradientForm::corrected_kernel) sum_kernel_difference();
+    StoreDeformation<D> const store_F{correction(), write(b_.F)};
     exec::for_each_then(b_.slots, first_sweep<0>(), exec::erased(store_F));  // F = GRAD x                         (34)
   }
 
  private:
   void stage(StageUpdate const& stage) {
+    if (b_.constants.kappa_filtered > 0) filter(stage);  // J, q of this stage
     halo_.refresh(b_.u);
-    bool const stabilised = b_.constants.biharmonic != Biharmonic::none;
-    if (stabilised)
-      differentiate<true>(stage);  // F_dot, L v, P, F, A, D2       (33) (36) (12)
-    else
-      differentiate<false>(stage);
+    differentiate(stage);  // F_dot, H_dot, J_dot, L v, L J, P, A, D2       (33) (36) (12)
+    if (b_.constants.force == GradientForm::corrected_kernel) sum_kernel_force();
     halo_.refresh(b_.second);
-    RigidRate const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48)
-    advance(stage, balance);                            // v, x                          (43) (47) (49)
-    hold_supports();                                    // v_c = 0                       step 8
+    StageBalance const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48) (51)
+    if (evolves_smoothed_J()) advance_volume(stage, balance.J_rate);  // J                     (43) (38)
+    advance(stage, balance.rigid);                                    // v, x                  (43) (47) (49)
+    hold_supports();                                                  // v_c = 0               step 8
   }
 
-  template <int Laplacians>
-  DifferentiateVelocity<D, Laplacians, Loader> first_sweep() const {
+  bool evolves_smoothed_J() const { return b_.constants.eps2_J > 0 || b_.constants.eps4_J > 0; }
+
+  GradientCorrection<D> correction() const {
+    auto const& k = b_.constants;
+    return {k.gradient,
+            k.force,
+            read_reference(b_.C),
+            read_reference(b_.full_correction),
+            read_reference(b_.gamma),
+            read(b_.kernel_difference)};
+  }
+
+  template <int Smoothed>
+  DifferentiateVelocity<D, Smoothed, Loader> first_sweep() const {
     return {loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
   }
 
-  template <bool Laplacian>
   void differentiate(StageUpdate const& stage) {
-    auto const sweep = first_sweep < Laplacian ? 1 : 0 > ();
+    if (b_.constants.gradient == GradientForm::corrected_kernel) sum_kernel_difference();
+    if (b_.constants.biharmonic == Biharmonic::none)
+      differentiate<0>(stage);
+    else if (b_.constants.without_rigid)
+      differentiate<2 * D>(stage);
+    else if (evolves_smoothed_J())
+      differentiate<D + 1>(stage);
+    else
+      differentiate<D>(stage);
+  }
+
+  template <int Smoothed>
+  void differentiate(StageUpdate const& stage) {
+    auto const sweep = first_sweep<Smoothed>();
+    RigidRate const rigid = Smoothed == 2 * D && b_.constants.without_rigid ? minus_rigid_motion() : RigidRate{};
     bool const to_F = stage.second || b_.constants.variables == Variables::displacement;
+    FieldRef const& J_out = evolves_smoothed_J() ? b_.J_next : b_.J;
+    EvolvedGeometry const evolved{
+        read(b_.H),   read(b_.H_star), read(b_.J), read(b_.J_n), write(stage.second ? b_.H : b_.H_star),
+        write(J_out), write(b_.J_n)};
     with_law(b_.material, [&](auto const& law) {
-      UpdateStress<D, Laplacian, std::decay_t<decltype(law)>> const update{law,
-                                                                           b_.constants,
-                                                                           stage,
-                                                                           read_reference(b_.C),
-                                                                           read_reference(b_.V),
-                                                                           read(b_.wave_speed),
-                                                                           read(b_.F),
-                                                                           read(b_.F_star),
-                                                                           write(to_F ? b_.F : b_.F_star),
-                                                                           write(b_.A),
-                                                                           write(b_.w),
-                                                                           write(b_.rate),
-                                                                           write(b_.wave_speed_next),
-                                                                           b_.failure};
+      UpdateStress<D, Smoothed, std::decay_t<decltype(law)>> const update{law,
+                                                                          b_.constants,
+                                                                          stage,
+                                                                          correction(),
+                                                                          rigid,
+                                                                          read_reference(b_.V),
+                                                                          read(b_.wave_speed),
+                                                                          read(b_.F),
+                                                                          read(b_.F_star),
+                                                                          evolved,
+                                                                          read(b_.volume_ratio),
+                                                                          read(b_.filtered_pressure),
+                                                                          write(to_F ? b_.F : b_.F_star),
+                                                                          write(b_.A),
+                                                                          write(b_.w),
+                                                                          write(b_.rate),
+                                                                          write(b_.J_rate),
+                                                                          write(b_.wave_speed_next),
+                                                                          b_.failure};
       exec::for_each_then(b_.slots, sweep, exec::erased(update));
     });
+  }
+
+  /// The rate that takes the rigid part out of the motion.
+  RigidRate minus_rigid_motion() const {
+    using At = MotionTotals<D>;
+    SumMotion<D> const pass{b_.constants, read_reference(b_.V), read(b_.x), read(b_.v)};
+    auto const sums = exec::reduce<At::size>(b_.slots, pass, b_.partial);
+    return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
+  }
+
+  /// Volume ratios of the F at which this stage evaluates stress, and their filtered pressure.
+  void filter(StageUpdate const& stage) {
+    with_law(b_.material, [&](auto const& law) {
+      exec::for_each(b_.slots, ComputeVolumeRatio<D>{std::decay_t<decltype(law)>::small_strain,
+                                                     read(stage.second ? b_.F_star : b_.F), write(b_.volume_ratio)});
+    });
+    Filter<Loader>(b_, loader_)();
+  }
+
+  /// sum_b V W (u_b - u_a), of the corrected kernel's gradient                               (23)
+  void sum_kernel_difference() {
+    exec::for_each(
+        b_.slots,
+        SumKernel<D, true, Loader>{
+            loader_, {read_neighbours(b_.u)}, b_.constants.kernel_volume, 0, read(b_.u), write(b_.kernel_difference)});
+  }
+  /// sum_b V W A_b gamma_b, of its internal force                                            (31)
+  void sum_kernel_force() {
+    exec::for_each(b_.slots, ContractWithGamma<D>{read(b_.A), read_reference(b_.gamma), write(b_.kernel_force)});
+    halo_.refresh(b_.kernel_force);
+    exec::for_each(b_.slots, SumKernel<D, false, Loader>{loader_,
+                                                         {read_neighbours(b_.kernel_force)},
+                                                         b_.constants.kernel_volume,
+                                                         b_.constants.kernel_at_zero,
+                                                         read(b_.kernel_force),
+                                                         write(b_.kernel_force_sum)});
+  }
+
+  void advance_volume(StageUpdate const& stage, double mean) {
+    exec::for_each(b_.slots, AdvanceVolume{stage.second ? 0.5 * stage.dt : stage.dt, mean, read(b_.J_next),
+                                           read(b_.J_rate), write(b_.J), b_.failure});
   }
 
   void advance(StageUpdate const& stage, RigidRate const& balance) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/formulations/jst_sph/verlet_passes.hpp"
 #include "piola/materials/laws.hpp"
@@ -19,16 +20,17 @@ class VerletStep {
     halo_.refresh(b_.u);
     bool const filtered = b_.constants.kappa_filtered > 0;
     if (b_.constants.biharmonic == Biharmonic::none)
-      deform<0>(dt, without_rigid, filtered);  // F^(n+1), J
+      deform<false>(dt, without_rigid, filtered);  // F^(n+1), J
     else
-      deform<2>(dt, without_rigid, filtered);  // F^(n+1), J, L v'
+      deform<true>(dt, without_rigid, filtered);  // F^(n+1), J, L v'
+    if (b_.constants.exact_speed) wave_speed();
     if (filtered) {
       filter();         // q = B* kappa_f (B J - 1)
       weight_stress();  // P(F, kappa_l (J - 1) + q), A
     }
     halo_.refresh(b_.second);
-    RigidRate const balance = forces_(dt);  // -T + D at n + 1
-    kick(dt, balance);                      // v^(n+1)
+    RigidRate const balance = forces_(dt).rigid;  // -T + D at n + 1
+    kick(dt, balance);                            // v^(n+1)
   }
 
  private:
@@ -41,68 +43,65 @@ class VerletStep {
     return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
   }
 
-  template <int Laplacians>
+  template <bool Stabilised>
   void deform(double dt, RigidRate const& without_rigid, bool filtered) {
-    DifferentiateVelocity<D, Laplacians, Loader> const sweep{
+    DifferentiateVelocity<D, Stabilised ? 2 * D : 0, Loader> const sweep{
         loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
+    CarriedGeometry const carried{read(b_.H), read(b_.J), write(b_.H), write(b_.J), write(b_.ratio_increment),
+                                  b_.starting};
     with_law(b_.material, [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
-      Deform<D, Laplacians> const shape{dt,
+      Deform<D, Stabilised> const shape{dt,
                                         b_.constants,
                                         Law::small_strain,
                                         without_rigid,
                                         read_reference(b_.C),
                                         read_reference(b_.V),
                                         read(b_.F),
+                                        read(b_.wave_speed),
                                         write(b_.F),
                                         write(b_.wave_speed),
                                         write(b_.volume_ratio),
                                         write(b_.w),
                                         write(b_.rate),
+                                        carried,
                                         b_.failure};
       if (filtered) return exec::for_each_then(b_.slots, sweep, exec::erased(shape));
-      DeformAndWeightStress<D, Laplacians, Law> const both{shape, stress_pass(law)};
+      DeformAndWeightStress<D, Stabilised, Law> const both{shape, stress_pass(law)};
       exec::for_each_then(b_.slots, sweep, exec::erased(both));
     });
   }
 
   template <class Law>
   WeightStress<D, Law> stress_pass(Law const& law) {
-    return {law,        b_.constants,          read_reference(b_.C),       read_reference(b_.V),
-            read(b_.F), read(b_.volume_ratio), read(b_.filtered_pressure), write(b_.A)};
+    return {law,
+            b_.constants,
+            read_reference(b_.C),
+            read_reference(b_.V),
+            read(b_.F),
+            read(b_.volume_ratio),
+            read(b_.filtered_pressure),
+            read(b_.H),
+            read(b_.J),
+            write(b_.A)};
   }
   void weight_stress() {
     with_law(b_.material, [&](auto const& law) { exec::for_each(b_.slots, stress_pass(law)); });
   }
 
-  /// q = B* kappa_f (B J - 1), B = S^n; S is its own adjoint in the tributary volumes.
+  void wave_speed() {
+    with_law(b_.material, [&](auto const& law) {
+      exec::for_each(b_.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, b_.constants, read(b_.F),
+                                                                                write(b_.wave_speed)});
+    });
+  }
+
   void filter() {
-    int const n = b_.constants.filter_passes;
-    exec::for_each(b_.slots, PrepareFilter{read_reference(b_.V), read(b_.volume_ratio), read(b_.filter_scale),
-                                           write(b_.filter_source[0])});
-    for (int k = 0; k < n; ++k) smooth(k, k == 0 ? b_.volume_ratio : b_.filtered_ratio, b_.filtered_ratio);
-    pressure_of_filtered_ratio();
-    for (int k = 0; k < n; ++k) smooth(n + 1 + k, b_.filtered_pressure, b_.filtered_pressure);
-  }
-
-  /// q = kappa_f (Jf - 1) and its source for the passes of B*.
-  void pressure_of_filtered_ratio() {
-    int const to = (b_.constants.filter_passes + 1) % 2;
-    exec::for_each(b_.slots, Compress{b_.constants.kappa_filtered, read_reference(b_.V), read(b_.filtered_ratio),
-                                      read(b_.filter_scale), write(b_.filtered_pressure), write(b_.filter_source[to])});
-  }
-
-  void smooth(int pass_number, FieldRef const& from, FieldRef const& to) {
-    FieldRef const &source = b_.filter_source[pass_number % 2], &next = b_.filter_source[(pass_number + 1) % 2];
-    halo_.refresh(source);
-    exec::for_each(b_.slots, Smooth<Loader>{loader_,
-                                            {read_neighbours(source)},
-                                            read_reference(b_.V),
-                                            read(from),
-                                            read(b_.filter_scale),
-                                            read(b_.filter_sum),
-                                            write(to),
-                                            write(next)});
+    Filter<Loader> const filter(b_, loader_);
+    if (b_.constants.variables == Variables::pF)
+      filter();
+    else
+      filter.add_increment();
   }
 
   void kick(double dt, RigidRate const& balance) {

@@ -21,9 +21,12 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
     return trace(F) - 2.0;
   }
-  /// P with the pressure p given, for schemes that do not take it from this F alone.
+  using VolumetricSplit::isochoric_energy;
+  using VolumetricSplit::stress_with_pressure;
+  /// P with the pressure p given, for schemes that do not take it from this F alone. In small strain H is the identity
+  /// and J its own volume ratio 1 + tr e, whatever is given.
   template <class T>
-  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, T const& p) const {
+  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const&, T const&, T const& p) const {
     Mat<3, T> P = mu * (F + transpose(F));
     T const diagonal = p - (2.0 / 3.0) * mu * trace(F);
     for (int i = 0; i < 3; ++i) P(i, i) = P(i, i) + diagonal;
@@ -31,10 +34,15 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   }
   /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T isochoric_energy(Mat<3, T> const& F) const {
+  PIOLA_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
     Mat<3, T> const e = 0.5 * (F + transpose(F)) - identity<3, T>();
     T const volume = trace(e);
     return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume));
+  }
+  /// Largest d2W / dl_i^2 over the principal stretches [Pa]: does not depend on them.
+  template <class T>
+  PIOLA_FN T largest_modulus(T const&, T const&, T const&) const {
+    return T(lambda + 2 * mu);
   }
 };
 

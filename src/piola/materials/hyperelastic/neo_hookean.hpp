@@ -22,11 +22,11 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
   PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
     return determinant(F);
   }
-  /// P with the pressure p given, for schemes that do not take it from this F alone.
+  using VolumetricSplit::isochoric_energy;
+  using VolumetricSplit::stress_with_pressure;
+  /// P of F, H and J as unknowns (eq. 12) with the pressure p given.
   template <class T>
-  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, T const& p) const {
-    Mat<3, T> const H = cofactor(F);
-    T const J = F(0, 0) * H(0, 0) + F(0, 1) * H(0, 1) + F(0, 2) * H(0, 2);
+  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const& H, T const& J, T const& p) const {
     T const a = power_minus_third(J);
     T const shear = mu * (a * a);
     T const along_H = p - shear * contract(F, F) / (3.0 * J);
@@ -34,9 +34,22 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
   }
   /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T isochoric_energy(Mat<3, T> const& F) const {
-    T const a = power_minus_third(determinant(F));
+  PIOLA_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const&, T const& J) const {
+    T const a = power_minus_third(J);
     return 0.5 * mu * (a * a * contract(F, F) - 3.0);
+  }
+  /// Largest d2W / dl_i^2 over the principal stretches, from their squares [Pa]: the modulus of the fastest pressure
+  /// wave in a principal direction.
+  template <class T>
+  PIOLA_FN T largest_modulus(T const& a, T const& b, T const& c) const {
+    return maximum(modulus(a, b, c), maximum(modulus(b, c, a), modulus(c, a, b)));
+  }
+
+ private:
+  template <class T>
+  PIOLA_FN T modulus(T const& a, T const& b, T const& c) const {
+    T const area = b * c, shear = power_minus_third(a * area);  // J^(-2/3)
+    return kappa * area + (0.5 * mu) * shear * (4.0 / 9.0 + (10.0 / 9.0) * (b + c) / a);
   }
 };
 

@@ -6,17 +6,40 @@
 namespace piola::inline PIOLA_MACHINE {
 
 /// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law gives
-/// isochoric_energy(F), volume_ratio(F) and first_piola(F, p) with the pressure given; the rest follows here. Schemes
-/// that take the pressure from elsewhere (an evolved or filtered J) use the three questions directly.
+/// volume_ratio(F), and of F, H and J as independent unknowns isochoric_energy(F, H, J), with the pressure given
+/// stress_with_pressure(F, H, J, p); the rest follows here. Schemes that take the pressure from elsewhere (an evolved
+/// or filtered J) use the questions directly.
 template <class Law>
 struct VolumetricSplit : ElasticConstants {
   using ElasticConstants::ElasticConstants;
   using ElasticConstants::parameters;
 
+  static constexpr bool volumetric_split = true;
+
   /// p = kappa (J - 1), positive in tension (eq. 11) [Pa].
   template <class T>
   PIOLA_FN T pressure(Mat<3, T> const& F) const {
     return kappa * (law().volume_ratio(F) - 1.0);
+  }
+  template <class T>
+  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, T const& p) const {
+    Mat<3, T> const H = cofactor(F);
+    T const J = F(0, 0) * H(0, 0) + F(0, 1) * H(0, 1) + F(0, 2) * H(0, 2);
+    return law().stress_with_pressure(F, H, J, p);
+  }
+  template <class T>
+  PIOLA_FN T isochoric_energy(Mat<3, T> const& F) const {
+    return law().isochoric_energy(F, cofactor(F), determinant(F));
+  }
+  /// P of F, H and J as unknowns of their own (eq. 12) [Pa].
+  template <class T>
+  PIOLA_FN Mat<3, T> stress(Mat<3, T> const& F, Mat<3, T> const& H, T const& J) const {
+    return law().stress_with_pressure(F, H, J, kappa * (J - 1.0));
+  }
+  /// Stored energy per reference volume of F, H and J as unknowns of their own [J/m^3].
+  template <class T>
+  PIOLA_FN T energy(Mat<3, T> const& F, Mat<3, T> const& H, T const& J) const {
+    return law().isochoric_energy(F, H, J) + 0.5 * kappa * ((J - 1.0) * (J - 1.0));
   }
   /// P(F) [Pa] with the pressure of the same F.
   template <class T>

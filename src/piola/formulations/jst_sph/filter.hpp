@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/exec/view.hpp"
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/neighbours/loaders.hpp"
+#include "piola/parallel/halo.hpp"
+
+/// Filtered volumetric energy: sweeps that read the kernel alone. Derivation: docs/theory/jst-sph-default.md.
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+
+/// sum_{b != a} W_ab f_b, or sum_{b != a} W_ab (f_b - f_a), of N values.
+template <int N, bool Difference>
+struct KernelSums {
+  static constexpr bool smooths = true;
+  static constexpr int fields = N, outer_fields = N, sums = N;
+  View gathered;
+
+  template <class V>
+  PIOLA_FN Vec<N, V> own(Index a) const {
+    if constexpr (Difference) return gathered.vector<N, V>(a);
+    return {};
+  }
+  template <bool Masked, class O, class G, class V>
+  PIOLA_FN void pair(V* sum, O const& own, G const& g, V const* f) const {
+    V kernel = g.kernel;
+    if constexpr (Masked) kernel = g.weight * kernel;
+    for (int c = 0; c < N; ++c) sum[c] = sum[c] + kernel * (Difference ? f[c] - own[c] : f[c]);
+  }
+  template <bool Masked, class O, class G, class V>
+  PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
+    pair<Masked>(sum, own, g, f);
+  }
+};
+
+/// One pass of the filter S, symmetric and doubly stochastic in the tributary volumes:
+///   (S f)_a = f_a (1 - sum_{b != a} s_ab V_b) + sum_{b != a} s_ab V_b f_b,   s_ab = d_a W_ab d_b,
+/// of an input that is given as f and, for neighbours, as g = d V f; the output in both forms.
+template <class Loader>
+struct Smooth {
+  Loader loader;
+  KernelSums<1, false> body;
+  ReferenceView V;
+  View f, d, sum;
+  WriteView f_out, g_out;
+
+  PIOLA_FN void operator()(Index i) const {
+    Lanes total[1];
+    loader(i, body, total);
+    Lanes const scaling = d.scalar<Lanes>(i);
+    Lanes const smooth = f.scalar<Lanes>(i) * (1.0 - sum.scalar<Lanes>(i)) + scaling * total[0];
+    f_out.scalar(i, smooth);
+    g_out.scalar(i, scaling * V.scalar<Lanes>(i) * smooth);
+  }
+};
+
+/// g = d V f, what the first filter pass reads at neighbours.
+struct PrepareFilter {
+  ReferenceView V;
+  View f, d;
+  WriteView g;
+  PIOLA_FN void operator()(Index i) const { g.scalar(i, d.scalar<Lanes>(i) * V.scalar<Lanes>(i) * f.scalar<Lanes>(i)); }
+};
+
+/// q = kappa_f (Jf - 1) and g = d V q, after Jf has taken the filtered increment where there is one.
+struct Compress {
+  double kappa_filtered;
+  bool adds;  ///< Jf += increment
+  ReferenceView V;
+  View filtered_ratio, increment, d;
+  WriteView filtered_ratio_out, q, g;
+  PIOLA_FN void operator()(Index i) const {
+    Lanes ratio = filtered_ratio.scalar<Lanes>(i);
+    if (adds) {
+      ratio = ratio + increment.scalar<Lanes>(i);
+      filtered_ratio_out.scalar(i, ratio);
+    }
+    Lanes const pressure = kappa_filtered * (ratio - 1.0);
+    q.scalar(i, pressure);
+    g.scalar(i, d.scalar<Lanes>(i) * V.scalar<Lanes>(i) * pressure);
+  }
+};
+
+/// q = B* kappa_f (B J - 1), B = S^n; S is its own adjoint in the tributary volumes.
+template <class Loader>
+class Filter {
+ public:
+  Filter(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
+
+  /// Jf = B J of the volume ratios, and q.
+  void operator()() const {
+    smooth_all(b_.volume_ratio, b_.filtered_ratio);
+    pressure(false);
+  }
+  /// Jf += B (J increment), and q: for a volume ratio that is an unknown of its own.
+  void add_increment() const {
+    smooth_all(b_.ratio_increment, b_.ratio_increment);
+    pressure(true);
+  }
+
+ private:
+  /// The source of the first pass is buffer 0; every pass reads one buffer and writes the other.
+  void smooth_all(FieldRef const& from, FieldRef const& to) const {
+    exec::for_each(b_.slots,
+                   PrepareFilter{read_reference(b_.V), read(from), read(b_.filter_scale), write(b_.filter_source[0])});
+    for (int k = 0; k < b_.constants.filter_passes; ++k) smooth(k, k == 0 ? from : to, to);
+  }
+
+  /// q = kappa_f (Jf - 1), then the passes of B*.
+  void pressure(bool adds) const {
+    int const n = b_.constants.filter_passes, to = (n + 1) % 2;
+    exec::for_each(b_.slots, Compress{b_.constants.kappa_filtered, adds, read_reference(b_.V), read(b_.filtered_ratio),
+                                      read(b_.ratio_increment), read(b_.filter_scale), write(b_.filtered_ratio),
+                                      write(b_.filtered_pressure), write(b_.filter_source[to])});
+    for (int k = 0; k < n; ++k) smooth(n + 1 + k, b_.filtered_pressure, b_.filtered_pressure);
+  }
+
+  void smooth(int pass_number, FieldRef const& from, FieldRef const& to) const {
+    FieldRef const &source = b_.filter_source[pass_number % 2], &next = b_.filter_source[(pass_number + 1) % 2];
+    halo_.refresh(source);
+    exec::for_each(b_.slots, Smooth<Loader>{loader_,
+                                            {read_neighbours(source)},
+                                            read_reference(b_.V),
+                                            read(from),
+                                            read(b_.filter_scale),
+                                            read(b_.filter_sum),
+                                            write(to),
+                                            write(next)});
+  }
+
+  BodyState& b_;
+  Loader loader_;
+  Halo halo_;
+};
+
+/// v_a = factor sum_{b != a} W_ab (u_b - u_a)   or   v_a = factor sum_{b != a} W_ab f_b + at_zero f_a.
+template <int D, bool Difference, class Loader>
+struct SumKernel {
+  Loader loader;
+  KernelSums<D, Difference> body;
+  double factor, at_zero;
+  View own;
+  WriteView out;
+  PIOLA_FN void operator()(Index i) const {
+    Lanes sum[D];
+    loader(i, body, sum);
+    for (int c = 0; c < D; ++c) {
+      Lanes value = factor * sum[c];
+      if constexpr (!Difference) value = value + at_zero * own.scalar<Lanes>(i, c);
+      out.scalar(i, value, c);
+    }
+  }
+};
+
+/// f_a = A_a gamma_a: what the internal force of the corrected kernel sums besides A_b r.
+template <int D>
+struct ContractWithGamma {
+  View A;
+  ReferenceView gamma;
+  WriteView out;
+  PIOLA_FN void operator()(Index i) const { out.vector<D>(i, A.matrix<D, Lanes>(i) * gamma.vector<D, Lanes>(i)); }
+};
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/jst_sph/passes.hpp"
+
+/// From the first sums of a Runge-Kutta stage to what the second sweep needs: geometry, stress, stabilisation.
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+
+/// Records the lanes whose volume ratio is not positive, or not a number. Code 1: det F, code 2: the evolved J.
+PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int code = 1) {
+  auto const good = J > 0.0;
+  if (!any(!good)) return;
+  for (int l = 0; l < lane_count; ++l)
+    if (!(lane(J, l) > 0)) exec::record(failure, i + l, code);
+}
+
+/// Gradients from raw sums, and stress as the internal force takes it, in the forms of Lee et al., Remarks 3 and 4.
+template <int D>
+struct GradientCorrection {
+  GradientForm gradient_form, force_form;
+  ReferenceView C, full, gamma;
+  View difference;  ///< corrected kernel: sum_b V W (u_b - u_a)
+
+  PIOLA_FN Mat<D, Lanes> gradient(Index i, Mat<D, Lanes> const& raw) const {
+    if (gradient_form == GradientForm::corrected) return raw * C.symmetric<D, Lanes>(i);
+    if (gradient_form == GradientForm::uncorrected) return raw;
+    return (raw - outer(difference.vector<D, Lanes>(i), gamma.vector<D, Lanes>(i))) * full_correction(i);
+  }
+  /// P C^T: the stress whose divergence in raw form is the internal force.
+  PIOLA_FN Mat<D, Lanes> stress(Index i, Mat<D, Lanes> const& P) const {
+    if (force_form == GradientForm::corrected) return P * C.symmetric<D, Lanes>(i);
+    if (force_form == GradientForm::uncorrected) return P;
+    return P * transpose(full_correction(i));
+  }
+
+ private:
+  PIOLA_FN Mat<D, Lanes> full_correction(Index i) const {
+    Mat<D, Lanes> r;
+    for (int c = 0; c < D * D; ++c) r.c[c] = full.scalar<Lanes>(i, c);
+    return r;
+  }
+};
+
+/// Views of H and J where they are unknowns of their own; nothing behind them otherwise.
+struct EvolvedGeometry {
+  View H, H_star, J, J_n;
+  WriteView H_out, J_out, J_n_out;
+};
+
+/// c_p of a particle: c_p0 / lambda_min, or from the largest modulus of the law in the principal directions (step 2 of
+/// Algorithm 1).
+template <class Law>
+PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F) {
+  if (k.exact_speed) {
+    Vec<3, Lanes> const l = principal_stretches_squared(F);
+    Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(0.0));
+    return square_root((1.0 / k.rho0) * modulus);
+  }
+  return k.c_p0 / square_root(maximum(smallest_stretch_squared(F), Lanes(1e-12)));
+}
+
+/// From the first sums to everything that the second sweep needs of a particle:
+///   F_dot_a = (sum_b s (v_b - v_a) (x) r) C_a,  H_dot = F x F_dot,  J_dot = H : F_dot       (33)
+///   A_a = (V_a / V_kernel) P(F, H, J) C_a                             (12), folded for (29c)
+///   w_a = L f_a  or  eps4 c_a h^3 V_a L f_a,  f = v, and J where it is stabilised           (37), (38)
+/// or, without the rigid part of the motion, L v' = L v + spin cross L x;
+///   D2_a = eps2 c_a h L f_a, written to `rate` and `J_rate`           (36)
+///   stage 1: F* = F^n + dt F_dot;  stage 2: F^(n+1) = 1/2 (F^n + F* + dt F_dot*)            (43)
+/// and the same for H and J. For displacement variables F_a = (sum_b s (x_b - x_a) (x) r) C_a instead (34).
+/// Records the first particle whose new F is inverted or not a number.
+template <int D, int Smoothed, class Law>
+struct UpdateStress {
+  Law law;
+  Constants k;
+  StageUpdate stage;
+  GradientCorrection<D> correction;
+  RigidRate without_rigid;
+  ReferenceView V;
+  View wave_speed, F_n, F_star;
+  EvolvedGeometry evolved;
+  View volume_ratio, filtered_pressure;  ///< of this stage, where the volumetric energy is filtered
+  WriteView F_out, A, w, rate, J_rate, wave_speed_next;
+  FailureSlot* failure;
+
+  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+    Mat<D, Lanes> const gradient = correction.gradient(i, raw_gradient<D>(in, i));
+    Lanes const volume = V.scalar<Lanes>(i);
+    Mat<D, Lanes> const F = deform(i, gradient, volume);
+    Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F), gradient));
+    A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * correction.stress(i, P));
+    if constexpr (Smoothed > 0) stabilise(i, in, volume);
+  }
+
+ private:
+  /// The F at which stress is evaluated; stores the F that the stage produces and what follows from it.
+  PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient, Lanes const& volume) const {
+    Mat<D, Lanes> F = gradient;
+    // Empty slots must stay finite: their values meet zero weights.
+    for (int c = 0; c < D; ++c) F(c, c) = select(volume > 0.0, F(c, c), Lanes(1.0));
+    Mat<D, Lanes> next = F;
+    if (k.variables != Variables::displacement) {
+      Mat<D, Lanes> const old = F_n.matrix<D, Lanes>(i);
+      F = stage.second ? F_star.matrix<D, Lanes>(i) : old;
+      next = F + stage.dt * gradient;
+      if (stage.second) next = 0.5 * (old + next);
+    }
+    F_out.matrix<D>(i, next);
+    Mat<3, Lanes> const full = embed<D>(next);
+    record_inverted(failure, i, determinant(full));
+    if (stage.second) wave_speed_next.scalar(i, wave_speed_of(law, k, full));
+    return F;
+  }
+
+  PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
+    if (k.variables == Variables::pFJ || k.variables == Variables::pFHJ) return stress_of_evolved(i, F, gradient);
+    if constexpr (Law::volumetric_split) {
+      if (k.kappa_filtered > 0) {
+        Lanes const p = k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + filtered_pressure.scalar<Lanes>(i);
+        return law.stress_with_pressure(F, p);
+      }
+    }
+    return law.first_piola(F);
+  }
+
+  /// P of F, H and J as unknowns, which the stage carries on.
+  PIOLA_FN Mat<3, Lanes> stress_of_evolved(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
+    Mat<3, Lanes> const F_dot = embed_rate<D>(gradient);
+    Mat<3, Lanes> H;
+    if (k.variables == Variables::pFHJ) {
+      Mat<3, Lanes> const old = evolved.H.matrix<3, Lanes>(i);
+      H = stage.second ? evolved.H_star.matrix<3, Lanes>(i) : old;
+      Mat<3, Lanes> next = H + stage.dt * tensor_cross(F, F_dot);
+      if (stage.second) next = 0.5 * (old + next);
+      evolved.H_out.matrix<3>(i, next);
+    } else {
+      H = cofactor(F);
+    }
+    // The volume ratio of a law of small strain is 1 + tr e, whose rate sees H = I.
+    Lanes const J = evolved.J.scalar<Lanes>(i), J_dot = Law::small_strain ? trace(F_dot) : contract(H, F_dot);
+    Lanes next = J + stage.dt * J_dot;
+    if (stage.second)
+      next = 0.5 * (evolved.J_n.scalar<Lanes>(i) + next);
+    else
+      evolved.J_n_out.scalar(i, J);
+    evolved.J_out.scalar(i, next);
+    record_inverted(failure, i, next, 2);
+    return law.stress(F, H, J);
+  }
+
+  PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& volume) const {
+    Lanes const c = wave_speed.scalar<Lanes>(i);
+    double const h3 = k.h_min * k.h_min * k.h_min;
+    bool const adjoint = k.biharmonic == Biharmonic::adjoint;
+    bool const without = Smoothed == 2 * D && k.without_rigid;
+    Vec<D, Lanes> turn;
+    if (without) {
+      Vec<D, Lanes> Lx;
+      for (int j = 0; j < D; ++j) Lx[j] = load<Lanes>(in.at(i, D * D + Smoothed - D + j));
+      turn = turned<D>(without_rigid.spin, Lx);
+    }
+    for (int j = 0; j < (without ? D : Smoothed); ++j) {
+      double const eps2 = j < D ? k.eps2 : k.eps2_J, eps4 = j < D ? k.eps4 : k.eps4_J;
+      Lanes Lf = load<Lanes>(in.at(i, D * D + j));
+      if (without) Lf = Lf + turn[j];
+      w.scalar(i, adjoint ? (eps4 * h3) * (c * volume) * Lf : Lf, j);
+      if (!(eps2 > 0)) continue;
+      Lanes const harmonic = (eps2 * k.h_min) * c * Lf;
+      if (j < D)
+        rate.scalar(i, harmonic, j);
+      else
+        J_rate.scalar(i, harmonic);
+    }
+  }
+};
+
+/// The p-wave speed of every particle from its F.
+template <int D, class Law>
+struct ComputeWaveSpeed {
+  Law law;
+  Constants k;
+  View F;
+  WriteView wave_speed;
+  PIOLA_FN void operator()(Index i) const {
+    wave_speed.scalar(i, wave_speed_of(law, k, embed<D>(F.matrix<D, Lanes>(i))));
+  }
+};
+
+/// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient that positions imply.
+template <int D>
+struct StoreDeformation {
+  GradientCorrection<D> correction;
+  WriteView F;
+  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+    F.matrix<D>(i, correction.gradient(i, raw_gradient<D>(in, i)));
+  }
+};
+
+/// The volume ratio that the law's volumetric energy sees: det F, or 1 + tr e for small strain.
+template <int D>
+struct ComputeVolumeRatio {
+  bool small_strain;
+  View F;
+  WriteView volume_ratio;
+  PIOLA_FN void operator()(Index i) const {
+    Mat<3, Lanes> const full = embed<D>(F.matrix<D, Lanes>(i));
+    volume_ratio.scalar(i, small_strain ? trace(full) - 2.0 : determinant(full));
+  }
+};
+
+/// J = next + share of the step (D(J) - its mean), the mean being the projection that conserves sum V J (51).
+struct AdvanceVolume {
+  double time, mean;
+  View next, rate;
+  WriteView J;
+  FailureSlot* failure;
+  PIOLA_FN void operator()(Index i) const {
+    Lanes const value = next.scalar<Lanes>(i) + time * (rate.scalar<Lanes>(i) - mean);
+    record_inverted(failure, i, value, 2);
+    J.scalar(i, value);
+  }
+};
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE
