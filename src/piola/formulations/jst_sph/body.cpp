@@ -17,7 +17,8 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       D_(set.dimension),
       order_(pencil_order(set, body_)),
       set_(&set),
-      fields_(D_) {
+      fields_(D_),
+      boundary_(assembly, body, order_) {
   make_pairs(set, machine);
   set_constants(set, assembly.materials[body]);
   share_reference(machine.lanes);
@@ -25,7 +26,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   fill_reference(machine.lanes);
   if (options_.filter) fill_filter();
   fill_initial(assembly, machine);
-  take_supports(assembly);
+  boundary_.attach(state_);
   machine.update_wave_speed(state_);
   if (options_.integrator == Integrator::verlet) machine.step(state_, 0);  // the accelerations of the start
 }
@@ -264,21 +265,10 @@ void JstBody::deform_to_positions(Machine const& machine) {
     for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
 }
 
-void JstBody::take_supports(Assembly const& assembly) {
-  std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
-  for (Index i = 0; i < order_.particles; ++i) slot_of[static_cast<std::size_t>(id(i) - body_.first)] = i;
-  for (auto const& support : assembly.supports)
-    for (auto const particle : support.particles) {
-      if (particle < body_.first || particle >= body_.last) continue;
-      Index const slot = slot_of[static_cast<std::size_t>(particle - body_.first)];
-      for (int c = 0; c < D_; ++c) {
-        if (!support.fix[static_cast<std::size_t>(c)]) continue;
-        supports_.push_back({slot, c, value(state_.x, slot, c)});
-        set(state_.v, slot, c, 0);
-      }
-    }
-  state_.supports = supports_.data();
-  state_.support_count = static_cast<Index>(supports_.size());
+void JstBody::step(Machine const& machine, double time, double dt) {
+  boundary_.begin_step(state_, time, dt);
+  machine.step(state_, dt);
+  boundary_.end_step(state_, time + dt);
 }
 
 std::array<double, 3> JstBody::X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/jst_sph/boundary_passes.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/parallel/halo.hpp"
@@ -38,8 +39,9 @@ class Step {
       differentiate<false>(stage);
     halo_.refresh(b_.second);
     RigidRate const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48)
+    add_loads(stage);                                   // E                             (32)
     advance(stage, balance);                            // v, x                          (43) (47) (49)
-    hold_supports();                                    // v_c = 0                       step 8
+    hold_supports(stage);                               // v_c = prescribed              step 8
   }
 
   template <int Laplacians>
@@ -77,9 +79,20 @@ class Step {
     exec::for_each(b_.slots, pass);
   }
 
-  void hold_supports() {
+  void add_loads(StageUpdate const& stage) {
+    if (b_.loaded_count == 0) return;
+    // v^n and v*: twice the mean velocity of the step, which is known in stage 2.
+    if (stage.second)
+      exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{stage.dt, b_.loaded, read(b_.v_n), read(b_.v)});
+    exec::for_each_item(b_.loaded_count, AddLoads<D>{stage.second, b_.loaded, read(b_.rate), write(b_.rate)});
+  }
+
+  void hold_supports(StageUpdate const& stage) {
     HoldSupports const pass{b_.supports, write(b_.v), write(b_.x)};
     exec::for_each_item(b_.support_count, pass);
+    if (b_.held_count == 0) return;
+    HoldDirections<D> const drive{stage, b_.held, read(b_.v), read(b_.v_n), read(b_.x), write(b_.v), write(b_.x)};
+    exec::for_each_item(b_.held_count, drive);
   }
 
   BodyState& b_;
