@@ -18,7 +18,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       order_(pencil_order(set, body_)),
       set_(&set),
       fields_(D_),
-      boundary_(assembly, body, order_) {
+      boundary_(assembly, body, order_, cloud(set)) {
   make_pairs(set, machine);
   set_constants(set, assembly.materials[body]);
   share_reference(machine.lanes);
@@ -32,9 +32,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
 }
 
 void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
-  double size = 1;
-  for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];
-  double const spacing = std::pow(size, 1.0 / D_);
+  double const spacing = this->spacing();
   PairOptions pair;
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
@@ -265,6 +263,24 @@ void JstBody::deform_to_positions(Machine const& machine) {
     for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
 }
 
+/// What multipliers interpolate in: the particles with the gradient's kernel.
+std::optional<Cloud> JstBody::cloud(ParticleSet const& set) const {
+  if (!options_.multipliers) return std::nullopt;
+  Cloud r{D_, {}, {}, options_.kernel, options_.gradient_support * spacing()};
+  for (Index i = 0; i < order_.particles; ++i) {
+    r.X.push_back(set.X[static_cast<std::size_t>(id(i))]);
+    r.volume.push_back(set.volume[static_cast<std::size_t>(id(i))]);
+  }
+  return r;
+}
+
+/// Mean lattice spacing [m]: what supports are given in units of.
+double JstBody::spacing() const {
+  double size = 1;
+  for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];
+  return std::pow(size, 1.0 / D_);
+}
+
 void JstBody::step(Machine const& machine, double time, double dt) {
   boundary_.begin_step(state_, time, dt);
   machine.step(state_, dt);
@@ -292,7 +308,7 @@ Mat<3> JstBody::F(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  std::size_t total = pairs_->bytes() + first_.memory.bytes() + second_.memory.bytes();
+  std::size_t total = pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() + second_.memory.bytes();
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

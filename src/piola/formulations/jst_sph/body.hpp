@@ -46,6 +46,8 @@ class JstBody {
   static void set(FieldRef const& f, Index slot, int c, double value) { value_at(f, slot, c) = value; }
 
  private:
+  std::optional<Cloud> cloud(ParticleSet const& set) const;
+  double spacing() const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
   /// Memory that fields share because sweeps read them together at neighbours.

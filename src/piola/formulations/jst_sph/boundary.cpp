@@ -76,8 +76,8 @@ int axis_of(Point const& d) {
 
 }  // namespace
 
-Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order)
-    : body_(assembly.particles.bodies[body]), D_(assembly.particles.dimension) {
+Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::optional<Cloud> cloud)
+    : body_(assembly.particles.bodies[body]), D_(assembly.particles.dimension), cloud_(std::move(cloud)) {
   with_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < order.particles; ++i)
@@ -91,7 +91,7 @@ void Boundary::take_supports(Assembly const& assembly, std::vector<Index> const&
   auto const of_body = [&](std::int64_t id) { return id >= body_.first && id < body_.last; };
   for (auto const& support : assembly.supports)
     for (auto const id : support.particles)
-      if (of_body(id) && !is_plain(support)) moved.try_emplace(id, 0);
+      if (of_body(id) && (cloud_ || !is_plain(support))) moved.try_emplace(id, 0);
   for (auto& [id, place] : moved) {
     auto const at = static_cast<std::size_t>(id);
     Point position = assembly.particles.X[at];
@@ -172,6 +172,7 @@ void Boundary::attach(BodyState& state) {
       v = c == h.axis ? h.speed : v + (h.speed - now) * h.direction[c];
     }
   }
+  if (multipliers_) multipliers_->enforce(state, {MultiplierCall::When::start, 0});
 }
 
 /// Adds the part of a row that the directions chosen so far leave free.
@@ -195,7 +196,7 @@ void Boundary::add_direction(std::size_t particle, std::size_t row) {
   Point const given = d;
   if (!make_orthogonal(d, chosen)) return;
   double const length = dot(given, d);
-  HeldDirection h{p.slot, axis_of(d), true, {d[0], d[1], d[2]}, 0, p.mass, 0, 0, 0};
+  HeldDirection h{p.slot, axis_of(d), true, {d[0], d[1], d[2]}, 0, p.mass, cloud_.has_value(), 0, 0, 0, 0};
   for (std::size_t r = 0; r < of_row.size(); ++r) {
     if (of_row[r] == 0) continue;
     origin.row[static_cast<std::size_t>(origin.count)] = r;
@@ -203,7 +204,7 @@ void Boundary::add_direction(std::size_t particle, std::size_t row) {
   }
   // It keeps its place only if nothing has moved it before, either.
   for (auto const& other : p.rows)
-    if (dot(other.direction, d) != 0 && !other.at_rest) h.at_rest = false;
+    if (dot(other.direction, d) != 0 && (cloud_ || !other.at_rest)) h.at_rest = false;
   if (h.axis >= 0) h.position = p.position[static_cast<std::size_t>(h.axis)];
   held_.push_back(h);
   origins_.push_back(origin);
@@ -217,6 +218,7 @@ void Boundary::choose_directions(double time) {
   for (std::size_t k = 0; k < particles_.size(); ++k)
     for (std::size_t r = 0; r < particles_[k].rows.size(); ++r)
       if (!has_ended(driven_[particles_[k].rows[r].support].until, time)) add_direction(k, r);
+  if (cloud_) multipliers_.emplace(held_, *cloud_);
 }
 
 void Boundary::evaluate_speeds(double time) {
@@ -274,11 +276,19 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   ended_ = time + dt;
   if (changed) choose_directions(time);
   bool const timed_speeds = std::find(steady_.begin(), steady_.end(), false) != steady_.end();
+  if (cloud_ && (changed || timed_speeds)) {
+    evaluate_speeds(time);
+    for (auto& h : held_) h.start_speed = h.speed;
+  }
   if (changed || timed_speeds) evaluate_speeds(time + dt);
   bool const timed_loads = std::any_of(loads_.begin(), loads_.end(), [](auto const& l) { return !l.steady; });
   if (changed || timed_loads) evaluate_loads(time, time + dt, follows);
   state.held = held_.data();
   state.held_count = static_cast<Index>(held_.size());
+  state.multipliers = multipliers_ ? &*multipliers_ : nullptr;
+  state.enforce = [](Multipliers& multipliers, BodyState& body, MultiplierCall const& call) {
+    multipliers.enforce(body, call);
+  };
   state.loaded = loaded_.data();
   state.loaded_count = static_cast<Index>(loaded_.size());
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
-#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/formulations/jst_sph/multipliers.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace piola::jst_sph {
@@ -12,7 +13,8 @@ namespace piola::jst_sph {
 /// boundary_passes.hpp apply them. Theory: docs/theory/boundaries.md.
 class Boundary {
  public:
-  Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order);
+  /// `cloud`: for supports with multipliers; nothing: direct supports.
+  Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::optional<Cloud> cloud);
 
   /// Gives the body its supports, and the particles that they hold the velocities of t = 0.
   void attach(BodyState& state);
@@ -22,6 +24,7 @@ class Boundary {
   void end_step(BodyState& state, double time);
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const;
+  std::size_t bytes() const { return multipliers_ ? multipliers_->bytes() : 0; }
 
  private:
   /// One prescribed velocity of one particle, as given: several may hold a particle, in any directions.
@@ -73,6 +76,8 @@ class Boundary {
   std::vector<Particle> particles_;
   std::vector<HeldDirection> held_;
   std::vector<Origin> origins_;
+  std::optional<Cloud> cloud_;
+  std::optional<Multipliers> multipliers_;
   std::vector<LoadOnBody> loads_;
   std::vector<LoadedParticle> loaded_;
   double begun_ = 0, ended_ = 0;  ///< start and end of the step that `held_` and `loaded_` are for

@@ -30,6 +30,9 @@ PIOLA_FN void set_along(View const& from, WriteView const& to, HeldDirection con
     move_along<D>(from, to, h, wanted - now);
 }
 
+/// What is prescribed of a particle: its velocity; with multipliers its acceleration (step 8 of Algorithm 1 for rates),
+/// as they then correct the velocity.
+///
 /// TVD Runge-Kutta, after a stage: the velocity of t^(n+1), and in stage 1 x^(n+1) = x^n + dt/2 (v^n + v^(n+1)).
 /// The reactions r of the stages are rates of velocity as those of forces; work m/2 (r + r*) (x^(n+1) - x^n).
 template <int D>
@@ -41,13 +44,14 @@ struct HoldDirections {
 
   PIOLA_FN void operator()(Index k) const {
     HeldDirection& h = held[k];
-    double const now = along<D>(v, h), change = h.speed - now;
-    set_along<D>(v, v_out, h, now, h.speed);
+    double const now = along<D>(v, h), start = along<D>(v_n, h);
+    double const speed = h.multiplied ? start + (h.speed - h.start_speed) : h.speed, change = speed - now;
+    set_along<D>(v, v_out, h, now, speed);
     if (stage.second) {
       h.work += h.mass * change * h.mean_speed;  // r* dt / 2 = change
       return;
     }
-    h.mean_speed = 0.5 * (along<D>(v_n, h) + h.speed);
+    h.mean_speed = 0.5 * (start + speed);
     h.work = 0.5 * h.mass * change * h.mean_speed;  // r dt = change
     if (h.at_rest && h.axis >= 0)
       x_out.scalar(h.slot, h.position, h.axis);
@@ -67,8 +71,9 @@ struct DriveDirections {
 
   PIOLA_FN void operator()(Index k) const {
     HeldDirection& h = held[k];
-    double const start = along<D>(v, h), free = along<D>(rate, h), wanted = (h.speed - start) / dt;
-    h.mean_speed = 0.5 * (start + h.speed);
+    double const now = along<D>(v, h), free = along<D>(rate, h);
+    h.mean_speed = h.multiplied ? now + 0.5 * (h.speed - h.start_speed) : 0.5 * (now + h.speed);
+    double const wanted = 2 * (h.mean_speed - now) / dt;
     h.work = h.mass * 0.5 * dt * (wanted - free) * h.mean_speed;
     set_along<D>(rate, rate_out, h, free, wanted);
   }
@@ -78,15 +83,17 @@ struct DriveDirections {
 /// with DriveDirections the reactions do the work m/2 (r^n + r^(n+1)) (x^(n+1) - x^n).
 template <int D>
 struct ArriveAlongDirections {
+  double dt;
   HeldDirection* held;
-  View v;
+  View v, rate;
   WriteView v_out;
 
   PIOLA_FN void operator()(Index k) const {
     HeldDirection& h = held[k];
-    double const now = along<D>(v, h);
-    h.work += h.mass * (h.speed - now) * h.mean_speed;
-    set_along<D>(v, v_out, h, now, h.speed);
+    double const now = along<D>(v, h), half = now - 0.5 * dt * along<D>(rate, h);
+    double const speed = h.multiplied ? half + 0.5 * (h.speed - h.start_speed) : h.speed;
+    h.work += h.mass * (speed - now) * h.mean_speed;
+    set_along<D>(v, v_out, h, now, speed);
   }
 };
 

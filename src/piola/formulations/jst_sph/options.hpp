@@ -18,8 +18,9 @@ struct Options {
   bool shear_speed = true;  ///< stabilise with the shear-type wave speed instead of c_p
   bool filter = true;       ///< filter the volumetric energy of nearly incompressible materials
   int filter_passes = 2;
-  bool project = true;  ///< angular and linear momentum projection
-  double cfl = 0;       ///< alpha of eq. (44); 0: from the stability limit of the scheme
+  bool project = true;       ///< angular and linear momentum projection
+  bool multipliers = false;  ///< exact boundary values (Appendix B)
+  double cfl = 0;            ///< alpha of eq. (44); 0: from the stability limit of the scheme
 };
 
 /// Registry entry: keys, meanings, defaults, laws.

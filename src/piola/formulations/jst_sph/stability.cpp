@@ -118,6 +118,7 @@ StabilityLimit stability_limit(JstBody& body, Machine const& machine) {
   BodyState trial = state;
   trial.failure = &failure;
   trial.held_count = trial.loaded_count = 0;
+  trial.multipliers = nullptr;
   trial.constants.project = false;
   trial.constants.eps2 = trial.constants.eps4 = 0;
   trial.material = linearised(state.material, 1);

@@ -24,6 +24,20 @@ struct SupportComponent {
   double position;  ///< where the support holds it [m]
 };
 
+class Multipliers;
+
+/// Where in a step the multipliers correct the velocity.
+struct MultiplierCall {
+  enum class When {
+    start,       ///< v at t = 0
+    stage_1,     ///< Runge-Kutta: v* and, with it, x^(n+1)
+    stage_2,     ///< Runge-Kutta: v^(n+1)
+    first_kick,  ///< Verlet: the acceleration that leads from v^n to v^(n+1/2)
+    second_kick  ///< Verlet: v^(n+1)
+  } when;
+  double dt;
+};
+
 /// A direction in which the velocity of a particle is prescribed: supports that move, end or are oblique, and all that
 /// hold the same particles. The directions of one particle are orthonormal.
 struct HeldDirection {
@@ -33,6 +47,8 @@ struct HeldDirection {
   double direction[3];  ///< unit vector
   double position;      ///< of a particle that is held at rest along an axis [m]
   double mass;          ///< of the particle [kg]
+  bool multiplied;      ///< multipliers hold the velocity that is interpolated there; the particle's own may differ
+  double start_speed;   ///< prescribed velocity at the start of the step [m/s], if multiplied
   double speed;         ///< prescribed velocity at the end of the step [m/s]
   double mean_speed;    ///< over the step [m/s]: the displacement is dt times it
   double work;          ///< of the reaction in this step [J]
@@ -104,6 +120,8 @@ struct BodyState {
   Index support_count = 0;
   HeldDirection* held = nullptr;
   Index held_count = 0;
+  Multipliers* multipliers = nullptr;  ///< nullptr: supports hold particles directly
+  void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   double* partial = nullptr;  ///< room for the partial sums of reductions

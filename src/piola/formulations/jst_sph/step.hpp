@@ -93,6 +93,9 @@ class Step {
     if (b_.held_count == 0) return;
     HoldDirections<D> const drive{stage, b_.held, read(b_.v), read(b_.v_n), read(b_.x), write(b_.v), write(b_.x)};
     exec::for_each_item(b_.held_count, drive);
+    using When = MultiplierCall::When;
+    if (b_.multipliers != nullptr)  // step 9
+      b_.enforce(*b_.multipliers, b_, {stage.second ? When::stage_2 : When::stage_1, stage.dt});
   }
 
   BodyState& b_;

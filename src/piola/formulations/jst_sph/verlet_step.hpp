@@ -41,6 +41,7 @@ class VerletStep {
   void drive(double dt) {
     if (b_.held_count == 0 || !(dt > 0)) return;
     exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.rate)});
+    if (b_.multipliers != nullptr) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::first_kick, dt});
   }
 
   void add_loads(double dt) {
@@ -123,8 +124,9 @@ class VerletStep {
   void kick(double dt, RigidRate const& balance) {
     exec::for_each(b_.slots, Kick<D>{dt, balance, read(b_.rate), read(b_.v), read(b_.x), write(b_.rate), write(b_.v)});
     exec::for_each_item(b_.support_count, HoldVelocity{b_.supports, write(b_.v), write(b_.rate)});
-    if (b_.held_count > 0)
-      exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{b_.held, read(b_.v), write(b_.v)});
+    if (b_.held_count == 0 || !(dt > 0)) return;
+    exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.v)});
+    if (b_.multipliers != nullptr && dt > 0) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::second_kick, dt});
   }
 
   BodyState& b_;
