@@ -59,15 +59,37 @@ void displace(Assembly& a, F const& f) {
   a.initial_displacement.clear();
   for (auto const& X : a.particles.X) a.initial_displacement.push_back(f(X));
 }
+/// Ids of the particles for which where(X).
+template <class F>
+std::vector<std::int64_t> select(Assembly const& a, F const& where) {
+  std::vector<std::int64_t> chosen;
+  for (std::int64_t id = 0; id < a.particles.size(); ++id)
+    if (where(a.particles.X[static_cast<std::size_t>(id)])) chosen.push_back(id);
+  return chosen;
+}
 /// Holds the components `fix` of the particles for which where(X).
 template <class F>
-void support(Assembly& a, std::array<bool, 3> fix, F const& where) {
+Support& support(Assembly& a, std::array<bool, 3> fix, F const& where) {
   Support s;
   s.fix = fix;
-  for (std::int64_t id = 0; id < a.particles.size(); ++id)
-    if (where(a.particles.X[static_cast<std::size_t>(id)])) s.particles.push_back(id);
+  s.particles = select(a, where);
   a.supports.push_back(s);
+  return a.supports.back();
 }
+inline std::array<Expression, 3> formulas(std::array<std::string, 3> const& text) {
+  return {Expression(text[0]), Expression(text[1]), Expression(text[2])};
+}
+/// Acceleration value(X, t) of the particles for which where(X).
+template <class F>
+Load& load(Assembly& a, std::array<std::string, 3> const& value, F const& where) {
+  Load l;
+  l.particles = select(a, where);
+  l.factor.assign(l.particles.size(), 1);
+  l.value = formulas(value);
+  a.loads.push_back(l);
+  return a.loads.back();
+}
+inline bool everywhere(Point const&) { return true; }
 
 inline Values sample(Formulation const& f, std::string_view field, std::size_t particles) {
   for (auto const& info : f.fields())

@@ -292,6 +292,16 @@ double Expression::operator()(std::array<double, 3> const& X, double t) const {
 
 std::string const& Expression::text() const { return compiled_->text; }
 
+bool Expression::depends_on_time() const {
+  auto const uses_time = [](std::string const& text) {
+    auto const words = words_of(text);
+    return std::any_of(words.begin(), words.end(), [](Word const& word) { return word.text == "t"; });
+  };
+  auto const& definitions = compiled_->names.definitions;
+  return uses_time(compiled_->text) ||
+         std::any_of(definitions.begin(), definitions.end(), [&](Definition const& d) { return uses_time(d.text); });
+}
+
 std::vector<std::string> expression_words(std::string const& text) {
   std::vector<std::string> words;
   for (Word const& word : words_of(text)) words.push_back(word.text);

@@ -39,6 +39,7 @@ class Expression {
   /// Value at reference position X [m] and time t [s]; may be inf or nan, the caller checks.
   double operator()(std::array<double, 3> const& X, double t = 0) const;
   std::string const& text() const;
+  bool depends_on_time() const;  ///< t occurs in it, or in a definition that it uses
 
  private:
   struct Compiled;

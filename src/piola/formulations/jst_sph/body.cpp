@@ -17,7 +17,8 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       D_(set.dimension),
       order_(pencil_order(set, body_)),
       set_(&set),
-      fields_(D_) {
+      fields_(D_),
+      boundary_(assembly, body, order_, cloud(set)) {
   make_pairs(set, machine);
   set_constants(set, assembly.materials[body]);
   share_reference(machine.lanes);
@@ -26,7 +27,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   if (options_.filter) fill_filter();
   if (options_.corrected_kernel()) fill_corrected_kernel(machine.lanes);
   fill_initial(assembly, machine);
-  take_supports(assembly);
+  boundary_.attach(state_);
   fill_evolved_geometry();
   machine.update_wave_speed(state_);
   if (options_.integrator != Integrator::verlet) return;
@@ -36,9 +37,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
 }
 
 void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
-  double size = 1;
-  for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];
-  double const spacing = std::pow(size, 1.0 / D_);
+  double const spacing = this->spacing();
   PairOptions pair;
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
@@ -333,21 +332,28 @@ void JstBody::deform_to_positions(Machine const& machine) {
     for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
 }
 
-void JstBody::take_supports(Assembly const& assembly) {
-  std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
-  for (Index i = 0; i < order_.particles; ++i) slot_of[static_cast<std::size_t>(id(i) - body_.first)] = i;
-  for (auto const& support : assembly.supports)
-    for (auto const particle : support.particles) {
-      if (particle < body_.first || particle >= body_.last) continue;
-      Index const slot = slot_of[static_cast<std::size_t>(particle - body_.first)];
-      for (int c = 0; c < D_; ++c) {
-        if (!support.fix[static_cast<std::size_t>(c)]) continue;
-        supports_.push_back({slot, c, value(state_.x, slot, c)});
-        set(state_.v, slot, c, 0);
-      }
-    }
-  state_.supports = supports_.data();
-  state_.support_count = static_cast<Index>(supports_.size());
+/// What multipliers interpolate in: the particles with the gradient's kernel.
+std::optional<Cloud> JstBody::cloud(ParticleSet const& set) const {
+  if (!options_.multipliers) return std::nullopt;
+  Cloud r{D_, {}, {}, options_.kernel, options_.gradient_support * spacing()};
+  for (Index i = 0; i < order_.particles; ++i) {
+    r.X.push_back(set.X[static_cast<std::size_t>(id(i))]);
+    r.volume.push_back(set.volume[static_cast<std::size_t>(id(i))]);
+  }
+  return r;
+}
+
+/// Mean lattice spacing [m]: what supports are given in units of.
+double JstBody::spacing() const {
+  double size = 1;
+  for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];
+  return std::pow(size, 1.0 / D_);
+}
+
+void JstBody::step(Machine const& machine, double time, double dt) {
+  boundary_.begin_step(state_, time, dt);
+  machine.step(state_, dt);
+  boundary_.end_step(state_, time + dt);
 }
 
 std::array<double, 3> JstBody::X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
@@ -385,7 +391,8 @@ double JstBody::J(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  std::size_t total = pairs_->bytes() + first_.memory.bytes() + second_.memory.bytes() + kernel_.memory.bytes();
+  std::size_t total =
+      pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() + second_.memory.bytes() + kernel_.memory.bytes();
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

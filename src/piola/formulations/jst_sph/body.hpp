@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/formulations/jst_sph/fields.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
@@ -35,6 +36,10 @@ class JstBody {
   ReferencePairs const& pairs() const { return *pairs_; }
   ParticleSet const& set() const { return *set_; }
   std::size_t bytes() const;
+  /// From `time` to time + dt, with supports and loads.
+  void step(Machine const& machine, double time, double dt);
+  /// The next time at which a support or a load ends.
+  double next_release(double time) const { return boundary_.next_release(time); }
 
   /// State of the particle in a slot, three-dimensional (missing directions do not deform).
   std::array<double, 3> X(Index slot) const;
@@ -49,6 +54,8 @@ class JstBody {
   static void set(FieldRef const& f, Index slot, int c, double value) { value_at(f, slot, c) = value; }
 
  private:
+  std::optional<Cloud> cloud(ParticleSet const& set) const;
+  double spacing() const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
   /// Memory that fields share because sweeps read them together at neighbours.
@@ -69,7 +76,6 @@ class JstBody {
   void share_reference(int lanes);
   void fill_reference(int lanes);
   void fill_initial(Assembly const& assembly, Machine const& machine);
-  void take_supports(Assembly const& assembly);
   void deform_to_positions(Machine const& machine);
   void set_constants(ParticleSet const& set, MaterialParameters const& material);
 
@@ -84,7 +90,7 @@ class JstBody {
   std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
   Index stored_slots_ = 0;
   std::vector<Index> group_first_;  // per stored group: a slot where it begins
-  std::vector<SupportComponent> supports_;
+  Boundary boundary_;
   std::vector<double> partial_;
   FailureSlot failure_;
   BodyState state_;

@@ -129,6 +129,7 @@ void observe(JstBody const& body, Observation& o) {
   d.strain_energy += strain;
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
+  d.external_work += body.state().totals.external_work;
   add_oscillation(body.set(), body.body(), pressure, o);
 }
 

@@ -20,6 +20,7 @@ constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
 constexpr std::array<std::string_view, 3> integrator_words{"as_scheme", "verlet", "tvd_rk2"};
 constexpr std::array<std::string_view, 3> speed_words{"as_scheme", "shear", "pressure"};
 constexpr std::array<std::string_view, 3> filter_words{"as_scheme", "on", "off"};
+constexpr std::array<std::string_view, 2> support_words{"direct", "multipliers"};
 
 constexpr std::array choices{
     Choice{"variables",
@@ -50,6 +51,10 @@ constexpr std::array choices{
            "estimate: c_p at rest over the smallest stretch; exact: from the law's tangent in the "
            "principal directions",
            wave_speed_words},
+    Choice{"supports",
+           "direct: supported particles get the prescribed velocity; multipliers: the velocity that the kernel "
+           "interpolates there gets it, too, by Lagrange multipliers (Appendix B)",
+           support_words},
     Choice{"angular_momentum_projection", "projection of internal force and stabilisation, eqs. 45-49", switch_words}};
 
 constexpr std::array parameters{
@@ -168,6 +173,7 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.eps4 = displacement ? 0 : number(spec, "eps4_momentum", 0.125);
   o.gradient_support = number(spec, "gradient_support", paper ? 1.2 : 0.8);
   o.laplacian_support = number(spec, "laplacian_support", 1.2);
+  o.multipliers = word(spec, "supports") == "multipliers";
   o.project = word(spec, "angular_momentum_projection") == "on" && !displacement;
   bool const verlet = !displacement && chosen(spec, "integrator", filtered ? "verlet" : "tvd_rk2") == "verlet";
   o.integrator = verlet ? Integrator::verlet : Integrator::tvd_rk2;

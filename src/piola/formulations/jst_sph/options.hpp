@@ -22,6 +22,7 @@ struct Options {
   int filter_passes = 2;
   bool project = true;       ///< angular and linear momentum projection
   bool exact_speed = false;  ///< p-wave speed from the law's tangent
+  bool multipliers = false;  ///< exact boundary values (Appendix B)
   double cfl = 0;            ///< alpha of eq. (44); 0: from the stability limit of the scheme
 
   bool without_rigid() const { return shear_speed && biharmonic != Biharmonic::none; }

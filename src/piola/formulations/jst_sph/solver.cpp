@@ -32,11 +32,12 @@ class Solver final : public Formulation {
       double const c = machine_->largest_wave_speed(state);
       dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * state.constants.h_min / c);  // (44)
     }
-    return dt;
+    return up_to_release(dt);
   }
 
-  void step(double, double dt) override {
-    for (auto const& body : bodies_) machine_->step(body->state(), dt);
+  void step(double time, double dt) override {
+    for (auto const& body : bodies_) body->step(*machine_, time, dt);
+    time_ = time + dt;
     for (auto const& monitor : monitors_)
       if (monitor) monitor->update();
   }
@@ -77,6 +78,14 @@ class Solver final : public Formulation {
     for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
     throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
   }
+  /// A step ends where a support or a load does: the impulse of what drives a body would else depend on the step. The
+  /// last two steps before are alike, so that neither is a sliver.
+  double up_to_release(double dt) const {
+    double rest = std::numeric_limits<double>::infinity();
+    for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
+    if (rest <= dt * (1 + 1e-6)) return std::max(rest, 1e-3 * dt);
+    return rest < 2 * dt ? 0.5 * rest : dt;
+  }
   /// Displacement variables keep F of the last stage; observers want that of x.
   void refresh(JstBody const& body) const {
     if (body.options().variables != Variables::displacement) return;
@@ -91,6 +100,7 @@ class Solver final : public Formulation {
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
+  double time_ = 0;                                          ///< at the end of the last step [s]
 };
 
 std::optional<Failure> Solver::failure() const {
@@ -149,10 +159,11 @@ void Solver::save(StateWriter& writer) const {
       writer.put(name, values);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss};
+    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work};
     writer.put(fmt::format("body{}_energy_books", k), books);
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
   }
+  writer.put("time", {&time_, 1});
 }
 
 void Solver::load(StateReader& reader) {
@@ -170,14 +181,15 @@ void Solver::load(StateReader& reader) {
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < set_.dimension; ++c)
           JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
-    std::array<double, 2> books{};
+    std::array<double, 3> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
-    body.state().totals = {books[0], books[1]};
+    body.state().totals = {books[0], books[1], books[2]};
     if (!monitors_[k]) continue;
     std::vector<double> limit = monitors_[k]->state();
     reader.get(fmt::format("body{}_step_limit", k), limit);
     monitors_[k]->restore(limit);
   }
+  reader.get("time", {&time_, 1});
 }
 
 }  // namespace

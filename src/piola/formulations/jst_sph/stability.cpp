@@ -145,6 +145,8 @@ std::vector<double> identities(JstBody const& body) {
 BodyState trial_of(JstBody& body, FailureSlot& failure) {
   BodyState trial = body.state();
   trial.failure = &failure;
+  trial.held_count = trial.loaded_count = 0;
+  trial.multipliers = nullptr;
   trial.constants.project = false;
   trial.constants.variables = Variables::pF;
   return trial;

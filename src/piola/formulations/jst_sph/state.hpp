@@ -30,11 +30,49 @@ enum class Biharmonic {
   literal   ///< D4 = -eps4 c h^3 L (L p), eq. (37b)
 };
 
-/// A velocity component of a particle that a support holds.
+/// A velocity component of a particle that a support holds at rest for the whole run.
 struct SupportComponent {
   Index slot;
   std::int32_t component;
   double position;  ///< where the support holds it [m]
+};
+
+class Multipliers;
+
+/// Where in a step the multipliers correct the velocity.
+struct MultiplierCall {
+  enum class When {
+    start,       ///< v at t = 0
+    stage_1,     ///< Runge-Kutta: v* and, with it, x^(n+1)
+    stage_2,     ///< Runge-Kutta: v^(n+1)
+    first_kick,  ///< Verlet: the acceleration that leads from v^n to v^(n+1/2)
+    second_kick  ///< Verlet: v^(n+1)
+  } when;
+  double dt;
+};
+
+/// A direction in which the velocity of a particle is prescribed: supports that move, end or are oblique, and all that
+/// hold the same particles. The directions of one particle are orthonormal.
+struct HeldDirection {
+  Index slot;
+  std::int32_t axis;    ///< the direction is this axis; -1: oblique
+  bool at_rest;         ///< for as long as it is held
+  double direction[3];  ///< unit vector
+  double position;      ///< of a particle that is held at rest along an axis [m]
+  double mass;          ///< of the particle [kg]
+  bool multiplied;      ///< multipliers hold the velocity that is interpolated there; the particle's own may differ
+  double start_speed;   ///< prescribed velocity at the start of the step [m/s], if multiplied
+  double speed;         ///< prescribed velocity at the end of the step [m/s]
+  double mean_speed;    ///< over the step [m/s]: the displacement is dt times it
+  double work;          ///< of the reaction in this step [J]
+};
+
+/// A particle on which a load acts.
+struct LoadedParticle {
+  Index slot;
+  double mass;                 ///< [kg]
+  double before[3], after[3];  ///< acceleration by the loads at the start and at the end of the step [m/s2]
+  double work;                 ///< in this step [J]
 };
 
 /// How a step is taken.
@@ -69,6 +107,7 @@ struct Constants {
 struct StepTotals {
   double stabilisation_loss = 0;  ///< J, energy removed by D(p)
   double projection_loss = 0;     ///< J, energy removed by the projection of T
+  double external_work = 0;       ///< J, of loads and of driven supports
 };
 
 struct BodyState {
@@ -102,6 +141,12 @@ struct BodyState {
 
   SupportComponent const* supports = nullptr;
   Index support_count = 0;
+  HeldDirection* held = nullptr;
+  Index held_count = 0;
+  Multipliers* multipliers = nullptr;  ///< nullptr: supports hold particles directly
+  void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
+  LoadedParticle* loaded = nullptr;
+  Index loaded_count = 0;
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;
   StepTotals totals;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/jst_sph/boundary_passes.hpp"
 #include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/formulations/jst_sph/stress_passes.hpp"
@@ -39,9 +40,10 @@ class Step {
     if (b_.constants.force == GradientForm::corrected_kernel) sum_kernel_force();
     halo_.refresh(b_.second);
     StageBalance const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48) (51)
+    add_loads(stage);                                      // E                             (32)
     if (evolves_smoothed_J()) advance_volume(stage, balance.J_rate);  // J                     (43) (38)
     advance(stage, balance.rigid);                                    // v, x                  (43) (47) (49)
-    hold_supports();                                                  // v_c = 0               step 8
+    hold_supports(stage);                                             // v_c = prescribed      step 8
   }
 
   bool evolves_smoothed_J() const { return b_.constants.eps2_J > 0 || b_.constants.eps4_J > 0; }
@@ -154,9 +156,23 @@ class Step {
     exec::for_each(b_.slots, pass);
   }
 
-  void hold_supports() {
+  void add_loads(StageUpdate const& stage) {
+    if (b_.loaded_count == 0) return;
+    // v^n and v*: twice the mean velocity of the step, which is known in stage 2.
+    if (stage.second)
+      exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{stage.dt, b_.loaded, read(b_.v_n), read(b_.v)});
+    exec::for_each_item(b_.loaded_count, AddLoads<D>{stage.second, b_.loaded, read(b_.rate), write(b_.rate)});
+  }
+
+  void hold_supports(StageUpdate const& stage) {
     HoldSupports const pass{b_.supports, write(b_.v), write(b_.x)};
     exec::for_each_item(b_.support_count, pass);
+    if (b_.held_count == 0) return;
+    HoldDirections<D> const drive{stage, b_.held, read(b_.v), read(b_.v_n), read(b_.x), write(b_.v), write(b_.x)};
+    exec::for_each_item(b_.held_count, drive);
+    using When = MultiplierCall::When;
+    if (b_.multipliers != nullptr)  // step 9
+      b_.enforce(*b_.multipliers, b_, {stage.second ? When::stage_2 : When::stage_1, stage.dt});
   }
 
   BodyState& b_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/jst_sph/boundary_passes.hpp"
 #include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/formulations/jst_sph/verlet_passes.hpp"
@@ -16,6 +17,7 @@ class VerletStep {
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations a^n of the state are made.
   void operator()(double dt) {
+    drive(dt);                                           // v^(n+1/2) where it is prescribed
     RigidRate const without_rigid = kick_and_drift(dt);  // v^(n+1/2), x^(n+1)
     halo_.refresh(b_.u);
     bool const filtered = b_.constants.kappa_filtered > 0;
@@ -30,11 +32,25 @@ class VerletStep {
     }
     halo_.refresh(b_.second);
     RigidRate const balance = forces_(dt).rigid;  // -T + D at n + 1
+    add_loads(dt);                                // E at n + 1
     kick(dt, balance);                            // v^(n+1)
   }
 
  private:
   using At = MotionTotals<D>;
+
+  /// The accelerations of the start, dt = 0, are not those of a motion.
+  void drive(double dt) {
+    if (b_.held_count == 0 || !(dt > 0)) return;
+    exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.rate)});
+    if (b_.multipliers != nullptr) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::first_kick, dt});
+  }
+
+  void add_loads(double dt) {
+    if (b_.loaded_count == 0) return;
+    exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
+    exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.rate), write(b_.rate)});
+  }
 
   RigidRate kick_and_drift(double dt) {
     KickAndDrift<D> const pass{dt,         b_.constants, read_reference(b_.V), read(b_.rate),
@@ -107,6 +123,9 @@ class VerletStep {
   void kick(double dt, RigidRate const& balance) {
     exec::for_each(b_.slots, Kick<D>{dt, balance, read(b_.rate), read(b_.v), read(b_.x), write(b_.rate), write(b_.v)});
     exec::for_each_item(b_.support_count, HoldVelocity{b_.supports, write(b_.v), write(b_.rate)});
+    if (b_.held_count == 0 || !(dt > 0)) return;
+    exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.v)});
+    if (b_.multipliers != nullptr && dt > 0) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::second_kick, dt});
   }
 
   BodyState& b_;
