@@ -75,17 +75,57 @@ void print_body(BodySpec const& body, BodyFacts const& facts) {
   fmt::print("  {}{}\n", body.formulation.name, settings_text(body.formulation));
 }
 
+Body const& body_named(ParticleSet const& particles, std::string const& name) {
+  return *std::find_if(particles.bodies.begin(), particles.bodies.end(), [&](Body const& b) { return b.name == name; });
+}
+
+std::string vector_text(std::array<Expression, 3> const& formulas, int dimension) {
+  std::string text = "(";
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    text += (d > 0 ? ", " : "") + formulas[d].text();
+  return text + ")";
+}
+
+std::string until_text(double until) { return std::isfinite(until) ? ", until " + quantity_text(until, "s") : ""; }
+
+std::string held_text(SupportSpec const& support, int dimension) {
+  std::string text;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (support.fix[d]) text += (text.empty() ? "in " : ", ") + std::string(1, "xyz"[d]);
+  }
+  if (support.frame != Support::Frame::axes) {
+    text = support.frame == Support::Frame::normal ? "along (" : "across (";
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+      text += (d > 0 ? ", " : "") + number_text(support.normal[d], 4);
+    text += ")";
+  }
+  if (support.velocity) return "driven " + text + " at " + vector_text(*support.velocity, dimension) + " m/s";
+  return "held " + text;
+}
+
 void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
   for (SupportSpec const& support : spec.supports) {
-    auto const body = std::find_if(particles.bodies.begin(), particles.bodies.end(),
-                                   [&](Body const& b) { return b.name == support.body; });
-    std::string axes;
-    for (std::size_t d = 0; d < 3; ++d) {
-      if (support.fix[d]) axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
-    }
-    auto const count = select_particles(particles, *body, &support.where).size();
-    fmt::print("support of \"{}\": {} particles where {}, held in {}\n", support.body,
-               count_text(static_cast<std::int64_t>(count)), support.where.text(), axes);
+    auto const count = select_particles(particles, body_named(particles, support.body), &support.where).size();
+    fmt::print("support of \"{}\": {} particles where {}, {}{}\n", support.body,
+               count_text(static_cast<std::int64_t>(count)), support.where.text(),
+               held_text(support, particles.dimension), until_text(support.until));
+  }
+}
+
+void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
+  constexpr std::array<std::string_view, 3> kinds{"traction", "body force", "acceleration"};
+  constexpr std::array<std::string_view, 3> units{"Pa", "N/m^3", "m/s^2"};
+  for (LoadSpec const& load : spec.loads) {
+    auto const kind = static_cast<std::size_t>(load.kind);
+    auto const count = loaded_particles(particles, body_named(particles, load.body), load).size();
+    std::string const face = load.kind == LoadSpec::Kind::traction ? " of face " + face_text(load.face) : "";
+    fmt::print("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)),
+               face, kinds[kind], vector_text(load.value, particles.dimension), units[kind], until_text(load.until));
+  }
+  for (MirrorSpec const& mirror : spec.mirrors) {
+    auto const count = face_particles(particles, body_named(particles, mirror.body), mirror.face).size();
+    fmt::print("mirror of \"{}\": {} particles on face {}\n", mirror.body, count_text(static_cast<std::int64_t>(count)),
+               face_text(mirror.face));
   }
 }
 
@@ -157,6 +197,7 @@ int check(CaseOptions const& options) {
              quantity_text(spec.run.end, "s"));
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
   print_supports(spec, particles);
+  print_loads(spec, particles);
   fmt::print("step: {} at the start, about {} steps\n", quantity_text(cost.step, "s", 3),
              count_text(static_cast<std::int64_t>(std::min(std::ceil(spec.run.end / cost.step), 1e18))));
   fmt::print("needs: about {} of memory and {} with {} {} ({})\n", size_text(cost.bytes), duration_text(cost.seconds),

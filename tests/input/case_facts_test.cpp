@@ -58,7 +58,7 @@ TEST(CaseFacts, CoarseAndUnevenBodiesAreNoticed) {
 
 TEST(CaseFacts, ACaseInWhichNothingMovesIsNoticed) {
   EXPECT_EQ(look(test::sample_with("[\"w*Z\", \"0\", \"-w*X\"]", "[0, 0, 0]")).warnings.at(0),
-            "nothing moves: no body has an initial velocity, displacement or deformation - add one");
+            "nothing moves: no initial velocity, displacement or deformation, no load and no driven support - add one");
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ constexpr std::array dimensions{
     Dimension{"rad", "an angle"},
     Dimension{"degree", "an angle"},
     Dimension{"m/s^2", "an acceleration"},
+    Dimension{"N/m^3", "a force per volume"},
 };
 
 std::string unit_advice(std::string_view si_unit) {

@@ -71,7 +71,8 @@ void check_fineness(BodyFacts const& body, int dimension, std::vector<std::strin
 }
 
 void check_motion(CaseSpec const& spec, std::vector<BodyFacts> const& facts, std::vector<std::string>& found) {
-  bool moves = false;
+  bool moves = !spec.loads.empty() || std::any_of(spec.supports.begin(), spec.supports.end(),
+                                                  [](SupportSpec const& support) { return support.velocity; });
   for (std::size_t b = 0; b < facts.size(); ++b) {
     BodyFacts const& body = facts[b];
     if (body.largest_speed > body.p_wave) {
@@ -83,7 +84,9 @@ void check_motion(CaseSpec const& spec, std::vector<BodyFacts> const& facts, std
             spec.bodies[b].initial_deformation_gradient;
   }
   if (!moves)
-    found.emplace_back("nothing moves: no body has an initial velocity, displacement or deformation - add one");
+    found.emplace_back(
+        "nothing moves: no initial velocity, displacement or deformation, no load and no driven support - "
+        "add one");
 }
 
 }  // namespace

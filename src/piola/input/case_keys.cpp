@@ -20,6 +20,7 @@ constexpr Interval half_open{0, 0.5, false, true};
 constexpr std::array<std::string_view, 5> machine_words{"auto", "scalar", "v2", "v3", "v4"};
 constexpr std::array<std::string_view, 2> placement_words{"on_boundary", "cell_centred"};
 constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
+constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 6> probe_words{"point", "average", "maximum", "minimum", "twist", "extent"};
 constexpr std::array<std::string_view, 12> take_words{"maximum",
                                                       "minimum",
@@ -44,7 +45,9 @@ constexpr std::array sections{
     SectionInfo{"body.shape.cylinder", "cylinder = { ... }", "a circular cylinder, three dimensions only"},
     SectionInfo{"body.material", "material = { ... }", "the law of the material and its parameters"},
     SectionInfo{"body.formulation", "formulation = { ... }", "the SPH formulation and its settings"},
-    SectionInfo{"support", "[[support]]", "particles whose velocity is held at zero in some directions"},
+    SectionInfo{"support", "[[support]]", "particles whose velocity is prescribed in some directions: zero, or driven"},
+    SectionInfo{"load", "[[load]]", "a dead load: exactly one of traction, body_force, acceleration"},
+    SectionInfo{"mirror", "[[mirror]]", "a face of a box across which the body goes on as its mirror image"},
     SectionInfo{"probe", "[[probe]]", "columns NAME.QUANTITY of history.csv"},
     SectionInfo{"quantity", "[[quantity]]", "a number of summary.json, taken from a column of history.csv"},
     SectionInfo{"output", "[output]", "what is written; each part may be left out"},
@@ -67,6 +70,8 @@ constexpr std::array keys{
     KeyInfo{"", "run", table, "", {}, "", "how long and how to run", {}},
     KeyInfo{"", "body", list, "", {}, "", "the bodies", {}},
     KeyInfo{"", "support", list, "", {}, "none", "the supports", {}},
+    KeyInfo{"", "load", list, "", {}, "none", "the loads", {}},
+    KeyInfo{"", "mirror", list, "", {}, "none", "the planes of symmetry", {}},
     KeyInfo{"", "probe", list, "", {}, "none", "the probes", {}},
     KeyInfo{"", "quantity", list, "", {}, "none", "the quantities of the summary", {}},
     KeyInfo{"", "output", table, "", {}, "a history only", "what is written", {}},
@@ -182,7 +187,57 @@ constexpr std::array keys{
 
     KeyInfo{"support", "body", name, "", {}, "", "name of the body", {}},
     KeyInfo{"support", "where", formula, "", {}, "", "condition in X, Y, Z that selects particles", {}},
-    KeyInfo{"support", "fix", text, "", {}, "", "directions held: letters of \"xyz\"", {}},
+    KeyInfo{
+        "support",
+        "fix",
+        text,
+        "",
+        {},
+        "",
+        "directions held: letters of \"xyz\"; with normal: \"normal\" (a roller) or \"tangent\" (across the normal)",
+        {}},
+    KeyInfo{"support", "normal", point, "1", place_range, "none", "direction that fix refers to, of any length", {}},
+    KeyInfo{"support",
+            "velocity",
+            formulas,
+            "m/s",
+            {},
+            "at rest",
+            "prescribed velocity, one formula in X, Y, Z, t per direction; only the held directions count",
+            {}},
+    KeyInfo{"support", "until", quantity, "s", positive, "the end of the run", "released at this time", {}},
+
+    KeyInfo{"load", "body", name, "", {}, "", "name of the body", {}},
+    KeyInfo{"load", "where", formula, "", {}, "all particles", "condition in X, Y, Z that selects particles", {}},
+    KeyInfo{"load",
+            "traction",
+            formulas,
+            "Pa",
+            {},
+            "none",
+            "force per reference area of a face, one formula in X, Y, Z, t per direction",
+            {}},
+    KeyInfo{"load", "face", word, "", {}, "none", "traction (required there): the loaded face of a box", face_words},
+    KeyInfo{"load",
+            "body_force",
+            formulas,
+            "N/m^3",
+            {},
+            "none",
+            "force per reference volume, one formula in X, Y, Z, t per direction",
+            {}},
+    KeyInfo{"load",
+            "acceleration",
+            formulas,
+            "m/s^2",
+            {},
+            "none",
+            "force per mass, for example gravity, one formula in X, Y, Z, t per direction",
+            {}},
+    KeyInfo{"load", "until", quantity, "s", positive, "the end of the run", "gone from this time on", {}},
+
+    KeyInfo{"mirror", "body", name, "", {}, "", "name of the body, a box with particles on its faces", {}},
+    KeyInfo{"mirror", "face", word, "", {}, "", "the face that is the plane of symmetry", face_words},
 
     KeyInfo{"probe", "name", name, "", {}, "", "first part of the column names", {}},
     KeyInfo{"probe", "body", name, "", {}, "", "name of the body", {}},
@@ -296,7 +351,9 @@ std::string value_text(KeyInfo const& info) {
       return unit == "1" ? "a number" : "a number in " + unit + " or a text such as \"2 " + unit + "\"";
     case whole: return "a whole number";
     case flag: return "true or false";
-    case point: return "a list of numbers in " + unit + " or texts such as \"2 " + unit + "\", one per direction";
+    case point:
+      if (unit == "1") return "a list of numbers, one per direction";
+      return "a list of numbers in " + unit + " or texts such as \"2 " + unit + "\", one per direction";
     case formula: return "a text with a formula";
     case formulas: return "a list of formulas";
     case list: return "a list";

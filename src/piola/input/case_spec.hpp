@@ -2,9 +2,8 @@
 #pragma once
 #include "piola/base/expression.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/registry.hpp"
-#include "piola/materials/registry.hpp"
-#include "piola/setup/shapes.hpp"
+#include "piola/formulations/assembly.hpp"
+#include "piola/setup/faces.hpp"
 #include <array>
 #include <limits>
 #include <map>
@@ -40,11 +39,34 @@ struct BodySpec {
   Places places;
 };
 
-/// [[support]]: components held at zero velocity for the particles that `where` selects.
+/// [[support]]: the velocity of the particles that `where` selects, prescribed in some directions.
 struct SupportSpec {
   std::string body;
   Expression where;
-  std::array<bool, 3> fix{};
+  Support::Frame frame = Support::Frame::axes;
+  std::array<bool, 3> fix{};                               ///< frame axes
+  std::array<double, 3> normal{};                          ///< frames normal, tangent: unit vector
+  std::optional<std::array<Expression, 3>> velocity;       ///< m/s, in X, Y, Z, t; nothing: at rest
+  double until = std::numeric_limits<double>::infinity();  ///< s: released then
+  Places places;
+};
+
+/// [[load]]: a dead load on the particles that `where` selects.
+struct LoadSpec {
+  enum class Kind { traction, body_force, acceleration };
+  std::string body;
+  std::optional<Expression> where;  ///< default all
+  Kind kind = Kind::acceleration;
+  std::array<Expression, 3> value;                         ///< Pa, N/m^3 or m/s^2, in X, Y, Z, t
+  Face face;                                               ///< traction
+  double until = std::numeric_limits<double>::infinity();  ///< s: gone then
+  Places places;
+};
+
+/// [[mirror]]: the body goes on across a face as its mirror image.
+struct MirrorSpec {
+  std::string body;
+  Face face;
   Places places;
 };
 
@@ -107,6 +129,8 @@ struct CaseSpec {
   RunSpec run;
   std::vector<BodySpec> bodies;
   std::vector<SupportSpec> supports;
+  std::vector<LoadSpec> loads;
+  std::vector<MirrorSpec> mirrors;
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;

@@ -75,30 +75,6 @@ std::optional<std::string> definition_text(Value const& value, Names const& name
   return formula->text();
 }
 
-std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
-                                                     Names const& names, Problems& problems) {
-  auto const items = read_list(value, count, count, problems);
-  if (!items) return std::nullopt;
-  std::vector<Expression> formulas;
-  for (Value const& item : *items) {
-    auto formula = read_formula(item, unit, names, problems);
-    formulas.push_back(formula ? std::move(*formula) : Expression());
-  }
-  return formulas;
-}
-
-std::optional<std::array<Expression, 3>> read_vector(Section const& section, std::string_view key,
-                                                     BodyNames const& body) {
-  auto const value = section.find(key);
-  if (!value) return std::nullopt;
-  auto formulas = read_formulas(*value, key_info("body", key).unit, static_cast<std::size_t>(body.dimension),
-                                body.names, section.problems());
-  if (!formulas) return std::nullopt;
-  std::array<Expression, 3> vector;
-  std::move(formulas->begin(), formulas->end(), vector.begin());
-  return vector;
-}
-
 std::optional<std::array<Expression, 9>> read_gradient(Section const& section, BodyNames const& body) {
   auto const value = section.find("initial_deformation_gradient");
   if (!value) return std::nullopt;
@@ -160,6 +136,7 @@ BodySpec read_body(Section const& section, std::map<std::string, double> const& 
   check_law(section, body);
   names.name = body.name;
   names.dimension = body.shape.dimension;
+  names.shape = body.shape;
   names.names.constants = constants;
   if (auto const define = section.find("define")) {
     names.names.definitions = read_definitions(*define, names.names, section.problems());
@@ -168,11 +145,8 @@ BodySpec read_body(Section const& section, std::map<std::string, double> const& 
   body.initial_displacement = read_vector(section, "initial_displacement", names);
   body.initial_deformation_gradient = read_gradient(section, names);
   section.refuse_unknown();
-  body.places[""] = section.place();
-  for (char const* key : {"name", "shape", "material", "formulation", "initial_velocity", "initial_displacement",
-                          "initial_deformation_gradient"}) {
-    body.places[key] = section.place_of(key);
-  }
+  body.places = places_of(section, {"name", "shape", "material", "formulation", "initial_velocity",
+                                    "initial_displacement", "initial_deformation_gradient"});
   return body;
 }
 

@@ -112,6 +112,8 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
   read_bodies(top, constants, spec, names, limits);
   for (Section const& section : tables_of(top, "support")) spec.supports.push_back(read_support(section, names));
+  for (Section const& section : tables_of(top, "load")) spec.loads.push_back(read_load(section, names));
+  for (Section const& section : tables_of(top, "mirror")) spec.mirrors.push_back(read_mirror(section, names));
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   refuse_twins(probes, spec.probes, "probe");

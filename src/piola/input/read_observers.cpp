@@ -13,37 +13,6 @@ namespace {
 using Kind = ProbeSpec::Kind;
 using Take = QuantitySpec::Take;
 
-/// The body that a section names; null (and a problem) if there is none.
-BodyNames const* find_body(Section const& section, std::vector<BodyNames> const& bodies, std::string& name) {
-  if (!section.read("body", name)) return nullptr;
-  std::vector<std::string> known;
-  for (BodyNames const& body : bodies) {
-    if (body.name == name) return &body;
-    if (!body.name.empty()) known.push_back(body.name);
-  }
-  section.problems().add(section.place_of("body"), section.name_of("body") + " is " + in_quotes(name) + " (allowed: " +
-                                                       joined(known) + ") - " + advice_for_name(name, known));
-  return nullptr;
-}
-
-/// Index of a word in the table of keys: the order there is that of the enumerators.
-int number_of_word(Section const& section, std::string const& full, std::string_view key) {
-  std::string word;
-  if (!section.read(key, word)) return -1;
-  auto const words = key_info(full, key).words;
-  return static_cast<int>(std::find(words.begin(), words.end(), std::string_view(word)) - words.begin());
-}
-
-void remember_places(Section const& section, std::initializer_list<char const*> keys, Places& places) {
-  places[""] = section.place();
-  for (char const* key : keys) places[key] = section.place_of(key);
-}
-
-void refuse_key(Section const& section, std::string_view key, std::string const& reason) {
-  if (section.has(key))
-    section.problems().add(section.place_of(key), section.name_of(key) + " " + reason + " - remove it");
-}
-
 void read_point(Section const& section, int dimension, ProbeSpec& probe) {
   if (!section.has("at")) {
     section.report_missing("at", "the point of the probe", "at = [\"0 m\", ...]");
@@ -141,7 +110,7 @@ bool takes_time(Take take) {
 // Keys that only some ways of taking a number have: needed there, refused elsewhere.
 bool wants(Section const& section, std::string_view key, bool wanted, std::string const& what) {
   if (!wanted)
-    refuse_key(section, key, "is not used by this \"take\"");
+    section.refuse(key, "is not used by this \"take\"");
   else if (!section.has(key))
     section.report_missing(key, what, std::string(key) + " = ...");
   return wanted && section.has(key);
@@ -176,45 +145,26 @@ void read_unit(Section const& section, std::string const& si_unit, QuantitySpec&
 
 }  // namespace
 
-SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies) {
-  SupportSpec support;
-  BodyNames const* const body = find_body(section, bodies, support.body);
-  if (auto where = section.formula("where", body != nullptr ? body->names : Names{})) support.where = std::move(*where);
-  if (std::string fix; section.read("fix", fix)) {
-    std::string const letters =
-        std::string("xyz").substr(0, static_cast<std::size_t>(body != nullptr ? body->dimension : 3));
-    for (std::size_t d = 0; d < letters.size(); ++d) support.fix[d] = fix.find(letters[d]) != std::string::npos;
-    bool const bad = fix.empty() || fix.size() > 3 || fix.find_first_not_of(letters) != std::string::npos;
-    if (bad) {
-      section.problems().add(section.place_of("fix"), "support.fix is " + in_quotes(fix) +
-                                                          " (allowed: one or more of the letters " + letters + ")");
-    }
-  }
-  section.refuse_unknown();
-  remember_places(section, {"where", "body"}, support.places);
-  return support;
-}
-
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies) {
   ProbeSpec probe;
   section.read("name", probe.name);
   BodyNames const* const body = find_body(section, bodies, probe.body);
   int const dimension = body != nullptr ? body->dimension : 3;
-  if (int const kind = number_of_word(section, "probe", "kind"); kind >= 0) probe.kind = static_cast<Kind>(kind);
-  if (int const axis = number_of_word(section, "probe", "axis"); axis >= 0) probe.axis = axis;
+  if (int const kind = section.word_index("kind"); kind >= 0) probe.kind = static_cast<Kind>(kind);
+  if (int const axis = section.word_index("axis"); axis >= 0) probe.axis = axis;
   bool const along = probe.kind == Kind::twist || probe.kind == Kind::extent;
   if (probe.kind == Kind::point) {
     if (body != nullptr) read_point(section, dimension, probe);
-    refuse_key(section, "where", "is not used by the kind \"point\"");
+    section.refuse("where", "is not used by the kind \"point\"");
   } else {
-    refuse_key(section, "at", "is used only by the kind \"point\"");
+    section.refuse("at", "is used only by the kind \"point\"");
     probe.where = section.formula("where", body != nullptr ? body->names : Names{});
   }
   if (along && body != nullptr) check_axis(section, dimension, probe);
-  if (!along) refuse_key(section, "axis", "is used only by the kinds \"twist\" and \"extent\"");
+  if (!along) section.refuse("axis", "is used only by the kinds \"twist\" and \"extent\"");
   read_quantities(section, probe);
   section.refuse_unknown();
-  remember_places(section, {"where", "at", "body", "name"}, probe.places);
+  probe.places = places_of(section, {"where", "at", "body", "name"});
   return probe;
 }
 
@@ -223,7 +173,7 @@ QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec
   QuantitySpec quantity;
   section.read("name", quantity.name);
   auto const unit = read_column(section, probes, quantity.column);
-  if (int const take = number_of_word(section, "quantity", "take"); take >= 0) quantity.take = static_cast<Take>(take);
+  if (int const take = section.word_index("take"); take >= 0) quantity.take = static_cast<Take>(take);
   read_take(section, unit.value_or("1"), constants, quantity);
   if (unit) read_unit(section, takes_time(quantity.take) ? "s" : *unit, quantity);
   section.refuse_unknown();

@@ -41,6 +41,12 @@ std::string Section::name_of(std::string_view key) const {
   return section_.empty() ? std::string(key) : section_ + "." + std::string(key);
 }
 
+KeyInfo const& Section::info_of(std::string_view key) const { return key_info(section_, key); }
+
+void Section::refuse(std::string_view key, std::string const& reason) const {
+  if (has(key)) problems_.add(place_of(key), name_of(key) + " " + reason + " - remove it");
+}
+
 void Section::report_missing(std::string_view key, std::string_view about, std::string_view example) const {
   std::string const who = section_.empty() ? "the case" : section_;
   problems_.add(node_.place,
@@ -92,6 +98,13 @@ bool Section::read(std::string_view key, std::string& target) const {
   }
   target = *text;
   return true;
+}
+
+int Section::word_index(std::string_view key) const {
+  std::string word;
+  if (!read(key, word)) return -1;
+  auto const words = info_of(key).words;
+  return static_cast<int>(std::find(words.begin(), words.end(), std::string_view(word)) - words.begin());
 }
 
 bool Section::read(std::string_view key, bool& target) const {

@@ -64,12 +64,17 @@ class Section {
   std::optional<Expression> formula(std::string_view key, Names const& names) const;
   /// One number per direction, 1 to 3 of them.
   std::optional<std::vector<double>> point(std::string_view key) const;
+  /// Index of a word in the table of keys, whose order is that of the enumerators; -1 if there is none.
+  int word_index(std::string_view key) const;
   std::string name_of(std::string_view key) const;
+  KeyInfo const& info_of(std::string_view key) const;
 
   /// Reports the keys that are neither in the table of keys nor in `more`.
   void refuse_unknown(std::vector<std::string> const& more = {}) const;
   /// Reports a required key that is missing; `about` and `example` are for the reader of the message.
   void report_missing(std::string_view key, std::string_view about, std::string_view example) const;
+  /// Reports a key that has no meaning here, if it is given.
+  void refuse(std::string_view key, std::string const& reason) const;
 
  private:
   Node const& node_;

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/input/case_spec.hpp"
 #include "piola/input/section.hpp"
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,8 +16,18 @@ namespace piola {
 struct BodyNames {
   std::string name;
   int dimension = 3;
+  ShapeSpec shape;
   Names names;
 };
+
+/// The body that a section names; null (and a problem) if there is none.
+BodyNames const* find_body(Section const& section, std::vector<BodyNames> const& bodies, std::string& name);
+/// One formula per direction of the body.
+std::optional<std::array<Expression, 3>> read_vector(Section const& section, std::string_view key,
+                                                     BodyNames const& body);
+std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
+                                                     Names const& names, Problems& problems);
+Places places_of(Section const& section, std::initializer_list<char const*> keys);
 
 void read_run(Section const& section, RunSpec& run);
 void read_output(Section const& section, OutputSpec& output);
@@ -29,6 +40,8 @@ FormulationSpec read_formulation(Section const& section);
 std::vector<Definition> read_definitions(Value const& value, Names const& names, Problems& problems);
 
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies);
+LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
+MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes,
                                    std::map<std::string, double> const& constants);

@@ -50,23 +50,53 @@ void report_mixed_start(CaseSpec const& spec, Problems& problems) {
   }
 }
 
-Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
-  Support support;
-  support.fix = spec.fix;
-  for (Body const& body : particles.bodies) {
-    if (body.name == spec.body) support.particles = select_particles(particles, body, &spec.where);
-  }
-  return support;
+std::size_t index_of_body(std::string const& name, ParticleSet const& particles) {
+  auto const body = std::find_if(particles.bodies.begin(), particles.bodies.end(),
+                                 [&](Body const& candidate) { return candidate.name == name; });
+  return static_cast<std::size_t>(body - particles.bodies.begin());
 }
 
-double mass_of(MaterialParameters const& material, Body const& body, ParticleSet const& particles) {
+Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
+  Body const& body = particles.bodies[index_of_body(spec.body, particles)];
+  return {.particles = select_particles(particles, body, &spec.where),
+          .fix = spec.fix,
+          .frame = spec.frame,
+          .normal = spec.normal,
+          .velocity = spec.velocity,
+          .until = spec.until};
+}
+
+double density_of(MaterialParameters const& material) {
   LawInfo const law = laws()[static_cast<std::size_t>(material.law)];
   auto const density = std::find_if(law.parameters.begin(), law.parameters.end(),
                                     [](Parameter const& p) { return p.name == "density"; });
-  if (density == law.parameters.end()) return 0;
+  return density == law.parameters.end() ? 0 : material.value[density - law.parameters.begin()];
+}
+
+/// What a load accelerates its particles with, per unit of its value.
+Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& particles) {
+  std::size_t const b = index_of_body(spec.body, particles);
+  double const density = density_of(from.bodies[b].material);
+  Load load{.particles = loaded_particles(particles, particles.bodies[b], spec),
+            .factor = {},
+            .value = spec.value,
+            .until = spec.until};
+  for (std::int64_t const id : load.particles) {
+    double factor = 1;
+    if (spec.kind == LoadSpec::Kind::body_force) factor = 1 / density;
+    if (spec.kind == LoadSpec::Kind::traction) {
+      double const mass = density * particles.volume[static_cast<std::size_t>(id)];
+      factor = face_area(from.bodies[b].shape, particles, id, spec.face) / mass;
+    }
+    load.factor.push_back(factor);
+  }
+  return load;
+}
+
+double mass_of(MaterialParameters const& material, Body const& body, ParticleSet const& particles) {
   double volume = 0;
   for_each_id(body, [&](std::size_t i) { volume += particles.volume[i]; });
-  return volume * material.value[density - law.parameters.begin()];
+  return volume * density_of(material);
 }
 
 std::string formulation_names(CaseSpec const& spec) {
@@ -98,6 +128,9 @@ Assembly assemble(CaseSpec const& spec) {
     set_initial_state(spec.bodies[b], a.particles.bodies[b], a);
   }
   for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, a.particles));
+  for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
+  for (MirrorSpec const& mirror : spec.mirrors)
+    a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper});
   return a;
 }
 

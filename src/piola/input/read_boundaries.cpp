@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/input/sections.hpp"
+#include <array>
+#include <cmath>
+
+namespace piola {
+namespace {
+
+using Frame = Support::Frame;
+
+void read_normal(Section const& section, int dimension, SupportSpec& support) {
+  auto const normal = section.point("normal");
+  if (!normal) return;
+  double length = 0;
+  for (double const component : *normal) length = std::hypot(length, component);
+  if (static_cast<int>(normal->size()) != dimension) {
+    section.problems().add(section.place_of("normal"), "support.normal has " + std::to_string(normal->size()) +
+                                                           " components (allowed: " + std::to_string(dimension) +
+                                                           ", the dimension of the body)");
+  } else if (!(length > 0)) {
+    section.problems().add(section.place_of("normal"),
+                           "support.normal is zero (allowed: any other length) - give the direction of the normal");
+  } else {
+    for (std::size_t d = 0; d < normal->size(); ++d) support.normal[d] = (*normal)[d] / length;
+  }
+}
+
+// Letters name directions of the axes; the two words refer to the normal.
+void read_fix(Section const& section, int dimension, SupportSpec& support) {
+  std::string fix;
+  if (!section.read("fix", fix)) return;
+  std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
+  std::string const is = "support.fix is " + in_quotes(fix);
+  if (fix == "normal" || fix == "tangent") {
+    support.frame = fix == "normal" ? Frame::normal : Frame::tangent;
+    if (!section.has("normal"))
+      section.report_missing("normal", "the direction that fix refers to", "normal = [1, 1, 0]");
+    return;
+  }
+  if (section.has("normal")) {
+    section.problems().add(section.place_of("fix"),
+                           is + " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
+    return;
+  }
+  for (std::size_t d = 0; d < letters.size(); ++d) support.fix[d] = fix.find(letters[d]) != std::string::npos;
+  if (!fix.empty() && fix.size() <= 3 && fix.find_first_not_of(letters) == std::string::npos) return;
+  section.problems().add(section.place_of("fix"), is + " (allowed: one or more of the letters " + letters + ")");
+}
+
+/// The faces that a box of this dimension has.
+std::string faces_of(int dimension) {
+  std::string text;
+  for (int axis = 0; axis < dimension; ++axis)
+    text += (axis > 0 ? ", " : "") + face_text({axis, false}) + ", " + face_text({axis, true});
+  return text;
+}
+
+/// A face of the body, which must be a box; `what` needs one.
+void read_face(Section const& section, BodyNames const& body, std::string const& what, Face& face) {
+  int const word = section.word_index("face");
+  if (word < 0) return;
+  face = {word / 2, word % 2 == 1};
+  if (body.shape.kind != ShapeSpec::Kind::box) {
+    section.problems().add(section.place_of("face"), "body " + in_quotes(body.name) + " has no face " +
+                                                         in_quotes(face_text(face)) + ", because it is no box " +
+                                                         "(allowed: " + what + " of boxes)");
+  } else if (face.axis >= body.dimension) {
+    section.problems().add(section.place_of("face"), section.name_of("face") + " is " + in_quotes(face_text(face)) +
+                                                         " (allowed in " + std::to_string(body.dimension) +
+                                                         "D: " + faces_of(body.dimension) + ")");
+  }
+}
+
+void read_load_value(Section const& section, BodyNames const* body, LoadSpec& load) {
+  constexpr std::array kinds{"traction", "body_force", "acceleration"};
+  int given = 0;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (!section.has(kinds[k])) continue;
+    ++given;
+    load.kind = static_cast<LoadSpec::Kind>(k);
+    if (body == nullptr) continue;
+    if (auto value = read_vector(section, kinds[k], *body)) load.value = std::move(*value);
+  }
+  if (given == 1) return;
+  section.problems().add(section.place(), "load has " + (given == 0 ? std::string("no") : std::to_string(given)) +
+                                              " of traction, body_force, acceleration (allowed: one) - add or remove "
+                                              "one");
+}
+
+}  // namespace
+
+SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies) {
+  SupportSpec support;
+  BodyNames const* const body = find_body(section, bodies, support.body);
+  int const dimension = body != nullptr ? body->dimension : 3;
+  if (auto where = section.formula("where", body != nullptr ? body->names : Names{})) support.where = std::move(*where);
+  read_fix(section, dimension, support);
+  if (body != nullptr) {
+    read_normal(section, dimension, support);
+    support.velocity = read_vector(section, "velocity", *body);
+  }
+  section.read("until", support.until);
+  section.refuse_unknown();
+  support.places = places_of(section, {"where", "body", "fix", "normal", "velocity"});
+  return support;
+}
+
+LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies) {
+  LoadSpec load;
+  BodyNames const* const body = find_body(section, bodies, load.body);
+  load.where = section.formula("where", body != nullptr ? body->names : Names{});
+  read_load_value(section, body, load);
+  if (!section.has("traction"))
+    section.refuse("face", "is used only by a traction");
+  else if (!section.has("face"))
+    section.report_missing("face", "the face of a box that the traction acts on", "face = \"+x\"");
+  else if (body != nullptr)
+    read_face(section, *body, "tractions on faces", load.face);
+  section.read("until", load.until);
+  section.refuse_unknown();
+  load.places = places_of(section, {"where", "body", "face", "traction", "body_force", "acceleration"});
+  return load;
+}
+
+MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies) {
+  MirrorSpec mirror;
+  BodyNames const* const body = find_body(section, bodies, mirror.body);
+  read_face(section, body != nullptr ? *body : BodyNames{}, "mirrors at faces", mirror.face);
+  bool const box = body != nullptr && body->shape.kind == ShapeSpec::Kind::box;
+  if (box && body->shape.placement != ShapeSpec::Placement::on_boundary) {
+    section.problems().add(
+        section.place_of("body"),
+        "a mirror needs particles on its face, but those of body " + in_quotes(body->name) +
+            " are in the middle of cells (allowed: placement = \"on_boundary\") - change body.shape");
+  }
+  section.refuse_unknown();
+  mirror.places = places_of(section, {"body", "face"});
+  return mirror;
+}
+
+}  // namespace piola

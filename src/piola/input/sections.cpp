@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/sections.hpp"
+#include "piola/base/text.hpp"
+#include <algorithm>
+
+namespace piola {
+
+BodyNames const* find_body(Section const& section, std::vector<BodyNames> const& bodies, std::string& name) {
+  if (!section.read("body", name)) return nullptr;
+  std::vector<std::string> known;
+  for (BodyNames const& body : bodies) {
+    if (body.name == name) return &body;
+    if (!body.name.empty()) known.push_back(body.name);
+  }
+  section.problems().add(section.place_of("body"), section.name_of("body") + " is " + in_quotes(name) + " (allowed: " +
+                                                       joined(known) + ") - " + advice_for_name(name, known));
+  return nullptr;
+}
+
+std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
+                                                     Names const& names, Problems& problems) {
+  auto const items = read_list(value, count, count, problems);
+  if (!items) return std::nullopt;
+  std::vector<Expression> formulas;
+  for (Value const& item : *items) {
+    auto formula = read_formula(item, unit, names, problems);
+    formulas.push_back(formula ? std::move(*formula) : Expression());
+  }
+  return formulas;
+}
+
+std::optional<std::array<Expression, 3>> read_vector(Section const& section, std::string_view key,
+                                                     BodyNames const& body) {
+  auto const value = section.find(key);
+  if (!value) return std::nullopt;
+  auto formulas = read_formulas(*value, section.info_of(key).unit, static_cast<std::size_t>(body.dimension), body.names,
+                                section.problems());
+  if (!formulas) return std::nullopt;
+  std::array<Expression, 3> vector;
+  std::move(formulas->begin(), formulas->end(), vector.begin());
+  return vector;
+}
+
+Places places_of(Section const& section, std::initializer_list<char const*> keys) {
+  Places places{{"", section.place()}};
+  for (char const* key : keys) places[key] = section.place_of(key);
+  return places;
+}
+
+}  // namespace piola

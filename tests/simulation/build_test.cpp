@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/build.hpp"
+#include "piola/input/read_case.hpp"
+#include "support/sample_case.hpp"
+#include <gtest/gtest.h>
+
+namespace piola {
+namespace {
+
+Assembly assembled(std::string const& more) {
+  return assemble(read_case_text(test::sample_case() + more, "case.toml"));
+}
+
+TEST(Assemble, SupportsBecomeIdsAndPrescribedVelocities) {
+  Assembly const a = assembled(R"(
+[[support]]
+body = "column"
+where = "Y >= L && X < 0"
+fix = "normal"
+normal = [0, 2, 0]
+velocity = [0, "-10*t*X", 0]
+until = "7 ms"
+)");
+  ASSERT_EQ(a.supports.size(), 2u);
+  EXPECT_EQ(a.supports[0].particles.size(), 25u);
+  EXPECT_FALSE(a.supports[0].velocity);
+  Support const& support = a.supports[1];
+  ASSERT_EQ(support.particles.size(), 10u);
+  for (std::int64_t const id : support.particles) EXPECT_EQ(a.particles.X[static_cast<std::size_t>(id)][1], 6);
+  EXPECT_EQ(support.frame, Support::Frame::normal);
+  EXPECT_EQ(support.normal, (std::array<double, 3>{0, 1, 0}));
+  EXPECT_DOUBLE_EQ((*support.velocity)[1]({0.5, 6, 0}, 2), -10);
+  EXPECT_DOUBLE_EQ(support.until, 0.007);
+}
+
+// The sum of mass times acceleration is the whole force: traction times the face, 1 m x 1 m; body force times the
+// volume, 6 m^3; acceleration times the mass, 6600 kg.
+TEST(Assemble, LoadsSumToTheWholeForce) {
+  Assembly const a = assembled(R"(
+[[load]]
+body = "column"
+face = "+y"
+traction = [0, "3 MPa", 0]
+until = "1 ms"
+[[load]]
+body = "column"
+body_force = [0, 0, "5 kN/m^3"]
+[[load]]
+body = "column"
+acceleration = ["2 m/s^2", 0, 0]
+)");
+  ASSERT_EQ(a.loads.size(), 3u);
+  std::array<double, 3> const expected{3e6, 6 * 5000, 6600 * 2};
+  std::array<std::size_t, 3> const direction{1, 2, 0};
+  for (std::size_t l = 0; l < 3; ++l) {
+    Load const& load = a.loads[l];
+    ASSERT_EQ(load.particles.size(), load.factor.size());
+    double force = 0;
+    for (std::size_t k = 0; k < load.particles.size(); ++k) {
+      auto const id = static_cast<std::size_t>(load.particles[k]);
+      force += 1100 * a.particles.volume[id] * load.factor[k] * load.value[direction[l]](a.particles.X[id]);
+    }
+    EXPECT_NEAR(force, expected[l], 1e-12 * expected[l]);
+  }
+  EXPECT_EQ(a.loads[0].particles.size(), 25u);
+  EXPECT_DOUBLE_EQ(a.loads[0].until, 1e-3);
+  EXPECT_EQ(a.loads[1].particles.size(), 625u);
+}
+
+TEST(Assemble, MirrorsNameTheirBody) {
+  Assembly const a = assembled(R"(
+[[body]]
+name = "second"
+shape = { box = { min = [2, 0, 0], max = [3, 1, 1] }, particles = [4, 4, 4] }
+material = { law = "neo_hookean", density = 1, youngs_modulus = 1, poissons_ratio = 0 }
+formulation = { name = "jst_sph" }
+[[mirror]]
+body = "second"
+face = "+z"
+)");
+  ASSERT_EQ(a.mirrors.size(), 1u);
+  EXPECT_EQ(a.mirrors[0].body, 1u);
+  EXPECT_EQ(a.mirrors[0].axis, 2);
+  EXPECT_TRUE(a.mirrors[0].upper);
+}
+
+}  // namespace
+}  // namespace piola
