@@ -10,7 +10,7 @@ namespace {
 
 constexpr int first_rounds = 40;  ///< power iterations from a random start
 constexpr int later_rounds = 3;   ///< and from the mode of the last measurement
-constexpr int interval = 100;     ///< steps between measurements: they cost 4 right-hand sides
+constexpr int interval = 50;      ///< steps between measurements: they cost 4 right-hand sides
 /// Random part that every measurement adds to its start, so that a mode that has grown elsewhere is found.
 constexpr double fresh = 0.05;
 
@@ -190,6 +190,7 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   kept.restore();
   mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
   measure(first_rounds);
+  first_frequency_ = frequency_;
 }
 
 void StabilityMonitor::measure(int rounds) {
@@ -204,7 +205,7 @@ void StabilityMonitor::measure(int rounds) {
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
   Operator tangent(body_, trial, machine_, current_F(body_));
-  frequency_ = std::sqrt(tangent.dominant(mode_, rounds));
+  frequency_ = std::max(first_frequency_, std::sqrt(tangent.dominant(mode_, rounds)));
   kept.restore();
   steps_ = 0;
 }
@@ -214,7 +215,8 @@ void StabilityMonitor::update() {
 }
 
 double StabilityMonitor::step(double wave_speed) const {
-  return largest_step(frequency_ * (wave_speed / wave_speed_), damping_ * wave_speed);
+  // A wave speed that has fallen says nothing: the largest one may have been elsewhere than the fastest mode.
+  return largest_step(frequency_ * std::max(1.0, wave_speed / wave_speed_), damping_ * wave_speed);
 }
 
 std::vector<double> StabilityMonitor::state() const {
