@@ -21,6 +21,17 @@ struct FieldVersion {
 inline constexpr int tile_bits = 4;
 inline constexpr Index tile_size = 1 << tile_bits;
 
+/// Copies of particles, in slots after a body's own, by affine maps: how their values follow from those of the
+/// particles. Mirror images, for example. Value c of copy k is sign[transform[k]][c] * (value of source[k]) +
+/// shift[..].
+struct Copies {
+  Index first = 0, count = 0;  ///< slots of the copies
+  Index const* source = nullptr;
+  std::int32_t const* transform = nullptr;
+  int values = 0;                                  ///< per particle, from the field's own on
+  double const *sign = nullptr, *shift = nullptr;  ///< [transform][values]
+};
+
 /// A field as loops see it: component c of particle i is at
 /// data[c * component_stride + i * particle_stride + (i / tile_size) * tile_extra].
 /// Plain data without functions: it crosses between machines.
@@ -34,6 +45,7 @@ struct FieldRef {
   /// Reference fields of regular lattices, where most groups of lanes are alike: where a group of lanes is stored,
   /// counted in groups. nullptr: particle i is stored at i.
   std::int32_t const* group = nullptr;
+  Copies const* copies = nullptr;  ///< copies of particles that neighbours read; nullptr: there are none
 };
 
 /// Component c of particle i, for set-up and observers.

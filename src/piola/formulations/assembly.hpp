@@ -41,6 +41,7 @@ struct MirrorPlane {
   std::size_t body = 0;
   int axis = 0;
   bool upper = false;  ///< at the largest coordinate, else at the smallest
+  bool skew = false;   ///< the image moves the opposite way: zero velocity along the plane; small strains
 };
 
 /// Everything that a formulation is built from: plain numbers in Id order, no input text.

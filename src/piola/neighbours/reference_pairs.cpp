@@ -30,10 +30,11 @@ ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrd
     X_[k] = set.X[static_cast<std::size_t>(id_[k])];
     at_[k] = set.lattice_index[static_cast<std::size_t>(id_[k])];
   }
+  X_.insert(X_.end(), options.copies.X.begin(), options.copies.X.end());
   if (regular_)
     find_offsets(body);
   else
-    search(set, body);
+    search();
   correct(set, body);
   if (regular_)
     make_stencils();
@@ -90,16 +91,19 @@ void ReferencePairs::find_offsets(Body const& body) {
   }
 }
 
-void ReferencePairs::search(ParticleSet const&, Body const&) {
+void ReferencePairs::search() {
   double const radius = options_.kernel->support * std::max(options_.h_gradient, options_.h_laplacian) * edge;
-  std::vector<std::array<double, 3>> const points(X_.begin(), X_.begin() + particles_);
+  std::vector<std::array<double, 3>> points(X_.begin(), X_.begin() + particles_);
+  points.insert(points.end(), options_.copies.X.begin(), options_.copies.X.end());
+  Index const empty = static_cast<Index>(id_.size()) - particles_;  // slots between particles and copies
   CellGrid const grid(points, radius);
   found_begin_.assign(1, 0);
   std::vector<Index> near;
   for (Index a = 0; a < particles_; ++a) {
     near.clear();
     auto const& Xa = X_[static_cast<std::size_t>(a)];
-    grid.visit(Xa, [&](Index b) {
+    grid.visit(Xa, [&](Index point) {
+      Index const b = point < particles_ ? point : point + empty;
       auto const& Xb = X_[static_cast<std::size_t>(b)];
       std::array const r{Xb[0] - Xa[0], Xb[1] - Xa[1], Xb[2] - Xa[2]};
       if (b != a && squared(r) < radius * radius) near.push_back(b);
@@ -241,7 +245,7 @@ ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& vo
     for (Index a = 0; a < particles_; ++a) {
       double sum = 0;
       visit(a, [&](Pair const& p) {
-        auto const b = static_cast<std::size_t>(p.b);
+        auto const b = static_cast<std::size_t>(source_of(p.b));
         sum += kernel_of(p.r2) * volume[b] * d[b];
       });
       neighbours[static_cast<std::size_t>(a)] = sum;

@@ -14,6 +14,12 @@ namespace piola {
 /// r.r
 inline double squared(std::array<double, 3> const& r) { return r[0] * r[0] + r[1] * r[1] + r[2] * r[2]; }
 
+/// Copies of a body's particles that are neighbours, too: copy k is in the slot after the body's own and those before.
+struct CopiedParticles {
+  std::vector<std::array<double, 3>> X;
+  std::vector<Index> source;  ///< slots
+};
+
 /// Supports of one body's kernel sums.
 struct PairOptions {
   Kernel const* kernel = nullptr;
@@ -22,6 +28,7 @@ struct PairOptions {
   int lanes = 1;              ///< lane count of the machine that will use the tables
   bool stencils = true;       ///< use lattice patterns where the body is a regular lattice
   bool kernel_table = false;  ///< tables hold the kernel of the Laplacian's support (filter)
+  CopiedParticles copies{};   ///< bodies without lattice patterns only
 };
 
 /// Per-particle corrections; SoA, slot by slot. See tables.hpp for the operators.
@@ -76,7 +83,11 @@ class ReferencePairs {
     bool inner;
   };
   void find_offsets(Body const& body);
-  void search(ParticleSet const& set, Body const& body);
+  void search();
+  Index source_of(Index slot) const {
+    auto const slots = static_cast<Index>(id_.size());
+    return slot < slots ? slot : options_.copies.source[static_cast<std::size_t>(slot - slots)];
+  }
   template <class F>
   void visit(Index a, F const& f) const;
   double s_of(double r2) const;
@@ -93,7 +104,7 @@ class ReferencePairs {
   double kernel_volume_;
   Index particles_;
   std::vector<std::int64_t> id_;
-  std::vector<std::array<double, 3>> X_;  // per slot
+  std::vector<std::array<double, 3>> X_;  // per slot, and of copies
   std::vector<std::array<int, 3>> at_;    // per slot: lattice index
   std::vector<Index> slot_at_;            // per lattice point
   std::array<int, 3> lattice_;

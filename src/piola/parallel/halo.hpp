@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/field.hpp"
+#include "piola/exec/parallel.hpp"
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// Brings the copies of neighbours that other ranks own up to date. On one rank there are none: only the count that
-/// finds forgotten refreshes is kept.
+/// Gives one copy its values.
+struct UpdateCopy {
+  FieldRef field;
+  Copies copies;
+  PIOLA_FN void operator()(Index k) const {
+    double const* const sign = copies.sign + copies.transform[k] * copies.values;
+    auto const at = [this](Index i, int c) {
+      return field.data + c * field.component_stride + i * field.particle_stride + (i >> tile_bits) * field.tile_extra;
+    };
+    for (int c = 0; c < copies.values; ++c) {
+      double const shift = copies.shift == nullptr ? 0 : copies.shift[k * copies.values + c];
+      *at(copies.first + k, c) = sign[c] * *at(copies.source[k], c) + shift;
+    }
+  }
+};
+
+/// Brings copies up to date: those of neighbours that other ranks own, of which there are none on one rank, and those
+/// that a body has of its own particles. Keeps the count that finds forgotten refreshes.
 struct Halo {
   template <class... Ref>
   void refresh(Ref const&... fields) const {
-    (mark(fields), ...);
+    (update(fields), ...);
   }
 
  private:
-  static void mark(FieldRef const& f) {
+  static void update(FieldRef const& f) {
+    if (f.copies != nullptr) exec::for_each_item(f.copies->count, UpdateCopy{f, *f.copies});
     if (f.version != nullptr) f.version->halo = f.version->owner;
   }
 };

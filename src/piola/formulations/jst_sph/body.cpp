@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/body.hpp"
+#include "piola/base/problems.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <initializer_list>
 #include <map>
 #include <tuple>
@@ -17,8 +19,14 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       D_(set.dimension),
       order_(pencil_order(set, body_)),
       set_(&set),
+      images_(assembly, body, order_, reach()),
       fields_(D_),
-      boundary_(assembly, body, order_, cloud(set)) {
+      boundary_(assembly, body, order_, images_.planes(), cloud(set)) {
+  if (options_.filter && images_.skew())
+    throw InputError(
+        fmt::format("body '{}': a skew mirror plane turns strains round, which the volumetric filter does not "
+                    "know of - switch volumetric_filter off or take another support",
+                    body_.name));
   make_pairs(set, machine);
   set_constants(set, assembly.materials[body]);
   share_reference(machine.lanes);
@@ -47,7 +55,8 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   pair.kernel_table = kernel_table;
   pair.lanes = machine.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
-  pair.stencils = machine.lanes > 1;
+  pair.stencils = machine.lanes > 1 && images_.empty();
+  pair.copies = images_.particles();
   pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
 }
 
@@ -79,8 +88,9 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   k.integrator = options_.integrator;
   k.variables = options_.variables;
   k.biharmonic = options_.biharmonic;
-  k.project = options_.project;
-  k.without_rigid = options_.without_rigid();
+  k.mirrored = !images_.empty();
+  k.project = options_.project && !k.mirrored;
+  k.without_rigid = options_.without_rigid() && !k.mirrored;
   for (auto id = body_.first; id < body_.last; ++id) {
     auto const at = static_cast<std::size_t>(id);
     k.total_volume += set.volume[at];
@@ -130,7 +140,8 @@ void JstBody::allocate() {
     bool const per_slot = &f == &fields_.filter_scale || &f == &fields_.filter_sum;
     bool const shared = state_.regular && f.role() == Role::reference && !per_slot;
     if (f.size() == 0 && wanted(f)) {  // what neighbours read was placed before; the rest is streamed through
-      Index const size = shared ? stored_slots_ : order_.slots();
+      bool const source = &f == &fields_.filter_source_a || &f == &fields_.filter_source_b;
+      Index const size = shared ? stored_slots_ : source ? all_slots() : order_.slots();
       if (f.components() > 1)
         f.allocate_tiled(size);
       else
@@ -156,12 +167,37 @@ void JstBody::allocate() {
   s.filter_source[0] = f.filter_source_a.ref();
   s.filter_source[1] = f.filter_source_b.ref();
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
+  s.weight = s.V;
+  if (!images_.empty()) mark_images();
+}
+
+/// Tells how the images' values follow, for all that sweeps read at neighbours.
+void JstBody::mark_images() {
+  using Kind = MirrorImages::Kind;
+  auto& s = state_;
+  bool const with_x = options_.integrator == Integrator::verlet || options_.without_rigid();
+  std::vector<Kind> first{options_.variables == Variables::displacement ? Kind::position : Kind::vector};
+  if (with_x) first.push_back(Kind::position);
+  if (options_.smoothed_volume()) first.push_back(Kind::scalar);  // J
+  s.u.copies = images_.copies(first);
+  std::vector<Kind> second;
+  if (options_.biharmonic != Biharmonic::none) second = {Kind::vector};  // w
+  if (options_.smoothed_volume()) second.push_back(Kind::scalar);        // w_J
+  if (options_.biharmonic == Biharmonic::adjoint)                        // alpha, beta
+    second.insert(second.end(), {Kind::geometric_vector, Kind::scalar});
+  second.push_back(Kind::tensor);  // A
+  s.second.copies = images_.copies(second);
+  s.kernel_force.copies = images_.copies({Kind::vector});
+  for (FieldRef& source : s.filter_source) source.copies = images_.copies({Kind::scalar});
+  weight_.allocate(order_.slots(), 0);
+  for (Index i = 0; i < order_.particles; ++i) weight_.at(i) = volume(i);
+  s.weight = weight_.ref();
 }
 
 /// Memory for what a sweep reads of neighbours: arrays for lattices; records [X, values] for lists.
 JstBody::Gathered JstBody::gather(int values) const {
   Gathered g;
-  auto const n = static_cast<std::ptrdiff_t>(order_.slots());
+  auto const n = static_cast<std::ptrdiff_t>(all_slots());
   if (state_.regular) {
     g.start = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
     g.component = 8 * (((n + 7) / 8 + 2 * g.start / 8) | 1);
@@ -174,6 +210,10 @@ JstBody::Gathered JstBody::gather(int values) const {
   g.memory = Memory(static_cast<std::size_t>(n * g.particle + 8));
   for (Index i = 0; i < order_.particles; ++i)
     for (int c = 0; c < D_; ++c) g.memory.data()[i * g.particle + c] = X(i)[static_cast<std::size_t>(c)];
+  for (Index k = 0; k < images_.count(); ++k)
+    for (int c = 0; c < D_; ++c)
+      g.memory.data()[(order_.slots() + k) * g.particle + c] =
+          images_.particles().X[static_cast<std::size_t>(k)][static_cast<std::size_t>(c)];
   return g;
 }
 
@@ -246,7 +286,7 @@ void JstBody::fill_reference(int lanes) {
   static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
   each_stored(lanes, [&](Index to, Index i) {
     auto const slot = static_cast<std::size_t>(i);
-    fields_.V.at(to) = volume(i);
+    fields_.V.at(to) = continued_volume(i);
     for (int c = 0; c < D_ * (D_ + 1) / 2; ++c)
       fields_.C.at(to, c) = corrections.C[slot][static_cast<std::size_t>(packed[D_ - 1][c])];
     for (int c = 0; c < D_; ++c) {
@@ -286,7 +326,7 @@ void JstBody::fill_evolved_geometry() {
 
 void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
-  for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = volume(i);
+  for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = continued_volume(i);
   auto const filter = pairs_->make_filter(volumes);
   for (Index i = 0; i < order_.particles; ++i) {
     fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];
@@ -326,7 +366,10 @@ void JstBody::deform_to_positions(Machine const& machine) {
     value = JstBody::value(state_.u, i, c);
     set(state_.u, i, c, JstBody::value(state_.x, i, c));
   });
+  Copies const* const copies = state_.u.copies;
+  state_.u.copies = images_.copies({MirrorImages::Kind::position});  // what `u` holds for now
   machine.update_deformation(state_);
+  state_.u.copies = copies;
   if (mixed) each([&](Index i, int c, double& value) { set(state_.u, i, c, value); });
   for (Index i = order_.particles; i < order_.slots(); ++i)
     for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
@@ -335,6 +378,11 @@ void JstBody::deform_to_positions(Machine const& machine) {
 /// What multipliers interpolate in: the particles with the gradient's kernel.
 std::optional<Cloud> JstBody::cloud(ParticleSet const& set) const {
   if (!options_.multipliers) return std::nullopt;
+  if (!images_.empty())
+    throw InputError(
+        fmt::format("body '{}': supports = \"multipliers\" does not go together with mirror planes - take "
+                    "direct supports or rollers in place of the mirror planes",
+                    body_.name));
   Cloud r{D_, {}, {}, options_.kernel, options_.gradient_support * spacing()};
   for (Index i = 0; i < order_.particles; ++i) {
     r.X.push_back(set.X[static_cast<std::size_t>(id(i))]);
@@ -348,6 +396,11 @@ double JstBody::spacing() const {
   double size = 1;
   for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];
   return std::pow(size, 1.0 / D_);
+}
+
+double JstBody::reach() const {
+  double const h = std::max(options_.gradient_support, options_.laplacian_support);
+  return options_.kernel->support * h * spacing();
 }
 
 void JstBody::step(Machine const& machine, double time, double dt) {

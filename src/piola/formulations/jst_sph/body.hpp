@@ -3,6 +3,7 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/formulations/jst_sph/fields.hpp"
+#include "piola/formulations/jst_sph/mirror.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/math/tensor.hpp"
@@ -48,7 +49,10 @@ class JstBody {
   Mat<3> F(Index slot) const;
   Mat<3> H(Index slot) const;  ///< the unknown where there is one, else cof F
   double J(Index slot) const;  ///< the unknown where there is one, else the volume ratio of F
+  /// Tributary volume: that of the body itself, and of the body that mirror planes continue.
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
+
+  double continued_volume(Index slot) const { return volume(slot) * images_.multiplicity(slot); }
 
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
   static void set(FieldRef const& f, Index slot, int c, double value) { value_at(f, slot, c) = value; }
@@ -56,6 +60,11 @@ class JstBody {
  private:
   std::optional<Cloud> cloud(ParticleSet const& set) const;
   double spacing() const;
+  /// Reach of the widest kernel [m].
+  double reach() const;
+  /// Of the body and of its mirror images.
+  Index all_slots() const { return order_.slots() + images_.count(); }
+  void mark_images();
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
   /// Memory that fields share because sweeps read them together at neighbours.
@@ -84,8 +93,10 @@ class JstBody {
   int D_;
   SlotOrder order_;
   ParticleSet const* set_;
+  MirrorImages images_;
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
+  Field weight_{"QuadratureWeight", "m3", 1, Role::reference};  ///< with mirror planes
   Gathered first_, second_, kernel_;
   std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
   Index stored_slots_ = 0;

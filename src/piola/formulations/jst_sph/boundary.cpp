@@ -76,20 +76,24 @@ int axis_of(Point const& d) {
 
 }  // namespace
 
-Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::optional<Cloud> cloud)
+Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order,
+                   std::vector<Support> const& mirrors, std::optional<Cloud> cloud)
     : body_(assembly.particles.bodies[body]), D_(assembly.particles.dimension), cloud_(std::move(cloud)) {
   with_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < order.particles; ++i)
     slot_of[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
-  take_supports(assembly, slot_of);
+  take_supports(assembly, mirrors, slot_of);
   take_loads(assembly, slot_of);
 }
 
-void Boundary::take_supports(Assembly const& assembly, std::vector<Index> const& slot_of) {
+void Boundary::take_supports(Assembly const& assembly, std::vector<Support> const& mirrors,
+                             std::vector<Index> const& slot_of) {
+  std::vector<Support> supports = assembly.supports;
+  supports.insert(supports.end(), mirrors.begin(), mirrors.end());
   std::map<std::int64_t, std::size_t> moved;  // particles with supports that are more than plain
   auto const of_body = [&](std::int64_t id) { return id >= body_.first && id < body_.last; };
-  for (auto const& support : assembly.supports)
+  for (auto const& support : supports)
     for (auto const id : support.particles)
       if (of_body(id) && (cloud_ || !is_plain(support))) moved.try_emplace(id, 0);
   for (auto& [id, place] : moved) {
@@ -104,7 +108,7 @@ void Boundary::take_supports(Assembly const& assembly, std::vector<Index> const&
                           position,
                           {}});
   }
-  for (auto const& support : assembly.supports) {
+  for (auto const& support : supports) {
     auto const directions = directions_of(support, D_);
     for (auto const id : support.particles) {
       if (!of_body(id)) continue;

@@ -13,8 +13,10 @@ namespace piola::jst_sph {
 /// boundary_passes.hpp apply them. Theory: docs/theory/boundaries.md.
 class Boundary {
  public:
-  /// `cloud`: for supports with multipliers; nothing: direct supports.
-  Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::optional<Cloud> cloud);
+  /// `mirrors`: supports beside those of the assembly. `cloud`: for supports with multipliers; nothing: direct
+  /// supports.
+  Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::vector<Support> const& mirrors,
+           std::optional<Cloud> cloud);
 
   /// Gives the body its supports, and the particles that they hold the velocities of t = 0.
   void attach(BodyState& state);
@@ -58,7 +60,7 @@ class Boundary {
     double until;
   };
 
-  void take_supports(Assembly const& assembly, std::vector<Index> const& slot_of);
+  void take_supports(Assembly const& assembly, std::vector<Support> const& mirrors, std::vector<Index> const& slot_of);
   void take_loads(Assembly const& assembly, std::vector<Index> const& slot_of);
   void choose_directions(double time);
   void add_direction(std::size_t particle, std::size_t row);

@@ -56,6 +56,7 @@ class Forces {
         read(b_.A),
         read(b_.w),
         read_reference(b_.V),
+        read_reference(b_.weight),
         read_reference(b_.G),
         read_reference(b_.diagonal),
         read(b_.wave_speed),

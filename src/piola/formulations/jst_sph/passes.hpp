@@ -236,7 +236,7 @@ struct SumForces {
   Body body;
   Constants k;
   View A, w;
-  ReferenceView V, G, diagonal;
+  ReferenceView V, weight, G, diagonal;
   View wave_speed, x, v;
   WriteView rate;
   View rate_in;           ///< D2 of UpdateStress
@@ -255,12 +255,12 @@ struct SumForces {
     Vec<D, Lanes> const a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
     Vec<D, Lanes> const a_D = stabilisation(i, sum, inverse_volume);
     rate.vector<D>(i, a_T + a_D);
-    add(i, volume, a_T, a_D, total);
+    add(i, weight.scalar<Lanes>(i), a_T, a_D, total);
     if constexpr (Body::laplacian && Smoothed > D) {
       Lanes D_J = biharmonic(i, sum, inverse_volume, D);
       if (k.eps2_J > 0) D_J = D_J + J_rate_in.scalar<Lanes>(i);
       J_rate.scalar(i, D_J);
-      total[At::J_rate] = total[At::J_rate] + volume * D_J;
+      total[At::J_rate] = total[At::J_rate] + weight.scalar<Lanes>(i) * D_J;
     }
   }
 

@@ -101,6 +101,7 @@ struct Constants {
   Integrator integrator;
   bool project;        ///< angular and linear momentum projection
   bool without_rigid;  ///< stabilise the motion without its rigid part
+  bool mirrored;       ///< mirror planes: no rigid motion is free
 };
 
 /// What a step adds to the books of the body.
@@ -119,8 +120,9 @@ struct BodyState {
   StencilTable stencil;
   ListTable list;
 
-  // Reference: tributary volume, corrections (tables.hpp).
-  FieldRef V, C, G, alpha, beta, diagonal;
+  // Reference: tributary volume, in the operators with mirror planes that of the continued body; volume as a weight of
+  // sums over the body itself; corrections (tables.hpp).
+  FieldRef V, weight, C, G, alpha, beta, diagonal;
   // Evolved. `v` is p / rho0. For the mixed variables `u` is v itself; for displacement it is the stage's position.
   FieldRef x, v, F, wave_speed;
   FieldRef H, J;  ///< {p,F,H,J}; {p,F,J} and {p,F,H,J}

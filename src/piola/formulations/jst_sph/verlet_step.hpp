@@ -56,6 +56,7 @@ class VerletStep {
     KickAndDrift<D> const pass{dt,         b_.constants, read_reference(b_.V), read(b_.rate),
                                read(b_.v), read(b_.x),   write(b_.v),          write(b_.x)};
     auto const sums = exec::reduce<At::size>(b_.slots, pass, b_.partial);
+    if (b_.constants.mirrored) return {};
     return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
   }
 

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_sph/mirror.hpp"
+#include "piola/base/problems.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola::jst_sph {
+
+MirrorImages::MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder const& order, double reach)
+    : D_(assembly.particles.dimension), first_(order.slots()) {
+  mirrored_ = std::any_of(assembly.mirrors.begin(), assembly.mirrors.end(),
+                          [body](MirrorPlane const& plane) { return plane.body == body; });
+  if (!mirrored_) return;
+  find_planes(assembly, body, order);
+  add_images(assembly, order, reach);
+}
+
+void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotOrder const& order) {
+  auto const& set = assembly.particles;
+  Body const& b = set.bodies[body];
+  low_ = high_ = set.X[static_cast<std::size_t>(b.first)];
+  for (auto id = b.first; id < b.last; ++id)
+    for (std::size_t c = 0; c < 3; ++c) {
+      low_[c] = std::min(low_[c], set.X[static_cast<std::size_t>(id)][c]);
+      high_[c] = std::max(high_[c], set.X[static_cast<std::size_t>(id)][c]);
+    }
+  tolerance_ = 1e-6 * *std::min_element(b.spacing.begin(), b.spacing.begin() + D_);
+  for (auto const& plane : assembly.mirrors) {
+    if (plane.body != body) continue;
+    if (plane.axis < 0 || plane.axis >= D_)
+      throw InputError(
+          fmt::format("body '{}': a mirror plane across {} in {} dimension{} - take an axis that the body has", b.name,
+                      "XYZ"[plane.axis], D_, D_ == 1 ? "" : "s"));
+    plane_[static_cast<std::size_t>(plane.axis)][plane.upper ? 1 : 0] = {true, plane.skew};
+    skew_ = skew_ || plane.skew;
+  }
+  multiplicity_.assign(order.id.size(), 1);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!plane_[c][side].mirror) continue;
+      Support on_plane;
+      for (std::size_t k = 0; k < 3; ++k) on_plane.fix[k] = (k == c) != plane_[c][side].skew;
+      for (Index i = 0; i < order.particles; ++i) {
+        auto const id = order.id[static_cast<std::size_t>(i)];
+        double const X = set.X[static_cast<std::size_t>(id)][c];
+        if (std::abs(X - (side == 0 ? low_[c] : high_[c])) > tolerance_) continue;
+        multiplicity_[static_cast<std::size_t>(i)] *= 2;
+        on_plane.particles.push_back(id);
+      }
+      planes_.push_back(on_plane);
+    }
+}
+
+/// Identity first, then reflections and, between two planes, their products that come within reach of the body.
+std::vector<MirrorImages::AxisMap> MirrorImages::maps_along(std::size_t axis, double reach) const {
+  std::vector<AxisMap> maps{{1, 0, 1}};
+  double const a = low_[axis], b = high_[axis];
+  auto const [lower, upper] = plane_[axis];
+  auto const add = [&](AxisMap const& m) {
+    double const p = m.sign * a + m.shift, q = m.sign * b + m.shift;
+    if (std::min(p, q) < b + reach && std::max(p, q) > a - reach) maps.push_back(m);
+  };
+  int const periods = lower.mirror && upper.mirror ? static_cast<int>(reach / (b - a)) + 2 : 0;
+  for (int k = -periods; k <= periods; ++k) {
+    double const period = 2 * k * (b - a), turn = k % 2 == 0 ? 1 : lower.turn() * upper.turn();
+    if (k != 0) add({1, period, turn});
+    if (lower.mirror) {
+      add({-1, 2 * a + period, lower.turn() * turn});
+    } else if (upper.mirror) {
+      add({-1, 2 * b, upper.turn()});
+    }
+  }
+  return maps;
+}
+
+void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, double reach) {
+  auto const x = maps_along(0, reach), y = maps_along(1, reach), z = maps_along(2, reach);
+  auto const place = [](AxisMap const& m, double X) { return m.sign * X + m.shift; };
+  // A particle on a plane is its own image: of maps that lead to the same place along an axis the first one counts.
+  auto const is_new = [&](std::vector<AxisMap> const& maps, std::size_t k, double X) {
+    return std::none_of(maps.begin(), maps.begin() + static_cast<std::ptrdiff_t>(k),
+                        [&](AxisMap const& m) { return std::abs(place(m, X) - place(maps[k], X)) < tolerance_; });
+  };
+  for (std::size_t k = 0; k < z.size(); ++k)
+    for (std::size_t j = 0; j < y.size(); ++j)
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        if (i + j + k == 0) continue;
+        auto const number = static_cast<std::int32_t>(maps_.size());
+        maps_.push_back({{x[i].sign, y[j].sign, z[k].sign},
+                         {x[i].shift, y[j].shift, z[k].shift},
+                         x[i].turn * y[j].turn * z[k].turn});
+        for (Index slot = 0; slot < order.particles; ++slot) {
+          auto const& X = assembly.particles.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])];
+          std::array const image{place(x[i], X[0]), place(y[j], X[1]), place(z[k], X[2])};
+          bool wanted = is_new(x, i, X[0]) && is_new(y, j, X[1]) && is_new(z, k, X[2]);
+          for (std::size_t c = 0; c < 3; ++c)
+            wanted = wanted && image[c] > low_[c] - reach && image[c] < high_[c] + reach;
+          if (!wanted) continue;
+          particles_.X.push_back(image);
+          particles_.source.push_back(slot);
+          source_X_.push_back(X);
+          transform_.push_back(number);
+        }
+      }
+}
+
+/// Place x' = X' + S (x - X) of an image: what its sources' sign times place lacks. S = turn * sign.
+void MirrorImages::add_shifts(std::vector<Kind> const& values, std::vector<double>& shifts) const {
+  auto const D = static_cast<std::size_t>(D_);
+  for (std::size_t k = 0; k < transform_.size(); ++k) {
+    auto const& map = maps_[static_cast<std::size_t>(transform_[k])];
+    for (Kind const kind : values) {
+      std::size_t const size = kind == Kind::scalar ? 1 : kind == Kind::tensor ? D * D : D;
+      for (std::size_t c = 0; c < size; ++c)
+        shifts.push_back(kind == Kind::position ? map.shift[c] + (1 - map.turn) * map.sign[c] * source_X_[k][c] : 0);
+    }
+  }
+}
+
+Copies const* MirrorImages::copies(std::vector<Kind> const& values) {
+  if (empty()) return nullptr;
+  auto table = std::make_unique<Table>();
+  auto const D = static_cast<std::size_t>(D_);
+  for (auto const& map : maps_)
+    for (Kind const kind : values) {
+      double const turn = kind == Kind::scalar || kind == Kind::geometric_vector ? 1 : map.turn;
+      std::size_t const size = kind == Kind::scalar ? 1 : kind == Kind::tensor ? D * D : D;
+      for (std::size_t c = 0; c < size; ++c) {
+        double const sign = kind == Kind::scalar   ? 1
+                            : kind == Kind::tensor ? map.sign[c / D] * map.sign[c % D]
+                                                   : map.sign[c];
+        table->sign.push_back(turn * sign);
+      }
+    }
+  int const per_map = maps_.empty() ? 0 : static_cast<int>(table->sign.size() / maps_.size());
+  table->copies = {first_, count(), particles_.source.data(), transform_.data(), per_map, table->sign.data(), nullptr};
+  if (std::find(values.begin(), values.end(), Kind::position) != values.end()) {
+    add_shifts(values, table->shift);
+    table->copies.shift = table->shift.data();
+  }
+  tables_.push_back(std::move(table));
+  return &tables_.back()->copies;
+}
+
+}  // namespace piola::jst_sph
