@@ -103,7 +103,9 @@ std::string describe_formulation(FormulationInfo const& info, Layout layout) {
   return title(layout == Layout::markdown ? "name = \"" + std::string(info.name) + "\"" : std::string(info.name), 4,
                layout) +
          indent + std::string(info.about) + (layout == Layout::markdown ? ". " : "\n") + indent +
-         "Laws that it can use: " + joined(info.laws) + "\n" + table_text(rows, layout);
+         "Laws that it can use: " + joined(info.laws) +
+         (info.columns.empty() ? "" : ". Columns of history.csv that it adds: " + joined(info.columns)) + "\n" +
+         table_text(rows, layout);
 }
 
 /// All items of a list, or the one with the name.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/registry.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/jst_advection/options.hpp"
+#include "piola/formulations/jst_advection/solver.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/formulations/make.hpp"
@@ -15,9 +17,9 @@ struct Entry {
 };
 
 /// Adding a formulation: its folder and one line here.
-std::array const all{Entry{jst_sph::info(), &jst_sph::make}};
+std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection::info(), &jst_advection::make}};
 
-std::array const infos{all[0].info};
+std::array const infos{all[0].info, all[1].info};
 
 }  // namespace
 

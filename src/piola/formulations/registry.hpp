@@ -17,6 +17,7 @@ struct FormulationInfo {
   std::span<Parameter const> parameters;   ///< optional numbers; a default of no_default means "set by `scheme`"
   std::span<Choice const> choices;         ///< optional words
   std::span<std::string_view const> laws;  ///< names of the laws it can use
+  std::span<std::string_view const> columns = {};  ///< pure numbers in history.csv that only it writes
 };
 
 std::span<FormulationInfo const> formulations();

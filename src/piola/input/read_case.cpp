@@ -118,8 +118,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   refuse_twins(probes, spec.probes, "probe");
   std::vector<Section> const quantities = tables_of(top, "quantity");
-  for (Section const& section : quantities)
-    spec.quantities.push_back(read_quantity_section(section, spec.probes, constants));
+  for (Section const& section : quantities) spec.quantities.push_back(read_quantity_section(section, spec, constants));
   refuse_twins(quantities, spec.quantities, "quantity");
   if (auto const output = top.table("output")) read_output(*output, spec.output);
   top.refuse_unknown();

@@ -2,6 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/registry.hpp"
 #include "piola/input/history_names.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
@@ -74,11 +75,14 @@ std::string unit_of_probe_quantity(std::string const& quantity) {
   return found ? found->unit : "1";
 }
 
-std::vector<Column> columns_of(std::vector<ProbeSpec> const& probes) {
+std::vector<Column> columns_of(CaseSpec const& spec) {
   std::vector<Column> columns;
   for (HistoryName const& column : history_names())
     columns.push_back({std::string(column.name), std::string(column.unit)});
-  for (ProbeSpec const& probe : probes) {
+  auto const formulation = spec.bodies.empty() ? std::nullopt : find_formulation(spec.bodies.front().formulation.name);
+  if (formulation)
+    for (std::string_view const own : formulation->columns) columns.push_back({std::string(own), "1"});
+  for (ProbeSpec const& probe : spec.probes) {
     for (std::string const& quantity : probe.quantities) {
       columns.push_back({probe.name + "." + quantity, unit_of_probe_quantity(quantity)});
     }
@@ -87,11 +91,10 @@ std::vector<Column> columns_of(std::vector<ProbeSpec> const& probes) {
 }
 
 /// The unit of the column; nothing (and a problem) if no such column will be written.
-std::optional<std::string> read_column(Section const& section, std::vector<ProbeSpec> const& probes,
-                                       std::string& name) {
+std::optional<std::string> read_column(Section const& section, CaseSpec const& spec, std::string& name) {
   if (!section.read("column", name)) return std::nullopt;
   std::vector<std::string> known;
-  for (Column const& column : columns_of(probes)) {
+  for (Column const& column : columns_of(spec)) {
     if (column.name == name) return column.unit;
     known.push_back(column.name);
   }
@@ -168,11 +171,11 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
   return probe;
 }
 
-QuantitySpec read_quantity_section(Section const& section, std::vector<ProbeSpec> const& probes,
+QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,
                                    std::map<std::string, double> const& constants) {
   QuantitySpec quantity;
   section.read("name", quantity.name);
-  auto const unit = read_column(section, probes, quantity.column);
+  auto const unit = read_column(section, spec, quantity.column);
   if (int const take = section.word_index("take"); take >= 0) quantity.take = static_cast<Take>(take);
   read_take(section, unit.value_or("1"), constants, quantity);
   if (unit) read_unit(section, takes_time(quantity.take) ? "s" : *unit, quantity);

@@ -23,8 +23,8 @@ struct Summary {
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone
   int threads = 1;
   double energy_initial = 0, energy_final = 0;  ///< J
-  double energy_max_increase =
-      0;  ///< largest rise of (total energy - external work) over its start, by the largest total energy
+  /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
+  double energy_max_increase = 0;
   double linear_drift = 0, angular_drift = 0;  ///< largest change of momentum by a momentum scale of the run
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;

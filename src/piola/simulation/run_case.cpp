@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -149,10 +150,12 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
 
 double energy_increase(HistoryTable const& history) {
   auto const energy = history.values("total_energy"), work = history.values("external_work");
-  double rise = 0;
+  double rise = 0, lowest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < energy.size(); ++k) {
-    double const change = (energy[k] - work[k]) - (energy[0] - work[0]);
-    if (std::isfinite(change)) rise = std::max(rise, change);
+    double const own = energy[k] - work[k];
+    if (!std::isfinite(own)) continue;
+    lowest = std::min(lowest, own);
+    rise = std::max(rise, own - lowest);
   }
   double const scale = largest(energy);
   return scale > 0 ? rise / scale : rise;

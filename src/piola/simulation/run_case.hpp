@@ -30,7 +30,7 @@ struct CaseOutcome {
 CaseOutcome run_case(Simulation& simulation, RunOptions const& options, Listener& listener,
                      std::atomic<int> const& stop);
 
-/// Largest rise of (total energy - external work) above its first value, by the largest total energy of the history.
+/// Largest rise of (total energy - external work) above any earlier row, by the largest total energy of the history.
 double energy_increase(HistoryTable const& history);
 
 }  // namespace piola

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include <memory>
+
+namespace piola::jst_advection {
+
+/// Throws InputError for anything but one row of particles without supports.
+std::unique_ptr<Formulation> make(Assembly const& assembly);
+
+}  // namespace piola::jst_advection
