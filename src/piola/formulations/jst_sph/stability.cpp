@@ -11,6 +11,11 @@ namespace {
 constexpr int first_rounds = 40;  ///< power iterations from a random start
 constexpr int later_rounds = 3;   ///< and from the mode of the last measurement
 constexpr int interval = 50;      ///< steps between measurements: they cost 4 right-hand sides
+constexpr int haste = 10;         ///< or these, when the largest wave speed has changed by `change`
+constexpr double change = 0.2;
+/// A measured frequency counts at least as this share of the one that follows from the wave speed: it may be out of
+/// date within a few steps of a violent deformation.
+constexpr double trust = 0.65;
 /// Random part that every measurement adds to its start, so that a mode that has grown elsewhere is found.
 constexpr double fresh = 0.05;
 
@@ -190,7 +195,7 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   kept.restore();
   mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
   measure(first_rounds);
-  first_frequency_ = frequency_;
+  frequency_per_speed_ = frequency_ / wave_speed_;
 }
 
 void StabilityMonitor::measure(int rounds) {
@@ -205,18 +210,21 @@ void StabilityMonitor::measure(int rounds) {
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
   Operator tangent(body_, trial, machine_, current_F(body_));
-  frequency_ = std::max(first_frequency_, std::sqrt(tangent.dominant(mode_, rounds)));
+  frequency_ = std::sqrt(tangent.dominant(mode_, rounds));
   kept.restore();
   steps_ = 0;
 }
 
 void StabilityMonitor::update() {
-  if (++steps_ >= interval) measure(later_rounds);
+  ++steps_;
+  bool const changed = std::abs(machine_.largest_wave_speed(body_.state()) / wave_speed_ - 1) > change;
+  if (steps_ >= interval || (changed && steps_ >= haste)) measure(later_rounds);
 }
 
 double StabilityMonitor::step(double wave_speed) const {
   // A wave speed that has fallen says nothing: the largest one may have been elsewhere than the fastest mode.
-  return largest_step(frequency_ * std::max(1.0, wave_speed / wave_speed_), damping_ * wave_speed);
+  double const measured = frequency_ * std::max(1.0, wave_speed / wave_speed_);
+  return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
 }
 
 std::vector<double> StabilityMonitor::state() const {
