@@ -12,7 +12,8 @@ double largest_step(double frequency, double damping);
 
 /// Follows the step limit of one body: the largest frequency of its internal forces about the current state, by power
 /// iterations that start from the mode found last, and the largest rate of its stabilisation. Between measurements both
-/// grow with the largest wave speed; the frequency never counts as lower than at the start. The state is left as it was.
+/// grow with the largest wave speed; the frequency never counts as lower than at the start. The state is left as it
+/// was.
 class StabilityMonitor {
  public:
   /// Measures both from a random start.
@@ -35,11 +36,11 @@ class StabilityMonitor {
 
   JstBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;  ///< in slot order
+  std::vector<double> mode_;                    ///< in slot order
   double frequency_ = 0, first_frequency_ = 0;  ///< 1/s, at the last measurement and at the start
-  double wave_speed_ = 0;  ///< m/s, largest one at the last measurement
-  double damping_ = 0;     ///< 1/m: rate of the stabilisation per wave speed
-  double steps_ = 0;       ///< since the last measurement
+  double wave_speed_ = 0;                       ///< m/s, largest one at the last measurement
+  double damping_ = 0;                          ///< 1/m: rate of the stabilisation per wave speed
+  double steps_ = 0;                            ///< since the last measurement
 };
 
 }  // namespace piola::jst_sph
