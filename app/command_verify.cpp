@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "piola/input/case_facts.hpp"
+#include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
-#include "piola/simulation/verify.hpp"
+#include "piola/simulation/verification_report.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include <algorithm>
@@ -54,44 +57,97 @@ class TemporaryFolder {
   fs::path path_;
 };
 
+/// One line on stderr that is renewed on a terminal, otherwise one line for each run.
+class ProgressLine {
+ public:
+  ProgressLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+  ProgressLine(ProgressLine const&) = delete;
+  ProgressLine& operator=(ProgressLine const&) = delete;
+  ~ProgressLine() {
+    if (shown_ > 0) fmt::print(stderr, "\r{:{}}\r", "", shown_);
+  }
+
+  void show(VerifyProgress const& at) {
+    std::string line = fmt::format("[{} of {}] {} ({})", at.number, at.count, at.case_name, at.variant);
+    if (terminal_) line += fmt::format("  {:.0f} %", 100 * std::clamp(at.share, 0.0, 1.0));
+    if (at.seconds_left) line += fmt::format("  about {} left", duration_text(*at.seconds_left));
+    if (terminal_) {
+      fmt::print(stderr, "\r{:<{}}", line, shown_);
+      std::fflush(stderr);
+      shown_ = std::max(shown_, line.size());
+    } else if (at.number != number_) {
+      fmt::print(stderr, "{}\n", line);
+    }
+    number_ = at.number;
+  }
+
+ private:
+  bool terminal_;
+  std::size_t shown_ = 0, number_ = 0;
+};
+
+/// Particle steps of a run, from the waves at rest; what a step costs is left to the clock.
+double work_of(fs::path const& file, std::vector<std::string> const& overrides) {
+  CaseSpec const spec = read_case(file, overrides);
+  ParticleSet const particles = make_particles(spec);
+  return static_cast<double>(particles.size()) * spec.run.end / step_estimate(spec, body_facts(spec, particles));
+}
+
+// What only the page shows: one small picture, of the end.
+void keep_the_last_picture(OutputSpec& output, double end) {
+  constexpr int width = 500;
+  if (output.pictures_every <= 0) return;
+  output.pictures_every = end;
+  if (output.picture_width <= width) return;
+  output.picture_height = std::max(16, output.picture_height * width / output.picture_width);
+  output.picture_width = width;
+}
+
 int run_verify(Options const& options) {
   catch_stop_signals();
   std::unique_ptr<TemporaryFolder> scratch;
   if (options.out.empty()) scratch = std::make_unique<TemporaryFolder>();
+  auto const with_own = [&](std::vector<std::string> all) {
+    auto const own = options.with.overrides();
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+  };
   VerifyOptions const what{.cases = options.cases.empty() ? find_case_folder() : fs::path(options.cases),
                            .names = options.names,
                            .short_only = options.short_only,
-                           .out = scratch ? scratch->path() : fs::path(options.out)};
+                           .out = scratch ? scratch->path() : fs::path(options.out),
+                           .weigh = [&](fs::path const& file, std::vector<std::string> const& variant) {
+                             return work_of(file, with_own(variant));
+                           }};
   auto const prepare = [&](fs::path const& file, std::vector<std::string> const& variant) {
-    auto all = variant;
-    auto const own = options.with.overrides();
-    all.insert(all.end(), own.begin(), own.end());
-    CaseSpec spec = read_case(file, all);
-    if (scratch) spec.output.pictures_every = spec.output.frames_every = 0;
+    CaseSpec spec = read_case(file, with_own(variant));
+    if (scratch) spec.output.frames_every = 0;
+    if (scratch && options.markdown.empty()) spec.output.pictures_every = 0;
+    if (scratch) keep_the_last_picture(spec.output, spec.run.end);
     return build(std::move(spec));
   };
-  auto const announce = [](std::string const& name, std::string const& variant) {
-    fmt::print(stderr, "{} ({})\n", name, variant);
-  };
-  auto const rows = verify(what, prepare, announce, stop_signal);
-  fmt::print("{}", options.json ? verification_json(rows) : verification_table(rows));
-  if (!options.markdown.empty()) write_whole_file(options.markdown, verification_markdown(rows));
+  std::vector<CaseVerification> cases;
+  {
+    ProgressLine line;
+    cases = verify(
+        what, prepare, [&](VerifyProgress const& at) { line.show(at); }, stop_signal);
+  }
+  fmt::print("{}", options.json ? verification_json(cases) : verification_table(cases));
+  if (!options.markdown.empty()) write_verification_page(options.markdown, cases);
   if (stop_signal != 0) return stopped_by_signal;
-  bool const all_pass =
-      std::all_of(rows.begin(), rows.end(), [](VerificationRow const& r) { return r.verdict == "pass"; });
-  return all_pass ? completed : internal_error;
+  return all_accepted(cases) ? completed : internal_error;
 }
 
 }  // namespace
 
 void add_verify(CLI::App& program, Action& action) {
   auto const options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("verify", "Run cases and compare with published numbers; exit code 1 if one falls short");
+  CLI::App* command = program.add_subcommand(
+      "verify", "Run cases and compare with published numbers; exit code 1 if one falls short unexpectedly");
   command->add_option("names", options->names, "Cases, or folders of cases (default: all)");
   command->add_flag("--short", options->short_only, "Only the variants that take seconds");
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_option("--markdown", options->markdown, "Also write the table to this file");
+  command->add_option("--markdown", options->markdown, "Also write the page DIR/README.md, with pictures");
   command->add_option("--cases", options->cases, "Folder of the cases (default: those that came with the program)");
   command->add_option("--out,-o", options->out,
                       "Keep the results in this folder (default: a temporary one, without frames and pictures)");

@@ -99,12 +99,15 @@ std::string describe_formulation(FormulationInfo const& info, Layout layout) {
                     std::string(choice.meaning)});
   }
   for (Parameter const& parameter : info.parameters) rows.push_back(row_of(parameter, true, layout));
+  std::vector<std::string> columns;
+  for (DiagnosticInfo const& column : info.diagnostics) columns.emplace_back(column.name);
   std::string const indent = layout == Layout::markdown ? "" : "  ";
   return title(layout == Layout::markdown ? "name = \"" + std::string(info.name) + "\"" : std::string(info.name), 4,
                layout) +
          indent + std::string(info.about) + (layout == Layout::markdown ? ". " : "\n") + indent +
          "Laws that it can use: " + joined(info.laws) +
-         (info.columns.empty() ? "" : ". Columns of history.csv that it adds: " + joined(info.columns)) + "\n" +
+         (columns.empty() ? "" : (layout == Layout::markdown ? ". " : "\n" + indent)) +
+         (columns.empty() ? "" : "Columns of history.csv that it adds: " + joined(columns)) + "\n" +
          table_text(rows, layout);
 }
 

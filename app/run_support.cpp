@@ -102,16 +102,16 @@ std::string start_report(Simulation const& s, std::filesystem::path const& folde
   return text;
 }
 
-std::string end_report(CaseOutcome const& outcome, bool supported, std::filesystem::path const& folder) {
+std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& folder) {
   Summary const& s = outcome.summary;
   std::string text =
       fmt::format("{} at t = {} after {} steps, {} of wall time, {}\n", s.status, quantity_text(s.end_time, "s"),
                   count_text(s.steps), duration_text(s.wall_seconds), rate_text(s.stages_per_second));
   text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it\n",
                       quantity_text(s.energy_initial, "J"), quantity_text(s.energy_final, "J"), s.energy_max_increase);
-  if (!supported)
-    text +=
-        fmt::format("  momentum drift: linear {:.2g}, angular {:.2g} of its scale\n", s.linear_drift, s.angular_drift);
+  if (s.linear_drift && s.angular_drift)
+    text += fmt::format("  momentum drift: linear {:.2g}, angular {:.2g} of its scale\n", *s.linear_drift,
+                        *s.angular_drift);
   for (MeasuredQuantity const& q : s.quantities)
     text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value), q.unit == "1" ? "" : " " + q.unit);
   if (!outcome.last_picture.empty()) text += fmt::format("  picture: {}\n", outcome.last_picture.string());
@@ -128,7 +128,7 @@ int run_and_report(Simulation& simulation, RunOptions const& options, bool quiet
   Console console(quiet);
   CaseOutcome const outcome = run_case(simulation, options, console, stop_signal);
   console.clear();
-  if (!quiet) fmt::print("{}", end_report(outcome, !simulation.spec.supports.empty(), options.folder));
+  if (!quiet) fmt::print("{}", end_report(outcome, options.folder));
   std::fflush(stdout);
   if (outcome.ending == Ending::failed) fmt::print(stderr, "piola: {}\n", outcome.failure);
   switch (outcome.ending) {

@@ -30,8 +30,7 @@ class Console : public Listener {
 /// What is about to run, in a few lines.
 std::string start_report(Simulation const& simulation, std::filesystem::path const& folder);
 /// What came out.
-/// `supported`: something holds a body, so its momentum changes and a drift says nothing.
-std::string end_report(CaseOutcome const& outcome, bool supported, std::filesystem::path const& folder);
+std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& folder);
 
 /// Runs a prepared simulation with reports, progress and signals; returns the exit code.
 int run_and_report(Simulation& simulation, RunOptions const& options, bool quiet);

@@ -100,6 +100,32 @@ reference = "L*t"
   EXPECT_DOUBLE_EQ((*spec.quantities[2].reference)({}, 2), 12);
 }
 
+TEST(ReadCase, ErrorsCompareAFieldWithFormulas) {
+  CaseSpec const spec = read(sample_case() + R"(
+[[probe]]
+name = "stress"
+body = "column"
+kind = "error"
+field = "CauchyStress"
+reference = ["1 MPa", 0, "w*t", 0, 0, 0]
+where = "Y > 1"
+[[quantity]]
+name = "stress_error"
+column = "stress.relative_error"
+take = "at_time"
+time = "1 ms"
+)");
+  ProbeSpec const& probe = spec.probes[1];
+  EXPECT_EQ(probe.kind, ProbeSpec::Kind::error);
+  EXPECT_EQ(probe.field, "CauchyStress");
+  ASSERT_EQ(probe.reference.size(), 6u);
+  EXPECT_DOUBLE_EQ(probe.reference[0]({}), 1e6);
+  EXPECT_DOUBLE_EQ(probe.reference[2]({0, 6, 0}, 2), 210);
+  EXPECT_TRUE(probe.where);
+  EXPECT_EQ(probe.quantities, std::vector<std::string>{"relative_error"});
+  EXPECT_EQ(spec.quantities[0].unit, "1");
+}
+
 TEST(ReadCase, OutputHasItsParts) {
   CaseSpec const spec = read(sample_case() + R"(
 [output.frames]

@@ -150,6 +150,26 @@ TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
       "case.toml:24:8: the name \"tip\" is taken by another probe (allowed: one probe per name) - choose another name");
 }
 
+TEST(CaseMessages, ErrorsNeedAFieldAndAFormulaPerComponent) {
+  std::string const probe = sample_case() + "[[probe]]\nname = \"e\"\nbody = \"column\"\n";
+  EXPECT_EQ(message_of(probe + "kind = \"error\"\n"),
+            "case.toml:23:1: probe needs \"field\" (the field to compare) - add field = \"CauchyStress\"\n"
+            "case.toml:23:1: probe needs \"reference\" (one formula per component of the field) - add reference = "
+            "[\"0\", ...]");
+  EXPECT_EQ(message_of(probe + "kind = \"error\"\nfield = \"CauchyStress\"\nreference = [0, 0]\n"),
+            "case.toml:28:13: probe.reference is a list of 2 (allowed: a list of 6)");
+  EXPECT_EQ(
+      message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
+      "case.toml:27:9: probe.field is \"Presure\" (allowed: Displacement, Velocity, Momentum, Pressure, CauchyStress, "
+      "FirstPiolaStress, DeformationGradient, Jacobian, VonMisesStress, Body, Id) - did you mean \"Pressure\"?");
+  EXPECT_EQ(
+      message_of(probe + "kind = \"error\"\nfield = \"Pressure\"\nreference = [\"1/t\"]\nwhere = \"Y > 5\"\n"),
+      "case.toml:28:13: probe.reference[0], formula \"1/t\" is inf at X = (-0.5, 5.25, -0.5) m of body \"column\" "
+      "(allowed: a finite number at every particle)");
+  EXPECT_EQ(message_of(probe + "kind = \"extent\"\nfield = \"Pressure\"\n"),
+            "case.toml:27:9: probe.field is used only by the kind \"error\" - remove it");
+}
+
 TEST(CaseMessages, BodiesMustFitTogether) {
   std::string const second = R"toml([[body]]
 name = "column"

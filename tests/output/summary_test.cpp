@@ -12,6 +12,8 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
   s.status = "completed";
   s.quantities = {{"peak", 2.5, "MPa"}};
   s.warnings = {"w"};
+  s.linear_drift = 0.25;
+  s.angular_drift = 0.5;
   auto const json = nlohmann::ordered_json::parse(to_json(s));
   std::vector<std::string> keys;
   for (auto const& item : json.items()) keys.push_back(item.key());
@@ -20,10 +22,15 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
                                             "momentum", "quantities", "warnings"}));
   EXPECT_TRUE(json["energy"].contains("initial") && json["energy"].contains("final") &&
               json["energy"].contains("max_increase"));
-  EXPECT_TRUE(json["momentum"].contains("linear_drift") && json["momentum"].contains("angular_drift"));
+  EXPECT_EQ(json["momentum"]["linear_drift"], 0.25);
+  EXPECT_EQ(json["momentum"]["angular_drift"], 0.5);
   EXPECT_EQ(json["quantities"]["peak"]["value"], 2.5);
   EXPECT_EQ(json["quantities"]["peak"]["unit"], "MPa");
   EXPECT_TRUE(nlohmann::ordered_json::parse(to_json(Summary{}))["quantities"].is_object());
+}
+
+TEST(Summary, HasNoMomentumWhereItMeansNothing) {
+  EXPECT_FALSE(nlohmann::json::parse(to_json(Summary{})).contains("momentum"));
 }
 
 TEST(Summary, WritesNullForWhatIsNotANumber) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/build.hpp"
+#include "piola/base/units.hpp"
+#include "piola/input/history_names.hpp"
 #include "piola/input/read_case.hpp"
 #include "support/sample_case.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace piola {
@@ -82,6 +85,33 @@ face = "+z"
   EXPECT_EQ(a.mirrors[0].body, 1u);
   EXPECT_EQ(a.mirrors[0].axis, 2);
   EXPECT_TRUE(a.mirrors[0].upper);
+}
+
+TEST(Build, FieldsAndColumnsAreThoseThatCaseFilesKnow) {
+  Simulation const simulation = build(read_case_text(test::sample_case(), "case.toml"));
+  for (FieldInfo const& field : simulation.formulation->fields()) {
+    for (FieldName const& known : field_names()) {
+      if (known.name != field.name) continue;
+      EXPECT_EQ(convert_from_si(1, field.unit, known.unit), 1) << field.name;
+      EXPECT_EQ(known.components, field.components) << field.name;
+    }
+  }
+  auto const announced = find_formulation("jst_sph")->diagnostics;
+  if (announced.empty()) return;  // then nothing that it adds can be asked for
+  for (auto const& [name, value] : simulation.formulation->diagnose().more) {
+    EXPECT_TRUE(std::any_of(announced.begin(), announced.end(), [&name = name](DiagnosticInfo const& info) {
+      return info.name == name;
+    })) << name;
+  }
+}
+
+TEST(Build, AnnouncedColumnsCanBeAskedFor) {
+  auto const announced = find_formulation("jst_sph")->diagnostics;
+  for (DiagnosticInfo const& column : announced) {
+    std::string const quantity = "[[quantity]]\nname = \"q\"\ncolumn = \"" + std::string(column.name) + "\"\n";
+    CaseSpec const spec = read_case_text(test::sample_case() + quantity, "case.toml");
+    EXPECT_EQ(spec.quantities[0].unit, column.unit);
+  }
 }
 
 }  // namespace

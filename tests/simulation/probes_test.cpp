@@ -114,6 +114,61 @@ TEST(Probe, MeasuresTheExtentAlongAnAxis) {
   EXPECT_NEAR(evaluate(s, Turned(set, 0, 1.5), set)[0], 4.5, 1e-12);
 }
 
+// Springs have the velocity (Y, -X, 0)/10. Against (Y, 0, 0)/10 the difference is (0, -X, 0)/10, so that the relative
+// error is sqrt(sum V X^2 / sum V Y^2); over the upper half of a 2 x 2 plate with Y = 1 that is sqrt(V_3/(V_2 + V_3)).
+TEST(Probe, MeasuresTheRelativeErrorOfAField) {
+  ParticleSet set = testing::make_plate(2);
+  set.volume = {1, 1, 1, 3};
+  auto s = spec(ProbeSpec::Kind::error, {"relative_error"});
+  s.field = "Velocity";
+  s.reference = {Expression("Y/10"), Expression("-X/10"), Expression("0")};
+  EXPECT_NEAR(evaluate(s, testing::Springs(set), set)[0], 0, 1e-15);
+  s.reference[1] = Expression("0");
+  s.where = Expression("Y > 0.5");
+  EXPECT_NEAR(evaluate(s, testing::Springs(set), set)[0], std::sqrt(3.0 / 4), 1e-15);
+  s.where = {};
+  EXPECT_NEAR(evaluate(s, testing::Springs(set), set)[0], std::sqrt((1.0 + 3) / (1 + 3)), 1e-15);
+  set.volume = {1, 5, 1, 3};
+  EXPECT_NEAR(evaluate(s, testing::Springs(set), set)[0], std::sqrt((5.0 + 3) / (1 + 3)), 1e-15);
+  EXPECT_EQ(Probe(s, set).columns()[0].name, "p.relative_error");
+  EXPECT_EQ(Probe(s, set).columns()[0].unit, "1");
+}
+
+TEST(Probe, ComparesWithAFormulaAtTheTimeOfTheRow) {
+  ParticleSet const set = testing::make_plate(3);
+  auto s = spec(ProbeSpec::Kind::error);
+  s.field = "Velocity";
+  s.reference = {Expression("t*Y/10"), Expression("-t*X/10"), Expression("0")};
+  testing::Springs const springs(set);
+  FieldCache cache(springs, set);
+  Probe probe(s, set);
+  EXPECT_NEAR(probe.evaluate(cache, 1)[0], 0, 1e-15);
+  EXPECT_NEAR(probe.evaluate(cache, 4)[0], 0.75, 1e-15);  // |1 - 4|/4
+}
+
+TEST(Probe, CountsTheShearOfASymmetricTensorTwice) {
+  class Sheared : public testing::Springs {
+   public:
+    using Springs::Springs;
+    void sample(std::string_view, std::span<double> values) const override {
+      for (std::size_t k = 0; k < values.size(); ++k) values[k] = std::array<double, 6>{3, 4, 0, 0, 2, 0}[k % 6];
+    }
+  };
+  ParticleSet const set = testing::make_plate(2);
+  auto s = spec(ProbeSpec::Kind::error);
+  s.field = "CauchyStress";
+  for (char const* const formula : {"3", "4", "0", "0", "0", "0"}) s.reference.emplace_back(formula);
+  EXPECT_NEAR(evaluate(s, Sheared(set), set)[0], std::sqrt(2 * 4.0 / 25), 1e-15);
+}
+
+TEST(Probe, AgreementWithNothingIsNoError) {
+  ParticleSet const set = testing::make_plate(2);
+  auto s = spec(ProbeSpec::Kind::error);
+  s.field = "Displacement";  // zero at the start
+  for (int c = 0; c < 3; ++c) s.reference.emplace_back("t");
+  EXPECT_EQ(evaluate(s, testing::Springs(set), set)[0], 0);
+}
+
 TEST(Probe, GivesNoNumberForAFieldThatTheFormulationDoesNotHave) {
   ParticleSet const set = testing::make_plate(4);
   EXPECT_TRUE(std::isnan(evaluate(spec(ProbeSpec::Kind::average, {"damage"}), testing::Springs(set), set)[0]));

@@ -46,6 +46,18 @@ TEST(Quantity, TakesEveryKindOfNumber) {
   EXPECT_NEAR(value(Take::mean_absolute_difference), 0.5, 1e-12);
 }
 
+TEST(Quantity, InterpolatesLinearlyBetweenRows) {
+  HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 1}, {0.1, 2}, {0.4, -4}}};
+  std::string why;
+  auto const at = [&](double time) {
+    return measure({.name = "q", .column = "y", .take = Take::at_time, .time = time, .reference = {}}, t, why);
+  };
+  EXPECT_NEAR(at(0.025)->value, 1.25, 1e-14);
+  EXPECT_NEAR(at(0.3)->value, -2, 1e-14);
+  EXPECT_EQ(at(0.4)->value, -4);
+  EXPECT_FALSE(at(0.5));
+}
+
 TEST(Quantity, FindsTheFirstPeakOfTheAbsoluteValueByAParabola) {
   EXPECT_NEAR(value(Take::first_peak), -2, 1e-9);
   EXPECT_NEAR(value(Take::time_of_first_peak), std::acos(0.0) / 5, 1e-7);

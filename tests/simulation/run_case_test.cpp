@@ -52,6 +52,20 @@ void expect_same_results(std::filesystem::path const& a, std::filesystem::path c
   EXPECT_EQ(read_checkpoint(ca[0]).observers.arrays(), read_checkpoint(cb[0]).observers.arrays());
 }
 
+TEST(RunCase, MomentaDriftOnlyWhereNothingHoldsOrPushes) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  EXPECT_TRUE(run(s, folder / "free").summary.linear_drift);
+  for (int kind = 0; kind < 3; ++kind) {
+    Simulation held = make_springs();
+    if (kind == 0) held.spec.supports.emplace_back();
+    if (kind == 1) held.spec.loads.emplace_back();
+    if (kind == 2) held.spec.mirrors.emplace_back();
+    Summary const summary = run(held, folder / std::to_string(kind)).summary;
+    EXPECT_FALSE(summary.linear_drift || summary.angular_drift);
+  }
+}
+
 TEST(RunCase, WritesAllThatAUserExpects) {
   TemporaryFolder const folder;
   Simulation s = probed();

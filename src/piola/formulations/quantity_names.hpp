@@ -23,8 +23,9 @@ std::optional<FieldQuantity> find_quantity(std::string_view name);
 /// Every known quantity name, for suggestions and the manual.
 std::vector<FieldQuantity> const& all_quantities();
 
-/// Twist and extent are numbers of a whole selection of particles: "twist_angle" [rad] and "extent" [m].
+/// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m] and "relative_error" [1].
 inline constexpr std::string_view twist_quantity = "twist_angle";
 inline constexpr std::string_view extent_quantity = "extent";
+inline constexpr std::string_view error_quantity = "relative_error";
 
 }  // namespace piola

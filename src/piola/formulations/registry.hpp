@@ -10,6 +10,12 @@
 
 namespace piola {
 
+/// A number of the whole system that only one formulation has: a column of history.csv.
+struct DiagnosticInfo {
+  std::string_view name;
+  std::string_view unit;  ///< SI, UDUNITS notation
+};
+
 /// A formulation as the case reader, `piola describe` and the manual see it.
 struct FormulationInfo {
   std::string_view name;                   ///< key `formulation.name` of a case file
@@ -17,7 +23,7 @@ struct FormulationInfo {
   std::span<Parameter const> parameters;   ///< optional numbers; a default of no_default means "set by `scheme`"
   std::span<Choice const> choices;         ///< optional words
   std::span<std::string_view const> laws;  ///< names of the laws it can use
-  std::span<std::string_view const> columns = {};  ///< pure numbers in history.csv that only it writes
+  std::span<DiagnosticInfo const> diagnostics = {};  ///< all that it may put into Diagnostics::more
 };
 
 std::span<FormulationInfo const> formulations();

@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, 5> machine_words{"auto", "scalar", "v2", 
 constexpr std::array<std::string_view, 2> placement_words{"on_boundary", "cell_centred"};
 constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
-constexpr std::array<std::string_view, 6> probe_words{"point", "average", "maximum", "minimum", "twist", "extent"};
+constexpr std::array<std::string_view, 7> probe_words{"point", "average", "maximum", "minimum",
+                                                      "twist", "extent",  "error"};
 constexpr std::array<std::string_view, 12> take_words{"maximum",
                                                       "minimum",
                                                       "final_value",
@@ -245,7 +246,17 @@ constexpr std::array keys{
     KeyInfo{"probe", "at", point, "m", place_range, "none", "point (required there): the nearest particle is used", {}},
     KeyInfo{"probe", "where", formula, "", {}, "all particles", "all but point: condition that selects particles", {}},
     KeyInfo{"probe", "axis", word, "", {}, "\"y\"", "twist, extent: direction", axis_words},
-    KeyInfo{"probe", "quantities", list, "", {}, "none", "what to record; required but for twist and extent", {}},
+    KeyInfo{"probe", "quantities", list, "", {}, "none", "what to record; required but for twist, extent, error", {}},
+    KeyInfo{"probe", "field", text, "", {}, "none", "error (required there): name of the field to compare", {}},
+    KeyInfo{"probe",
+            "reference",
+            formulas,
+            "",
+            {},
+            "none",
+            "error (required there): one formula in X, Y, Z, t per component of the field (tensors row by row, "
+            "CauchyStress as XX YY ZZ XY YZ XZ)",
+            {}},
 
     KeyInfo{"quantity", "name", name, "", {}, "", "key in the summary", {}},
     KeyInfo{"quantity", "column", text, "", {}, "", "column of history.csv", {}},

@@ -72,14 +72,17 @@ struct MirrorSpec {
 
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
-  enum class Kind { point, average, maximum, minimum, twist, extent };
+  enum class Kind { point, average, maximum, minimum, twist, extent, error };
   std::string name;
   std::string body;
   Kind kind = Kind::point;
   std::array<double, 3> at{};           ///< point: the nearest particle is used [m]
   std::optional<Expression> where;      ///< the others: particles that count (default all)
   int axis = 1;                         ///< twist, extent: 0 x, 1 y, 2 z
-  std::vector<std::string> quantities;  ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent"
+  std::string field;                    ///< error: name of a field, e.g. "FirstPiolaStress"
+  std::vector<Expression> reference;    ///< error: one formula in X, Y, Z, t per component of the field [SI]
+  std::vector<std::string> quantities;  ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
+                                        ///< error: "relative_error"
   Places places;
 };
 

@@ -48,6 +48,15 @@ void check_point(ProbeSpec const& probe, double jitter, ParticleSet const& parti
                    ", outside body " + in_quotes(body.name) + " (" + box_of(particles, body) + ") - move the point");
 }
 
+void check_reference(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, Problems& problems) {
+  std::vector<std::int64_t> const ids = select_particles(particles, body, probe.where ? &*probe.where : nullptr);
+  FormulaCheck const check(particles, body, problems);
+  for (std::size_t c = 0; c < probe.reference.size(); ++c) {
+    check.finite(probe.reference[c], "probe.reference[" + std::to_string(c) + "]", place_of(probe.places, "reference"),
+                 ids);
+  }
+}
+
 }  // namespace
 
 ParticleSet make_particles(CaseSpec const& spec) {
@@ -85,6 +94,10 @@ void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems&
     if (probe.kind == ProbeSpec::Kind::point) check_point(probe, jitter, particles, *body, problems);
     if (!probe.where) continue;
     check_where(*probe.where, "probe.where", place_of(probe.places, "where"), particles, *body, problems);
+  }
+  for (ProbeSpec const& probe : spec.probes) {
+    Body const* const body = body_named(particles, probe.body);
+    if (body != nullptr) check_reference(probe, particles, *body, problems);
   }
 }
 

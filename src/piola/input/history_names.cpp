@@ -29,17 +29,17 @@ constexpr std::array columns{
 };
 
 constexpr std::array fields{
-    FieldName{"Displacement", "m"},
-    FieldName{"Velocity", "m/s"},
-    FieldName{"Momentum", "kg/m^2/s"},
-    FieldName{"Pressure", "Pa"},
-    FieldName{"CauchyStress", "Pa"},
-    FieldName{"FirstPiolaStress", "Pa"},
-    FieldName{"DeformationGradient", "1"},
-    FieldName{"Jacobian", "1"},
-    FieldName{"VonMisesStress", "Pa"},
-    FieldName{"Body", "1"},
-    FieldName{"Id", "1"},
+    FieldName{"Displacement", "m", 3},
+    FieldName{"Velocity", "m/s", 3},
+    FieldName{"Momentum", "kg/m^2/s", 3},
+    FieldName{"Pressure", "Pa", 1},
+    FieldName{"CauchyStress", "Pa", 6},
+    FieldName{"FirstPiolaStress", "Pa", 9},
+    FieldName{"DeformationGradient", "1", 9},
+    FieldName{"Jacobian", "1", 1},
+    FieldName{"VonMisesStress", "Pa", 1},
+    FieldName{"Body", "1", 1},
+    FieldName{"Id", "1", 1},
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ std::span<HistoryName const> history_names();
 struct FieldName {
   std::string_view name;
   std::string_view unit;
+  int components;  ///< 1 scalar, 3 vector, 6 symmetric tensor, 9 tensor (row by row)
 };
 std::span<FieldName const> field_names();
 

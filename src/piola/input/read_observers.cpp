@@ -33,8 +33,10 @@ void read_point(Section const& section, int dimension, ProbeSpec& probe) {
 void read_quantities(Section const& section, ProbeSpec& probe) {
   std::vector<std::string> known;
   for (FieldQuantity const& quantity : all_quantities()) known.push_back(quantity.name);
-  bool const whole = probe.kind == Kind::twist || probe.kind == Kind::extent;
-  if (whole) known = {std::string(probe.kind == Kind::twist ? twist_quantity : extent_quantity)};
+  bool const whole = probe.kind == Kind::twist || probe.kind == Kind::extent || probe.kind == Kind::error;
+  if (probe.kind == Kind::twist) known = {std::string(twist_quantity)};
+  if (probe.kind == Kind::extent) known = {std::string(extent_quantity)};
+  if (probe.kind == Kind::error) known = {std::string(error_quantity)};
   auto const value = section.find("quantities");
   if (!value) {
     if (whole)
@@ -49,6 +51,30 @@ void read_quantities(Section const& section, ProbeSpec& probe) {
   for (Value const& item : *items) {
     if (auto const quantity = read_word(item, known, section.problems())) probe.quantities.push_back(*quantity);
   }
+}
+
+// The field and the formulas that the kind "error" compares.
+void read_comparison(Section const& section, Names const& names, ProbeSpec& probe) {
+  if (probe.kind != Kind::error) {
+    section.refuse("field", "is used only by the kind \"error\"");
+    section.refuse("reference", "is used only by the kind \"error\"");
+    return;
+  }
+  if (!section.has("field")) section.report_missing("field", "the field to compare", "field = \"CauchyStress\"");
+  if (!section.has("reference"))
+    section.report_missing("reference", "one formula per component of the field", "reference = [\"0\", ...]");
+  std::vector<std::string> known;
+  for (FieldName const& field : field_names()) known.emplace_back(field.name);
+  auto const value = section.find("field");
+  auto const word = value ? read_word(*value, known, section.problems()) : std::nullopt;
+  auto const reference = section.find("reference");
+  if (!word || !reference) return;
+  probe.field = *word;
+  auto const& field = *std::find_if(field_names().begin(), field_names().end(),
+                                    [&](FieldName const& candidate) { return candidate.name == *word; });
+  auto formulas =
+      read_formulas(*reference, field.unit, static_cast<std::size_t>(field.components), names, section.problems());
+  if (formulas) probe.reference = std::move(*formulas);
 }
 
 void check_axis(Section const& section, int dimension, ProbeSpec const& probe) {
@@ -79,9 +105,12 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
   std::vector<Column> columns;
   for (HistoryName const& column : history_names())
     columns.push_back({std::string(column.name), std::string(column.unit)});
+  // One formulation moves all bodies.
   auto const formulation = spec.bodies.empty() ? std::nullopt : find_formulation(spec.bodies.front().formulation.name);
-  if (formulation)
-    for (std::string_view const own : formulation->columns) columns.push_back({std::string(own), "1"});
+  if (formulation) {
+    for (DiagnosticInfo const& column : formulation->diagnostics)
+      columns.push_back({std::string(column.name), std::string(column.unit)});
+  }
   for (ProbeSpec const& probe : spec.probes) {
     for (std::string const& quantity : probe.quantities) {
       columns.push_back({probe.name + "." + quantity, unit_of_probe_quantity(quantity)});
@@ -163,11 +192,12 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
     section.refuse("at", "is used only by the kind \"point\"");
     probe.where = section.formula("where", body != nullptr ? body->names : Names{});
   }
+  read_comparison(section, body != nullptr ? body->names : Names{}, probe);
   if (along && body != nullptr) check_axis(section, dimension, probe);
   if (!along) section.refuse("axis", "is used only by the kinds \"twist\" and \"extent\"");
   read_quantities(section, probe);
   section.refuse_unknown();
-  probe.places = places_of(section, {"where", "at", "body", "name"});
+  probe.places = places_of(section, {"where", "at", "body", "name", "reference"});
   return probe;
 }
 

@@ -43,7 +43,7 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
-/// `spec`: its bodies and probes are read already.
+/// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,
                                    std::map<std::string, double> const& constants);
 

@@ -8,7 +8,7 @@ namespace piola {
 std::string to_json(Summary const& s) {
   nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
   for (MeasuredQuantity const& q : s.quantities) quantities[q.name] = {{"value", q.value}, {"unit", q.unit}};
-  nlohmann::ordered_json const document{
+  nlohmann::ordered_json document{
       {"status", s.status},
       {"title", s.title},
       {"version", s.version},
@@ -19,10 +19,11 @@ std::string to_json(Summary const& s) {
       {"wall_seconds", s.wall_seconds},
       {"stages_per_second", s.stages_per_second},
       {"threads", s.threads},
-      {"energy", {{"initial", s.energy_initial}, {"final", s.energy_final}, {"max_increase", s.energy_max_increase}}},
-      {"momentum", {{"linear_drift", s.linear_drift}, {"angular_drift", s.angular_drift}}},
-      {"quantities", quantities},
-      {"warnings", s.warnings}};
+      {"energy", {{"initial", s.energy_initial}, {"final", s.energy_final}, {"max_increase", s.energy_max_increase}}}};
+  if (s.linear_drift && s.angular_drift)
+    document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
+  document["quantities"] = quantities;
+  document["warnings"] = s.warnings;
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

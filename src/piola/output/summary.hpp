@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct Summary {
   double energy_initial = 0, energy_final = 0;  ///< J
   /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
   double energy_max_increase = 0;
-  double linear_drift = 0, angular_drift = 0;  ///< largest change of momentum by a momentum scale of the run
+  /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
+  std::optional<double> linear_drift, angular_drift;
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;
 };

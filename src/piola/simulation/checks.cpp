@@ -40,9 +40,9 @@ class Entry {
     if (node && node->kind != Node::Kind::flag) wrong(*node, key, "true or false");
     return node && node->flag;
   }
+  void complain(Node const& node, std::string const& text) { problems_.add(node.place, what_ + ": " + text); }
   void wrong(Node const& node, std::string_view key, std::string_view expected) {
-    problems_.add(node.place,
-                  fmt::format("{}: '{}' has the wrong kind ({} is expected) - correct it", what_, key, expected));
+    complain(node, fmt::format("'{}' has the wrong kind ({} is expected) - correct it", key, expected));
   }
 
  private:
@@ -95,9 +95,44 @@ void read_kind(Entry& entry, Check& check) {
     entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\" or \"above\"");
 }
 
+// What a check takes from two variants: "ratio", or "order" with the `ratio` of their spacings.
+void read_comparison(Entry& entry, Check& check) {
+  check.relative_to = entry.text("relative_to", entry.find("as", false) != nullptr);
+  std::string const word = entry.text("as", !check.relative_to.empty());
+  if (word == "ratio")
+    check.as = Check::As::ratio;
+  else if (word == "order")
+    check.as = Check::As::order;
+  else if (!word.empty())
+    entry.wrong(*entry.find("as", false), "as", "\"order\" or \"ratio\"");
+  Node const* node = entry.find("ratio", check.as == Check::As::order);
+  if (node == nullptr) return;
+  check.refinement = node->is_number() ? node->number() : 0;
+  if (check.as != Check::As::order)
+    entry.complain(*node, "'ratio' is only for as = \"order\" - remove it");
+  else if (!(check.refinement > 1))
+    entry.wrong(*node, "ratio", "a number above 1: the spacing of the other variant by that of this one");
+}
+
+void read_expectation(Entry& entry, Check& check) {
+  std::string const word = entry.text("expected", false);
+  if (word.empty()) return;
+  check.expected_to_fall_short = word == "falls short";
+  if (!check.expected_to_fall_short) entry.wrong(*entry.find("expected", true), "expected", "\"falls short\"");
+  if (check.note.empty())
+    entry.complain(*entry.find("expected", true),
+                   "what is expected to fall short needs a 'note' that says why - add it");
+}
+
+bool is_variant(CheckFile const& file, std::string const& name) {
+  return std::any_of(file.variants.begin(), file.variants.end(),
+                     [&](CheckVariant const& variant) { return variant.name == name; });
+}
+
 Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
   Entry entry(table, "check", problems);
-  entry.only({"variant", "quantity", "reference", "tolerance", "kind", "source", "note"});
+  entry.only({"variant", "quantity", "reference", "tolerance", "kind", "relative_to", "as", "ratio", "expected",
+              "source", "note"});
   Check check;
   check.quantity = entry.text("quantity", true);
   check.variant = entry.text("variant", file.variants.size() > 1);
@@ -114,11 +149,14 @@ Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
     else
       entry.wrong(*node, "reference", "a number, or a number with unit in quotes");
   }
-  bool const known = std::any_of(file.variants.begin(), file.variants.end(),
-                                 [&](CheckVariant const& v) { return v.name == check.variant; });
-  if (!known)
-    problems.add(table.place,
-                 fmt::format("check: there is no variant '{}' - give the name of a [[variant]]", check.variant));
+  read_comparison(entry, check);
+  read_expectation(entry, check);
+  for (std::string const& name : {check.variant, check.relative_to}) {
+    if (name.empty() || is_variant(file, name)) continue;
+    problems.add(table.place, fmt::format("check: there is no variant '{}' - give the name of a [[variant]]", name));
+  }
+  if (!check.relative_to.empty() && check.relative_to == check.variant)
+    problems.add(table.place, "check: 'relative_to' is the variant itself - name another [[variant]]");
   return check;
 }
 

@@ -22,6 +22,17 @@ double kept(NamedState& reader, std::string_view name) {
 
 void keep(StateWriter& writer, std::string_view name, double value) { writer.put(name, {&value, 1}); }
 
+/// The units that a formulation announces for the columns that it adds.
+void take_units(std::string const& formulation, std::vector<HistoryColumn>& columns) {
+  auto const info = find_formulation(formulation);
+  if (!info) return;
+  for (DiagnosticInfo const& announced : info->diagnostics) {
+    for (HistoryColumn& column : columns) {
+      if (column.name == announced.name) column.unit = announced.unit;
+    }
+  }
+}
+
 }  // namespace
 
 HistoryObserver::HistoryObserver(Results results)
@@ -31,6 +42,7 @@ HistoryObserver::HistoryObserver(Results results)
 
 void HistoryObserver::open(Formulation const& formulation, std::optional<double> resume_time) {
   auto columns = diagnostic_columns(formulation.diagnose());
+  if (!results_.spec.bodies.empty()) take_units(results_.spec.bodies.front().formulation.name, columns);
   for (Probe const& probe : probes_) {
     auto const more = probe.columns();
     columns.insert(columns.end(), more.begin(), more.end());
@@ -47,7 +59,7 @@ void HistoryObserver::write_row(Formulation const& formulation, Moment const& mo
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, formulation.diagnose());
   FieldCache cache(formulation, results_.particles);
   for (Probe& probe : probes_) {
-    auto const more = probe.evaluate(cache);
+    auto const more = probe.evaluate(cache, moment.time);
     row.insert(row.end(), more.begin(), more.end());
   }
   for (std::string const& column : file_->append(row)) {

@@ -46,7 +46,7 @@ std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& bod
 
 std::vector<FieldQuantity> quantities_of(ProbeSpec const& spec) {
   std::vector<FieldQuantity> list;
-  if (spec.kind == ProbeSpec::Kind::twist || spec.kind == ProbeSpec::Kind::extent) return list;
+  if (spec.kind >= ProbeSpec::Kind::twist) return list;  // these have one number of their own
   for (std::string const& name : spec.quantities) {
     auto quantity = find_quantity(name);
     if (!quantity)
@@ -71,7 +71,12 @@ Point centroid(std::vector<std::int64_t> const& ids, std::vector<double> const& 
 }  // namespace
 
 Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
-    : kind_(spec.kind), name_(spec.name), axis_(static_cast<std::size_t>(spec.axis)), quantities_(quantities_of(spec)) {
+    : kind_(spec.kind),
+      name_(spec.name),
+      axis_(static_cast<std::size_t>(spec.axis)),
+      quantities_(quantities_of(spec)),
+      field_(spec.field),
+      reference_(spec.reference) {
   Body const& body = find_body(particles, spec);
   ids_ = kind_ == ProbeSpec::Kind::point ? nearest(particles, body, spec.at) : selected(particles, body, spec);
   for (std::int64_t id : ids_) weight_.push_back(particles.volume[static_cast<std::size_t>(id)]);
@@ -80,14 +85,16 @@ Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
 std::vector<HistoryColumn> Probe::columns() const {
   if (kind_ == ProbeSpec::Kind::twist) return {{fmt::format("{}.{}", name_, twist_quantity), "rad"}};
   if (kind_ == ProbeSpec::Kind::extent) return {{fmt::format("{}.{}", name_, extent_quantity), "m"}};
+  if (kind_ == ProbeSpec::Kind::error) return {{fmt::format("{}.{}", name_, error_quantity), "1"}};
   std::vector<HistoryColumn> list;
   for (FieldQuantity const& q : quantities_) list.push_back({fmt::format("{}.{}", name_, q.name), q.unit});
   return list;
 }
 
-std::vector<double> Probe::evaluate(FieldCache& cache) {
+std::vector<double> Probe::evaluate(FieldCache& cache, double time) {
   if (kind_ == ProbeSpec::Kind::twist) return {twist(cache)};
   if (kind_ == ProbeSpec::Kind::extent) return {extent(cache)};
+  if (kind_ == ProbeSpec::Kind::error) return {relative_error(cache, time)};
   std::vector<double> out;
   for (FieldQuantity const& q : quantities_) {
     bool const known = cache.knows(q.field);
@@ -150,6 +157,24 @@ double Probe::extent(FieldCache& cache) const {
     high = std::max(high, at(id));
   }
   return high - low;
+}
+
+/// sqrt(sum V |f - r|^2 / sum V |r|^2) with the Frobenius norm: the shear components of a symmetric tensor count twice.
+double Probe::relative_error(FieldCache& cache, double time) const {
+  if (!cache.knows(field_)) return std::numeric_limits<double>::quiet_NaN();
+  auto const f = cache.values(field_);
+  std::size_t const width = reference_.size();
+  double difference = 0, whole = 0;
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    auto const id = static_cast<std::size_t>(ids_[k]);
+    for (std::size_t c = 0; c < width; ++c) {
+      double const r = reference_[c](cache.particles().X[id], time), d = f[id * width + c] - r;
+      double const weight = width == 6 && c >= 3 ? 2 * weight_[k] : weight_[k];
+      difference += weight * d * d;
+      whole += weight * r * r;
+    }
+  }
+  return difference == 0 ? 0 : std::sqrt(difference / whole);
 }
 
 }  // namespace piola

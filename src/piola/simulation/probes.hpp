@@ -17,8 +17,8 @@ class Probe {
   /// "NAME.quantity" with units, one for each value of `evaluate`.
   std::vector<HistoryColumn> columns() const;
   /// Values now [SI]. A twist angle continues the angle of the call before, so that full turns are counted as long as
-  /// it changes by less than half a turn from call to call.
-  std::vector<double> evaluate(FieldCache& cache);
+  /// it changes by less than half a turn from call to call. `time` [s] is for formulas.
+  std::vector<double> evaluate(FieldCache& cache, double time = 0);
   std::vector<std::int64_t> const& ids() const { return ids_; }
 
   /// What a later call depends on: the last twist angle [rad].
@@ -29,12 +29,15 @@ class Probe {
   double reduce(std::vector<double> const& values) const;
   double twist(FieldCache& cache);
   double extent(FieldCache& cache) const;
+  double relative_error(FieldCache& cache, double time) const;
   ProbeSpec::Kind kind_;
   std::string name_;
   std::size_t axis_;
   std::vector<std::int64_t> ids_;
   std::vector<double> weight_;             ///< tributary volumes of ids_
-  std::vector<FieldQuantity> quantities_;  ///< empty for twist and extent
+  std::vector<FieldQuantity> quantities_;  ///< empty for twist, extent, error
+  std::string field_;                      ///< error
+  std::vector<Expression> reference_;      ///< error: one per component of the field
   double last_angle_ = 0;
 };
 

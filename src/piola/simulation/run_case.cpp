@@ -106,6 +106,8 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.energy_initial = energy.front();
   summary.energy_final = energy.back();
   summary.energy_max_increase = energy_increase(history);
+  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty();
+  if (!free) return;
   // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
   double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));
   double const arm = half_diagonal(s.particles);

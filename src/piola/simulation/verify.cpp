@@ -3,21 +3,18 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
-#include "piola/base/version.hpp"
-#include "piola/output/files.hpp"
 #include "piola/simulation/run_case.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace piola {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char const* passed = "pass";
-constexpr char const* short_fall = "fall short";
 
 /// Value and unit of a quantity of a summary: first by its name, then as a dotted path.
 std::optional<std::pair<double, std::string>> look_up(nlohmann::json const& summary, std::string const& name) {
@@ -55,66 +52,183 @@ bool holds(Check const& c, double measured, double reference) {
   }
 }
 
+std::string quantity_label(Check const& c) {
+  if (c.as == Check::As::ratio) return c.quantity + ", ratio to " + c.relative_to;
+  if (c.as == Check::As::order) return c.quantity + ", order from " + c.relative_to;
+  return c.quantity;
+}
+
 VerificationRow row_of(std::string const& case_name, Check const& c) {
-  VerificationRow row{case_name, c.variant, c.quantity, {}, 0, c.source, {}, tolerance_text(c), short_fall, c.note};
-  row.reference = read_quantity(c.reference, "1").value;
+  VerificationRow row{.case_name = case_name,
+                      .variant = c.variant,
+                      .quantity = quantity_label(c),
+                      .unit = {},
+                      .reference = read_quantity(c.reference, "1").value,
+                      .source = c.source,
+                      .measured = {},
+                      .tolerance = tolerance_text(c),
+                      .verdict = "falls short",
+                      .note = c.note};
   return row;
 }
 
 void add_note(VerificationRow& row, std::string const& text) { row.note += (row.note.empty() ? "" : "; ") + text; }
 
-VerificationRow compare_one(std::string const& case_name, Check const& c, nlohmann::json const& summary) {
-  VerificationRow row = row_of(case_name, c);
+// What is expected to fall short must not pass unnoticed: then the expectation is out of date.
+void judge(VerificationRow& row, Check const& c, bool good) {
+  row.verdict = good ? "passes" : "falls short";
+  row.accepted = good;
+  if (!c.expected_to_fall_short) return;
+  row.verdict += good ? ", contrary to expectation" : ", as expected";
+  row.accepted = !good;
+}
+
+bool completed(nlohmann::json const& summary) { return summary.at("status") == "completed"; }
+
+/// The number that a check looks at, with its unit; notes in the row why there is none.
+std::optional<std::pair<double, std::string>> measured_by(Check const& c, nlohmann::json const& summary,
+                                                          nlohmann::json const& other, VerificationRow& row) {
   auto const found = look_up(summary, c.quantity);
-  if (!found) {
-    add_note(row, "summary.json has no such quantity");
+  if (!found) add_note(row, "summary.json has no such quantity");
+  if (!found || c.as == Check::As::value) return found;
+  auto const beside = look_up(other, c.quantity);
+  if (!beside) {
+    add_note(row, fmt::format("summary.json of {} has no such quantity", c.relative_to));
+    return std::nullopt;
+  }
+  double const quotient = found->first / beside->first;
+  double const value = c.as == Check::As::ratio ? quotient : -std::log(quotient) / std::log(c.refinement);
+  if (std::isfinite(value)) return std::pair{value, std::string("1")};
+  add_note(row, fmt::format("{} and {} cannot be compared", number_text(found->first), number_text(beside->first)));
+  return std::nullopt;
+}
+
+VerificationRow compare_one(std::string const& case_name, Check const& c, VariantRun const& run,
+                            VariantRun const& other) {
+  VerificationRow row = row_of(case_name, c);
+  for (VariantRun const* each : {&run, &other}) {
+    if (!each->summary.empty()) continue;
+    add_note(row, each->problem);
     return row;
   }
-  row.unit = found->second;
-  Quantity const reference = read_quantity(c.reference, row.unit);
-  row.reference = reference.value;
-  row.measured = found->first;
-  if (reference.problem)
-    add_note(row, *reference.problem);
-  else if (summary.at("status") != "completed")
-    add_note(row, "the run did not complete");
-  else if (holds(c, *row.measured, row.reference))
-    row.verdict = passed;
+  auto const summary = nlohmann::json::parse(run.summary), beside = nlohmann::json::parse(other.summary);
+  auto const found = measured_by(c, summary, beside, row);
+  if (found) {
+    row.measured = found->first;
+    row.unit = found->second;
+    Quantity const reference = read_quantity(c.reference, row.unit);
+    row.reference = reference.value;
+    if (reference.problem) {
+      add_note(row, *reference.problem);
+      return row;
+    }
+  }
+  bool const complete = completed(summary) && completed(beside);
+  if (!complete) add_note(row, "the run did not complete");
+  for (VariantRun const* each : {&run, &other}) {
+    if (!each->problem.empty()) add_note(row, each->problem.substr(0, each->problem.find('\n')));
+    if (&run == &other) break;
+  }
+  // A quantity that a completed run does not have is a slip, not a claim that is missed.
+  if (found || !complete) judge(row, c, found && complete && holds(c, *row.measured, row.reference));
   return row;
 }
 
-std::vector<VerificationRow> run_variant(std::string const& name, fs::path const& case_file,
-                                         CheckVariant const& variant, std::vector<Check> const& checks,
-                                         fs::path const& out, Prepare const& prepare, std::atomic<int> const& stop) {
-  Listener quiet;
+/// Tells how far a verification is: how much work each run is, and how much of all is done.
+class Watch : public Listener {
+ public:
+  Watch(Announce const& announce, std::vector<double> work)
+      : announce_(announce), work_(std::move(work)), begin_(std::chrono::steady_clock::now()) {}
+
+  void start(std::string const& case_name, std::string const& variant) {
+    if (at_.number > 0 && at_.number <= work_.size()) done_ += work_[at_.number - 1];
+    at_ = {.case_name = case_name, .variant = variant, .number = at_.number + 1, .count = work_.size()};
+    tell(0);
+  }
+  void progress(Progress const& progress) override { tell(progress.moment.time / progress.end); }
+
+ private:
+  void tell(double share) {
+    if (!announce_) return;
+    at_.share = share;
+    double const done = done_ + share * work_[at_.number - 1];
+    double const all = std::accumulate(work_.begin(), work_.end(), 0.0);
+    double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    at_.seconds_left = done > 0 ? std::optional(elapsed * (all - done) / done) : std::nullopt;
+    announce_(at_);
+  }
+
+  Announce const& announce_;
+  std::vector<double> work_;
+  std::chrono::steady_clock::time_point begin_;
+  VerifyProgress at_{.case_name = {}, .variant = {}, .number = 0, .count = 0, .share = 0, .seconds_left = {}};
+  double done_ = 0;
+};
+
+VariantRun run_variant(fs::path const& case_file, CheckVariant const& variant, fs::path const& out,
+                       Prepare const& prepare, Listener& listener, std::atomic<int> const& stop) {
+  VariantRun run{.variant = variant.name};
   try {
     Simulation simulation = prepare(case_file, variant.set);
-    CaseOutcome const outcome = run_case(simulation, {.folder = out, .resume = false, .force = true}, quiet, stop);
-    auto rows = compare(name, checks, to_json(outcome.summary));
-    if (!outcome.failure.empty()) {
-      for (VerificationRow& row : rows) add_note(row, outcome.failure.substr(0, outcome.failure.find('\n')));
-    }
-    return rows;
+    run.title = simulation.spec.title;
+    CaseOutcome const outcome = run_case(simulation, {.folder = out, .resume = false, .force = true}, listener, stop);
+    run.wall_seconds = outcome.summary.wall_seconds;
+    run.picture = outcome.last_picture;
+    run.summary = to_json(outcome.summary);
+    run.problem = outcome.failure;
   } catch (std::runtime_error const& error) {  // one case that cannot run must not hide the others
-    std::vector<VerificationRow> rows;
-    for (Check const& c : checks) {
-      rows.push_back(row_of(name, c));
-      add_note(rows.back(), error.what());
-    }
-    return rows;
+    run.problem = error.what();
   }
+  return run;
 }
 
-std::string measured_text(VerificationRow const& row) { return row.measured ? number_text(*row.measured) : "none"; }
-std::string unit_text(VerificationRow const& row) { return row.unit == "1" ? "" : row.unit; }
+/// A case with the variants that are to run.
+struct Plan {
+  std::string name;
+  fs::path file;
+  std::vector<CheckVariant> variants;
+  std::vector<Check> checks;
+};
+
+bool looks_at(Check const& c, std::string const& variant) {
+  return c.variant == variant || (c.as != Check::As::value && c.relative_to == variant);
+}
+
+Plan plan_of(fs::path const& folder, VerifyOptions const& options) {
+  CheckFile const file = read_checks(folder / "checks.toml");
+  Plan plan{folder.lexically_relative(options.cases).generic_string(), folder / "case.toml", {}, file.checks};
+  for (CheckVariant const& variant : file.variants) {
+    bool const used =
+        std::any_of(file.checks.begin(), file.checks.end(), [&](Check const& c) { return looks_at(c, variant.name); });
+    if (used && (variant.is_short || !options.short_only)) plan.variants.push_back(variant);
+  }
+  return plan;
+}
+
+double work_of(Plan const& plan, CheckVariant const& variant, Weigh const& weigh) {
+  if (!weigh) return 1;
+  try {
+    return weigh(plan.file, variant.set);
+  } catch (std::runtime_error const&) {  // the run itself will say what is wrong
+    return 0;
+  }
+}
 
 }  // namespace
 
 std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
-                                     std::string const& summary_json) {
-  auto const summary = nlohmann::json::parse(summary_json);
+                                     std::vector<VariantRun> const& runs) {
+  auto const run_of = [&](std::string const& variant) {
+    return std::find_if(runs.begin(), runs.end(), [&](VariantRun const& run) { return run.variant == variant; });
+  };
   std::vector<VerificationRow> rows;
-  for (Check const& c : checks) rows.push_back(compare_one(case_name, c, summary));
+  for (VariantRun const& run : runs) {
+    for (Check const& c : checks) {
+      if (c.variant != run.variant) continue;
+      auto const other = run_of(c.as == Check::As::value ? c.variant : c.relative_to);
+      if (other != runs.end()) rows.push_back(compare_one(case_name, c, run, *other));
+    }
+  }
   return rows;
 }
 
@@ -144,63 +258,30 @@ std::vector<fs::path> find_cases(fs::path const& cases, std::vector<std::string>
   return chosen;
 }
 
-std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
-                                    std::atomic<int> const& stop) {
-  std::vector<VerificationRow> rows;
+std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
+                                     std::atomic<int> const& stop) {
+  std::vector<Plan> plans;
+  std::vector<double> work;
   for (fs::path const& folder : find_cases(options.cases, options.names)) {
-    std::string const name = folder.lexically_relative(options.cases).generic_string();
-    CheckFile const file = read_checks(folder / "checks.toml");
-    for (CheckVariant const& variant : file.variants) {
-      std::vector<Check> checks;
-      std::copy_if(file.checks.begin(), file.checks.end(), std::back_inserter(checks),
-                   [&](Check const& c) { return c.variant == variant.name; });
-      if (stop.load() != 0) return rows;
-      if (checks.empty() || (options.short_only && !variant.is_short)) continue;
-      if (announce) announce(name, variant.name);
-      auto const more =
-          run_variant(name, folder / "case.toml", variant, checks, options.out / name / variant.name, prepare, stop);
-      rows.insert(rows.end(), more.begin(), more.end());
+    plans.push_back(plan_of(folder, options));
+    for (CheckVariant const& variant : plans.back().variants)
+      work.push_back(work_of(plans.back(), variant, options.weigh));
+  }
+  Watch watch(announce, std::move(work));
+  std::vector<CaseVerification> cases;
+  for (Plan const& plan : plans) {
+    if (plan.variants.empty()) continue;
+    CaseVerification& result = cases.emplace_back(CaseVerification{plan.name, {}, {}});
+    for (CheckVariant const& variant : plan.variants) {
+      if (stop.load() != 0) break;
+      watch.start(plan.name, variant.name);
+      result.runs.push_back(
+          run_variant(plan.file, variant, options.out / plan.name / variant.name, prepare, watch, stop));
     }
+    result.rows = compare(plan.name, plan.checks, result.runs);
+    if (stop.load() != 0) break;
   }
-  return rows;
-}
-
-std::string verification_json(std::vector<VerificationRow> const& rows) {
-  auto list = nlohmann::ordered_json::array();
-  for (VerificationRow const& r : rows) {
-    nlohmann::ordered_json row{{"case", r.case_name}, {"variant", r.variant},     {"quantity", r.quantity},
-                               {"unit", r.unit},      {"reference", r.reference}, {"source", r.source},
-                               {"measured", nullptr}, {"tolerance", r.tolerance}, {"verdict", r.verdict},
-                               {"note", r.note}};
-    if (r.measured) row["measured"] = *r.measured;
-    list.push_back(std::move(row));
-  }
-  return nlohmann::ordered_json{{"version", version()}, {"rows", list}}.dump(2) + "\n";
-}
-
-std::string verification_table(std::vector<VerificationRow> const& rows) {
-  std::string text = fmt::format("{:<28} {:<14} {:<26} {:>12} {:>12} {:<9} {:<16} {}\n", "case", "variant", "quantity",
-                                 "reference", "measured", "unit", "tolerance", "verdict");
-  for (VerificationRow const& r : rows) {
-    text += fmt::format("{:<28} {:<14} {:<26} {:>12} {:>12} {:<9} {:<16} {}\n", r.case_name, r.variant, r.quantity,
-                        number_text(r.reference), measured_text(r), unit_text(r), r.tolerance, r.verdict);
-    if (r.verdict != passed && !r.note.empty()) text += fmt::format("    {}\n", r.note);
-  }
-  return text;
-}
-
-std::string verification_markdown(std::vector<VerificationRow> const& rows) {
-  std::string text =
-      "| case | variant | quantity | reference | source | measured | tolerance | verdict | note "
-      "|\n|---|---|---|---|---|---|---|---|---|\n";
-  for (VerificationRow const& r : rows) {
-    std::string note = r.note;
-    std::replace(note.begin(), note.end(), '\n', ' ');
-    text += fmt::format("| {} | {} | {} | {} {} | {} | {} {} | {} | {} | {} |\n", r.case_name, r.variant, r.quantity,
-                        number_text(r.reference), unit_text(r), r.source, measured_text(r), unit_text(r), r.tolerance,
-                        r.verdict, note);
-  }
-  return text;
+  return cases;
 }
 
 }  // namespace piola

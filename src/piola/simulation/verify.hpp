@@ -21,12 +21,22 @@ struct CheckVariant {
 /// One published or analytical number beside a measured one: [[check]] of checks.toml.
 struct Check {
   enum class Kind { within, below, above };
+  /// What is compared: the quantity itself, or what it comes to beside that of another variant.
+  enum class As {
+    value,
+    ratio,  ///< q / q_other
+    order   ///< log(q_other / q) / log(refinement): the order of convergence
+  };
   std::string variant;
   std::string quantity;   ///< name of a [[quantity]], or a dotted path in summary.json such as "energy.max_increase"
   std::string reference;  ///< a number, or a number with unit
   double tolerance = 0;
   bool relative = false;  ///< the tolerance is a fraction of the reference
   Kind kind = Kind::within;
+  As as = As::value;
+  std::string relative_to = {};         ///< ratio, order: the other variant
+  double refinement = 0;                ///< order: key `ratio`, spacing of the other variant by that of this one
+  bool expected_to_fall_short = false;  ///< then `note` says why
   std::string source, note;
 };
 
@@ -45,26 +55,56 @@ struct VerificationRow {
   std::string source;
   std::optional<double> measured;  ///< nothing: the run failed or has no such quantity
   std::string tolerance;           ///< as written, e.g. "within 1 %"
-  std::string verdict;             ///< "pass" or "fall short"
+  std::string verdict;    ///< "passes", "falls short", or one of these with ", as" or ", contrary to" expectation
+  bool accepted = false;  ///< passes, or falls short as expected
   std::string note;
 };
 
-/// Compares checks with the text of a summary.json.
+/// One variant of a case after its run.
+struct VariantRun {
+  std::string variant;
+  std::string title = {};  ///< of the case; empty if the run could not be made
+  double wall_seconds = 0;
+  std::filesystem::path picture = {};  ///< the last one; empty if there is none
+  std::string summary = {};            ///< text of summary.json; empty if the run could not be made
+  std::string problem = {};            ///< why it failed or could not be made
+};
+
+/// All that was run for one case, and what the checks say about it.
+struct CaseVerification {
+  std::string name;  ///< e.g. "jst_sph/cable"
+  std::vector<VariantRun> runs;
+  std::vector<VerificationRow> rows;
+};
+
+/// Compares the checks of a case with what its runs measured, variant by variant. Checks that look at a variant which
+/// is not among the runs are left out.
 std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
-                                     std::string const& summary_json);
+                                     std::vector<VariantRun> const& runs);
+
+/// Where a verification stands.
+struct VerifyProgress {
+  std::string case_name, variant;
+  std::size_t number = 1, count = 1;        ///< of the variant, from 1, among all that run
+  double share = 0;                         ///< of this run that is done
+  std::optional<double> seconds_left = {};  ///< wall time of all that is left, estimated; nothing: not known yet
+};
+
+/// Makes a simulation from a case file and overrides.
+using Prepare =
+    std::function<Simulation(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
+/// Told what is about to run, and several times per second how far it is.
+using Announce = std::function<void(VerifyProgress const&)>;
+/// How much work a run is, in any unit.
+using Weigh = std::function<double(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
 
 struct VerifyOptions {
   std::filesystem::path cases;     ///< folder with the cases
   std::vector<std::string> names;  ///< empty: all
   bool short_only = false;         ///< only variants marked short
   std::filesystem::path out;       ///< results go to out/CASE/VARIANT
+  Weigh weigh = {};                ///< for the time that is left; nothing: all runs count the same
 };
-
-/// Makes a simulation from a case file and overrides.
-using Prepare =
-    std::function<Simulation(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
-/// Told what is about to run.
-using Announce = std::function<void(std::string const& case_name, std::string const& variant)>;
 
 /// Folders below `cases` that hold checks.toml and are asked for by name ("twisting_column", "jst_sph/cable", or a
 /// whole folder "jst_sph"). Throws InputError with the known names if one is not known.
@@ -73,11 +113,7 @@ std::vector<std::filesystem::path> find_cases(std::filesystem::path const& cases
 
 /// Runs the variants of the chosen cases and compares. A run that cannot be made or fails gives rows that fall short.
 /// Ends early, with the rows so far, when `stop` is set.
-std::vector<VerificationRow> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
-                                    std::atomic<int> const& stop);
-
-std::string verification_json(std::vector<VerificationRow> const& rows);
-std::string verification_table(std::vector<VerificationRow> const& rows);
-std::string verification_markdown(std::vector<VerificationRow> const& rows);
+std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
+                                     std::atomic<int> const& stop);
 
 }  // namespace piola

@@ -12,7 +12,8 @@ constexpr std::array parameters{
 
 constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};  // only the density is used
 
-constexpr std::array<std::string_view, 3> columns{"dispersion", "diffusion", "amplitude"};
+constexpr std::array diagnostics{DiagnosticInfo{"dispersion", "1"}, DiagnosticInfo{"diffusion", "1"},
+                                 DiagnosticInfo{"amplitude", "1"}};
 
 double number(FormulationSpec const& spec, std::string_view name, double otherwise) {
   auto const given = spec.numbers.find(name);
@@ -28,7 +29,7 @@ FormulationInfo info() {
           parameters,
           {},
           usable_laws,
-          columns};
+          diagnostics};
 }
 
 Options read_options(FormulationSpec const& spec, double cfl) {

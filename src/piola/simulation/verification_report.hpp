@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/simulation/verify.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// Whether no row falls short or passes contrary to expectation.
+bool all_accepted(std::vector<CaseVerification> const& cases);
+
+std::string verification_json(std::vector<CaseVerification> const& cases);
+std::string verification_table(std::vector<CaseVerification> const& cases);
+
+/// Writes the page folder/README.md: one section per case with its table, the wall time of each variant and its last
+/// picture, which is copied beside the page. Throws FileError.
+void write_verification_page(std::filesystem::path const& folder, std::vector<CaseVerification> const& cases);
+
+}  // namespace piola
