@@ -5,6 +5,7 @@
 #include "math/random.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -128,6 +129,83 @@ TYPED_TEST(LawBattery, HasTheStressThatIsTheDerivativeOfItsEnergy) {
       difference.c[c] = (this->law.energy(more) - this->law.energy(less)) / (2 * step);
     }
     EXPECT_LT(size(P - difference), 1e-7 * (size(P) + this->stiffness));
+  }
+}
+
+/// P = W_F + W_H x F + W_J H (eq. 12) at F, H and J that do not belong together; in small strain H is the identity.
+TYPED_TEST(LawBattery, HasTheStressOfItsPartialDerivativesInFAndHAndJ) {
+  Random random(7);
+  double const step = 1e-5;
+  auto const slope = [&](Mat<3> const& A, auto const& W) {
+    Mat<3> r;
+    for (int c = 0; c < 9; ++c) {
+      Mat<3> more = A, less = A;
+      more.c[c] += step;
+      less.c[c] -= step;
+      r.c[c] = (W(more) - W(less)) / (2 * step);
+    }
+    return r;
+  };
+  for (int k = 0; k < 100; ++k) {
+    Mat<3> const F = this->deformation(random), H = cofactor(F) + random.matrix(0.1);
+    double const J = determinant(F) * random.in(0.9, 1.1);
+    Mat<3> const of_F = slope(F, [&](Mat<3> const& A) { return this->law.energy(A, H, J); });
+    Mat<3> const of_H = slope(H, [&](Mat<3> const& A) { return this->law.energy(F, A, J); });
+    double const of_J = (this->law.energy(F, H, J + step) - this->law.energy(F, H, J - step)) / (2 * step);
+    Mat<3> const area = TypeParam::small_strain ? identity<3>() : H;
+    Mat<3> const expected = of_F + tensor_cross(of_H, F) + of_J * area;
+    EXPECT_LT(size(this->law.stress(F, H, J) - expected), 1e-7 * (size(expected) + this->stiffness));
+  }
+}
+
+TYPED_TEST(LawBattery, HasTheSameStressAndEnergyOfFAndOfItsOwnHAndJ) {
+  Random random(8);
+  for (int k = 0; k < 100; ++k) {
+    Mat<3> const F = this->deformation(random), P = this->law.first_piola(F);
+    double const J = TypeParam::small_strain ? trace(F) - 2 : determinant(F), W = this->law.energy(F);
+    EXPECT_LT(size(this->law.stress(F, cofactor(F), J) - P), 1e-13 * (size(P) + this->stiffness));
+    EXPECT_NEAR(this->law.energy(F, cofactor(F), J), W, 1e-13 * (W + this->stiffness));
+  }
+}
+
+TYPED_TEST(LawBattery, HasASymmetricCauchyStress) {
+  Random random(9);
+  for (int k = 0; k < 100; ++k) {
+    Mat<3> const F = this->deformation(random), P = this->law.first_piola(F);
+    // In small strain P is the Cauchy stress.
+    Mat<3> const tau = TypeParam::small_strain ? P : P * transpose(F);
+    EXPECT_LT(size(tau - transpose(tau)), 1e-13 * (size(P) + this->stiffness));
+  }
+}
+
+/// dP = lambda tr(e) I + 2 mu e at rest, with the constants computed here from Young's modulus and Poisson's ratio.
+TYPED_TEST(LawBattery, IsHookesLawForSmallStrain) {
+  Random random(10);
+  double const E = 17e6, nu = 0.3, mu = E / (2 * (1 + nu)), lambda = nu * E / ((1 + nu) * (1 - 2 * nu)), step = 1e-5;
+  for (int k = 0; k < 20; ++k) {
+    Mat<3> const G = random.matrix(1), I = identity<3>();
+    Mat<3> const slope = (0.5 / step) * (this->law.first_piola(I + step * G) - this->law.first_piola(I - step * G));
+    Mat<3> const expected = (lambda * trace(G)) * I + mu * (G + transpose(G));
+    EXPECT_LT(size(slope - expected), 1e-7 * this->stiffness);
+  }
+}
+
+TYPED_TEST(LawBattery, HasTheLargestModulusOfItsEnergyInThePrincipalStretches) {
+  Random random(11);
+  double const step = 1e-4;  // step^2 times the fourth derivative and round-off of W / step^2: 1e-8 each
+  for (int k = 0; k < 200; ++k) {
+    double const most = this->near_identity_only() ? 0.01 : 0.5;
+    double const l[3] = {random.in(1 - most, 1 + most), random.in(1 - most, 1 + most), random.in(1 - most, 1 + most)};
+    double largest = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      auto const W = [&](double change) {
+        return this->law.energy(
+            diagonal(l[0] + (i == 0 ? change : 0), l[1] + (i == 1 ? change : 0), l[2] + (i == 2 ? change : 0)));
+      };
+      largest = std::max(largest, (W(step) - 2 * W(0) + W(-step)) / (step * step));
+    }
+    double const found = this->law.largest_modulus(l[0] * l[0], l[1] * l[1], l[2] * l[2]);
+    EXPECT_NEAR(found, largest, 1e-6 * (std::fabs(largest) + this->stiffness));
   }
 }
 

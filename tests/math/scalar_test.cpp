@@ -31,5 +31,29 @@ TEST(PowerMinusThird, StaysFiniteFarFromOne) {
   EXPECT_DOUBLE_EQ(power_minus_third(1e300), 1e-100);
 }
 
+TEST(Logarithm, IsThatOfTheLibraryToAFewUnitsInTheLastPlaceOverTwelveDecades) {
+  for (double exponent = -6; exponent <= 6; exponent += 1e-3) {
+    double const a = std::pow(10, exponent), y = std::log(a);
+    EXPECT_NEAR(logarithm(a), y, 4 * ulp * std::fabs(y)) << a;
+  }
+}
+
+TEST(Logarithm, KeepsItsDigitsNearOne) {
+  EXPECT_EQ(logarithm(1.0), 0.0);
+  for (double const e : {1e-3, 1e-6, 1e-9, 1e-12, ulp})
+    for (double const a : {1 - e, 1 + e}) EXPECT_NEAR(logarithm(a), std::log(a), 4 * ulp * std::fabs(std::log(a))) << a;
+}
+
+TEST(Logarithm, HasNoStepWhereTheMethodChanges) {
+  for (double const edge : {0.25, 0.35, 0.7, 1.42, 2.84, 4.0})
+    for (double const a : {edge * (1 - 2 * ulp), edge, edge * (1 + 2 * ulp)})
+      EXPECT_NEAR(logarithm(a), std::log(a), 4 * ulp * std::fabs(std::log(a))) << a;
+}
+
+TEST(Logarithm, StaysFiniteFarFromOne) {
+  EXPECT_DOUBLE_EQ(logarithm(1e-300), std::log(1e-300));
+  EXPECT_DOUBLE_EQ(logarithm(1e300), std::log(1e300));
+}
+
 }  // namespace
 }  // namespace piola

@@ -133,6 +133,49 @@ INSTANTIATE_TEST_SUITE_P(All, CorrectedOperators, ::testing::ValuesIn(all_settin
          std::to_string(static_cast<int>(100 * s.gradient)) + "_lanes" + std::to_string(s.lanes);
 });
 
+/// Supports other than 2h: all the pairs within, no others, and exact derivatives from them.
+class OtherKernels : public ::testing::TestWithParam<std::tuple<Kernel, double>> {};
+
+TEST_P(OtherKernels, HavePairsWithinTheirSupportsAndExactGradients) {
+  auto const& [kernel, jitter] = GetParam();
+  int const n = 8;
+  double const dx = 1.0 / (n - 1), edge = 1 - 1e-9;
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (int const lanes : {1, 4}) {
+      ParticleSet const set = unit_box(dimension, n, jitter);
+      PairOptions options = supports(n, 0.9, 1.2, lanes);
+      options.kernel = &kernel;
+      SeenPairs const seen(set, options);
+      auto const f = [](auto const& X) { return 3 + 2 * X[0] - 5 * X[1] + 0.5 * X[2]; };
+      double const slope[] = {2, -5, 0.5};
+      for (Index a = 0; a < seen.order.particles; ++a) {
+        std::size_t inner = 0, outer = 0, found_inner = 0;
+        for (Index b = 0; b < seen.order.particles; ++b) {
+          auto const &A = seen.X(a), &B = seen.X(b);
+          double const r = std::sqrt(squared({B[0] - A[0], B[1] - A[1], B[2] - A[2]}));
+          outer += b != a && r <= kernel.support * 1.2 * dx * edge ? 1 : 0;
+          inner += b != a && r <= kernel.support * 0.9 * dx * edge ? 1 : 0;
+        }
+        for (auto const& p : seen.at(a)) found_inner += p.inner ? 1 : 0;
+        ASSERT_EQ(seen.at(a).size(), outer) << "slot " << a;
+        ASSERT_EQ(found_inner, inner) << "slot " << a;
+        auto const g = seen.gradient(a, f);
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_NEAR(g[c], static_cast<int>(c) < dimension ? slope[c] : 0, 1e-11) << "slot " << a;
+        auto const square = [](auto const& X) { return squared({X[0] - 0.3, X[1] - 0.4, X[2] - 0.5}); };
+        ASSERT_NEAR(seen.laplacian(a, square), 2 * dimension, 1e-9) << "slot " << a;
+      }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OtherKernels,
+                         ::testing::Combine(::testing::ValuesIn(kernels().begin(), kernels().end()),
+                                            ::testing::Values(0.0, 0.2)),
+                         [](auto const& p) {
+                           return std::string(std::get<0>(p.param).name) +
+                                  (std::get<1>(p.param) > 0 ? "_jittered" : "_regular");
+                         });
+
 /// Slot of the particle in the middle of a box.
 Index middle(SeenPairs const& seen) {
   for (Index a = 0; a < seen.order.particles; ++a)

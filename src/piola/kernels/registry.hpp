@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/kernels/cubic_spline.hpp"
 #include <span>
 #include <string_view>
 
@@ -12,8 +11,8 @@ struct Kernel {
   std::string_view about;
   double support;                  ///< in units of h
   double (*sigma)(int dimension);  ///< normalisation
-  double (*w)(double q);
-  double (*dw)(double q);
+  double (*w)(int dimension, double q);
+  double (*dw)(int dimension, double q);
 };
 
 /// All kernels; adding one is a header and a line in registry.cpp.

@@ -1,32 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/materials/hyperelastic/compressible_neo_hookean.hpp"
 #include "piola/materials/hyperelastic/linear_elastic.hpp"
+#include "piola/materials/hyperelastic/mooney_rivlin.hpp"
 #include "piola/materials/hyperelastic/neo_hookean.hpp"
+#include "piola/materials/hyperelastic/saint_venant_kirchhoff.hpp"
 #include "piola/materials/registry.hpp"
 #include <concepts>
 
 namespace piola::inline PIOLA_MACHINE {
 
 /// What a total-Lagrangian formulation asks of a law, at one point, in three dimensions. T is double or lanes.
-template <class Law> concept Hyperelastic = requires(Law const& law, Mat<3> const& F, double p) {
-  { law.stress_with_pressure(F, p) } -> std::same_as<Mat<3>>;
-  { law.isochoric_energy(F) } -> std::same_as<double>;
-  { law.volume_ratio(F) } -> std::same_as<double>;
+template <class Law> concept Hyperelastic = requires(Law const& law, Mat<3> const& F, double J) {
   { law.first_piola(F) } -> std::same_as<Mat<3>>;
+  { law.stress(F, F, J) } -> std::same_as<Mat<3>>;
   { law.energy(F) } -> std::same_as<double>;
+  { law.energy(F, F, J) } -> std::same_as<double>;
   { law.pressure(F) } -> std::same_as<double>;
+  { law.largest_modulus(J, J, J) } -> std::same_as<double>;
   { law.p_wave_speed() } -> std::same_as<double>;
   { law.rho0 } -> std::convertible_to<double>;
+  { law.mu } -> std::convertible_to<double>;
+  { law.kappa } -> std::convertible_to<double>;
+  { Law::small_strain } -> std::convertible_to<bool>;
+  { Law::volumetric_split } -> std::convertible_to<bool>;
+};
+
+/// What a law answers besides where its energy is an isochoric part plus kappa/2 (J - 1)^2: schemes with a volume ratio
+/// or a pressure of their own ask these.
+template <class Law> concept SplitsVolume = requires(Law const& law, Mat<3> const& F, double p) {
+  { law.stress_with_pressure(F, p) } -> std::same_as<Mat<3>>;
+  { law.stress_with_pressure(F, F, p, p) } -> std::same_as<Mat<3>>;
+  { law.isochoric_energy(F) } -> std::same_as<double>;
+  { law.isochoric_energy(F, F, p) } -> std::same_as<double>;
+  { law.volume_ratio(F) } -> std::same_as<double>;
 };
 
 template <class... Law>
 struct LawList {
   static_assert((Hyperelastic<Law> && ...), "a registered law lacks one of the questions of the concept");
+  static_assert(((!Law::volumetric_split || SplitsVolume<Law>)&&...), "a law with a split lacks one of its questions");
   static constexpr int size = sizeof...(Law);
 };
 
 /// The registered laws. Adding one: its header and one name here; its battery of tests is automatic.
-using Laws = LawList<LinearElastic, NeoHookean>;
+using Laws = LawList<LinearElastic, NeoHookean, MooneyRivlin, SaintVenantKirchhoff, CompressibleNeoHookean>;
 
 template <class F, class... Law>
 void with_law(MaterialParameters const& material, F const& f, LawList<Law...>) {

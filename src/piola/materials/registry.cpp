@@ -10,7 +10,7 @@ template <class... Law>
 constexpr auto table(LawList<Law...>) {
   static_assert(((Law::parameters.size() <= MaterialParameters::max_values) && ...));
   int index = 0;
-  return std::array{LawInfo{Law::name, Law::about, Law::parameters, index++}...};
+  return std::array{LawInfo{Law::name, Law::about, Law::parameters, Law::volumetric_split, index++}...};
 }
 
 constexpr auto all = table(Laws{});

@@ -12,7 +12,8 @@ struct LawInfo {
   std::string_view name;   ///< key `law` of a case file
   std::string_view about;  ///< one line
   std::span<Parameter const> parameters;
-  int index = 0;  ///< position in the registry; goes into MaterialParameters::law
+  bool volumetric_split = false;  ///< energy: isochoric part plus kappa/2 (J - 1)^2
+  int index = 0;                  ///< position in the registry; goes into MaterialParameters::law
 };
 
 /// A law with the values of its parameters: plain data, so that it may cross to any machine.

@@ -29,6 +29,7 @@ PIOLA_FN double maximum(double a, double b) { return a > b ? a : b; }
 PIOLA_FN double square_root(double a) { return std::sqrt(a); }
 PIOLA_FN bool any(bool condition) { return condition; }
 PIOLA_FN double power_minus_third_exact(double a) { return 1.0 / std::cbrt(a); }
+PIOLA_FN double logarithm_exact(double a) { return std::log(a); }
 
 #if PIOLA_HAS_PACKS
 /// One value for each of several neighbouring particles, as wide as the processor likes it.
@@ -47,6 +48,11 @@ PIOLA_FN bool any(Lanes::mask_type const& condition) { return any_of(condition);
 PIOLA_FN Lanes power_minus_third_exact(Lanes const& a) {
   Lanes r = a;
   for (int l = 0; l < lane_count; ++l) r[l] = 1.0 / std::cbrt(static_cast<double>(a[l]));
+  return r;
+}
+PIOLA_FN Lanes logarithm_exact(Lanes const& a) {
+  Lanes r = a;
+  for (int l = 0; l < lane_count; ++l) r[l] = std::log(static_cast<double>(a[l]));
   return r;
 }
 PIOLA_FN Lanes load(double const* p, Lanes) { return Lanes(p, std::experimental::element_aligned); }

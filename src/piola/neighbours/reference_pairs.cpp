@@ -45,7 +45,7 @@ ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrd
 double ReferencePairs::s_of(double r2) const {
   double const h = options_.h_gradient, r = std::sqrt(r2);
   double const scale = options_.kernel->sigma(dimension_) / std::pow(h, dimension_ + 1);
-  return -kernel_volume_ * scale * options_.kernel->dw(r / h) / r;
+  return -kernel_volume_ * scale * options_.kernel->dw(dimension_, r / h) / r;
 }
 
 double ReferencePairs::l_of(double r2) const {
@@ -53,12 +53,13 @@ double ReferencePairs::l_of(double r2) const {
   if (h <= 0) return 0;
   double const r = std::sqrt(r2);
   double const scale = options_.kernel->sigma(dimension_) / std::pow(h, dimension_ + 1);
-  return -2 * kernel_volume_ * scale * options_.kernel->dw(r / h) / r;
+  return -2 * kernel_volume_ * scale * options_.kernel->dw(dimension_, r / h) / r;
 }
 
 double ReferencePairs::kernel_of(double r2) const {
   double const h = options_.h_laplacian;
-  return options_.kernel->sigma(dimension_) / std::pow(h, dimension_) * options_.kernel->w(std::sqrt(r2) / h);
+  return options_.kernel->sigma(dimension_) / std::pow(h, dimension_) *
+         options_.kernel->w(dimension_, std::sqrt(r2) / h);
 }
 
 void ReferencePairs::find_offsets(Body const& body) {

@@ -8,10 +8,14 @@
 #include "piola/setup/shapes.hpp"
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 
 namespace piola {
@@ -30,6 +34,14 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+MaterialParameters rubber() {
+  MaterialParameters material;
+  material.law = find_law("neo_hookean")->index;
+  std::array const values{1100.0, 17e6, 0.45};
+  std::copy(values.begin(), values.end(), material.value);
+  return material;
+}
+
 Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::string const& machine) {
   Assembly a;
   ShapeSpec shape;
@@ -37,11 +49,7 @@ Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::str
   shape.max = {1, 1, 1};
   shape.jitter = jitter;
   fill(shape, "cube", a.particles);
-  MaterialParameters material;
-  material.law = find_law("neo_hookean")->index;
-  std::array const values{1100.0, 17e6, 0.45};
-  std::copy(values.begin(), values.end(), material.value);
-  a.materials = {material};
+  a.materials = {rubber()};
   a.formulations = {FormulationSpec{"jst_sph", {}, {{"scheme", scheme}}}};
   for (auto const& X : a.particles.X) a.initial_velocity.push_back({-5 * (X[1] - 0.5), 5 * (X[0] - 0.5), 0});
   a.machine = machine;
@@ -87,6 +95,97 @@ void measure_peaks(BenchReport& report, jst_sph::Machine const& machine) {
   report.copy_bytes_per_second = 2.0 * sizeof(double) * n / copied;
 }
 
+double mean_neighbours(Formulation const& formulation, Assembly const& assembly) {
+  std::vector<double> neighbours(assembly.particles.X.size());
+  formulation.sample("Neighbours", neighbours);
+  return std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / static_cast<double>(neighbours.size());
+}
+
+/// The column of Lee et al. 2016, example 8.5: 1 m x 6 m x 1 m, foot clamped, omega = 105 sin(pi Y / 12) rad/s about Y.
+Assembly twisting_column(std::array<int, 3> const& particles, std::string const& machine) {
+  Assembly a;
+  ShapeSpec shape;
+  shape.particles = particles;
+  shape.min = {-0.5, 0, -0.5};
+  shape.max = {0.5, 6, 0.5};
+  fill(shape, "column", a.particles);
+  a.materials = {rubber()};
+  a.formulations = {FormulationSpec{"jst_sph", {}, {}}};
+  Support foot;
+  foot.fix = {true, true, true};
+  for (std::int64_t id = 0; id < a.particles.size(); ++id) {
+    auto const& X = a.particles.X[static_cast<std::size_t>(id)];
+    double const omega = 105 * std::sin(std::numbers::pi * X[1] / 12);
+    a.initial_velocity.push_back({omega * X[2], 0, -omega * X[0]});
+    if (X[1] < 1e-9) foot.particles.push_back(id);
+  }
+  a.supports.push_back(foot);
+  a.machine = machine;
+  return a;
+}
+
+void one_thread() {
+  exec_host::set_threads(1);
+  exec_host::pin_threads();
+}
+
+void measure_column(BenchReport& report, BenchOptions const& options) {
+  struct Choice {
+    char const* name;
+    std::map<std::string, double, std::less<>> numbers;
+  };
+  Choice const choices[] = {{"default, one support 1.2", {{"gradient_support", 1.2}, {"laplacian_support", 1.2}}},
+                            {"default", {}}};
+  one_thread();
+  for (auto const& choice : choices) {
+    Assembly assembly = twisting_column(options.column_particles, report.machine);
+    assembly.formulations[0].numbers = choice.numbers;
+    report.column_particles = static_cast<long>(assembly.particles.size());
+    auto const formulation = make_formulation(assembly);
+    ColumnRow row{choice.name, mean_neighbours(*formulation, assembly), options.column_steps};
+    double const start = cpu_seconds();
+    for (int k = 0; k < row.steps; ++k) {
+      double const dt = formulation->stable_time_step();
+      formulation->step(row.simulated, dt);
+      row.simulated += dt;
+    }
+    row.cpu = cpu_seconds() - start;
+    report.column.push_back(row);
+  }
+}
+
+void measure_variables(BenchReport& report, BenchOptions const& options) {
+  struct Choice {
+    char const *name, *variables, *filter;
+  };
+  constexpr Choice choices[] = {{"{p,F}, no filter", "pF", "off"},
+                                {"{p,F}, filter", "pF", "on"},
+                                {"{p,F,J}, filter", "pFJ", "on"},
+                                {"{p,F,H,J}, filter", "pFHJ", "on"}};
+  one_thread();
+  std::vector<std::unique_ptr<Formulation>> formulations;
+  std::vector<double> cpu(std::size(choices), std::numeric_limits<double>::infinity());
+  int const side = std::min(options.particles_per_side, 48);
+  for (auto const& choice : choices) {
+    Assembly assembly = spinning_cube(side, "filtered", 0, report.machine);
+    assembly.formulations[0].words["variables"] = choice.variables;
+    assembly.formulations[0].words["volumetric_filter"] = choice.filter;
+    report.variables_particles = static_cast<long>(assembly.particles.size());
+    formulations.push_back(make_formulation(assembly));
+    report.variables.push_back({choice.name, mean_neighbours(*formulations.back(), assembly)});
+  }
+  // In turns, so that what else the machine does meets all of them.
+  for (int round = 0; round < options.repeats; ++round)
+    for (std::size_t k = 0; k < formulations.size(); ++k)
+      cpu[k] = std::min(cpu[k], fastest_step(*formulations[k], 1).cpu);
+  for (std::size_t k = 0; k < formulations.size(); ++k) {
+    double const stages = formulations[k]->stages_per_step() * static_cast<double>(report.variables_particles);
+    report.variables[k].right_sides_per_cpu_second = stages / cpu[k];
+    report.variables[k].relative_cost =
+        report.variables[0].right_sides_per_cpu_second / report.variables[k].right_sides_per_cpu_second;
+  }
+}
+
 struct Subject {
   char const* name;
   char const* scheme;
@@ -94,37 +193,25 @@ struct Subject {
   bool scalar, counted;
 };
 
-}  // namespace
-
-BenchReport bench_jst_sph(BenchOptions const& options) {
-  jst_sph::Machine const* const machine = jst_sph::find_machine(options.machine.c_str());
-  if (machine == nullptr)
-    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
-  BenchReport report;
-  report.machine = machine->name;
-  report.lanes = machine->lanes;
-  exec_host::set_threads(1);
-  exec_host::pin_threads();
-  measure_peaks(report, *machine);
+void measure_rates(BenchReport& report, BenchOptions const& options) {
   constexpr Subject subjects[] = {{"paper, regular lattice", "paper", 0, false, true},
                                   {"paper, jittered (lists)", "paper", 0.2, false, false},
                                   {"robust, regular lattice", "robust", 0, false, false},
                                   {"paper, plain scalar path", "paper", 0, true, false}};
   for (auto const& subject : subjects) {
     auto const assembly = spinning_cube(options.particles_per_side, subject.scheme, subject.jitter,
-                                        subject.scalar ? "scalar" : machine->name);
+                                        subject.scalar ? "scalar" : report.machine);
     auto const formulation = make_formulation(assembly);
     auto const particles = static_cast<double>(assembly.particles.size());
     report.particles = static_cast<long>(assembly.particles.size());
-    std::vector<double> neighbours(assembly.particles.X.size());
-    formulation->sample("Neighbours", neighbours);
+    double const neighbours = mean_neighbours(*formulation, assembly);
     for (int const threads : options.threads) {
       exec_host::set_threads(threads);
       exec_host::pin_threads();
       Timing const best = fastest_step(*formulation, options.repeats);
       double const stages = formulation->stages_per_step() * particles;
-      BenchRow row{subject.name, subject.scalar ? "scalar" : machine->name, threads};
-      row.neighbours = std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / particles;
+      BenchRow row{subject.name, subject.scalar ? "scalar" : report.machine, threads};
+      row.neighbours = neighbours;
       row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / particles;
       row.stages_per_second = stages / best.wall;
       row.stages_per_cpu_second = stages * threads / best.cpu;
@@ -139,6 +226,22 @@ BenchReport bench_jst_sph(BenchOptions const& options) {
       report.rows.push_back(row);
     }
   }
+}
+
+}  // namespace
+
+BenchReport bench_jst_sph(BenchOptions const& options) {
+  jst_sph::Machine const* const machine = jst_sph::find_machine(options.machine.c_str());
+  if (machine == nullptr)
+    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
+  BenchReport report;
+  report.machine = machine->name;
+  report.lanes = machine->lanes;
+  one_thread();
+  measure_peaks(report, *machine);
+  if (options.rates) measure_rates(report, options);
+  if (options.column) measure_column(report, options);
+  if (options.variables) measure_variables(report, options);
   return report;
 }
 
@@ -163,29 +266,77 @@ std::string to_json(BenchReport const& report) {
                          {"stages_per_second", row.stages_per_second},
                          {"stages_per_cpu_second", row.stages_per_cpu_second},
                          {"roofline_fraction", row.roofline_fraction}});
+  for (auto const& row : report.column)
+    j["column"].push_back({{"name", row.name},
+                           {"particles", report.column_particles},
+                           {"neighbours", row.neighbours},
+                           {"steps", row.steps},
+                           {"simulated_seconds", row.simulated},
+                           {"cpu_seconds", row.cpu},
+                           {"simulated_ms_per_cpu_second", row.milliseconds_per_cpu_second()}});
+  for (auto const& row : report.variables)
+    j["variables"].push_back({{"name", row.name},
+                              {"particles", report.variables_particles},
+                              {"neighbours", row.neighbours},
+                              {"right_sides_per_cpu_second", row.right_sides_per_cpu_second},
+                              {"relative_cost", row.relative_cost}});
   return j.dump(2) + "\n";
 }
 
-std::string to_text(BenchReport const& report) {
+namespace {
+
+std::string rates_text(BenchReport const& report) {
   std::string text = fmt::format(
-      "JST-SPH, full right-hand side of {{p,F}}: whole time steps of {} particles, double, threads pinned\n"
-      "machine {}: {:.2f} G vector multiply-adds/s of {} lanes, copy {:.1f} GB/s (one core)\n"
+      "\nfull right-hand side of {{p,F}}, whole time steps of {} particles, threads pinned\n"
       "roofline of the regular lattice: arithmetic {:.1f} M, memory {:.1f} M particle-stages/s per core ({:.0f} "
-      "operations per pair, "
-      "{:.0f} bytes per stage)\n\n"
+      "operations per pair, {:.0f} bytes per stage)\n"
       "{:<28} {:>8} {:>8} {:>6} {:>11} {:>13} {:>13} {:>9}\n",
-      report.particles, report.machine, report.fma_per_second * 1e-9, report.lanes, report.copy_bytes_per_second * 1e-9,
-      report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair, report.bytes_per_stage,
-      "", "machine", "threads", "pairs", "bytes/part.", "M stages/s", "M st./cpu s", "roofline");
+      report.particles, report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair,
+      report.bytes_per_stage, "", "machine", "threads", "pairs", "bytes/part.", "M stages/s", "M st./cpu s",
+      "roofline");
   for (auto const& row : report.rows) {
     std::string const fraction = row.roofline_fraction > 0 ? fmt::format("{:.0f} %", 100 * row.roofline_fraction) : "";
     text += fmt::format("{:<28} {:>8} {:>8} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f} {:>9}\n", row.name, row.machine,
                         row.threads, row.neighbours, row.bytes_per_particle, row.stages_per_second * 1e-6,
                         row.stages_per_cpu_second * 1e-6, fraction);
   }
-  text +=
-      "\nM stages/s: by wall time; M st./cpu s: by processor time, the figure to compare on a machine that others use "
-      "too\n";
+  return text +
+         "M stages/s: by wall time; M st./cpu s: by processor time, the figure to compare on a machine that others use "
+         "too\n";
+}
+
+std::string column_text(BenchReport const& report) {
+  std::string text = fmt::format(
+      "\ntwisting column, {} particles, default scheme, one thread\n"
+      "{:<28} {:>6} {:>8} {:>13} {:>9} {:>26}\n",
+      report.column_particles, "", "pairs", "steps", "simulated ms", "cpu s", "simulated ms per cpu second");
+  for (auto const& row : report.column)
+    text += fmt::format("{:<28} {:>6.1f} {:>8} {:>13.3f} {:>9.2f} {:>26.2f}\n", row.name, row.neighbours, row.steps,
+                        1e3 * row.simulated, row.cpu, row.milliseconds_per_cpu_second());
+  return text;
+}
+
+std::string variables_text(BenchReport const& report) {
+  std::string text = fmt::format(
+      "\nunknowns and filter, default scheme, {} particles, one thread\n"
+      "{:<28} {:>6} {:>26} {:>24}\n",
+      report.variables_particles, "", "pairs", "M right-hand sides/cpu s", "time per right-hand side");
+  for (auto const& row : report.variables)
+    text += fmt::format("{:<28} {:>6.1f} {:>26.2f} {:>24.2f}\n", row.name, row.neighbours,
+                        row.right_sides_per_cpu_second * 1e-6, row.relative_cost);
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(BenchReport const& report) {
+  std::string text = fmt::format(
+      "JST-SPH on this machine, double precision\n"
+      "machine {}: {:.2f} G vector multiply-adds/s of {} lanes, copy {:.1f} GB/s (one core)\n",
+      report.machine, report.fma_per_second * 1e-9, report.lanes, report.copy_bytes_per_second * 1e-9);
+  if (!report.rows.empty()) text += rates_text(report);
+  if (!report.column.empty()) text += column_text(report);
+  if (!report.variables.empty()) text += variables_text(report);
   return text;
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
 namespace piola {
 
 struct BenchOptions {
+  bool rates = true, column = true, variables = true;  ///< what to measure
   int particles_per_side = 64;
+  std::array<int, 3> column_particles{26, 157, 26};
+  int column_steps = 40;
   int repeats = 8;  ///< time steps per measurement; the fastest counts
   std::vector<int> threads{1, 2};
   std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
@@ -24,8 +28,26 @@ struct BenchRow {
   double roofline_fraction = 0;      ///< of the smaller of both bounds below, on the CPU-time figure; 0: not defined
 };
 
+/// How far the twisting column gets in a second of processor time, one thread, set-up left out.
+struct ColumnRow {
+  std::string name;
+  double neighbours = 0;  ///< per particle, mean
+  int steps = 0;
+  double simulated = 0;  ///< s
+  double cpu = 0;        ///< s
+  double milliseconds_per_cpu_second() const { return 1e3 * simulated / cpu; }
+};
+
+/// Right-hand sides of one choice of unknowns, one thread; all choices take turns in the same run.
+struct VariablesRow {
+  std::string name;
+  double neighbours = 0;                  ///< per particle, mean
+  double right_sides_per_cpu_second = 0;  ///< of one particle
+  double relative_cost = 1;               ///< time per right-hand side over that of the first row
+};
+
 struct BenchReport {
-  long particles = 0;
+  long particles = 0, column_particles = 0, variables_particles = 0;
   std::string machine;        ///< instruction set that "auto" found
   double fma_per_second = 0;  ///< vector multiply-adds per second and core
   int lanes = 1;
@@ -34,10 +56,15 @@ struct BenchReport {
   double bytes_per_stage = 0;        ///< bytes moved per particle and stage with perfect reuse of neighbours
   double arithmetic_bound = 0, memory_bound = 0;  ///< particle-stages per second and core
   std::vector<BenchRow> rows;
+  std::vector<ColumnRow> column;
+  std::vector<VariablesRow> variables;
 };
 
-/// Full right-hand side of {p,F} JST-SPH inside the real solver: `paper` supports (about 54 neighbours), both Laplacian
-/// sweeps, projections, cubic spline, neo-Hookean, double.
+/// Measures inside the real solver, cubic spline, neo-Hookean, double:
+///  - rates: the full right-hand side of {p,F} JST-SPH, `paper` supports (about 54 neighbours), both Laplacian sweeps,
+///    projections;
+///  - column: simulated time per processor time of the twisting column with the default scheme;
+///  - variables: the cost of the filter and of evolved J and H beside plain {p,F}.
 BenchReport bench_jst_sph(BenchOptions const& options);
 
 std::string to_json(BenchReport const& report);

@@ -34,7 +34,7 @@ TEST(VolumetricFilter, HasRowSumsOfOneWithPositiveDiagonalOnRegularAndJitteredBo
       volume[static_cast<std::size_t>(i)] = set.volume[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)])];
     auto const filter = pairs.make_filter(volume);
     double const h = options.h_laplacian;
-    double const self = options.kernel->sigma(3) / (h * h * h) * options.kernel->w(0);
+    double const self = options.kernel->sigma(3) / (h * h * h) * options.kernel->w(3, 0);
     for (Index i = 0; i < order.particles; ++i) {
       auto const k = static_cast<std::size_t>(i);
       double const diagonal = filter.scale[k] * filter.scale[k] * self * volume[k];

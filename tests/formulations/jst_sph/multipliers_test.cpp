@@ -22,7 +22,7 @@ Point interpolated(Assembly const& a, Values const& f, std::size_t B, int n) {
   auto const each = [&](auto const& use) {
     for (std::size_t k = 0; k < X.size(); ++k) {
       double const p[3] = {1, X[k][0] - X[B][0], X[k][1] - X[B][1]}, q = std::hypot(p[1], p[2]) / h;
-      if (q < 2) use(k, p, kernel->w(q));
+      if (q < 2) use(k, p, kernel->w(2, q));
     }
   };
   each([&](std::size_t, double const* p, double w) {

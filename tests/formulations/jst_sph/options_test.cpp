@@ -56,6 +56,45 @@ TEST(JstOptions, RefuseWhatTheSchemesDoNotHave) {
   EXPECT_THROW((void)options({{"scheme", "robust"}, {"gradient", "corrected_kernel"}}), InputError) << "two supports";
 }
 
+MaterialParameters stiff_in_volume(std::string_view law) {
+  MaterialParameters material = rubber(0.49);
+  material.law = find_law(law)->index;
+  return material;
+}
+
+TEST(JstOptions, FilterLawsWithAVolumetricPartAlone) {
+  FormulationSpec const on{"jst_sph", {}, {{"volumetric_filter", "on"}}};
+  for (LawInfo const& law : laws()) {
+    MaterialParameters const material = stiff_in_volume(law.name);
+    EXPECT_EQ(read_options({"jst_sph", {}, {}}, material, std::nan("")).filter, law.volumetric_split) << law.name;
+    if (law.volumetric_split) {
+      EXPECT_TRUE(read_options(on, material, std::nan("")).filter) << law.name;
+    } else {
+      EXPECT_THROW((void)read_options(on, material, std::nan("")), InputError) << law.name;
+    }
+  }
+}
+
+TEST(JstOptions, SayWhichLawsTheFilterCanWorkWith) {
+  FormulationSpec const on{"jst_sph", {}, {{"volumetric_filter", "on"}}};
+  try {
+    (void)read_options(on, stiff_in_volume("saint_venant_kirchhoff"), std::nan(""));
+    FAIL() << "was accepted";
+  } catch (InputError const& error) {
+    std::string const text = error.what();
+    EXPECT_NE(text.find("volumetric_filter"), std::string::npos) << text;
+    EXPECT_NE(text.find("saint_venant_kirchhoff is none"), std::string::npos) << text;
+    EXPECT_NE(text.find("linear_elastic, neo_hookean, mooney_rivlin"), std::string::npos) << text;
+  }
+}
+
+TEST(JstOptions, TakeTheExactWaveSpeedForLawsThatStiffenInTension) {
+  for (LawInfo const& law : laws())
+    EXPECT_EQ(read_options({"jst_sph", {}, {}}, stiff_in_volume(law.name), std::nan("")).exact_speed,
+              !law.volumetric_split)
+        << law.name;
+}
+
 TEST(JstOptions, OfTheRobustSchemeAreTheCompactSet) {
   Options const o = options({{"scheme", "robust"}});
   EXPECT_EQ(o.integrator, Integrator::tvd_rk2);

@@ -46,7 +46,7 @@ std::vector<NearParticle> interpolation(Cloud const& cloud, CellGrid const& grid
     Point r{};
     for (std::size_t c = 0; c < 3; ++c) r[c] = (cloud.X[static_cast<std::size_t>(a)][c] - X[c]) / cloud.h;
     double const q = std::sqrt(dot(r, r));
-    if (q < cloud.kernel->support) near.push_back({a, r, cloud.kernel->w(q)});
+    if (q < cloud.kernel->support) near.push_back({a, r, cloud.kernel->w(cloud.dimension, q)});
   });
   std::sort(near.begin(), near.end(), [](auto const& a, auto const& b) { return a.slot < b.slot; });
   bool const good = cloud.dimension == 3   ? correct_linearly<3>(near)

@@ -66,6 +66,7 @@ double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, I
     if (k.kappa_filtered > 0) return law.kappa / k.kappa_filtered * JstBody::value(body.state().filtered_pressure, i);
     if (evolves_volume(body)) return law.kappa * (body.J(i) - 1);
   }
+  if (evolves_volume(body)) return contract(law.stress(F, body.H(i), body.J(i)), F) / (3 * determinant(F));
   return law.pressure(F);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include "piola/materials/laws.hpp"
 #include <array>
 #include <cmath>
@@ -14,7 +15,8 @@ constexpr std::array<std::string_view, 3> gradient_words{"corrected", "uncorrect
 constexpr std::array<std::string_view, 4> force_words{"as_gradient", "corrected", "uncorrected", "corrected_kernel"};
 constexpr std::array<std::string_view, 2> wave_speed_words{"estimate", "exact"};
 constexpr std::array<std::string_view, 3> scheme_words{"filtered", "robust", "paper"};
-constexpr std::array<std::string_view, 1> kernel_words{"cubic_spline"};
+constexpr std::array<std::string_view, 5> kernel_words{"cubic_spline", "quartic_spline", "quintic_spline",
+                                                       "wendland_c2", "wendland_c4"};
 constexpr std::array<std::string_view, 3> biharmonic_words{"as_scheme", "adjoint", "literal"};
 constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
 constexpr std::array<std::string_view, 3> integrator_words{"as_scheme", "verlet", "tvd_rk2"};
@@ -31,13 +33,15 @@ constexpr std::array choices{
            "filtered: no locking, smooth pressure, one right-hand side per step; robust: compact gradient, dissipative "
            "biharmonic, Runge-Kutta; paper: the supports and operators as printed",
            scheme_words},
-    Choice{"kernel", "smoothing kernel", kernel_words},
+    Choice{"kernel", "smoothing kernel; support 2h, quartic_spline 2.5h, quintic_spline 3h", kernel_words},
     Choice{"biharmonic", "adjoint: -L*(eps4 c h^3 L p), never feeds energy; literal: -eps4 c h^3 L(L p), eq. 37b",
            biharmonic_words},
     Choice{"integrator", "verlet: kick, drift, kick; tvd_rk2: two stages, eq. 43", integrator_words},
     Choice{"stabilisation_speed",
            "wave speed in the stabilisation: shear: that of shear-type modes; pressure: c_p, eqs. 36-37", speed_words},
-    Choice{"volumetric_filter", "filter the volumetric energy: as_scheme: for Poisson's ratios from 0.45 on",
+    Choice{"volumetric_filter",
+           "filter the volumetric energy: as_scheme: for Poisson's ratios from 0.45 on, with laws whose energy is an "
+           "isochoric part plus kappa/2 (J - 1)^2",
            filter_words},
     Choice{"gradient",
            "corrected: eq. 21; uncorrected: eq. 22; corrected_kernel: corrected gradient of the corrected kernel, eq. "
@@ -49,7 +53,7 @@ constexpr std::array choices{
            force_words},
     Choice{"wave_speed",
            "estimate: c_p at rest over the smallest stretch; exact: from the law's tangent in the "
-           "principal directions",
+           "principal directions, always so for laws without an isochoric part of their energy",
            wave_speed_words},
     Choice{"supports",
            "direct: supported particles get the prescribed velocity; multipliers: the velocity that the kernel "
@@ -71,7 +75,8 @@ constexpr std::array parameters{
     Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings (1.2)",
               Interval{0.5, 3, true, false}, no_default}};
 
-constexpr std::array<std::string_view, 2> usable_laws{"linear_elastic", "neo_hookean"};
+constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
+                                                      "saint_venant_kirchhoff", "compressible_neo_hookean"};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) {
   auto const given = spec.words.find(name);
@@ -154,6 +159,21 @@ void check(Options const& o) {
         o.gradient_support, o.laplacian_support));
 }
 
+/// Refuses a volumetric filter for a law whose energy has no volumetric part of its own.
+void check_filter(Options const& o, MaterialParameters const& material) {
+  LawInfo const* law = nullptr;
+  std::vector<std::string> able;
+  for (auto const& known : laws()) {
+    if (known.index == material.law) law = &known;
+    if (known.volumetric_split) able.emplace_back(known.name);
+  }
+  if (!o.filter || law == nullptr || law->volumetric_split) return;
+  throw InputError(fmt::format(
+      "formulation: volumetric_filter = \"on\" needs a law whose energy is an isochoric part plus kappa/2 (J - 1)^2, "
+      "and {} is none - leave volumetric_filter out or choose one of the laws {}",
+      law->name, joined(able)));
+}
+
 }  // namespace
 
 Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl) {
@@ -165,7 +185,6 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.gradient = form_of(word(spec, "gradient"));
   auto const force = word(spec, "internal_force");
   o.force = force == "as_gradient" ? o.gradient : form_of(force);
-  o.exact_speed = word(spec, "wave_speed") == "exact";
   o.eps2_J = number(spec, "eps2_volume", 0);
   o.eps4_J = number(spec, "eps4_volume", 0);
   o.kernel = find_kernel(word(spec, "kernel"));
@@ -184,12 +203,19 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   // From Poisson's ratio 0.45 on: kappa / mu = 2 (1 + nu) / (3 (1 - 2 nu)).
   constexpr double nearly_incompressible = 9.666;
   double ratio = 0;
-  with_law(material, [&](auto const& law) { ratio = law.kappa / law.mu; });
-  bool const by_scheme = filtered && !displacement && ratio > nearly_incompressible;
+  bool split = false;
+  with_law(material, [&](auto const& law) {
+    ratio = law.kappa / law.mu;
+    split = law.volumetric_split;
+  });
+  bool const by_scheme = filtered && !displacement && split && ratio > nearly_incompressible;
+  // The estimate c_p0 / lambda_min is a bound for nearly incompressible solids, not for laws that stiffen in tension.
+  o.exact_speed = word(spec, "wave_speed") == "exact" || !split;
   o.filter = chosen(spec, "volumetric_filter", by_scheme ? "on" : "off") == "on";
   o.filter_passes = static_cast<int>(number(spec, "filter_passes", 2));
   o.cfl = !std::isnan(cfl) ? cfl : verlet ? 0 : 0.3;
   check(o);
+  check_filter(o, material);
   return o;
 }
 

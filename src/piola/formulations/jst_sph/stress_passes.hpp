@@ -47,12 +47,13 @@ struct EvolvedGeometry {
 };
 
 /// c_p of a particle: c_p0 / lambda_min, or from the largest modulus of the law in the principal directions (step 2 of
-/// Algorithm 1).
+/// Algorithm 1). Never below the speed of shear waves at rest: laws that soften under compression lose their modulus
+/// there.
 template <class Law>
 PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F) {
   if (k.exact_speed) {
     Vec<3, Lanes> const l = principal_stretches_squared(F);
-    Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(0.0));
+    Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
     return square_root((1.0 / k.rho0) * modulus);
   }
   return k.c_p0 / square_root(maximum(smallest_stretch_squared(F), Lanes(1e-12)));
