@@ -20,7 +20,6 @@ constexpr Interval half_open{0, 0.5, false, true};
 constexpr std::array<std::string_view, 5> machine_words{"auto", "scalar", "v2", "v3", "v4"};
 constexpr std::array<std::string_view, 2> placement_words{"on_boundary", "cell_centred"};
 constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
-constexpr std::array<std::string_view, 2> mirror_words{"symmetric", "skew"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 7> probe_words{"point", "average", "maximum", "minimum",
                                                       "twist", "extent",  "error"};
@@ -240,15 +239,6 @@ constexpr std::array keys{
 
     KeyInfo{"mirror", "body", name, "", {}, "", "name of the body, a box with particles on its faces", {}},
     KeyInfo{"mirror", "face", word, "", {}, "", "the face that is the plane of symmetry", face_words},
-    KeyInfo{"mirror",
-            "kind",
-            word,
-            "",
-            {},
-            "\"symmetric\"",
-            "symmetric: no velocity across the plane; skew: none along it, the image moves the opposite way (small "
-            "strains)",
-            mirror_words},
 
     KeyInfo{"probe", "name", name, "", {}, "", "first part of the column names", {}},
     KeyInfo{"probe", "body", name, "", {}, "", "name of the body", {}},

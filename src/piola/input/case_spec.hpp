@@ -67,7 +67,6 @@ struct LoadSpec {
 struct MirrorSpec {
   std::string body;
   Face face;
-  bool skew = false;  ///< the image moves the opposite way: zero velocity along the plane
   Places places;
 };
 

@@ -127,16 +127,14 @@ Hold hold_of(SupportSpec const& support, std::size_t number, ParticleSet const& 
           .ids = select_particles(particles, body, &support.where)};
 }
 
-// By symmetry the particles on a mirror never leave it; on a skew one they move along its normal alone.
+// By symmetry the particles on a mirror never leave it.
 Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& particles, Body const& body) {
   Hold hold{.name = "mirror." + std::to_string(number),
             .place = place_of(mirror.places, ""),
             .along = {},
             .velocity = {},
             .ids = face_particles(particles, body, mirror.face)};
-  auto const axis = static_cast<std::size_t>(mirror.face.axis);
-  for (std::size_t c = 0; c < static_cast<std::size_t>(particles.dimension); ++c)
-    hold.along[4 * c] = (c == axis) != mirror.skew ? 1 : 0;
+  hold.along[4 * static_cast<std::size_t>(mirror.face.axis)] = 1;
   return hold;
 }
 

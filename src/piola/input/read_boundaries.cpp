@@ -134,7 +134,6 @@ MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bod
         "a mirror needs particles on its face, but those of body " + in_quotes(body->name) +
             " are in the middle of cells (allowed: placement = \"on_boundary\") - change body.shape");
   }
-  mirror.skew = section.word_index("kind") == 1;
   section.refuse_unknown();
   mirror.places = places_of(section, {"body", "face"});
   return mirror;
