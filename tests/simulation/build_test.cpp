@@ -80,11 +80,13 @@ formulation = { name = "jst_sph" }
 [[mirror]]
 body = "second"
 face = "+z"
+skew = true
 )");
   ASSERT_EQ(a.mirrors.size(), 1u);
   EXPECT_EQ(a.mirrors[0].body, 1u);
   EXPECT_EQ(a.mirrors[0].axis, 2);
   EXPECT_TRUE(a.mirrors[0].upper);
+  EXPECT_TRUE(a.mirrors[0].skew);
 }
 
 TEST(Build, FieldsAndColumnsAreThoseThatCaseFilesKnow) {

@@ -239,6 +239,14 @@ constexpr std::array keys{
 
     KeyInfo{"mirror", "body", name, "", {}, "", "name of the body, a box with particles on its faces", {}},
     KeyInfo{"mirror", "face", word, "", {}, "", "the face that is the plane of symmetry", face_words},
+    KeyInfo{"mirror",
+            "skew",
+            flag,
+            "",
+            {},
+            "false",
+            "the image moves the opposite way: held along the plane instead of across it; for small strains",
+            {}},
 
     KeyInfo{"probe", "name", name, "", {}, "", "first part of the column names", {}},
     KeyInfo{"probe", "body", name, "", {}, "", "name of the body", {}},

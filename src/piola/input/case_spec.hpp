@@ -67,6 +67,7 @@ struct LoadSpec {
 struct MirrorSpec {
   std::string body;
   Face face;
+  bool skew = false;  ///< the image moves the opposite way
   Places places;
 };
 

@@ -127,14 +127,15 @@ Hold hold_of(SupportSpec const& support, std::size_t number, ParticleSet const& 
           .ids = select_particles(particles, body, &support.where)};
 }
 
-// By symmetry the particles on a mirror never leave it.
+// By symmetry the particles on a mirror never leave it, those on a skew one never move along it.
 Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& particles, Body const& body) {
   Hold hold{.name = "mirror." + std::to_string(number),
             .place = place_of(mirror.places, ""),
             .along = {},
             .velocity = {},
             .ids = face_particles(particles, body, mirror.face)};
-  hold.along[4 * static_cast<std::size_t>(mirror.face.axis)] = 1;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(particles.dimension); ++i)
+    hold.along[4 * i] = (static_cast<int>(i) == mirror.face.axis) != mirror.skew ? 1 : 0;
   return hold;
 }
 

@@ -127,6 +127,7 @@ MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bod
   MirrorSpec mirror;
   BodyNames const* const body = find_body(section, bodies, mirror.body);
   read_face(section, body != nullptr ? *body : BodyNames{}, "mirrors at faces", mirror.face);
+  section.read("skew", mirror.skew);
   bool const box = body != nullptr && body->shape.kind == ShapeSpec::Kind::box;
   if (box && body->shape.placement != ShapeSpec::Placement::on_boundary) {
     section.problems().add(

@@ -130,7 +130,7 @@ Assembly assemble(CaseSpec const& spec) {
   for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, a.particles));
   for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
   for (MirrorSpec const& mirror : spec.mirrors)
-    a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper});
+    a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
   return a;
 }
 
