@@ -55,7 +55,8 @@ fix = "xyw"
 
 TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
   EXPECT_EQ(message_of(sample_with("neo_hookean", "neo_hooke")),
-            "case.toml:10:20: body.material.law is \"neo_hooke\" (allowed: linear_elastic, neo_hookean) - did you mean "
+            "case.toml:10:20: body.material.law is \"neo_hooke\" (allowed: linear_elastic, neo_hookean, mooney_rivlin, "
+            "saint_venant_kirchhoff, compressible_neo_hookean) - did you mean "
             "\"neo_hookean\"?");
   EXPECT_EQ(
       message_of(sample_with("jst_sph", "mpm")),

@@ -77,9 +77,9 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
   EXPECT_TRUE(contains(ask("describe kernel cubic_spline").text, "support 2h"));
   Answer const unknown = ask("describe material neo_hooken");
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_EQ(
-      unknown.text,
-      "piola: no law is named \"neo_hooken\" (known: linear_elastic, neo_hookean) - did you mean \"neo_hookean\"?\n");
+  EXPECT_EQ(unknown.text,
+            "piola: no law is named \"neo_hooken\" (known: linear_elastic, neo_hookean, mooney_rivlin, "
+            "saint_venant_kirchhoff, compressible_neo_hookean) - did you mean \"neo_hookean\"?\n");
 }
 
 TEST(DescribeCommand, WritesTheManualPageThatIsInTheManual) {

@@ -165,7 +165,7 @@ void measure_variables(BenchReport& report, BenchOptions const& options) {
   one_thread();
   std::vector<std::unique_ptr<Formulation>> formulations;
   std::vector<double> cpu(std::size(choices), std::numeric_limits<double>::infinity());
-  int const side = std::min(options.particles_per_side, 48);
+  int const side = std::min(options.particles_per_side, 40);
   for (auto const& choice : choices) {
     Assembly assembly = spinning_cube(side, "filtered", 0, report.machine);
     assembly.formulations[0].words["variables"] = choice.variables;
