@@ -75,6 +75,10 @@ constexpr std::array parameters{
     Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings (1.2)",
               Interval{0.5, 3, true, false}, no_default}};
 
+/// What Diagnostics::more holds (observe.cpp): det F minus the volume ratio that the volumetric energy sees.
+constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"},
+                                 DiagnosticInfo{"volume_mismatch_max", "1"}};
+
 constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
                                                       "saint_venant_kirchhoff", "compressible_neo_hookean"};
 
@@ -97,7 +101,10 @@ FormulationInfo info() {
   return {"jst_sph",
           "total-Lagrangian SPH of first-order conservation laws with Jameson-Schmidt-Turkel stabilisation "
           "(Lee, Gil, Greto, Kulasegaram, Bonet 2016)",
-          parameters, choices, usable_laws};
+          parameters,
+          choices,
+          usable_laws,
+          diagnostics};
 }
 
 namespace {

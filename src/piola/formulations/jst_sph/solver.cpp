@@ -14,6 +14,8 @@ namespace {
 class Solver final : public Formulation {
   /// Share of the stability limit that is used: power iterations come from below.
   static constexpr double margin = 0.85;
+  /// A step may be this much longer than the one before: jumps shake the modes near the limit.
+  static constexpr double growth = 1.02;
 
  public:
   explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
@@ -32,12 +34,15 @@ class Solver final : public Formulation {
       double const c = machine_->largest_wave_speed(state);
       dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * state.constants.h_min / c);  // (44)
     }
+    bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
+    if (monitored && last_step_ > 0) dt = std::min(dt, growth * last_step_);
     return up_to_release(dt);
   }
 
   void step(double time, double dt) override {
     for (auto const& body : bodies_) body->step(*machine_, time, dt);
     time_ = time + dt;
+    last_step_ = dt;
     for (auto const& monitor : monitors_)
       if (monitor) monitor->update();
   }
@@ -79,12 +84,14 @@ class Solver final : public Formulation {
     throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
   }
   /// A step ends where a support or a load does: the impulse of what drives a body would else depend on the step. The
-  /// last two steps before are alike, so that neither is a sliver.
+  /// last steps before are alike, so that none is a sliver.
   double up_to_release(double dt) const {
     double rest = std::numeric_limits<double>::infinity();
     for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
-    if (rest <= dt * (1 + 1e-6)) return std::max(rest, 1e-3 * dt);
-    return rest < 2 * dt ? 0.5 * rest : dt;
+    constexpr double last_steps = 20;
+    double const steps = std::ceil(rest / dt * (1 - 1e-6));
+    if (steps <= 1) return std::max(rest, 1e-3 * dt);
+    return steps <= last_steps ? rest / steps : dt;
   }
   /// Displacement variables keep F of the last stage; observers want that of x.
   void refresh(JstBody const& body) const {
@@ -100,6 +107,7 @@ class Solver final : public Formulation {
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
+  double last_step_ = 0;                                     ///< [s]
   double time_ = 0;                                          ///< at the end of the last step [s]
 };
 
@@ -163,7 +171,8 @@ void Solver::save(StateWriter& writer) const {
     writer.put(fmt::format("body{}_energy_books", k), books);
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
   }
-  writer.put("time", {&time_, 1});
+  std::array const clock{time_, last_step_};
+  writer.put("time", clock);
 }
 
 void Solver::load(StateReader& reader) {
@@ -189,7 +198,10 @@ void Solver::load(StateReader& reader) {
     reader.get(fmt::format("body{}_step_limit", k), limit);
     monitors_[k]->restore(limit);
   }
-  reader.get("time", {&time_, 1});
+  std::array<double, 2> clock{};
+  reader.get("time", clock);
+  time_ = clock[0];
+  last_step_ = clock[1];
 }
 
 }  // namespace
