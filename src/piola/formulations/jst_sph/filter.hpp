@@ -33,9 +33,18 @@ struct KernelSums {
   }
 };
 
+/// What becomes of the last pass of B: q = kappa_f (Jf - 1), with Jf the smoothed value or, for a volume ratio that is
+/// an unknown of its own, Jf plus the smoothed increment.
+struct Compression {
+  enum class Kind { none, ratio, increment } kind = Kind::none;
+  double kappa_filtered = 0;
+  View filtered_ratio;
+  WriteView filtered_ratio_out, q;
+};
+
 /// One pass of the filter S, symmetric and doubly stochastic in the tributary volumes:
 ///   (S f)_a = f_a (1 - sum_{b != a} s_ab V_b) + sum_{b != a} s_ab V_b f_b,   s_ab = d_a W_ab d_b,
-/// of an input that is given as f and, for neighbours, as g = d V f; the output in both forms.
+/// of an input that is given as f and, for neighbours, as g = d V f; the output in both forms, or q in both forms.
 template <class Loader>
 struct Smooth {
   Loader loader;
@@ -43,14 +52,28 @@ struct Smooth {
   ReferenceView V;
   View f, d, sum;
   WriteView f_out, g_out;
+  Compression compression;
 
   PIOLA_FN void operator()(Index i) const {
     Lanes total[1];
     loader(i, body, total);
     Lanes const scaling = d.scalar<Lanes>(i);
-    Lanes const smooth = f.scalar<Lanes>(i) * (1.0 - sum.scalar<Lanes>(i)) + scaling * total[0];
-    f_out.scalar(i, smooth);
+    Lanes smooth = f.scalar<Lanes>(i) * (1.0 - sum.scalar<Lanes>(i)) + scaling * total[0];
+    if (compression.kind == Compression::Kind::none)
+      f_out.scalar(i, smooth);
+    else
+      smooth = compress(i, smooth);
     g_out.scalar(i, scaling * V.scalar<Lanes>(i) * smooth);
+  }
+
+ private:
+  PIOLA_FN Lanes compress(Index i, Lanes const& smooth) const {
+    Lanes ratio = smooth;
+    if (compression.kind == Compression::Kind::increment) ratio = ratio + compression.filtered_ratio.scalar<Lanes>(i);
+    compression.filtered_ratio_out.scalar(i, ratio);
+    Lanes const q = compression.kappa_filtered * (ratio - 1.0);
+    compression.q.scalar(i, q);
+    return q;
   }
 };
 
@@ -62,62 +85,37 @@ struct PrepareFilter {
   PIOLA_FN void operator()(Index i) const { g.scalar(i, d.scalar<Lanes>(i) * V.scalar<Lanes>(i) * f.scalar<Lanes>(i)); }
 };
 
-/// q = kappa_f (Jf - 1) and g = d V q, after Jf has taken the filtered increment where there is one.
-struct Compress {
-  double kappa_filtered;
-  bool adds;  ///< Jf += increment
-  ReferenceView V;
-  View filtered_ratio, increment, d;
-  WriteView filtered_ratio_out, q, g;
-  PIOLA_FN void operator()(Index i) const {
-    Lanes ratio = filtered_ratio.scalar<Lanes>(i);
-    if (adds) {
-      ratio = ratio + increment.scalar<Lanes>(i);
-      filtered_ratio_out.scalar(i, ratio);
-    }
-    Lanes const pressure = kappa_filtered * (ratio - 1.0);
-    q.scalar(i, pressure);
-    g.scalar(i, d.scalar<Lanes>(i) * V.scalar<Lanes>(i) * pressure);
-  }
-};
-
 /// q = B* kappa_f (B J - 1), B = S^n; S is its own adjoint in the tributary volumes.
 template <class Loader>
 class Filter {
  public:
   Filter(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
 
+  /// g of the first pass, where no other pass has left it.
+  void prepare() const {
+    exec::for_each(b_.slots, PrepareFilter{read_reference(b_.V), read(b_.volume_ratio), read(b_.filter_scale),
+                                           write(b_.filter_source[0])});
+  }
   /// Jf = B J of the volume ratios, and q.
-  void operator()() const {
-    smooth_all(b_.volume_ratio, b_.filtered_ratio);
-    pressure(false);
-  }
+  void smooth_ratio() const { smooth_all(b_.volume_ratio, Compression::Kind::ratio); }
   /// Jf += B (J increment), and q: for a volume ratio that is an unknown of its own.
-  void add_increment() const {
-    smooth_all(b_.ratio_increment, b_.ratio_increment);
-    pressure(true);
-  }
+  void add_increment() const { smooth_all(b_.ratio_increment, Compression::Kind::increment); }
 
  private:
   /// The source of the first pass is buffer 0; every pass reads one buffer and writes the other.
-  void smooth_all(FieldRef const& from, FieldRef const& to) const {
-    exec::for_each(b_.slots,
-                   PrepareFilter{read_reference(b_.V), read(from), read(b_.filter_scale), write(b_.filter_source[0])});
-    for (int k = 0; k < b_.constants.filter_passes; ++k) smooth(k, k == 0 ? from : to, to);
+  void smooth_all(FieldRef const& input, Compression::Kind kind) const {
+    int const n = b_.constants.filter_passes;
+    FieldRef const& between = kind == Compression::Kind::ratio ? b_.filtered_ratio : b_.ratio_increment;
+    for (int k = 0; k < n; ++k)
+      smooth(k, k == 0 ? input : between, between, k == n - 1 ? kind : Compression::Kind::none);
+    for (int k = n; k < 2 * n; ++k) smooth(k, b_.filtered_pressure, b_.filtered_pressure, Compression::Kind::none);
   }
 
-  /// q = kappa_f (Jf - 1), then the passes of B*.
-  void pressure(bool adds) const {
-    int const n = b_.constants.filter_passes, to = (n + 1) % 2;
-    exec::for_each(b_.slots, Compress{b_.constants.kappa_filtered, adds, read_reference(b_.V), read(b_.filtered_ratio),
-                                      read(b_.ratio_increment), read(b_.filter_scale), write(b_.filtered_ratio),
-                                      write(b_.filtered_pressure), write(b_.filter_source[to])});
-    for (int k = 0; k < n; ++k) smooth(n + 1 + k, b_.filtered_pressure, b_.filtered_pressure);
-  }
-
-  void smooth(int pass_number, FieldRef const& from, FieldRef const& to) const {
+  void smooth(int pass_number, FieldRef const& from, FieldRef const& to, Compression::Kind kind) const {
     FieldRef const &source = b_.filter_source[pass_number % 2], &next = b_.filter_source[(pass_number + 1) % 2];
     halo_.refresh(source);
+    Compression const compression{kind, b_.constants.kappa_filtered, read(b_.filtered_ratio), write(b_.filtered_ratio),
+                                  write(b_.filtered_pressure)};
     exec::for_each(b_.slots, Smooth<Loader>{loader_,
                                             {read_neighbours(source)},
                                             read_reference(b_.V),
@@ -125,7 +123,8 @@ class Filter {
                                             read(b_.filter_scale),
                                             read(b_.filter_sum),
                                             write(to),
-                                            write(next)});
+                                            write(next),
+                                            compression});
   }
 
   BodyState& b_;

@@ -14,8 +14,9 @@ namespace {
 class Solver final : public Formulation {
   /// Share of the stability limit that is used: power iterations come from below.
   static constexpr double margin = 0.85;
-  /// A step may be this much longer than the one before: jumps shake the modes near the limit.
-  static constexpr double growth = 1.02;
+  /// The first step takes this share of the limit and each further one may be longer by `growth`: a violent start, and
+  /// jumps of the step, would shake the modes near the limit and let the energy of a sample rise above that before.
+  static constexpr double first_share = 0.05, growth = 1.08;
 
  public:
   explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
@@ -35,7 +36,7 @@ class Solver final : public Formulation {
       dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * state.constants.h_min / c);  // (44)
     }
     bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
-    if (monitored && last_step_ > 0) dt = std::min(dt, growth * last_step_);
+    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth * last_step_ : first_share * dt);
     return up_to_release(dt);
   }
 

@@ -122,7 +122,9 @@ class Step {
       exec::for_each(b_.slots, ComputeVolumeRatio<D>{std::decay_t<decltype(law)>::small_strain,
                                                      read(stage.second ? b_.F_star : b_.F), write(b_.volume_ratio)});
     });
-    Filter<Loader>(b_, loader_)();
+    Filter<Loader> const filter(b_, loader_);
+    filter.prepare();
+    filter.smooth_ratio();
   }
 
   /// sum_b V W (u_b - u_a), of the corrected kernel's gradient                               (23)

@@ -47,6 +47,8 @@ struct Deform {
   View F_in, wave_speed_in;
   WriteView F, wave_speed, volume_ratio, w, rate;
   CarriedGeometry carried;
+  View filter_scale;
+  WriteView filter_source;  ///< what the first filter pass reads at neighbours: g = d V J, or d V times the increment
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
@@ -64,13 +66,17 @@ struct Deform {
       c = k.c_p0 / square_root(maximum(smallest_stretch_squared(full), Lanes(1e-12)));
       wave_speed.scalar(i, c);
     }
-    volume_ratio.scalar(i, small_strain ? trace(full) - 2.0 : J);
-    if (k.variables == Variables::pFJ || k.variables == Variables::pFHJ) carry(i, old, step);
+    Lanes const ratio = small_strain ? trace(full) - 2.0 : J;
+    volume_ratio.scalar(i, ratio);
+    bool const evolves = k.variables == Variables::pFJ || k.variables == Variables::pFHJ;
+    Lanes const filtered = evolves ? carry(i, old, step) : ratio;
+    if (k.kappa_filtered > 0) filter_source.scalar(i, filter_scale.scalar<Lanes>(i) * V.scalar<Lanes>(i) * filtered);
     if constexpr (Stabilised) stabilise(i, in, c);
   }
 
  private:
-  PIOLA_FN void carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step) const {
+  /// The increment of J.
+  PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step) const {
     Mat<3, Lanes> const F0 = embed<D>(old), dF = embed_rate<D>(step), middle = F0 + 0.5 * dF;
     if (k.variables == Variables::pFHJ)
       carried.H_out.matrix<3>(i, carried.H.matrix<3, Lanes>(i) + tensor_cross(middle, dF));
@@ -78,11 +84,13 @@ struct Deform {
     Lanes increment = small_strain ? trace(dF) : contract(mean, dF);
     if (k.kappa_filtered > 0) {
       if (carried.starting) increment = (small_strain ? trace(F0) - 2.0 : determinant(F0)) - 1.0;
-      return carried.increment.scalar(i, increment);
+      carried.increment.scalar(i, increment);
+      return increment;
     }
     Lanes const J = carried.J.scalar<Lanes>(i) + increment;
     record_inverted(failure, i, J, 2);
     carried.J_out.scalar(i, J);
+    return increment;
   }
 
   PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& c) const {

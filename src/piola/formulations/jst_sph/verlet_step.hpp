@@ -82,6 +82,8 @@ class VerletStep {
                                         write(b_.w),
                                         write(b_.rate),
                                         carried,
+                                        read(b_.filter_scale),
+                                        write(b_.filter_source[0]),
                                         b_.failure};
       if (filtered) return exec::for_each_then(b_.slots, sweep, exec::erased(shape));
       DeformAndWeightStress<D, Stabilised, Law> const both{shape, stress_pass(law)};
@@ -116,7 +118,7 @@ class VerletStep {
   void filter() {
     Filter<Loader> const filter(b_, loader_);
     if (b_.constants.variables == Variables::pF)
-      filter();
+      filter.smooth_ratio();
     else
       filter.add_increment();
   }
