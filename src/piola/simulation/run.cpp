@@ -21,16 +21,13 @@ Failure collapse(double stable) {
   return {.what = "time step collapsed", .body = {}, .X = {}, .x = {}, .values = {{"stable step [s]", stable}}};
 }
 
-/// The stable step, shortened by the user's bound and to hit the end time exactly: the last steps are made a little
-/// smaller, all of them alike, because a sudden short one shakes the modes that are near the stability limit. A rest of
-/// less than a millionth of a step is taken along rather than left for a step of its own.
+/// The stable step, shortened by the user's bound and to hit the end time exactly. A rest of less than a millionth of a
+/// step is taken along rather than left for a step of its own.
 double choose_step(double stable, RunSpec const& run, Moment& moment) {
   moment.bounded_by_max_step = run.max_step < stable;
   double const dt = std::min(stable, run.max_step);
   double const rest = run.end - moment.time;
-  constexpr double last_steps = 20;
-  double const steps = std::ceil(rest / dt * (1 - 1e-6));
-  return steps <= 1 ? rest : steps <= last_steps ? rest / steps : dt;
+  return dt * (1 + 1e-6) >= rest ? rest : dt;
 }
 
 }  // namespace
