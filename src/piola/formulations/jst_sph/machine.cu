@@ -15,36 +15,37 @@ struct WithScratch {
   __host__ __device__ void operator()(Index i) const { sweep(i, scratch); }
 };
 
-template <int D, class Law>
-void launch_law(Range r, UpdateStress<D, true, Law> const& stress, exec::Scratch const& scratch) {
-  exec::for_each(r, WithScratch<UpdateStress<D, true, Law>>{stress, scratch});
+template <int D, int Smoothed, class Law>
+void launch_law(Range r, UpdateStress<D, Smoothed, Law> const& stress, exec::Scratch const& scratch) {
+  exec::for_each(r, WithScratch<UpdateStress<D, Smoothed, Law>>{stress, scratch});
 }
 
-template <int D, class... Law>
+template <int D, int Smoothed, class... Law>
 void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawList<Law...>) {
-  (launch_law<D>(r, *static_cast<UpdateStress<D, true, Law> const*>(passes), scratch), ...);
+  (launch_law<D, Smoothed>(r, *static_cast<UpdateStress<D, Smoothed, Law> const*>(passes), scratch), ...);
 }
 
 template <int D, Biharmonic B>
-void launch_forces(Range r, SumForces<D, B, ListLoader<D>> const& pass, double* partial) {
-  exec::for_each_block(r, exec::BlockSums<ForceTotals<D>::size, SumForces<D, B, ListLoader<D>>>{pass, partial});
+void launch_forces(Range r, SumForces<D, B, D, ListLoader<D>> const& pass, double* partial) {
+  exec::for_each_block(r, exec::BlockSums<ForceTotals<D>::size, SumForces<D, B, D, ListLoader<D>>>{pass, partial});
 }
 
 template <int D>
 void launch_all(Range r, void const* passes, exec::Scratch const& scratch, double* partial) {
-  using Sweep = DifferentiateVelocity<D, 1, ListLoader<D>>;
+  using Sweep = DifferentiateVelocity<D, D, ListLoader<D>>;
   using Unstabilised = DifferentiateVelocity<D, 0, ListLoader<D>>;
   exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
   exec::for_each(r, WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
-  launch_laws<D>(r, passes, scratch, Laws{});
-  launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, ListLoader<D>> const*>(passes),
+  launch_laws<D, D>(r, passes, scratch, Laws{});
+  launch_laws<D, 0>(r, passes, scratch, Laws{});
+  launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, D, ListLoader<D>> const*>(passes),
                                      partial);
   launch_forces<D, Biharmonic::adjoint>(
-      r, *static_cast<SumForces<D, Biharmonic::adjoint, ListLoader<D>> const*>(passes), partial);
+      r, *static_cast<SumForces<D, Biharmonic::adjoint, D, ListLoader<D>> const*>(passes), partial);
   launch_forces<D, Biharmonic::literal>(
-      r, *static_cast<SumForces<D, Biharmonic::literal, ListLoader<D>> const*>(passes), partial);
+      r, *static_cast<SumForces<D, Biharmonic::literal, D, ListLoader<D>> const*>(passes), partial);
   exec::for_each(r, *static_cast<AdvanceMomentum<D> const*>(passes));
-  exec::for_each(r, *static_cast<ComputeWaveSpeed<D> const*>(passes));
+  exec::for_each(r, *static_cast<ComputeWaveSpeed<D, NeoHookean> const*>(passes));
   exec::for_each(r, WithScratch<StoreDeformation<D>>{*static_cast<StoreDeformation<D> const*>(passes), scratch});
   exec::for_each_item(r.last, *static_cast<HoldSupports const*>(passes));
 }
