@@ -169,7 +169,7 @@ Cost measured_cost(CaseSpec const& spec) {
   Simulation simulation = build(spec);
   Cost cost{.measured = true};
   cost.threads = simulation.threads;
-  cost.step = std::min(simulation.formulation->stable_time_step(), spec.run.max_step);
+  cost.step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
   cost.bytes = static_cast<double>(simulation.formulation->memory_bytes());
   cost.seconds = seconds_per_step(*simulation.formulation, cost.step) * spec.run.end / cost.step;
   return cost;
@@ -198,7 +198,7 @@ int check(CaseOptions const& options) {
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
   print_supports(spec, particles);
   print_loads(spec, particles);
-  fmt::print("step: {} at the start, about {} steps\n", quantity_text(cost.step, "s", 3),
+  fmt::print("step: about {}, about {} steps\n", quantity_text(cost.step, "s", 3),
              count_text(static_cast<std::int64_t>(std::min(std::ceil(spec.run.end / cost.step), 1e18))));
   fmt::print("needs: about {} of memory and {} with {} {} ({})\n", size_text(cost.bytes), duration_text(cost.seconds),
              cost.threads, cost.threads == 1 ? "thread" : "threads",

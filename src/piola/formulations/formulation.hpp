@@ -62,7 +62,9 @@ class Formulation {
  public:
   virtual ~Formulation() = default;
 
-  virtual double stable_time_step() const = 0;         ///< s, from the current state
+  virtual double stable_time_step() const = 0;  ///< s, the step to take from the current state
+  /// The step that runs go at once they have settled, where the first steps are shorter: for estimates [s].
+  virtual double settled_time_step() const { return stable_time_step(); }
   virtual void step(double time, double dt) = 0;       ///< from time to time + dt
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;

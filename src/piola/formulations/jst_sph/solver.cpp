@@ -29,15 +29,20 @@ class Solver final : public Formulation {
   }
 
   double stable_time_step() const override {
+    double dt = settled_time_step();
+    bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
+    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth * last_step_ : first_share * dt);
+    return up_to_release(dt);
+  }
+
+  double settled_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       auto& state = bodies_[k]->state();
       double const c = machine_->largest_wave_speed(state);
       dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * state.constants.h_min / c);  // (44)
     }
-    bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
-    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth * last_step_ : first_share * dt);
-    return up_to_release(dt);
+    return dt;
   }
 
   void step(double time, double dt) override {

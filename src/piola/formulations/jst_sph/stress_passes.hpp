@@ -46,17 +46,25 @@ struct EvolvedGeometry {
   WriteView H_out, J_out, J_n_out;
 };
 
+/// Smallest principal stretch of a D-dimensional body, squared. In one dimension two stretches are 1, and the smallest
+/// of a double root would carry the square root of the round-off.
+template <int D>
+PIOLA_FN Lanes smallest_stretch_squared_in(Mat<3, Lanes> const& F) {
+  if constexpr (D == 1) return minimum(F(0, 0) * F(0, 0), Lanes(1.0));
+  return smallest_stretch_squared(F);
+}
+
 /// c_p of a particle: c_p0 / lambda_min, or from the largest modulus of the law in the principal directions (step 2 of
 /// Algorithm 1). Never below the speed of shear waves at rest: laws that soften under compression lose their modulus
 /// there.
-template <class Law>
+template <int D, class Law>
 PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F) {
   if (k.exact_speed) {
     Vec<3, Lanes> const l = principal_stretches_squared(F);
     Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
     return square_root((1.0 / k.rho0) * modulus);
   }
-  return k.c_p0 / square_root(maximum(smallest_stretch_squared(F), Lanes(1e-12)));
+  return k.c_p0 / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
 }
 
 /// From the first sums to everything that the second sweep needs of a particle:
@@ -107,7 +115,7 @@ struct UpdateStress {
     F_out.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
     record_inverted(failure, i, determinant(full));
-    if (stage.second) wave_speed_next.scalar(i, wave_speed_of(law, k, full));
+    if (stage.second) wave_speed_next.scalar(i, wave_speed_of<D>(law, k, full));
     return F;
   }
 
@@ -181,7 +189,7 @@ struct ComputeWaveSpeed {
   View F;
   WriteView wave_speed;
   PIOLA_FN void operator()(Index i) const {
-    wave_speed.scalar(i, wave_speed_of(law, k, embed<D>(F.matrix<D, Lanes>(i))));
+    wave_speed.scalar(i, wave_speed_of<D>(law, k, embed<D>(F.matrix<D, Lanes>(i))));
   }
 };
 

@@ -63,7 +63,7 @@ struct Deform {
     if (k.exact_speed) {
       c = wave_speed_in.scalar<Lanes>(i);  // that of the step before; ComputeWaveSpeed follows
     } else {
-      c = k.c_p0 / square_root(maximum(smallest_stretch_squared(full), Lanes(1e-12)));
+      c = k.c_p0 / square_root(maximum(smallest_stretch_squared_in<D>(full), Lanes(1e-12)));
       wave_speed.scalar(i, c);
     }
     Lanes const ratio = small_strain ? trace(full) - 2.0 : J;
