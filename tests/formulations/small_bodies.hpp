@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/problems.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/formulations/make.hpp"
 #include "exec/thread_count.hpp"
@@ -100,6 +101,16 @@ inline Values sample(Formulation const& f, std::string_view field, std::size_t p
     }
   ADD_FAILURE() << "no field is named " << field;
   return {};
+}
+
+/// Why the formulation of an assembly is refused; "" if it is not.
+inline std::string refusal(Assembly const& a) {
+  try {
+    (void)make_formulation(a);
+  } catch (InputError const& e) {
+    return e.what();
+  }
+  return "";
 }
 
 /// n steps of dt.

@@ -5,6 +5,7 @@
 #define PIOLA_MACHINE test_packs
 #define PIOLA_MACHINE_IS_NATIVE 1
 #include "piola/materials/laws.hpp"
+#include "materials/law_types.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -32,18 +33,6 @@ struct Sample {
 
 template <class Law>
 class LawOnLanes : public ::testing::Test {};
-template <class List>
-struct TypesOf;
-template <class... Law>
-struct TypesOf<LawList<Law...>> {
-  using type = ::testing::Types<Law...>;
-};
-struct LawNames {
-  template <class Law>
-  static std::string GetName(int) {
-    return std::string(Law::name);
-  }
-};
 TYPED_TEST_SUITE(LawOnLanes, TypesOf<Laws>::type, LawNames);
 
 TYPED_TEST(LawOnLanes, GivesEachLaneItsOwnStressAndEnergy) {

@@ -2,6 +2,7 @@
 // What every registered law must do. The list of tests follows piola::Laws: a new law needs no line here.
 #include "piola/base/units.hpp"
 #include "piola/materials/laws.hpp"
+#include "materials/law_types.hpp"
 #include "math/random.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -54,18 +55,6 @@ class LawBattery : public ::testing::Test {
   }
 };
 
-template <class List>
-struct TypesOf;
-template <class... Law>
-struct TypesOf<LawList<Law...>> {
-  using type = ::testing::Types<Law...>;
-};
-struct LawNames {
-  template <class Law>
-  static std::string GetName(int) {
-    return std::string(Law::name);
-  }
-};
 TYPED_TEST_SUITE(LawBattery, TypesOf<Laws>::type, LawNames);
 
 /// Exact in real numbers; a handful of roundings of numbers as large as the stiffness.

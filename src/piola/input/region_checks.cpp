@@ -29,13 +29,6 @@ std::string point_text(Vec3 const& X, int dimension) {
   return text + ") m";
 }
 
-Body const* body_named(ParticleSet const& particles, std::string_view name) {
-  for (Body const& body : particles.bodies) {
-    if (body.name == name) return &body;
-  }
-  return nullptr;
-}
-
 std::string box_of(ParticleSet const& particles, Body const& body) {
   Vec3 low = particles.X[static_cast<std::size_t>(body.first)], high = low;
   for (std::int64_t id = body.first; id < body.last; ++id) {

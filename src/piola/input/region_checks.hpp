@@ -14,8 +14,6 @@ namespace piola {
 Place place_of(Places const& places, std::string_view key);
 /// "(0.5, 6, 0.5) m".
 std::string point_text(std::array<double, 3> const& X, int dimension);
-/// The body with this name; null if there is none.
-Body const* body_named(ParticleSet const& particles, std::string_view name);
 /// "its particles reach from ... to ...".
 std::string box_of(ParticleSet const& particles, Body const& body);
 

@@ -2,10 +2,17 @@
 #pragma once
 #include "piola/base/machine.hpp"
 #include "piola/base/parameter.hpp"
+#include "piola/math/tensor.hpp"
 #include <array>
 #include <cmath>
 
 namespace piola::inline PIOLA_MACHINE {
+
+/// The volume ratio that a law sees: det F, or 1 + tr e for small strain.
+template <class T>
+PIOLA_FN T volume_ratio_of(bool small_strain, Mat<3, T> const& F) {
+  return small_strain ? trace(F) - 2.0 : determinant(F);
+}
 
 /// Isotropic elastic constants from the two that engineers give.
 struct ElasticConstants {

@@ -39,4 +39,19 @@ PIOLA_FN double solve_in_place(double (&A)[N * N], double (&b)[N]) {
   return smallest / largest;
 }
 
+/// The inverse of a matrix (row by row), column by column; returns what solve_in_place does, for the worst column.
+template <int N>
+PIOLA_FN double invert(double const (&A)[N * N], double (&inverse)[N * N]) {
+  double worst = 1;
+  for (int column = 0; column < N; ++column) {
+    double copy[N * N], b[N];
+    for (int k = 0; k < N * N; ++k) copy[k] = A[k];
+    for (int i = 0; i < N; ++i) b[i] = i == column ? 1 : 0;
+    double const ratio = solve_in_place<N>(copy, b);
+    worst = ratio < worst ? ratio : worst;
+    for (int i = 0; i < N; ++i) inverse[i * N + column] = b[i];
+  }
+  return worst;
+}
+
 }  // namespace piola::inline PIOLA_MACHINE

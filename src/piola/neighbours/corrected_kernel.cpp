@@ -5,19 +5,14 @@
 namespace piola {
 namespace {
 
-/// C with M C = 1 for the D x D part of M, both row by row in rows of three.
+/// The inverse of the D x D part of M, both row by row in rows of three.
 template <int D>
 std::array<double, 9> inverse_of(double const (&M)[9]) {
+  double A[D * D], inverse[D * D];
+  for (int k = 0; k < D * D; ++k) A[k] = M[3 * (k / D) + k % D];
+  invert<D>(A, inverse);
   std::array<double, 9> C{};
-  for (int column = 0; column < D; ++column) {
-    double A[D * D], b[D];
-    for (int i = 0; i < D; ++i) {
-      for (int j = 0; j < D; ++j) A[i * D + j] = M[3 * i + j];
-      b[i] = i == column ? 1 : 0;
-    }
-    solve_in_place<D>(A, b);
-    for (int i = 0; i < D; ++i) C[static_cast<std::size_t>(3 * i + column)] = b[i];
-  }
+  for (int k = 0; k < D * D; ++k) C[static_cast<std::size_t>(3 * (k / D) + k % D)] = inverse[k];
   return C;
 }
 

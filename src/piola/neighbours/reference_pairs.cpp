@@ -137,16 +137,11 @@ struct Moments {
 template <int D>
 bool invert(Moments const& m, std::array<double, 6>& C) {
   static constexpr int at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-  bool good = true;
-  for (int column = 0; column < D; ++column) {
-    double A[D * D], b[D];
-    for (int i = 0; i < D; ++i) {
-      for (int j = 0; j < D; ++j) A[i * D + j] = m.M[at[i][j]];
-      b[i] = i == column ? 1 : 0;
-    }
-    good = good && solve_in_place<D>(A, b) > smallest_pivot_ratio;
-    for (int i = 0; i < D; ++i) C[static_cast<std::size_t>(at[i][column])] = b[i];
-  }
+  double A[D * D], inverse[D * D];
+  for (int k = 0; k < D * D; ++k) A[k] = m.M[at[k / D][k % D]];
+  bool const good = piola::invert<D>(A, inverse) > smallest_pivot_ratio;
+  for (int j = 0; j < D; ++j)
+    for (int i = 0; i < D; ++i) C[static_cast<std::size_t>(at[i][j])] = inverse[i * D + j];
   return good;
 }
 

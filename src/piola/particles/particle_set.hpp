@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace piola {
@@ -29,5 +30,12 @@ struct ParticleSet {
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
 };
+
+/// The body with this name; null if there is none.
+inline Body const* body_named(ParticleSet const& particles, std::string_view name) {
+  for (Body const& body : particles.bodies)
+    if (body.name == name) return &body;
+  return nullptr;
+}
 
 }  // namespace piola

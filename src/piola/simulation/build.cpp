@@ -51,9 +51,7 @@ void report_mixed_start(CaseSpec const& spec, Problems& problems) {
 }
 
 std::size_t index_of_body(std::string const& name, ParticleSet const& particles) {
-  auto const body = std::find_if(particles.bodies.begin(), particles.bodies.end(),
-                                 [&](Body const& candidate) { return candidate.name == name; });
-  return static_cast<std::size_t>(body - particles.bodies.begin());
+  return static_cast<std::size_t>(body_named(particles, name) - particles.bodies.data());
 }
 
 Support support_of(SupportSpec const& spec, ParticleSet const& particles) {

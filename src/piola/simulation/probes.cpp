@@ -14,9 +14,7 @@ namespace {
 using Point = std::array<double, 3>;
 
 Body const& find_body(ParticleSet const& particles, ProbeSpec const& spec) {
-  for (Body const& body : particles.bodies) {
-    if (body.name == spec.body) return body;
-  }
+  if (Body const* const body = body_named(particles, spec.body)) return *body;
   throw InputError(
       fmt::format("probe '{}': there is no body '{}' - give the name of a [[body]]", spec.name, spec.body));
 }

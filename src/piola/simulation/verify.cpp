@@ -103,16 +103,20 @@ std::optional<std::pair<double, std::string>> measured_by(Check const& c, nlohma
   return std::nullopt;
 }
 
-VerificationRow compare_one(std::string const& case_name, Check const& c, VariantRun const& run,
-                            VariantRun const& other) {
+/// A run with its summary read; null if it left none.
+struct ReadRun {
+  VariantRun const* run;
+  nlohmann::json summary;
+};
+
+VerificationRow compare_one(std::string const& case_name, Check const& c, ReadRun const& read, ReadRun const& other) {
   VerificationRow row = row_of(case_name, c);
-  for (VariantRun const* each : {&run, &other}) {
-    if (!each->summary.empty()) continue;
-    add_note(row, each->problem);
+  for (ReadRun const* each : {&read, &other}) {
+    if (!each->summary.is_null()) continue;
+    add_note(row, each->run->problem);
     return row;
   }
-  auto const summary = nlohmann::json::parse(run.summary), beside = nlohmann::json::parse(other.summary);
-  auto const found = measured_by(c, summary, beside, row);
+  auto const found = measured_by(c, read.summary, other.summary, row);
   if (found) {
     row.measured = found->first;
     row.unit = found->second;
@@ -123,11 +127,12 @@ VerificationRow compare_one(std::string const& case_name, Check const& c, Varian
       return row;
     }
   }
-  bool const complete = completed(summary) && completed(beside);
+  bool const complete = completed(read.summary) && completed(other.summary);
   if (!complete) add_note(row, "the run did not complete");
-  for (VariantRun const* each : {&run, &other}) {
-    if (!each->problem.empty()) add_note(row, each->problem.substr(0, each->problem.find('\n')));
-    if (&run == &other) break;
+  for (ReadRun const* each : {&read, &other}) {
+    std::string const& problem = each->run->problem;
+    if (!problem.empty()) add_note(row, problem.substr(0, problem.find('\n')));
+    if (&read == &other) break;
   }
   // A quantity that a completed run does not have is a slip, not a claim that is missed.
   if (found || !complete) judge(row, c, found && complete && holds(c, *row.measured, row.reference));
@@ -218,15 +223,18 @@ double work_of(Plan const& plan, CheckVariant const& variant, Weigh const& weigh
 
 std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
                                      std::vector<VariantRun> const& runs) {
+  std::vector<ReadRun> read;
+  for (VariantRun const& run : runs)
+    read.push_back({&run, run.summary.empty() ? nlohmann::json() : nlohmann::json::parse(run.summary)});
   auto const run_of = [&](std::string const& variant) {
-    return std::find_if(runs.begin(), runs.end(), [&](VariantRun const& run) { return run.variant == variant; });
+    return std::find_if(read.begin(), read.end(), [&](ReadRun const& each) { return each.run->variant == variant; });
   };
   std::vector<VerificationRow> rows;
-  for (VariantRun const& run : runs) {
+  for (ReadRun const& run : read) {
     for (Check const& c : checks) {
-      if (c.variant != run.variant) continue;
+      if (c.variant != run.run->variant) continue;
       auto const other = run_of(c.as == Check::As::value ? c.variant : c.relative_to);
-      if (other != runs.end()) rows.push_back(compare_one(case_name, c, run, *other));
+      if (other != read.end()) rows.push_back(compare_one(case_name, c, run, *other));
     }
   }
   return rows;

@@ -228,15 +228,6 @@ TEST(SkewMirrorPlanes, ContinueSmallMotionsTheOppositeWay) {
   }
 }
 
-std::string refusal(Assembly const& a) {
-  try {
-    (void)make_formulation(a);
-  } catch (InputError const& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST(MirrorPlanes, AreRefusedWhereTheyCannotWork) {
   Assembly a = assemble(block(2, {}, {1, 1, 0}, {6, 6, 1}));
   a.mirrors = {{0, 2, false, false}};

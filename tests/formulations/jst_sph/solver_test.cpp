@@ -238,15 +238,6 @@ TEST(TwoBodies, MoveAsEachWouldAlone) {
 
 // ---- what cannot be built
 
-std::string refusal(Assembly const& a) {
-  try {
-    (void)make_formulation(a);
-  } catch (InputError const& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST(Solver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
   Assembly a = assemble(unit_box(2, 5));
   a.machine = "abacus";

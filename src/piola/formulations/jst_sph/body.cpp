@@ -111,7 +111,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
 bool JstBody::wanted(Field const& f) const {
   bool const displacement = options_.variables == Variables::displacement,
              verlet = options_.integrator == Integrator::verlet, area = options_.variables == Variables::pFHJ,
-             volume = area || options_.variables == Variables::pFJ, smoothed_J = options_.smoothed_volume();
+             volume = evolves_volume(options_.variables), smoothed_J = options_.smoothed_volume();
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
@@ -317,7 +317,8 @@ void JstBody::fill_evolved_geometry() {
   for (Index i = 0; i < order_.slots() && (area || volume || wanted(fields_.filtered_ratio)); ++i) {
     Mat<3> const F = i < order_.particles ? this->F(i) : identity<3>(), H = cofactor(F);
     for (int c = 0; area && c < 9; ++c) fields_.H.at(i, c) = H.c[c];
-    if (volume) with_law(state_.material, [&](auto const& law) { fields_.J.at(i) = volume_ratio(law, F); });
+    if (volume)
+      with_law(state_.material, [&](auto const& law) { fields_.J.at(i) = volume_ratio_of(law.small_strain, F); });
     if (wanted(fields_.filtered_ratio)) fields_.filtered_ratio.at(i) = 1;
     if (wanted(fields_.H_star))
       for (int c = 0; c < 9; ++c) fields_.H_star.at(i, c) = H.c[c];
@@ -439,7 +440,7 @@ Mat<3> JstBody::H(Index slot) const {
 double JstBody::J(Index slot) const {
   if (wanted(fields_.J)) return value(state_.J, slot);
   double J = 0;
-  with_law(state_.material, [&](auto const& law) { J = volume_ratio(law, F(slot)); });
+  with_law(state_.material, [&](auto const& law) { J = volume_ratio_of(law.small_strain, F(slot)); });
   return J;
 }
 

@@ -13,12 +13,6 @@
 
 namespace piola::jst_sph {
 
-/// The volume ratio that a law sees: det F, or 1 + tr e for small strain.
-template <class Law>
-double volume_ratio(Law const& law, Mat<3> const& F) {
-  return law.small_strain ? trace(F) - 2 : determinant(F);
-}
-
 /// One body of a JST-SPH run: owns its memory, hands its state to the loops, answers in Id order.
 class JstBody {
  public:

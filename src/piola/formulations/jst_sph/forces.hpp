@@ -32,10 +32,7 @@ class Forces {
   Forces(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
 
   /// `time`: how long these forces act, for the books of energy [s].
-  StageBalance operator()(double time) {
-    bool const with_J = b_.constants.eps2_J > 0 || b_.constants.eps4_J > 0;
-    return with_J ? sum<D + 1>(time) : sum<D>(time);
-  }
+  StageBalance operator()(double time) { return smooths_volume(b_.constants) ? sum<D + 1>(time) : sum<D>(time); }
 
  private:
   template <int Smoothed>

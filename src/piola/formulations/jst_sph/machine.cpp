@@ -36,19 +36,11 @@ void update_deformation(BodyState& body) {
   with_step<Step>(body, [](auto one_step) { one_step.update_deformation(); });
 }
 
-template <int D>
-void wave_speed_of(BodyState& body) {
-  with_law(body.material, [&](auto const& law) {
-    exec::for_each(body.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, body.constants, read(body.F),
-                                                                                write(body.wave_speed)});
-  });
-}
-
 void update_wave_speed(BodyState& body) {
   switch (body.dimension) {
-    case 1: return wave_speed_of<1>(body);
-    case 2: return wave_speed_of<2>(body);
-    default: return wave_speed_of<3>(body);
+    case 1: return compute_wave_speed<1>(body);
+    case 2: return compute_wave_speed<2>(body);
+    default: return compute_wave_speed<3>(body);
   }
 }
 

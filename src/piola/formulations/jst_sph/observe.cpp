@@ -53,10 +53,7 @@ void add_oscillation(ParticleSet const& set, Body const& body, std::vector<doubl
 
 namespace {
 
-bool evolves_volume(JstBody const& body) {
-  auto const variables = body.options().variables;
-  return variables == Variables::pFJ || variables == Variables::pFHJ;
-}
+bool evolves_volume(JstBody const& body) { return jst_sph::evolves_volume(body.options().variables); }
 
 /// Smooth pressure (kappa / kappa_f) q where the volumetric energy is filtered.
 template <class Law>

@@ -135,7 +135,7 @@ void check(Options const& o) {
                     "far as the gradient) - raise laplacian_support or lower gradient_support",
                     o.laplacian_support, o.gradient_support));
   bool const verlet = o.integrator == Integrator::verlet;
-  bool const volume = o.variables == Variables::pFJ || o.variables == Variables::pFHJ;
+  bool const volume = evolves_volume(o.variables);
   if (o.filter && !verlet && volume)
     throw InputError(
         "formulation: volumetric_filter = \"on\" with variables = \"pFJ\" or \"pFHJ\" needs integrator = \"verlet\" - "
@@ -143,8 +143,7 @@ void check(Options const& o) {
   if (o.smoothed_volume() && !volume)
     throw InputError(
         "formulation: eps2_volume and eps4_volume stabilise an evolved volume ratio (variables = \"pFJ\" or \"pFHJ\") "
-        "- "
-        "set them to 0 or choose these variables");
+        "- set them to 0 or choose these variables");
   if (o.smoothed_volume() && (verlet || o.filter || o.shear_speed))
     throw InputError(
         "formulation: eps2_volume and eps4_volume belong to the printed scheme (integrator = \"tvd_rk2\", "
@@ -157,8 +156,7 @@ void check(Options const& o) {
   if (verlet && !usual)
     throw InputError(
         "formulation: gradient and internal_force other than \"corrected\" need integrator = \"tvd_rk2\" - choose "
-        "scheme "
-        "= \"paper\" or \"robust\", or that integrator");
+        "scheme = \"paper\" or \"robust\", or that integrator");
   if (o.corrected_kernel() && o.gradient_support != o.laplacian_support)
     throw InputError(fmt::format(
         "formulation: \"corrected_kernel\" needs one support for gradient and Laplacian (gradient_support = {}, "

@@ -206,20 +206,16 @@ struct SumMotion {
   }
 };
 
-/// Positions in the sums that SumForces makes for the projections and the energy books; x are arms from `centre`.
+/// Positions in the sums that SumForces makes for the projections and the energy books: after those of the motion.
 template <int D>
-struct ForceTotals {
-  static constexpr int x = 0;                                // sum V x
-  static constexpr int xx = x + D;                           // sum V x (x) x
-  static constexpr int T = xx + SymMat<D>::size;             // sum V a_T,  a_T = -T / rho0
+struct ForceTotals : MotionTotals<D> {
+  static constexpr int T = MotionTotals<D>::size;            // sum V a_T,  a_T = -T / rho0
   static constexpr int moment_T = T + D;                     // sum V x cross a_T
   static constexpr int stabilisation = moment_T + spins<D>;  // sum V a_D,  a_D = D / rho0
   static constexpr int moment_stabilisation = stabilisation + D;
-  static constexpr int v = moment_stabilisation + spins<D>;  // sum V v
-  static constexpr int moment_v = v + D;
-  static constexpr int power_T = moment_v + spins<D>;      // sum V v.a_T
-  static constexpr int power_stabilisation = power_T + 1;  // sum V v.a_D
-  static constexpr int J_rate = power_stabilisation + 1;   // sum V D(J)
+  static constexpr int power_T = moment_stabilisation + spins<D>;  // sum V v.a_T
+  static constexpr int power_stabilisation = power_T + 1;          // sum V v.a_D
+  static constexpr int J_rate = power_stabilisation + 1;           // sum V D(J)
   static constexpr int size = J_rate + 1;
 };
 
@@ -286,23 +282,16 @@ struct SumForces {
 
   PIOLA_FN void add(Index i, Lanes const& volume, Vec<D, Lanes> const& a_T, Vec<D, Lanes> const& a_D,
                     Lanes* total) const {
-    Vec<D, Lanes> arm = x.vector<D, Lanes>(i);
-    Vec<D, Lanes> const velocity = v.vector<D, Lanes>(i);
-    for (int c = 0; c < D; ++c) arm[c] = arm[c] - k.centre[c];
+    Vec<D, Lanes> const place = x.vector<D, Lanes>(i), velocity = v.vector<D, Lanes>(i);
+    add_motion<D>(volume, k, place, velocity, total);
+    Vec<D, Lanes> arm = place;
     for (int c = 0; c < D; ++c) {
-      Lanes const Vx = volume * arm[c];
-      total[At::x + c] = total[At::x + c] + Vx;
+      arm[c] = place[c] - k.centre[c];
       total[At::T + c] = total[At::T + c] + volume * a_T[c];
       total[At::stabilisation + c] = total[At::stabilisation + c] + volume * a_D[c];
-      total[At::v + c] = total[At::v + c] + volume * velocity[c];
-      for (int d = c; d < D; ++d) {
-        int const at = At::xx + SymMat<D>::at(c, d);
-        total[at] = total[at] + Vx * arm[d];
-      }
     }
     add_moment<D>(total + At::moment_T, volume, arm, a_T);
     add_moment<D>(total + At::moment_stabilisation, volume, arm, a_D);
-    add_moment<D>(total + At::moment_v, volume, arm, velocity);
     total[At::power_T] = total[At::power_T] + volume * dot(velocity, a_T);
     total[At::power_stabilisation] = total[At::power_stabilisation] + volume * dot(velocity, a_D);
   }

@@ -26,6 +26,7 @@ class Solver final : public Formulation {
       alpha_.push_back(options.cfl);
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
     }
+    find_largest_speeds();
   }
 
   double stable_time_step() const override {
@@ -38,9 +39,8 @@ class Solver final : public Formulation {
   double settled_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      auto& state = bodies_[k]->state();
-      double const c = machine_->largest_wave_speed(state);
-      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * state.constants.h_min / c);  // (44)
+      double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
+      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
     }
     return dt;
   }
@@ -49,8 +49,9 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) body->step(*machine_, time, dt);
     time_ = time + dt;
     last_step_ = dt;
-    for (auto const& monitor : monitors_)
-      if (monitor) monitor->update();
+    find_largest_speeds();
+    for (std::size_t k = 0; k < monitors_.size(); ++k)
+      if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
   }
 
   std::optional<Failure> failure() const override;
@@ -89,6 +90,10 @@ class Solver final : public Formulation {
     for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
     throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
   }
+  void find_largest_speeds() {
+    largest_speed_.clear();
+    for (auto const& body : bodies_) largest_speed_.push_back(machine_->largest_wave_speed(body->state()));
+  }
   /// A step ends where a support or a load does: the impulse of what drives a body would else depend on the step. The
   /// last steps before are alike, so that none is a sliver.
   double up_to_release(double dt) const {
@@ -113,6 +118,7 @@ class Solver final : public Formulation {
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
+  std::vector<double> largest_speed_;                        ///< wave speed of the state, per body [m/s]
   double last_step_ = 0;                                     ///< [s]
   double time_ = 0;                                          ///< at the end of the last step [s]
 };
@@ -151,7 +157,7 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
   f(fmt::format("body{}_velocity", number), s.v, D);
   f(fmt::format("body{}_deformation_gradient", number), s.F, D * D);
   f(fmt::format("body{}_wave_speed", number), s.wave_speed, 1);
-  bool const area = s.constants.variables == Variables::pFHJ, volume = area || s.constants.variables == Variables::pFJ;
+  bool const area = s.constants.variables == Variables::pFHJ, volume = evolves_volume(s.constants.variables);
   if (area) f(fmt::format("body{}_area_map", number), s.H, 9);
   if (volume && !(s.constants.kappa_filtered > 0)) f(fmt::format("body{}_volume_ratio", number), s.J, 1);
   if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
@@ -206,6 +212,7 @@ void Solver::load(StateReader& reader) {
   }
   std::array<double, 2> clock{};
   reader.get("time", clock);
+  find_largest_speeds();
   time_ = clock[0];
   last_step_ = clock[1];
 }

@@ -72,9 +72,8 @@ class Operator {
   /// `trial` shares its fields with the body; `F` per slot.
   Operator(JstBody& body, BodyState const& trial, Machine const& machine, std::vector<double> F)
       : body_(body), trial_(trial), machine_(machine), D_(trial.dimension), F_(std::move(F)) {
-    none_.resize(static_cast<std::size_t>(body.particles() * D_));
-    rest_ = none_;
-    rest_ = rates_at(none_);
+    rest_.resize(static_cast<std::size_t>(body.particles() * D_));
+    rest_ = rates_at(rest_);
   }
 
   /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u.
@@ -126,7 +125,7 @@ class Operator {
   BodyState trial_;
   Machine const& machine_;
   int D_;
-  std::vector<double> F_, none_, rest_;
+  std::vector<double> F_, rest_;
 };
 
 std::vector<double> current_F(JstBody& body) {
@@ -194,14 +193,14 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   damping_ = damping_per_speed(body, machine);
   kept.restore();
   mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
-  measure(first_rounds);
+  measure(first_rounds, machine.largest_wave_speed(body.state()));
   frequency_per_speed_ = frequency_ / wave_speed_;
 }
 
-void StabilityMonitor::measure(int rounds) {
+void StabilityMonitor::measure(int rounds, double wave_speed) {
   BodyState& state = body_.state();
   Kept const kept(state, state.dimension);
-  wave_speed_ = machine_.largest_wave_speed(state);
+  wave_speed_ = wave_speed;
   double most = 0;
   for (double const value : mode_) most = std::max(most, std::abs(value));
   for (std::size_t i = 0; i < mode_.size(); ++i)
@@ -215,10 +214,10 @@ void StabilityMonitor::measure(int rounds) {
   steps_ = 0;
 }
 
-void StabilityMonitor::update() {
+void StabilityMonitor::update(double wave_speed) {
   ++steps_;
-  bool const changed = std::abs(machine_.largest_wave_speed(body_.state()) / wave_speed_ - 1) > change;
-  if (steps_ >= interval || (changed && steps_ >= haste)) measure(later_rounds);
+  bool const changed = std::abs(wave_speed / wave_speed_ - 1) > change;
+  if (steps_ >= interval || (changed && steps_ >= haste)) measure(later_rounds, wave_speed);
 }
 
 double StabilityMonitor::step(double wave_speed) const {

@@ -19,8 +19,8 @@ class StabilityMonitor {
   /// Measures both from a random start.
   StabilityMonitor(JstBody& body, Machine const& machine);
 
-  /// Counts a step that was taken, and measures the frequency again if that is due.
-  void update();
+  /// Counts a step that led to a state with this largest wave speed, and measures the frequency again if that is due.
+  void update(double wave_speed);
   /// Largest stable step for a state with this largest wave speed [s].
   double step(double wave_speed) const;
 
@@ -32,7 +32,7 @@ class StabilityMonitor {
   void restore(std::vector<double> const& state);
 
  private:
-  void measure(int rounds);
+  void measure(int rounds, double wave_speed);
 
   JstBody& body_;
   Machine const& machine_;

@@ -16,6 +16,9 @@ enum class Variables {
   displacement  ///< F from positions, eq. (34): classical total-Lagrangian SPH
 };
 
+/// Whether the volume ratio is an unknown of its own.
+constexpr bool evolves_volume(Variables v) { return v == Variables::pFJ || v == Variables::pFHJ; }
+
 /// How gradients are taken, and the internal force that goes with each by power balance.
 enum class GradientForm {
   corrected,        ///< corrected gradient, eqs. (21) and (29c)
@@ -103,6 +106,9 @@ struct Constants {
   bool without_rigid;  ///< stabilise the motion without its rigid part
   bool mirrored;       ///< mirror planes: no rigid motion is free
 };
+
+/// Whether the evolved volume ratio is stabilised, eq. (38).
+constexpr bool smooths_volume(Constants const& k) { return k.eps2_J > 0 || k.eps4_J > 0; }
 
 /// What a step adds to the books of the body.
 struct StepTotals {

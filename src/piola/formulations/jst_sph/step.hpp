@@ -41,12 +41,10 @@ class Step {
     halo_.refresh(b_.second);
     StageBalance const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48) (51)
     add_loads(stage);                                      // E                             (32)
-    if (evolves_smoothed_J()) advance_volume(stage, balance.J_rate);  // J                     (43) (38)
-    advance(stage, balance.rigid);                                    // v, x                  (43) (47) (49)
-    hold_supports(stage);                                             // v_c = prescribed      step 8
+    if (smooths_volume(b_.constants)) advance_volume(stage, balance.J_rate);  // J                     (43) (38)
+    advance(stage, balance.rigid);                                            // v, x                  (43) (47) (49)
+    hold_supports(stage);                                                     // v_c = prescribed      step 8
   }
-
-  bool evolves_smoothed_J() const { return b_.constants.eps2_J > 0 || b_.constants.eps4_J > 0; }
 
   GradientCorrection<D> correction() const {
     auto const& k = b_.constants;
@@ -69,7 +67,7 @@ class Step {
       differentiate<0>(stage);
     else if (b_.constants.without_rigid)
       differentiate<2 * D>(stage);
-    else if (evolves_smoothed_J())
+    else if (smooths_volume(b_.constants))
       differentiate<D + 1>(stage);
     else
       differentiate<D>(stage);
@@ -80,7 +78,7 @@ class Step {
     auto const sweep = first_sweep<Smoothed>();
     RigidRate const rigid = Smoothed == 2 * D && b_.constants.without_rigid ? minus_rigid_motion() : RigidRate{};
     bool const to_F = stage.second || b_.constants.variables == Variables::displacement;
-    FieldRef const& J_out = evolves_smoothed_J() ? b_.J_next : b_.J;
+    FieldRef const& J_out = smooths_volume(b_.constants) ? b_.J_next : b_.J;
     EvolvedGeometry const evolved{
         read(b_.H),   read(b_.H_star), read(b_.J), read(b_.J_n), write(stage.second ? b_.H : b_.H_star),
         write(J_out), write(b_.J_n)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/jst_sph/passes.hpp"
+#include "piola/materials/laws.hpp"
 
 /// From the first sums of a Runge-Kutta stage to what the second sweep needs: geometry, stress, stabilisation.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
@@ -54,7 +55,13 @@ PIOLA_FN Lanes smallest_stretch_squared_in(Mat<3, Lanes> const& F) {
   return smallest_stretch_squared(F);
 }
 
-/// c_p of a particle: c_p0 / lambda_min, or from the largest modulus of the law in the principal directions (step 2 of
+/// The authors' estimate of c_p: c_p0 / lambda_min.
+template <int D>
+PIOLA_FN Lanes estimated_wave_speed(Constants const& k, Mat<3, Lanes> const& F) {
+  return k.c_p0 / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
+}
+
+/// c_p of a particle: the estimate, or from the largest modulus of the law in the principal directions (step 2 of
 /// Algorithm 1). Never below the speed of shear waves at rest: laws that soften under compression lose their modulus
 /// there.
 template <int D, class Law>
@@ -64,7 +71,12 @@ PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> c
     Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
     return square_root((1.0 / k.rho0) * modulus);
   }
-  return k.c_p0 / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
+  return estimated_wave_speed<D>(k, F);
+}
+
+/// p = kappa_local (J - 1) + q, where the volumetric energy is filtered.
+PIOLA_FN Lanes acting_pressure(Constants const& k, View const& volume_ratio, View const& q, Index i) {
+  return k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + q.scalar<Lanes>(i);
 }
 
 /// From the first sums to everything that the second sweep needs of a particle:
@@ -120,12 +132,10 @@ struct UpdateStress {
   }
 
   PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
-    if (k.variables == Variables::pFJ || k.variables == Variables::pFHJ) return stress_of_evolved(i, F, gradient);
+    if (evolves_volume(k.variables)) return stress_of_evolved(i, F, gradient);
     if constexpr (Law::volumetric_split) {
-      if (k.kappa_filtered > 0) {
-        Lanes const p = k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + filtered_pressure.scalar<Lanes>(i);
-        return law.stress_with_pressure(F, p);
-      }
+      if (k.kappa_filtered > 0)
+        return law.stress_with_pressure(F, acting_pressure(k, volume_ratio, filtered_pressure, i));
     }
     return law.first_piola(F);
   }
@@ -193,6 +203,15 @@ struct ComputeWaveSpeed {
   }
 };
 
+/// The wave speed of every particle of a body.
+template <int D>
+void compute_wave_speed(BodyState const& body) {
+  with_law(body.material, [&](auto const& law) {
+    exec::for_each(body.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, body.constants, read(body.F),
+                                                                                write(body.wave_speed)});
+  });
+}
+
 /// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient that positions imply.
 template <int D>
 struct StoreDeformation {
@@ -210,8 +229,7 @@ struct ComputeVolumeRatio {
   View F;
   WriteView volume_ratio;
   PIOLA_FN void operator()(Index i) const {
-    Mat<3, Lanes> const full = embed<D>(F.matrix<D, Lanes>(i));
-    volume_ratio.scalar(i, small_strain ? trace(full) - 2.0 : determinant(full));
+    volume_ratio.scalar(i, volume_ratio_of(small_strain, embed<D>(F.matrix<D, Lanes>(i))));
   }
 };
 

@@ -35,7 +35,7 @@ struct CarriedGeometry {
 /// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and what the second Laplacian is applied to,
 ///   L v' = L v + spin cross L x,  v' = v + spin cross (x - centre) + push: the motion without its rigid part.
 /// H and J as unknowns follow (1c) and (1d), integrated exactly along the straight way from F^n to F^(n+1):
-///   H^(n+1) = H^n + 1/2 (F^n + F^(n+1)) x dF,   J^(n+1) = J^n + 1/6 (cof F^n + 4 cof F^(n+1/2) + cof F^(n+1)) : dF.
+///   H^(n+1) = H^n + 1/2 (F^n + F^(n+1)) x dF,   J^(n+1) = J^n + det F^(n+1) - det F^n.
 /// Records the first particle whose new F is inverted or not a number.
 template <int D, bool Stabilised>
 struct Deform {
@@ -63,27 +63,27 @@ struct Deform {
     if (k.exact_speed) {
       c = wave_speed_in.scalar<Lanes>(i);  // that of the step before; ComputeWaveSpeed follows
     } else {
-      c = k.c_p0 / square_root(maximum(smallest_stretch_squared_in<D>(full), Lanes(1e-12)));
+      c = estimated_wave_speed<D>(k, full);
       wave_speed.scalar(i, c);
     }
-    Lanes const ratio = small_strain ? trace(full) - 2.0 : J;
+    Lanes const ratio = small_strain ? volume_ratio_of(true, full) : J;
     volume_ratio.scalar(i, ratio);
-    bool const evolves = k.variables == Variables::pFJ || k.variables == Variables::pFHJ;
-    Lanes const filtered = evolves ? carry(i, old, step) : ratio;
+    Lanes const filtered = evolves_volume(k.variables) ? carry(i, old, step, ratio) : ratio;
     if (k.kappa_filtered > 0) filter_source.scalar(i, filter_scale.scalar<Lanes>(i) * V.scalar<Lanes>(i) * filtered);
     if constexpr (Stabilised) stabilise(i, in, c);
   }
 
  private:
-  /// The increment of J.
-  PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step) const {
-    Mat<3, Lanes> const F0 = embed<D>(old), dF = embed_rate<D>(step), middle = F0 + 0.5 * dF;
-    if (k.variables == Variables::pFHJ)
-      carried.H_out.matrix<3>(i, carried.H.matrix<3, Lanes>(i) + tensor_cross(middle, dF));
-    Mat<3, Lanes> const mean = (1.0 / 6.0) * (cofactor(F0) + 4.0 * cofactor(middle) + cofactor(F0 + dF));
-    Lanes increment = small_strain ? trace(dF) : contract(mean, dF);
+  /// The increment of J, from the volume ratio that F now has.
+  PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step, Lanes const& ratio) const {
+    Mat<3, Lanes> const before = embed<D>(old);
+    if (k.variables == Variables::pFHJ) {
+      Mat<3, Lanes> const dF = embed_rate<D>(step);
+      carried.H_out.matrix<3>(i, carried.H.matrix<3, Lanes>(i) + tensor_cross(before + 0.5 * dF, dF));
+    }
+    Lanes increment = ratio - volume_ratio_of(small_strain, before);
     if (k.kappa_filtered > 0) {
-      if (carried.starting) increment = (small_strain ? trace(F0) - 2.0 : determinant(F0)) - 1.0;
+      if (carried.starting) increment = ratio - 1.0;
       carried.increment.scalar(i, increment);
       return increment;
     }
@@ -125,16 +125,16 @@ struct WeightStress {
 
  private:
   PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
-    bool const area = k.variables == Variables::pFHJ, volume = area || k.variables == Variables::pFJ;
+    bool const area = k.variables == Variables::pFHJ;
     if constexpr (Law::volumetric_split) {
       if (k.kappa_filtered > 0) {
-        Lanes const p = k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + filtered_pressure.scalar<Lanes>(i);
+        Lanes const p = acting_pressure(k, volume_ratio, filtered_pressure, i);
         if (area) return law.stress_with_pressure(full, H.matrix<3, Lanes>(i), determinant(full), p);
         return law.stress_with_pressure(full, p);
       }
     }
     if (area) return law.stress(full, H.matrix<3, Lanes>(i), J.scalar<Lanes>(i));
-    if (volume) return law.stress(full, cofactor(full), J.scalar<Lanes>(i));
+    if (evolves_volume(k.variables)) return law.stress(full, cofactor(full), J.scalar<Lanes>(i));
     return law.first_piola(full);
   }
 };

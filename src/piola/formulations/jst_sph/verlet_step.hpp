@@ -25,7 +25,7 @@ class VerletStep {
       deform<false>(dt, without_rigid, filtered);  // F^(n+1), J
     else
       deform<true>(dt, without_rigid, filtered);  // F^(n+1), J, L v'
-    if (b_.constants.exact_speed) wave_speed();
+    if (b_.constants.exact_speed) compute_wave_speed<D>(b_);
     if (filtered) {
       filter();         // q = B* kappa_f (B J - 1)
       weight_stress();  // P(F, kappa_l (J - 1) + q), A
@@ -106,13 +106,6 @@ class VerletStep {
   }
   void weight_stress() {
     with_law(b_.material, [&](auto const& law) { exec::for_each(b_.slots, stress_pass(law)); });
-  }
-
-  void wave_speed() {
-    with_law(b_.material, [&](auto const& law) {
-      exec::for_each(b_.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, b_.constants, read(b_.F),
-                                                                                write(b_.wave_speed)});
-    });
   }
 
   void filter() {

@@ -16,11 +16,6 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   static constexpr bool small_strain = true;
   using VolumetricSplit::VolumetricSplit;
 
-  /// Linearised volume ratio 1 + tr e.
-  template <class T>
-  PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
-    return trace(F) - 2.0;
-  }
   using VolumetricSplit::isochoric_energy;
   using VolumetricSplit::stress_with_pressure;
   /// P with the pressure p given, for schemes that do not take it from this F alone. In small strain H is the identity
@@ -39,9 +34,9 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
     T const volume = trace(e);
     return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume));
   }
-  /// Largest d2W / dl_i^2 over the principal stretches [Pa]: does not depend on them.
+  /// d2W / dl_1^2 [Pa]: does not depend on the stretches.
   template <class T>
-  PIOLA_FN T largest_modulus(T const&, T const&, T const&) const {
+  PIOLA_FN T modulus(T const&, T const&, T const&) const {
     return T(lambda + 2 * mu);
   }
 };

@@ -30,11 +30,6 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   PIOLA_FN explicit MooneyRivlin(double const* values)
       : VolumetricSplit(values), zeta(0.5 * values[3] * mu), xi((1 - values[3]) * mu / three_root_three) {}
 
-  /// Volume ratio that the volumetric energy kappa/2 (J - 1)^2 sees.
-  template <class T>
-  PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
-    return determinant(F);
-  }
   using VolumetricSplit::isochoric_energy;
   using VolumetricSplit::stress_with_pressure;
   /// P of F, H and J as unknowns (eq. 12) with the pressure p given.
@@ -51,22 +46,17 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
     T const a = power_minus_third(J), area = contract(H, H);
     return zeta * (a * a * contract(F, F) - 3.0) + xi * (area * square_root(area) / (J * J) - three_root_three);
   }
-  /// Largest d2W / dl_i^2 over the principal stretches, from their squares [Pa].
-  template <class T>
-  PIOLA_FN T largest_modulus(T const& a, T const& b, T const& c) const {
-    return maximum(modulus(a, b, c), maximum(modulus(b, c, a), modulus(c, a, b)));
-  }
-
- private:
-  static constexpr double three_root_three = 5.196152422706632;
-
-  /// d2W / dl_1^2. With m = l_2^2 + l_3^2, n = (l_2 l_3)^2 the cofactor term is u^(3/2) / (n l_1^2), u = m l_1^2 + n.
+  /// d2W / dl_1^2, from the squares of the principal stretches [Pa]. With m = l_2^2 + l_3^2, n = (l_2 l_3)^2 the
+  /// cofactor term is u^(3/2) / (n l_1^2), u = m l_1^2 + n.
   template <class T>
   PIOLA_FN T modulus(T const& a, T const& b, T const& c) const {
     T const n = b * c, m = b + c, u = m * a + n, root = square_root(u), shear = power_minus_third(a * n);
     T const area = (6.0 * u * u / (a * a) - 9.0 * m * u / a + 3.0 * m * m) / (n * root);
     return kappa * n + zeta * shear * (4.0 / 9.0 + (10.0 / 9.0) * m / a) + xi * area;
   }
+
+ private:
+  static constexpr double three_root_three = 5.196152422706632;
 };
 
 }  // namespace piola::inline PIOLA_MACHINE

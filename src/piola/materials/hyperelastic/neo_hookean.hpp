@@ -17,11 +17,6 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
   static constexpr bool small_strain = false;
   using VolumetricSplit::VolumetricSplit;
 
-  /// Volume ratio that the volumetric energy kappa/2 (J - 1)^2 sees.
-  template <class T>
-  PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
-    return determinant(F);
-  }
   using VolumetricSplit::isochoric_energy;
   using VolumetricSplit::stress_with_pressure;
   /// P of F, H and J as unknowns (eq. 12) with the pressure p given.
@@ -38,14 +33,7 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
     T const a = power_minus_third(J);
     return 0.5 * mu * (a * a * contract(F, F) - 3.0);
   }
-  /// Largest d2W / dl_i^2 over the principal stretches, from their squares [Pa]: the modulus of the fastest pressure
-  /// wave in a principal direction.
-  template <class T>
-  PIOLA_FN T largest_modulus(T const& a, T const& b, T const& c) const {
-    return maximum(modulus(a, b, c), maximum(modulus(b, c, a), modulus(c, a, b)));
-  }
-
- private:
+  /// d2W / dl_1^2, from the squares of the principal stretches [Pa].
   template <class T>
   PIOLA_FN T modulus(T const& a, T const& b, T const& c) const {
     T const area = b * c, shear = power_minus_third(a * area);  // J^(-2/3)

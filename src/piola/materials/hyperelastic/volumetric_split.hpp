@@ -6,9 +6,9 @@
 namespace piola::inline PIOLA_MACHINE {
 
 /// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law gives
-/// volume_ratio(F), and of F, H and J as independent unknowns isochoric_energy(F, H, J), with the pressure given
-/// stress_with_pressure(F, H, J, p); the rest follows here. Schemes that take the pressure from elsewhere (an evolved
-/// or filtered J) use the questions directly.
+/// `small_strain`, of F, H and J as independent unknowns isochoric_energy(F, H, J), with the pressure given
+/// stress_with_pressure(F, H, J, p), and modulus(a, b, c); the rest follows here. Schemes that take the pressure from
+/// elsewhere (an evolved or filtered J) use the questions directly.
 template <class Law>
 struct VolumetricSplit : ElasticConstants {
   using ElasticConstants::ElasticConstants;
@@ -16,10 +16,21 @@ struct VolumetricSplit : ElasticConstants {
 
   static constexpr bool volumetric_split = true;
 
+  /// Volume ratio that the volumetric energy sees.
+  template <class T>
+  PIOLA_FN T volume_ratio(Mat<3, T> const& F) const {
+    return volume_ratio_of(Law::small_strain, F);
+  }
+  /// Largest d2W / dl_i^2 over the principal stretches, from their squares [Pa]: the modulus of the fastest pressure
+  /// wave in a principal direction.
+  template <class T>
+  PIOLA_FN T largest_modulus(T const& a, T const& b, T const& c) const {
+    return maximum(law().modulus(a, b, c), maximum(law().modulus(b, c, a), law().modulus(c, a, b)));
+  }
   /// p = kappa (J - 1), positive in tension (eq. 11) [Pa].
   template <class T>
   PIOLA_FN T pressure(Mat<3, T> const& F) const {
-    return kappa * (law().volume_ratio(F) - 1.0);
+    return kappa * (volume_ratio(F) - 1.0);
   }
   template <class T>
   PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, T const& p) const {
@@ -49,7 +60,7 @@ struct VolumetricSplit : ElasticConstants {
   /// Stored energy per reference volume [J/m^3].
   template <class T>
   PIOLA_FN T energy(Mat<3, T> const& F) const {
-    T const change = law().volume_ratio(F) - 1.0;
+    T const change = volume_ratio(F) - 1.0;
     return law().isochoric_energy(F) + 0.5 * kappa * (change * change);
   }
 

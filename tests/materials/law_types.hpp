@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/laws.hpp"
+#include <gtest/gtest.h>
+#include <string>
+
+/// The registered laws as types of a typed test, and their names.
+namespace piola::inline PIOLA_MACHINE {
+
+template <class List>
+struct TypesOf;
+template <class... Law>
+struct TypesOf<LawList<Law...>> {
+  using type = ::testing::Types<Law...>;
+};
+struct LawNames {
+  template <class Law>
+  static std::string GetName(int) {
+    return std::string(Law::name);
+  }
+};
+
+}  // namespace piola::inline PIOLA_MACHINE
