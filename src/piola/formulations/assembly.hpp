@@ -34,6 +34,8 @@ struct Load {
   std::vector<double> factor;  ///< traction [Pa]: area / mass; force per volume [N/m^3]: 1 / density; acceleration: 1
   std::array<Expression, 3> value;
   double until = std::numeric_limits<double>::infinity();  ///< s: gone then
+  /// Outward unit normal of the loaded face in the reference configuration, if the load is a traction.
+  std::optional<std::array<double, 3>> normal = {};
 };
 
 /// A face of a box across which the body is continued by its mirror image.

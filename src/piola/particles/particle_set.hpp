@@ -17,6 +17,14 @@ struct Body {
   bool regular = true;               ///< positions are exactly on the lattice (no jitter)
 };
 
+/// A straight crack through a two-dimensional body. The particles on it exist twice, once for each face, but for those
+/// at the ends inside the body, the tips.
+struct Crack {
+  int body = 0;                        ///< index into bodies
+  std::array<double, 3> from{}, to{};  ///< ends in the reference configuration [m]
+  bool tip_at_from = false, tip_at_to = true;
+};
+
 /// The particles of a run in Id order, as setup made them. Reference data only: what evolves belongs to a formulation.
 /// All positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
 struct ParticleSet {
@@ -27,6 +35,9 @@ struct ParticleSet {
   std::vector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
   std::vector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
   std::vector<int> body;              ///< index into bodies
+  std::vector<Crack> cracks;
+  /// Of particles on the faces of cracks: +1 on the left of from -> to, -1 on the right; 0 elsewhere. Empty: no cracks.
+  std::vector<std::int8_t> crack_side;
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
 };
