@@ -6,6 +6,8 @@
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/formulations/make.hpp"
+#include "piola/formulations/taylor_sph/options.hpp"
+#include "piola/formulations/taylor_sph/solver.hpp"
 #include <array>
 
 namespace piola {
@@ -17,9 +19,10 @@ struct Entry {
 };
 
 /// Adding a formulation: its folder and one line here.
-std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection::info(), &jst_advection::make}};
+std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection::info(), &jst_advection::make},
+                     Entry{taylor_sph::info(), &taylor_sph::make}};
 
-std::array const infos{all[0].info, all[1].info};
+std::array const infos{all[0].info, all[1].info, all[2].info};
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/math/lanes.hpp"
 #include <string_view>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -16,14 +16,16 @@ struct CubicSpline {
     return dimension == 1 ? 2.0 / 3.0 : dimension == 2 ? 10.0 / (7.0 * pi) : 1.0 / pi;
   }
   /// w(q), q = r / h
-  PIOLA_FN static double w(double q) {
-    double const a = q < 2 ? 2 - q : 0, b = q < 1 ? 1 - q : 0;
+  template <class T>
+  PIOLA_FN static T w(T const& q) {
+    T const a = maximum(2.0 - q, T(0.0)), b = maximum(1.0 - q, T(0.0));
     return 0.25 * a * a * a - b * b * b;
   }
   /// dw/dq
-  PIOLA_FN static double dw(double q) {
-    double const a = q < 2 ? 2 - q : 0, b = q < 1 ? 1 - q : 0;
-    return -0.75 * a * a + 3 * b * b;
+  template <class T>
+  PIOLA_FN static T dw(T const& q) {
+    T const a = maximum(2.0 - q, T(0.0)), b = maximum(1.0 - q, T(0.0));
+    return -0.75 * a * a + 3.0 * b * b;
   }
 };
 

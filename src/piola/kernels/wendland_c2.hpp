@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/math/lanes.hpp"
 #include <string_view>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -18,14 +18,16 @@ struct WendlandC2 {
     return dimension == 1 ? 5.0 / 8 : dimension == 2 ? 7.0 / (4 * pi) : 21.0 / (16 * pi);
   }
   /// w(q), q = r / h
-  PIOLA_FN static double w(int dimension, double q) {
-    double const s = 0.5 * q, a = s < 1 ? 1 - s : 0, cube = a * a * a;
-    return dimension == 1 ? cube * (1 + 3 * s) : cube * a * (1 + 4 * s);
+  template <class T>
+  PIOLA_FN static T w(int dimension, T const& q) {
+    T const s = 0.5 * q, a = maximum(1.0 - s, T(0.0)), cube = a * a * a;
+    return dimension == 1 ? cube * (1.0 + 3.0 * s) : cube * a * (1.0 + 4.0 * s);
   }
   /// dw/dq
-  PIOLA_FN static double dw(int dimension, double q) {
-    double const s = 0.5 * q, a = s < 1 ? 1 - s : 0, square = a * a;
-    return dimension == 1 ? -6 * s * square : -10 * s * square * a;
+  template <class T>
+  PIOLA_FN static T dw(int dimension, T const& q) {
+    T const s = 0.5 * q, a = maximum(1.0 - s, T(0.0)), square = a * a;
+    return dimension == 1 ? -6.0 * s * square : -10.0 * s * square * a;
   }
 };
 

@@ -36,6 +36,15 @@ template <class Law> concept SplitsVolume = requires(Law const& law, Mat<3> cons
   { law.volume_ratio(F) } -> std::same_as<double>;
 };
 
+/// What a formulation asks that carries the stress itself along, in rate form.
+template <class Law> concept RateForm = requires(Law const& law, SymMat<3> const& d) {
+  { law.stress_rate(d) } -> std::same_as<SymMat<3>>;
+  { law.energy_of_stress(d) } -> std::same_as<double>;
+  { law.rho0 } -> std::convertible_to<double>;
+  { law.lambda } -> std::convertible_to<double>;
+  { law.mu } -> std::convertible_to<double>;
+};
+
 template <class... Law>
 struct LawList {
   static_assert((Hyperelastic<Law> && ...), "a registered law lacks one of the questions of the concept");

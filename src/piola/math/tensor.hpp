@@ -146,6 +146,15 @@ PIOLA_FN T determinant(Mat<3, T> const& A) {
          A(0, 2) * (A(1, 0) * A(2, 1) - A(1, 1) * A(2, 0));
 }
 template <class T>
+PIOLA_FN Mat<1, T> inverse(Mat<1, T> const& A) {
+  return {{1.0 / A.c[0]}};
+}
+template <class T>
+PIOLA_FN Mat<2, T> inverse(Mat<2, T> const& A) {
+  T const scale = 1.0 / (A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0));
+  return {{scale * A(1, 1), -scale * A(0, 1), -scale * A(1, 0), scale * A(0, 0)}};
+}
+template <class T>
 PIOLA_FN Mat<3, T> inverse(Mat<3, T> const& A) {
   return (1.0 / determinant(A)) * transpose(cofactor(A));
 }

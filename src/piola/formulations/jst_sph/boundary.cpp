@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/boundary.hpp"
+#include "piola/formulations/prescribed.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
@@ -10,62 +11,9 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// Steps end at releases to round-off of a sum of many steps.
-bool has_ended(double until, double time) { return time >= until * (1 - 1e-9); }
-
-bool is_steady(std::array<Expression, 3> const& formulas) {
-  return std::none_of(formulas.begin(), formulas.end(), [](Expression const& e) { return e.depends_on_time(); });
-}
-
 /// Whether a support does nothing but hold components at rest for the whole run.
 bool is_plain(Support const& s) {
   return s.frame == Support::Frame::axes && !s.velocity && s.until == std::numeric_limits<double>::infinity();
-}
-
-double dot(Point const& a, Point const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// Takes the parts along unit vectors out of d; what is left, as a unit vector. False if nothing is.
-bool make_orthogonal(Point& d, std::vector<Point> const& to) {
-  for (auto const& q : to) {
-    double const part = dot(d, q);
-    for (std::size_t c = 0; c < 3; ++c) d[c] -= part * q[c];
-  }
-  double const length = std::sqrt(dot(d, d));
-  if (!(length > 1e-6)) return false;
-  for (double& c : d) c /= length;
-  return true;
-}
-
-/// The directions that a support holds, in a body of D dimensions; a direction along an axis is that axis.
-std::vector<Point> directions_of(Support const& s, int D) {
-  static constexpr Point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  std::vector<Point> held;
-  auto const n = static_cast<std::size_t>(D);
-  if (s.frame == Support::Frame::axes) {
-    for (std::size_t c = 0; c < n; ++c)
-      if (s.fix[c]) held.push_back(axes[c]);
-    return held;
-  }
-  std::vector<Point> frame;
-  Point normal{};
-  std::copy(s.normal.begin(), s.normal.begin() + D, normal.begin());
-  for (std::size_t c = 0; c < n; ++c)
-    if (std::abs(std::abs(normal[c]) - 1) < 1e-12) normal = axes[c];
-  if (make_orthogonal(normal, {})) frame.push_back(normal);
-  if (s.frame == Support::Frame::normal) return frame;
-  auto const along_normal = frame.size();
-  for (std::size_t c = 0; c < n && frame.size() < n; ++c) {
-    Point d = axes[c];
-    if (make_orthogonal(d, frame)) frame.push_back(d);
-  }
-  return {frame.begin() + static_cast<std::ptrdiff_t>(along_normal), frame.end()};
-}
-
-double speed_along(std::array<Expression, 3> const& velocity, Point const& d, Point const& X, double time) {
-  double speed = 0;
-  for (std::size_t c = 0; c < 3; ++c)
-    if (d[c] != 0) speed += d[c] * velocity[c](X, time);
-  return speed;
 }
 
 int axis_of(Point const& d) {

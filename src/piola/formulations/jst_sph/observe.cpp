@@ -12,47 +12,6 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-void add_momenta(Point const& x, Point const& v, double mass, Diagnostics& d) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
-    d.linear_momentum[c] += mass * v[c];
-    d.angular_momentum[c] += mass * (x[p] * v[q] - x[q] * v[p]);
-    d.kinetic_energy += 0.5 * mass * v[c] * v[c];
-  }
-}
-
-/// Adds the squares of second differences of p along the lattice lines of a body.
-void add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p, Observation& o) {
-  auto const index = [&](std::array<int, 3> const& at) {
-    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(body.lattice[1]) +
-            static_cast<std::size_t>(at[1])) *
-               static_cast<std::size_t>(body.lattice[0]) +
-           static_cast<std::size_t>(at[0]);
-  };
-  std::vector<std::int64_t> particle(index({0, 0, body.lattice[2]}) + 1, -1);
-  for (auto id = body.first; id < body.last; ++id)
-    particle[index(set.lattice_index[static_cast<std::size_t>(id)])] = id;
-  for (auto id = body.first; id < body.last; ++id) {
-    auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (at[axis] == 0 || at[axis] + 1 >= body.lattice[axis]) continue;
-      auto before = at, after = at;
-      --before[axis];
-      ++after[axis];
-      std::int64_t const a = particle[index(before)], b = particle[index(after)];
-      if (a < 0 || b < 0) continue;
-      auto const value = [&](std::int64_t k) { return p[static_cast<std::size_t>(k - body.first)]; };
-      double const second = (value(b) - 2 * value(id) + value(a)) / 4;
-      o.second_difference_square += second * second;
-      o.second_difference_count += 1;
-    }
-  }
-}
-
-}  // namespace
-
-namespace {
-
 bool evolves_volume(JstBody const& body) { return jst_sph::evolves_volume(body.options().variables); }
 
 /// Smooth pressure (kappa / kappa_f) q where the volumetric energy is filtered.
@@ -102,7 +61,7 @@ double volume_mismatch(JstBody const& body, double J, Index i) {
 
 }  // namespace
 
-void observe(JstBody const& body, Observation& o) {
+void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
   std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
   double strain = 0;
@@ -111,31 +70,23 @@ void observe(JstBody const& body, Observation& o) {
       Mat<3> const F = body.F(i);
       double const V = body.volume(i), J = determinant(F), p = observed_pressure(body, law, F, i);
       strain += V * stored_energy(body, law, F, i);
-      d.jacobian_min = o.volume > 0 ? std::min(d.jacobian_min, J) : J;
-      d.jacobian_max = o.volume > 0 ? std::max(d.jacobian_max, J) : J;
-      d.pressure_min = o.volume > 0 ? std::min(d.pressure_min, p) : p;
-      d.pressure_max = o.volume > 0 ? std::max(d.pressure_max, p) : p;
       double const mismatch = volume_mismatch(body, J, i);
       o.mismatch_square += V * mismatch * mismatch;
       o.mismatch_max = std::max(o.mismatch_max, std::abs(mismatch));
-      o.pressure_square += V * p * p;
-      o.volume += V;
+      o.add_state(J, p, V);
       pressure[static_cast<std::size_t>(body.id(i) - body.body().first)] = p;
-      add_momenta(body.x(i), body.v(i), V * law.rho0, d);
+      o.add_motion(body.x(i), body.v(i), V * law.rho0);
     }
   });
   d.strain_energy += strain;
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
   d.external_work += body.state().totals.external_work;
-  add_oscillation(body.set(), body.body(), pressure, o);
+  o.add_oscillation(body.set(), body.body(), pressure);
 }
 
-Diagnostics finish(Observation const& o) {
-  Diagnostics d = o.totals;
-  double const level = std::sqrt(o.pressure_square / o.volume);
-  if (level > 0 && o.second_difference_count > 0)
-    d.pressure_oscillation = std::sqrt(o.second_difference_square / o.second_difference_count) / level;
+Diagnostics finish(JstObservation const& o) {
+  Diagnostics d = o.finish();
   d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square / o.volume)}, {"volume_mismatch_max", o.mismatch_max}};
   return d;
 }

@@ -4,6 +4,7 @@
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
+#include "piola/formulations/prescribed.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -56,7 +57,7 @@ class Solver final : public Formulation {
 
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
-    Observation all;
+    JstObservation all;
     for (auto const& body : bodies_) {
       refresh(*body);
       observe(*body, all);
@@ -94,15 +95,10 @@ class Solver final : public Formulation {
     largest_speed_.clear();
     for (auto const& body : bodies_) largest_speed_.push_back(machine_->largest_wave_speed(body->state()));
   }
-  /// A step ends where a support or a load does: the impulse of what drives a body would else depend on the step. The
-  /// last steps before are alike, so that none is a sliver.
   double up_to_release(double dt) const {
     double rest = std::numeric_limits<double>::infinity();
     for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
-    constexpr double last_steps = 20;
-    double const steps = std::ceil(rest / dt * (1 - 1e-6));
-    if (steps <= 1) return std::max(rest, 1e-3 * dt);
-    return steps <= last_steps ? rest / steps : dt;
+    return piola::up_to_release(dt, rest);
   }
   /// Displacement variables keep F of the last stage; observers want that of x.
   void refresh(JstBody const& body) const {

@@ -34,6 +34,24 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
     T const volume = trace(e);
     return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume));
   }
+  /// D : d = lambda tr(d) 1 + 2 mu d: the rate of the Cauchy stress in a frame that turns with the material, for a rate of
+  /// deformation d (Serroukh and Mabssout 2022, eq. 2) [Pa/s].
+  template <class T>
+  PIOLA_FN SymMat<3, T> stress_rate(SymMat<3, T> const& d) const {
+    SymMat<3, T> r;
+    T const volume = lambda * (d.c[0] + d.c[1] + d.c[2]);
+    for (int c = 0; c < 6; ++c) r.c[c] = 2 * mu * d.c[c];
+    for (int c = 0; c < 3; ++c) r.c[c] = r.c[c] + volume;
+    return r;
+  }
+  /// Energy per volume that a stress stores, 1/2 sigma : D^-1 : sigma [J/m^3].
+  template <class T>
+  PIOLA_FN T energy_of_stress(SymMat<3, T> const& s) const {
+    T const sum = s.c[0] + s.c[1] + s.c[2];
+    T square = s.c[0] * s.c[0] + s.c[1] * s.c[1] + s.c[2] * s.c[2];
+    for (int c = 3; c < 6; ++c) square = square + 2.0 * (s.c[c] * s.c[c]);
+    return (square - lambda / (3 * lambda + 2 * mu) * (sum * sum)) / (4 * mu);
+  }
   /// d2W / dl_1^2 [Pa]: does not depend on the stretches.
   template <class T>
   PIOLA_FN T modulus(T const&, T const&, T const&) const {

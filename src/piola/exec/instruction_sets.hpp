@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string_view>
+#include <vector>
+
+namespace piola::exec_host {
+
+/// Whether this processor can run a machine of that name (see base/machine.hpp).
+bool processor_can_run(std::string_view machine);
+
+/// The machines of one formulation that are in this program, and how one is chosen. `Machine` has a member `name`.
+template <class Machine>
+class MachineChoice {
+ public:
+  /// `all`: best first.
+  explicit MachineChoice(std::vector<Machine const*> const& all) {
+    for (Machine const* machine : all) {
+      if (!processor_can_run(machine->name)) continue;
+      usable_.push_back(machine);
+      names_.push_back(machine->name);
+    }
+    names_.push_back(nullptr);
+  }
+  /// The machine of that name, the best one for "auto"; nullptr if it is not usable here.
+  Machine const* find(std::string_view name) const {
+    for (Machine const* machine : usable_)
+      if (name == "auto" || name == machine->name) return machine;
+    return nullptr;
+  }
+  char const* const* names() const { return names_.data(); }
+
+ private:
+  std::vector<Machine const*> usable_;
+  std::vector<char const*> names_;
+};
+
+}  // namespace piola::exec_host
+
+// PIOLA_EACH_MACHINE(use): use(NAME) for every machine in this program, best first. Each is defined by a formulation's
+// machine.cpp, compiled for that instruction set.
+#if defined(PIOLA_HAS_MACHINE_V4)
+#define PIOLA_USE_V4(use) use(v4)
+#else
+#define PIOLA_USE_V4(use)
+#endif
+#if defined(PIOLA_HAS_MACHINE_V3)
+#define PIOLA_USE_V3(use) use(v3)
+#else
+#define PIOLA_USE_V3(use)
+#endif
+#if defined(PIOLA_HAS_MACHINE_V2)
+#define PIOLA_USE_V2(use) use(v2)
+#else
+#define PIOLA_USE_V2(use)
+#endif
+#if defined(PIOLA_HAS_MACHINE_NATIVE)
+#define PIOLA_USE_NATIVE(use) use(native)
+#else
+#define PIOLA_USE_NATIVE(use)
+#endif
+#if defined(PIOLA_HAS_MACHINE_SCALAR)
+#define PIOLA_USE_SCALAR(use) use(scalar)
+#else
+#define PIOLA_USE_SCALAR(use)
+#endif
+#define PIOLA_EACH_MACHINE(use) \
+  PIOLA_USE_V4(use) PIOLA_USE_V3(use) PIOLA_USE_V2(use) PIOLA_USE_NATIVE(use) PIOLA_USE_SCALAR(use)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/prescribed.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola {
+
+bool has_ended(double until, double time) { return time >= until * (1 - 1e-9); }
+
+bool is_steady(std::array<Expression, 3> const& formulas) {
+  return std::none_of(formulas.begin(), formulas.end(), [](Expression const& e) { return e.depends_on_time(); });
+}
+
+double dot(Direction const& a, Direction const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+bool make_orthogonal(Direction& d, std::vector<Direction> const& to) {
+  for (auto const& q : to) {
+    double const part = dot(d, q);
+    for (std::size_t c = 0; c < 3; ++c) d[c] -= part * q[c];
+  }
+  double const length = std::sqrt(dot(d, d));
+  if (!(length > 1e-6)) return false;
+  for (double& c : d) c /= length;
+  return true;
+}
+
+std::vector<Direction> directions_of(Support const& s, int D) {
+  static constexpr Direction axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Direction> held;
+  auto const n = static_cast<std::size_t>(D);
+  if (s.frame == Support::Frame::axes) {
+    for (std::size_t c = 0; c < n; ++c)
+      if (s.fix[c]) held.push_back(axes[c]);
+    return held;
+  }
+  std::vector<Direction> frame;
+  Direction normal{};
+  std::copy(s.normal.begin(), s.normal.begin() + D, normal.begin());
+  for (std::size_t c = 0; c < n; ++c)
+    if (std::abs(std::abs(normal[c]) - 1) < 1e-12) normal = axes[c];
+  if (make_orthogonal(normal, {})) frame.push_back(normal);
+  if (s.frame == Support::Frame::normal) return frame;
+  auto const along_normal = frame.size();
+  for (std::size_t c = 0; c < n && frame.size() < n; ++c) {
+    Direction d = axes[c];
+    if (make_orthogonal(d, frame)) frame.push_back(d);
+  }
+  return {frame.begin() + static_cast<std::ptrdiff_t>(along_normal), frame.end()};
+}
+
+double speed_along(std::array<Expression, 3> const& velocity, Direction const& d, Direction const& X, double time) {
+  double speed = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    if (d[c] != 0) speed += d[c] * velocity[c](X, time);
+  return speed;
+}
+
+double up_to_release(double dt, double rest) {
+  constexpr double last_steps = 20;
+  double const steps = std::ceil(rest / dt * (1 - 1e-6));
+  if (steps <= 1) return std::max(rest, 1e-3 * dt);
+  return steps <= last_steps ? rest / steps : dt;
+}
+
+}  // namespace piola

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/taylor_sph/body.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/materials/laws.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace piola::taylor_sph {
+namespace {
+
+/// Slots of a range are a multiple of every lane count.
+constexpr Index alignment = 16;
+Index aligned(Index n) { return (n + alignment - 1) / alignment * alignment; }
+
+/// Where slots without particles lie: so far away that every kernel vanishes.
+constexpr double far_away = 1e20;
+
+}  // namespace
+
+TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Machine const& machine)
+    : body_(assembly.particles.bodies[body]), options_(options), machine_(&machine), boundary_(assembly, body) {
+  auto const& set = assembly.particles;
+  auto const part = [&](auto const& all) {
+    return std::decay_t<decltype(all)>(all.begin() + body_.first, all.begin() + body_.last);
+  };
+  X_ = part(set.X);
+  kernel_volume_ = part(set.kernel_volume);
+  if (!set.crack_side.empty()) crack_side_ = part(set.crack_side);
+  for (auto const& crack : set.cracks)
+    if (crack.body == static_cast<int>(body)) cracks_.push_back(crack);
+  state_.dimension = set.dimension;
+  set_constants(assembly, body);
+  double widest = 0;
+  for (int c = 0; c < D(); ++c) widest = std::max(widest, body_.spacing[static_cast<std::size_t>(c)]);
+  // The circumradius of a simplex in a box of the lattice is 0.5 sqrt(D) spacings; jitter makes some larger.
+  largest_radius_ = (0.6 + 0.35 * D()) * widest;
+  cells_ = first_cells(set);
+  if (D() > 1 && options_.hourglass > 0) boxes_ = lattice_cells(set, body_);
+  place_initially(assembly);
+}
+
+void TaylorBody::set_constants(Assembly const& assembly, std::size_t body) {
+  state_.material = assembly.materials[body];
+  auto& k = state_.k;
+  with_law(state_.material, [&](auto const& law) {
+    if constexpr (RateForm<std::decay_t<decltype(law)>>) {
+      k.rho0 = law.rho0;
+      // The strain rate across for which the stress across does not change.
+      double const free = D() == 1 ? law.lambda / (2 * (law.lambda + law.mu)) : law.lambda / (law.lambda + 2 * law.mu);
+      k.lateral = options_.stress_free ? free : 0;
+      k.modulus = law.lambda + 2 * law.mu - (3 - D()) * law.lambda * k.lateral;
+    }
+  });
+  k.kernel_volume = kernel_volume_.front();
+  k.hourglass = options_.hourglass;
+  k.form = options_.form;
+  k.kernel = options_.kernel;
+  k.moving = options_.moving;
+  k.loaded = boundary_.has_accelerations();
+  for (Index i = 0; i < particles(); ++i)
+    mass_.push_back(k.rho0 * assembly.particles.volume[static_cast<std::size_t>(body_.first + i)]);
+}
+
+/// A lattice is triangulated with alternating diagonals: all triangulations of its squares are Delaunay's.
+Cells TaylorBody::first_cells(ParticleSet const& set) const {
+  std::int64_t full = 1;
+  for (int const n : body_.lattice) full *= n;
+  std::int64_t const doubled = std::count(crack_side_.begin(), crack_side_.end(), std::int8_t{-1});
+  bool const whole_lattice = body_.last - body_.first - doubled == full && (body_.regular || !cracks_.empty());
+  if (options_.lattice_cells || whole_lattice) {
+    Cells const boxes = lattice_cells(set, body_);
+    return options_.lattice_cells ? boxes : split_alternately(boxes, set, body_);
+  }
+  return delaunay(X_, D(), largest_radius_);
+}
+
+void TaylorBody::place_initially(Assembly const& assembly) {
+  Snapshot s;
+  auto const D = static_cast<std::size_t>(this->D());
+  for (Index i = 0; i < particles(); ++i) {
+    auto const id = static_cast<std::size_t>(body_.first + i);
+    for (std::size_t c = 0; c < D; ++c) {
+      double const u = assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[id][c];
+      s.x.push_back(X_[at(i)][c] + u);
+      s.v.push_back(assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[id][c]);
+    }
+    s.volume.push_back(kernel_volume_[at(i)]);
+  }
+  s.stress.assign(X_.size() * D * (D + 1) / 2, 0);
+  s.across.assign(X_.size(), 0);
+  s.x_of_lists = s.x_of_cells = s.x;
+  for (Index const corner : cells_.corner) s.corners.push_back(corner);
+  s.books.assign(6, 0);
+  restore(s);
+}
+
+void TaylorBody::order_slots(std::vector<Index> const& on_boundary) {
+  std::vector<bool> outer(X_.size());
+  for (Index const i : on_boundary) outer[at(i)] = true;
+  state_.boundary_count = static_cast<Index>(on_boundary.size());
+  state_.interior_count = particles() - state_.boundary_count;
+  state_.interior = {0, aligned(state_.interior_count)};
+  state_.boundary = {state_.interior.last, state_.interior.last + aligned(state_.boundary_count)};
+  slot_of_.assign(X_.size(), 0);
+  local_of_.assign(at(state_.boundary.last), -1);
+  Index inner = 0, edge = state_.boundary.first;
+  for (Index i = 0; i < particles(); ++i) {
+    Index const slot = outer[at(i)] ? edge++ : inner++;
+    slot_of_[at(i)] = slot;
+    local_of_[at(slot)] = i;
+  }
+}
+
+void TaylorBody::arrange(Points const& x_of_cells) {
+  x_of_cells_ = x_of_cells;
+  order_slots(boundary_.arrange(surface_of(cells_, x_of_cells), x_of_cells));
+  // Corners near each other belong to cells near each other.
+  Index const n = cells_.count();
+  std::vector<Index> order(at(n)), first(at(n));
+  std::iota(order.begin(), order.end(), 0);
+  for (Index c = 0; c < n; ++c) first[at(c)] = std::ranges::min(cells_.of(c));
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return first[at(a)] < first[at(b)]; });
+  Cells sorted = cells_;
+  for (Index c = 0; c < n; ++c)
+    std::ranges::copy(cells_.of(order[at(c)]), sorted.corner.begin() + static_cast<std::ptrdiff_t>(c) * cells_.corners);
+  cells_ = sorted;
+  state_.virtual_count = n;
+  state_.virtuals = {0, aligned(n)};
+  int const stride = record_stride(D());
+  auto const records = [&](Index slots) {
+    Memory memory(static_cast<std::size_t>(slots + 1) * static_cast<std::size_t>(stride));
+    for (Index i = 0; i <= slots; ++i)
+      for (int c = 0; c < D(); ++c) memory.data()[i * stride + c] = far_away;
+    return memory;
+  };
+  real_ = records(state_.boundary.last);
+  virtual_ = records(state_.virtuals.last);
+  state_.real = real_.data();
+  state_.virtual_ = virtual_.data();
+  Index const slots = state_.boundary.last;
+  for (Field* field : {&across_, &acceleration_, &slot_mass_}) field->allocate(slots, alignment);
+  state_.out_of_plane = across_.ref();
+  state_.acceleration = acceleration_.ref();
+  state_.mass = slot_mass_.ref();
+  for (Index i = 0; i < particles(); ++i) slot_mass_.at(slot_of_[at(i)]) = mass_[at(i)];
+  partial_.assign(static_cast<std::size_t>(4 * (std::max(slots, state_.virtuals.last) / 64 + 2)), 0);
+  state_.partial = partial_.data();
+  state_.failure = &failure_;
+  state_.items = boundary_.items();
+  fill_cell_tables(x_of_cells);
+  fill_hourglass_tables();
+}
+
+void TaylorBody::fill_cell_tables(Points const& x) {
+  int const lanes = machine_->lanes;
+  corner_.assign(static_cast<std::size_t>(state_.virtuals.last * cells_.corners), 0);
+  reference_quality_.assign(at(state_.virtuals.last), 1);
+  double factorial = 1;
+  for (int c = 2; c <= D() && cells_.corners == D() + 1; ++c) factorial *= c;
+  for (Index v = 0; v < state_.virtuals.last; ++v) {
+    // Lanes without a cell repeat the last one.
+    Index const cell = std::min(v, state_.virtual_count - 1);
+    auto const corners = cells_.of(cell);
+    double longest = 0;
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      corner_[static_cast<std::size_t>((v / lanes * cells_.corners + static_cast<Index>(a)) * lanes + v % lanes)] =
+          slot_of_[at(corners[a])];
+      for (std::size_t b = a + 1; b < corners.size(); ++b) {
+        auto const &p = x[at(corners[a])], &q = x[at(corners[b])];
+        longest = std::max(longest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+      }
+    }
+    reference_quality_[at(v)] = factorial * volume_of(cells_, cell, x) / std::pow(longest, D());
+  }
+  state_.cells.corners = cells_.corners;
+  state_.cells.simplices = cells_.corners == D() + 1;
+  state_.cells.corner = corner_.data();
+  state_.cells.reference_quality = reference_quality_.data();
+}
+
+void TaylorBody::fill_hourglass_tables() {
+  if (boxes_.count() == 0) return;
+  int const lanes = machine_->lanes, corners = boxes_.corners;
+  Index const boxes = aligned(boxes_.count());
+  box_corner_.assign(static_cast<std::size_t>(boxes * corners), 0);
+  box_of_.assign(static_cast<std::size_t>(state_.boundary.last * corners), -1);
+  for (Index b = 0; b < boxes; ++b)
+    for (int k = 0; k < corners; ++k) {
+      Index const slot = slot_of_[at(boxes_.of(std::min(b, boxes_.count() - 1))[static_cast<std::size_t>(k)])];
+      box_corner_[static_cast<std::size_t>((b / lanes * corners + k) * lanes + b % lanes)] = slot;
+      if (b >= boxes_.count()) continue;
+      // A particle is the opposite corner of each of its boxes: corner k of one box only.
+      box_of_[static_cast<std::size_t>(slot * corners + k)] = b * corners + k;
+    }
+  int const patterns = D() == 2 ? 1 : 4, fields = D() + D() * (D() + 1) / 2;
+  pattern_.assign(static_cast<std::size_t>(boxes * patterns * fields), 0);
+  state_.hourglass = {boxes, box_corner_.data(), pattern_.data(), box_of_.data()};
+}
+
+void TaylorBody::step(double time, double dt) {
+  if (state_.k.loaded) prepare_loads(time + 0.5 * dt);
+  Points half = positions();
+  if (state_.k.moving)
+    for (Index i = 0; i < particles(); ++i) {
+      auto const velocity = v(i);
+      for (std::size_t c = 0; c < 3; ++c) half[at(i)][c] += 0.5 * dt * velocity[c];
+    }
+  prepare_boundary(time, dt, half);
+  machine_->half_step(state_, dt);
+  machine_->full_step(state_, dt);
+  if (options_.hourglass > 0 && boxes_.count() > 0) machine_->filter(state_);
+  // Normals of the end of the step.
+  if (state_.k.moving) prepare_boundary(time + dt, 0, positions());
+  machine_->impose(state_);
+  double const before = power_;
+  power_ = boundary_.power([&](Index i) { return BoundaryMotion{x(i), v(i)}; }, [&](Index i) { return record_stress(i); });
+  work_ += 0.5 * dt * (before + power_);
+  ++steps_since_triangulation_;
+  if (state_.k.moving) follow_motion();
+}
+
+void TaylorBody::prepare_boundary(double time, double dt, Points const& x) {
+  boundary_.prepare(
+      time, dt, x, [&](Index i) { return BoundaryMotion{this->x(i), v(i)}; },
+      [&](Index i) { return record_stress(i); });
+  state_.items = boundary_.items();
+}
+
+void TaylorBody::prepare_loads(double time) {
+  for (Index i = 0; i < state_.boundary.last; ++i)
+    for (int c = 0; c < D(); ++c) acceleration_.at(i, c) = 0;
+  boundary_.each_acceleration(time, [&](Index i, std::array<double, 3> const& a) {
+    for (int c = 0; c < D(); ++c) acceleration_.at(slot_of_[at(i)], c) += a[static_cast<std::size_t>(c)];
+  });
+}
+
+double TaylorBody::stable_time_step() const {
+  auto const& k = state_.k;
+  double const c = std::sqrt(k.modulus / k.rho0 * std::max(measures_.dilation, 0.0));
+  return options_.cfl * measures_.spacing / c;
+}
+
+double* TaylorBody::record(Index i) const {
+  return state_.real + static_cast<std::ptrdiff_t>(slot_of_[at(i)]) * record_stride(D());
+}
+
+std::array<double, 3> TaylorBody::x(Index i) const {
+  std::array<double, 3> r{};
+  std::copy_n(record(i), D(), r.begin());
+  return r;
+}
+
+std::array<double, 3> TaylorBody::v(Index i) const {
+  std::array<double, 3> r{};
+  std::copy_n(record(i) + D() + 1, D(), r.begin());
+  return r;
+}
+
+std::array<double, 6> TaylorBody::record_stress(Index i) const {
+  std::array<double, 6> r{};
+  std::copy_n(record(i) + 2 * D() + 1, D() * (D() + 1) / 2, r.begin());
+  return r;
+}
+
+SymMat<3> TaylorBody::stress(Index i) const {
+  auto const own = record_stress(i);
+  SymMat<3> s{};
+  if (D() == 1) s(0, 0) = own[0];
+  if (D() == 2) {
+    s(0, 0) = own[0];
+    s(1, 1) = own[1];
+    s(0, 1) = own[2];
+    s(2, 2) = across_.at(slot_of_[at(i)]);
+  }
+  if (D() == 3) std::copy(own.begin(), own.end(), s.c);
+  return s;
+}
+
+double TaylorBody::volume_ratio(Index i) const { return record(i)[D()] / kernel_volume_[at(i)]; }
+
+Points TaylorBody::positions() const {
+  Points r(X_.size());
+  for (Index i = 0; i < particles(); ++i) r[at(i)] = x(i);
+  return r;
+}
+
+std::size_t TaylorBody::bytes() const {
+  return real_.bytes() + virtual_.bytes() + across_.bytes() + acceleration_.bytes() + slot_mass_.bytes() +
+         to_virtual_.bytes() + to_real_.bytes() +
+         sizeof(double) * (reference_square_.size() + reference_quality_.size() + pattern_.size() + partial_.size()) +
+         sizeof(Index) * (corner_.size() + box_corner_.size() + box_of_.size() + cells_.corner.size());
+}
+
+}  // namespace piola::taylor_sph

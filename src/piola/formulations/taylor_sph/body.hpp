@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/taylor_sph/boundary.hpp"
+#include "piola/formulations/taylor_sph/options.hpp"
+#include "piola/formulations/taylor_sph/state.hpp"
+#include "piola/math/tensor.hpp"
+#include "piola/neighbours/cells.hpp"
+#include <array>
+#include <vector>
+
+namespace piola::taylor_sph {
+
+/// What a checkpoint holds of one body, particle by particle in Id order.
+struct Snapshot {
+  std::vector<double> x, v, stress, across, volume;  ///< D, D, SymMat<D>, 1, 1 per particle
+  std::vector<double> x_of_lists, x_of_cells;        ///< positions when lists and cells were made
+  std::vector<double> corners;                       ///< of the cells
+  std::vector<double> books;                         ///< work, power, filter loss, list updates, triangulations, steps
+};
+
+/// Wall time spent besides the steps themselves [s].
+struct SetupSeconds {
+  double triangulation = 0, lists = 0;
+};
+
+/// One body of a Taylor-SPH run: owns its memory, hands its state to the loops, answers in Id order.
+class TaylorBody {
+ public:
+  /// `assembly` is only read here. Throws InputError (too few neighbours, shapes that cannot be triangulated).
+  TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Machine const& machine);
+  TaylorBody(TaylorBody const&) = delete;
+  TaylorBody& operator=(TaylorBody const&) = delete;
+
+  /// From `time` to time + dt.
+  void step(double time, double dt);
+  double stable_time_step() const;  ///< cfl * spacing / c in the current configuration [s]
+  double next_release(double time) const { return boundary_.next_release(time); }
+
+  // Particles are local: numbers from the body's first particle on.
+  Index particles() const { return static_cast<Index>(X_.size()); }
+  std::array<double, 3> X(Index i) const { return X_[at(i)]; }
+  std::array<double, 3> x(Index i) const;
+  std::array<double, 3> v(Index i) const;
+  SymMat<3> stress(Index i) const;      ///< Cauchy stress [Pa]
+  double volume_ratio(Index i) const;   ///< rho0 / rho
+  double mass(Index i) const { return mass_[at(i)]; }
+  double volume(Index i) const { return mass_[at(i)] / state_.k.rho0; }  ///< at the start
+  int neighbours(Index i) const { return to_real_.count(i); }
+
+  Snapshot snapshot() const;
+  void restore(Snapshot const& snapshot);
+
+  BodyState const& state() const { return state_; }
+  Body const& body() const { return body_; }
+  Options const& options() const { return options_; }
+  double external_work() const { return work_; }
+  long list_updates() const { return list_updates_; }
+  long triangulations() const { return triangulations_; }
+  SetupSeconds const& seconds() const { return seconds_; }
+  bool inverted() const { return measures_.inverted; }
+  std::size_t bytes() const;
+  Index local_of(Index slot) const { return local_of_[at(slot)]; }
+  Index virtual_particles() const { return state_.virtual_count; }
+  double mean_sources() const { return to_virtual_.mean_count(); }
+  double mean_virtual_sources() const { return to_real_.mean_count(); }
+
+ private:
+  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  double* record(Index i) const;
+  std::array<double, 6> record_stress(Index i) const;  ///< SymMat<D>
+  int D() const { return state_.dimension; }
+
+  void set_constants(Assembly const& assembly, std::size_t body);
+  Cells first_cells(ParticleSet const& set) const;
+  void place_initially(Assembly const& assembly);
+  Points positions() const;
+  Points middles(Points const& x) const;
+  /// Memory, order of slots, tables for the cells that are there.
+  void arrange(Points const& x_of_cells);
+  void order_slots(std::vector<Index> const& on_boundary);
+  void fill_cell_tables(Points const& x);
+  void fill_hourglass_tables();
+  std::vector<double> reach_of_cells(Points const& x) const;
+  std::vector<double> reach_of_particles(std::vector<double> const& cells) const;
+  bool sees(Index particle, Index cell) const;
+  void make_lists(Points const& x);
+  void note_distances(Points const& x);
+  void prepare_boundary(double time, double dt, Points const& x);
+  void prepare_loads(double time);
+  void follow_motion();
+  bool triangulate_anew();
+
+  Body body_;
+  Options options_;
+  Machine const* machine_;
+  Points X_;
+  std::vector<double> mass_, kernel_volume_;
+  std::vector<Crack> cracks_;
+  std::vector<std::int8_t> crack_side_;
+  double largest_radius_ = 0;  ///< of a simplex inside the body, at the start [m]
+  Boundary boundary_;
+  Cells cells_, boxes_;  ///< local corners
+  Points x_of_lists_, x_of_cells_;
+  std::vector<Index> slot_of_, local_of_;
+  Memory real_, virtual_;
+  Field across_{"OutOfPlaneStress", "Pa", 1, Role::evolved};
+  Field acceleration_{"Acceleration", "m/s2", 3, Role::derived};
+  Field slot_mass_{"Mass", "kg", 1, Role::reference};
+  SetPairs to_virtual_, to_real_;
+  std::vector<Index> corner_, box_corner_, box_of_;
+  std::vector<double> reference_square_, reference_quality_, pattern_, partial_;
+  FailureSlot failure_;
+  BodyState state_;
+  CellMeasures measures_;
+  double work_ = 0, power_ = 0;
+  long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
+  SetupSeconds seconds_;
+};
+
+}  // namespace piola::taylor_sph

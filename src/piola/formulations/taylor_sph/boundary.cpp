@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/taylor_sph/boundary.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/prescribed.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numeric>
+
+namespace piola::taylor_sph {
+namespace {
+
+using Point = std::array<double, 3>;
+using Stress = std::array<double, 6>;  // SymMat<3>: XX YY ZZ XY YZ XZ
+
+/// Facets whose normals differ by more are two sides that meet in an edge: a polygon's sides at 45 degrees are not.
+constexpr double same_side = 0.57;  // cosine of 55 degrees
+
+double length(Point const& a) { return std::sqrt(dot(a, a)); }
+
+/// Position of the component (i, j) in a symmetric tensor of D dimensions.
+int component(int i, int j, int D) {
+  if (i == j) return i;
+  return D == 2 ? 2 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
+}
+
+Point traction_of(Stress const& s, Point const& n, int D) {
+  Point t{};
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j)
+      t[static_cast<std::size_t>(i)] += s[static_cast<std::size_t>(component(i, j, D))] * n[static_cast<std::size_t>(j)];
+  return t;
+}
+
+/// sym(d (x) n) in the orthonormal basis of stresses; e : sigma = d.sigma.n.
+std::array<double, 6> dyad(Point const& d, Point const& n, int D) {
+  std::array<double, 6> e{};
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j) {
+      auto const a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      double const both = i == j ? d[a] * n[a] : (d[a] * n[b] + d[b] * n[a]) / std::sqrt(2.0);
+      e[static_cast<std::size_t>(component(i, j, D))] = both;
+    }
+  return e;
+}
+
+double mandel_product(double const* row, Stress const& s, int D) {
+  double sum = 0;
+  for (int c = 0; c < D * (D + 1) / 2; ++c)
+    sum += row[c] * s[static_cast<std::size_t>(c)] * (c < D ? 1 : std::sqrt(2.0));
+  return sum;
+}
+
+/// Directions across those of `held` [orthonormal], as many as D leaves.
+std::vector<Point> free_directions(std::vector<Point> held, int D) {
+  static constexpr Point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Point> free;
+  for (int c = 0; c < D && held.size() < static_cast<std::size_t>(D); ++c) {
+    Point d = axes[c];
+    // An axis that hardly sticks out of what is there would give a direction of round-off.
+    Point rest = d;
+    for (auto const& h : held)
+      for (std::size_t k = 0; k < 3; ++k) rest[k] -= dot(d, h) * h[k];
+    if (length(rest) < 0.3 || !make_orthogonal(d, held)) continue;
+    held.push_back(d);
+    free.push_back(d);
+  }
+  return free;
+}
+
+}  // namespace
+
+Boundary::Boundary(Assembly const& assembly, std::size_t body)
+    : D_(assembly.particles.dimension), first_(assembly.particles.bodies[body].first) {
+  auto const& set = assembly.particles;
+  Body const& own = set.bodies[body];
+  auto const n = static_cast<std::size_t>(own.last - own.first);
+  X_.assign(set.X.begin() + own.first, set.X.begin() + own.last);
+  held_.resize(n);
+  loaded_.resize(n);
+  tip_.resize(n);
+  auto const of_body = [&](std::int64_t id) { return id >= own.first && id < own.last; };
+  for (auto const& crack : set.cracks)
+    for (std::size_t k = 0; k < n && crack.body == static_cast<int>(body); ++k) {
+      auto const at = [&](Point const& end) { return length({X_[k][0] - end[0], X_[k][1] - end[1], 0}); };
+      double const reach = 1e-6 * std::min(own.spacing[0], own.spacing[1]);
+      tip_[k] = tip_[k] || (crack.tip_at_from && at(crack.from) < reach) || (crack.tip_at_to && at(crack.to) < reach);
+    }
+  for (auto const& support : assembly.supports) {
+    for (auto const id : support.particles)
+      if (of_body(id))
+        for (auto const& d : directions_of(support, D_))
+          held_[static_cast<std::size_t>(id - first_)].push_back({supports_.size(), d});
+    supports_.push_back(support);
+    supports_.back().particles.clear();
+  }
+  for (auto const& load : assembly.loads) {
+    if (!load.normal) {
+      Load mine = load;
+      mine.particles.clear();
+      mine.factor.clear();
+      for (std::size_t k = 0; k < load.particles.size(); ++k) {
+        if (!of_body(load.particles[k])) continue;
+        mine.particles.push_back(load.particles[k] - first_);
+        mine.factor.push_back(load.factor[k]);
+      }
+      if (!mine.particles.empty()) accelerations_.push_back(mine);
+      continue;
+    }
+    for (auto const id : load.particles)
+      if (of_body(id)) loaded_[static_cast<std::size_t>(id - first_)].push_back({tractions_.size(), *load.normal});
+    tractions_.push_back(load);
+    tractions_.back().particles.clear();
+  }
+}
+
+Point Boundary::facet_area(Index facet, Points const& x) const {
+  auto const f = static_cast<std::size_t>(facet);
+  if (D_ == 1) return {surface_.outward[f], 0, 0};
+  auto const corner = [&](std::size_t k) {
+    return x[static_cast<std::size_t>(surface_.corner[f * static_cast<std::size_t>(D_) + k])];
+  };
+  auto const edge = [&](std::size_t k) {
+    Point const a = corner(0), b = corner(k);
+    return Point{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  };
+  Point const t = edge(1);
+  if (D_ == 2) return {t[1], -t[0], 0};
+  Point const s = edge(2);
+  return {0.5 * (t[1] * s[2] - t[2] * s[1]), 0.5 * (t[2] * s[0] - t[0] * s[2]), 0.5 * (t[0] * s[1] - t[1] * s[0])};
+}
+
+void Boundary::add_to_side(Index particle, Index facet, Point const& area) {
+  auto& sides = sides_[static_cast<std::size_t>(particle)];
+  double const size = length(area);
+  Side* best = nullptr;
+  double closest = -2;
+  for (auto& side : sides) {
+    double const cosine = dot(side.area, area) / (length(side.area) * size);
+    if (cosine > closest) best = &side;
+    closest = std::max(closest, cosine);
+  }
+  // A point of a surface in D dimensions has at most D independent normals.
+  bool const full = sides.size() == static_cast<std::size_t>(D_);
+  if (best == nullptr || (closest < same_side && !full)) {
+    sides.push_back({});
+    best = &sides.back();
+  }
+  best->facets.push_back(facet);
+  for (std::size_t c = 0; c < 3; ++c) best->area[c] += area[c];
+}
+
+void Boundary::sort_facets(Surface const& surface, Points const& x) {
+  surface_ = surface;
+  sides_.assign(X_.size(), {});
+  for (Index f = 0; f < surface_.count(); ++f)
+    for (int k = 0; k < D_; ++k) {
+      Index const particle = surface_.corner[static_cast<std::size_t>(f * D_ + k)];
+      if (!tip_[static_cast<std::size_t>(particle)]) add_to_side(particle, f, facet_area(f, x));
+    }
+}
+
+void Boundary::turn(Points const& x) {
+  for (Index const particle : particles_)
+    for (auto& side : sides_[static_cast<std::size_t>(particle)]) {
+      side.area = {};
+      for (Index const f : side.facets) {
+        Point const a = facet_area(f, x);
+        for (std::size_t c = 0; c < 3; ++c) side.area[c] += a[c] / D_;
+      }
+      double const size = length(side.area);
+      for (std::size_t c = 0; c < 3; ++c) side.normal[c] = side.area[c] / size;
+    }
+}
+
+void Boundary::attach_tractions() {
+  for (std::size_t k = 0; k < loaded_.size(); ++k)
+    for (auto const& traction : loaded_[k]) {
+      Side* best = nullptr;
+      double closest = 0.5;
+      for (auto& side : sides_[k])
+        if (dot(side.reference_normal, traction.normal) > closest) {
+          closest = dot(side.reference_normal, traction.normal);
+          best = &side;
+        }
+      if (best == nullptr)
+        throw InputError(
+            fmt::format("load: the particle at ({:.4g}, {:.4g}, {:.4g}) m carries a traction but is not on the surface - "
+                        "load particles of a face, and give the box placement = \"on_boundary\"",
+                        X_[k][0], X_[k][1], X_[k][2]));
+      best->tractions.push_back(traction.load);
+    }
+}
+
+std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x) {
+  sort_facets(surface, X_);
+  particles_.clear();
+  for (std::size_t k = 0; k < X_.size(); ++k)
+    if (!sides_[k].empty() || !held_[k].empty()) particles_.push_back(static_cast<Index>(k));
+  turn(X_);
+  for (auto& sides : sides_)
+    for (auto& side : sides) side.reference_normal = side.normal;
+  attach_tractions();
+  turn(x);
+  items_.assign(particles_.size(), {});
+  return particles_;
+}
+
+Point Boundary::traction_on(Side const& side, Point const& X, double time) const {
+  Point t{};
+  for (std::size_t const l : side.tractions) {
+    Load const& load = tractions_[l];
+    if (has_ended(load.until, time)) continue;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) t[c] += load.value[c](X, time);
+  }
+  return t;
+}
+
+void Boundary::hold(Index particle, double time, double dt, BoundaryMotion const& now, BoundaryItem& item) const {
+  auto const at = static_cast<std::size_t>(particle);
+  std::vector<Point> chosen;
+  item.held = 0;
+  // The support named last decides where several hold a particle.
+  for (auto held = held_[at].rbegin(); held != held_[at].rend(); ++held) {
+    Support const& support = supports_[held->support];
+    if (has_ended(support.until, time)) continue;
+    Point d = held->direction;
+    if (!make_orthogonal(d, chosen)) continue;
+    double speed = support.velocity ? speed_along(*support.velocity, held->direction, X_[at], time + dt) : 0;
+    for (int h = 0; h < item.held; ++h)
+      speed -= dot(held->direction, chosen[static_cast<std::size_t>(h)]) * item.speed_after[h];
+    speed /= dot(held->direction, d);
+    std::copy(d.begin(), d.end(), item.direction[item.held]);
+    item.speed_before[item.held] = dot(now.v, d);
+    item.speed_after[item.held] = speed;
+    ++item.held;
+    chosen.push_back(d);
+  }
+}
+
+void Boundary::load(Index particle, double time, double dt, Stress const& stress, BoundaryItem& item) const {
+  auto const at = static_cast<std::size_t>(particle);
+  int const n = D_ * (D_ + 1) / 2;
+  item.rows = 0;
+  std::vector<Point> held;
+  for (int h = 0; h < item.held; ++h) held.push_back({item.direction[h][0], item.direction[h][1], item.direction[h][2]});
+  std::vector<Point> const free = free_directions(held, D_);
+  for (auto const& side : sides_[at]) {
+    Point const now = traction_on(side, X_[at], time), then = traction_on(side, X_[at], time + dt);
+    for (auto const& d : free) {
+      auto row = dyad(d, side.normal, D_);
+      double before = dot(d, now), after = dot(d, then);
+      double const whole = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
+      for (int r = 0; r < item.rows; ++r) {
+        double part = 0;
+        for (int c = 0; c < n; ++c) part += row[static_cast<std::size_t>(c)] * item.row[r][c];
+        for (int c = 0; c < n; ++c) row[static_cast<std::size_t>(c)] -= part * item.row[r][c];
+        before -= part * item.before[r];
+        after -= part * item.after[r];
+      }
+      double const rest = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
+      if (rest < 0.3 * whole || item.rows == n) continue;  // says nothing new
+      for (int c = 0; c < n; ++c) item.row[item.rows][c] = row[static_cast<std::size_t>(c)] / rest;
+      item.before[item.rows] = time > 0 ? before / rest : mandel_product(item.row[item.rows], stress, D_);
+      item.after[item.rows] = after / rest;
+      std::copy(d.begin(), d.end(), item.along[item.rows]);
+      std::copy(side.normal.begin(), side.normal.end(), item.normal[item.rows]);
+      ++item.rows;
+    }
+  }
+}
+
+void Boundary::prepare(double time, double dt, Points const& x, std::function<BoundaryMotion(Index)> const& motion,
+                       std::function<Stress(Index)> const& stress_now) {
+  turn(x);
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    hold(particles_[k], time, dt, motion(particles_[k]), items_[k]);
+    load(particles_[k], time, dt, stress_now(particles_[k]), items_[k]);
+  }
+}
+
+double Boundary::power(std::function<BoundaryMotion(Index)> const& motion,
+                       std::function<Stress(Index)> const& stress) const {
+  double sum = 0;
+  for (Index const particle : particles_)
+    for (auto const& side : sides_[static_cast<std::size_t>(particle)])
+      sum += dot(motion(particle).v, traction_of(stress(particle), side.area, D_));
+  return sum;
+}
+
+void Boundary::each_acceleration(double time, std::function<void(Index, Point const&)> const& add) const {
+  for (auto const& load : accelerations_) {
+    if (has_ended(load.until, time)) continue;
+    for (std::size_t k = 0; k < load.particles.size(); ++k) {
+      Point a{};
+      for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c)
+        a[c] = load.factor[k] * load.value[c](X_[static_cast<std::size_t>(load.particles[k])], time);
+      add(static_cast<Index>(load.particles[k]), a);
+    }
+  }
+}
+
+double Boundary::next_release(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  auto const see = [&](double until) {
+    if (!has_ended(until, time)) next = std::min(next, until);
+  };
+  for (auto const& support : supports_) see(support.until);
+  for (auto const& load : tractions_) see(load.until);
+  for (auto const& load : accelerations_) see(load.until);
+  return next;
+}
+
+}  // namespace piola::taylor_sph

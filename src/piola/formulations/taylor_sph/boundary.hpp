@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/taylor_sph/state.hpp"
+#include "piola/neighbours/cells.hpp"
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace piola::taylor_sph {
+
+/// Position and velocity of a particle as the boundary sees them.
+struct BoundaryMotion {
+  std::array<double, 3> x, v;
+};
+
+/// What is prescribed on the surface of one body and at its supports: the sides that meet at a particle with their
+/// normals, the tractions on them (zero where nothing loads them), the velocities of supports; and the work that these
+/// do. Particles are local: numbers from the body's first particle on. Theory: docs/theory/taylor-sph.md.
+class Boundary {
+ public:
+  Boundary(Assembly const& assembly, std::size_t body);
+
+  /// Particles with something prescribed, in increasing order: those of the surface but for the tips of cracks, and those
+  /// of supports. The order of items. Throws InputError if a traction is given where there is no surface.
+  std::vector<Index> const& arrange(Surface const& surface, Points const& x);
+
+  /// For a step from `time` to time + dt. `x`: positions by which normals are taken; `stress_now(k)`: the stress of the
+  /// item's particle, which counts as what was prescribed before at time 0.
+  void prepare(double time, double dt, Points const& x,
+               std::function<BoundaryMotion(Index)> const& motion,
+               std::function<std::array<double, 6>(Index)> const& stress_now);
+  BoundaryItem* items() { return items_.data(); }
+
+  /// Power of tractions and supports: sum v.(sigma.a) over the surface [W], with the normals of the last preparation.
+  double power(std::function<BoundaryMotion(Index)> const& motion,
+               std::function<std::array<double, 6>(Index)> const& stress) const;
+
+  bool has_accelerations() const { return !accelerations_.empty(); }
+  /// Adds the accelerations of loads at a time: add(particle, acceleration [m/s2]).
+  void each_acceleration(double time, std::function<void(Index, std::array<double, 3> const&)> const& add) const;
+
+  /// The next time after `time` at which a support or a load ends; infinity if there is none.
+  double next_release(double time) const;
+
+ private:
+  struct Held {
+    std::size_t support;
+    std::array<double, 3> direction;
+  };
+  /// A traction on the sides that face `normal`.
+  struct Traction {
+    std::size_t load;
+    std::array<double, 3> normal;
+  };
+  /// Facets around a particle that make one smooth side.
+  struct Side {
+    std::vector<Index> facets;
+    std::array<double, 3> reference_normal, normal, area;  ///< area: of the particle's share [m^(D-1)]
+    std::vector<std::size_t> tractions;                    ///< loads
+  };
+  void sort_facets(Surface const& surface, Points const& x);
+  void add_to_side(Index particle, Index facet, std::array<double, 3> const& area);
+  void attach_tractions();
+  std::array<double, 3> facet_area(Index facet, Points const& x) const;
+  void turn(Points const& x);
+  std::array<double, 3> traction_on(Side const& side, std::array<double, 3> const& X, double time) const;
+  void hold(Index particle, double time, double dt, BoundaryMotion const& now, BoundaryItem& item) const;
+  void load(Index particle, double time, double dt, std::array<double, 6> const& stress, BoundaryItem& item) const;
+
+  int D_;
+  std::int64_t first_;
+  Points X_;
+  std::vector<std::vector<Held>> held_;          ///< per particle
+  std::vector<std::vector<Traction>> loaded_;    ///< per particle
+  std::vector<bool> tip_;                        ///< tips of cracks
+  std::vector<Support> supports_;
+  std::vector<Load> tractions_, accelerations_;  ///< tractions: `particles` empty
+  Surface surface_;
+  std::vector<std::vector<Side>> sides_;  ///< per particle
+  std::vector<Index> particles_;          ///< of items
+  std::vector<BoundaryItem> items_;
+};
+
+}  // namespace piola::taylor_sph

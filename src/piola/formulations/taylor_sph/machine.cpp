@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of Taylor-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
+#include "piola/formulations/taylor_sph/step.hpp"
+
+namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace {
+
+template <int D, class Kernel, class F>
+void with_rate_form(BodyState& body, F const& f) {
+  with_law(body.material, [&](auto const& law) {
+    using Law = std::decay_t<decltype(law)>;
+    if constexpr (RateForm<Law>) f(Step<D, Kernel, Law>(body, law));
+  });
+}
+template <int D, class F>
+void with_kernel(BodyState& body, F const& f) {
+  if (body.k.kernel == KernelShape::wendland_c2)
+    with_rate_form<D, WendlandC2>(body, f);
+  else
+    with_rate_form<D, CubicSpline>(body, f);
+}
+template <class F>
+void with_step(BodyState& body, F const& f) {
+  switch (body.dimension) {
+    case 1: return with_kernel<1>(body, f);
+    case 2: return with_kernel<2>(body, f);
+    default: return with_kernel<3>(body, f);
+  }
+}
+
+void half_step(BodyState& body, double dt) {
+  with_step(body, [&](auto step) { step.half(dt); });
+}
+void full_step(BodyState& body, double dt) {
+  with_step(body, [&](auto step) { step.full(dt); });
+}
+void impose(BodyState& body) {
+  with_step(body, [](auto step) { step.impose(); });
+}
+void filter(BodyState& body) {
+  with_step(body, [](auto step) { step.filter(); });
+}
+CellMeasures place(BodyState& body) {
+  CellMeasures m;
+  with_step(body, [&](auto step) { m = step.place(); });
+  return m;
+}
+
+#define PIOLA_NAME_OF(x) #x
+#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
+
+}  // namespace
+
+/// The entry by which the host finds this machine.
+extern Machine const machine;
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &half_step, &full_step, &impose, &filter, &place};
+
+}  // namespace piola::taylor_sph::inline PIOLA_MACHINE

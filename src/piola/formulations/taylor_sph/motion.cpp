@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a body follows its motion: neighbour lists, smoothing lengths, cells; and its snapshots.
+#include "piola/base/problems.hpp"
+#include "piola/formulations/taylor_sph/body.hpp"
+#include "piola/math/solve.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace piola::taylor_sph {
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// Lists reach this much further than the kernels, so that they serve until distances have changed by half of it.
+constexpr double skin = 0.2;
+constexpr double largest_strain = 0.2;  ///< of squared distances: 10 % in length
+
+/// Cells are made anew when one has lost this much of its quality.
+constexpr double least_quality = 0.3;
+constexpr long least_steps = 10;  ///< between two triangulations
+
+struct Stopwatch {
+  double& seconds;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  explicit Stopwatch(double& s) : seconds(s) {}
+  Stopwatch(Stopwatch const&) = delete;
+  Stopwatch& operator=(Stopwatch const&) = delete;
+  ~Stopwatch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+};
+
+double distance(Point const& a, Point const& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// A place with the side of a crack's face that it is on, if it is on one.
+struct Place {
+  Point X;
+  int side;
+};
+
+/// Whether the segment from p to q passes through the crack.
+bool is_blocked(Place const& p, Place const& q, Crack const& crack) {
+  double const tx = crack.to[0] - crack.from[0], ty = crack.to[1] - crack.from[1], l2 = tx * tx + ty * ty;
+  auto const along = [&](Point const& X) { return ((X[0] - crack.from[0]) * tx + (X[1] - crack.from[1]) * ty) / l2; };
+  auto const height = [&](Place const& a) {
+    double const h = (tx * (a.X[1] - crack.from[1]) - ty * (a.X[0] - crack.from[0])) / l2;
+    bool const on_line = std::abs(h) < 1e-9;
+    return on_line ? (a.side != 0 && along(a.X) > -1e-9 && along(a.X) < 1 + 1e-9 ? 1e-9 * a.side : 0.0) : h;
+  };
+  double const hp = height(p), hq = height(q);
+  if (hp * hq >= 0) return false;
+  double const share = hp / (hp - hq), s = along(p.X) + share * (along(q.X) - along(p.X));
+  return s > (crack.tip_at_from ? 1e-9 : -1e-9) && s < 1 - (crack.tip_at_to ? 1e-9 : -1e-9);
+}
+
+/// Whether a point lies in a simplex, by barycentric coordinates.
+bool is_inside(Point const& p, std::span<Index const> corners, Points const& x, int D) {
+  double A[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, b[3] = {0, 0, 0};
+  auto const corner = [&](std::size_t k) { return x[static_cast<std::size_t>(corners[k])]; };
+  for (int i = 0; i < D; ++i) {
+    auto const c = static_cast<std::size_t>(i);
+    for (int k = 0; k < D; ++k) A[3 * i + k] = corner(static_cast<std::size_t>(k) + 1)[c] - corner(0)[c];
+    b[i] = p[c] - corner(0)[c];
+  }
+  if (!(solve_in_place<3>(A, b) > 0)) return false;
+  double first = 1;
+  for (int k = 0; k < D; ++k) {
+    if (b[k] < -1e-9) return false;
+    first -= b[k];
+  }
+  return first > -1e-9;
+}
+
+/// The cells of `all` whose middles lie in one of `cover`, all simplices of the same points.
+Cells cells_within(Cells const& all, Cells const& cover, Points const& x) {
+  auto const middle = [&](Cells const& cells, Index c) {
+    Point m{};
+    for (Index const corner : cells.of(c))
+      for (std::size_t k = 0; k < 3; ++k) m[k] += x[static_cast<std::size_t>(corner)][k] / cells.corners;
+    return m;
+  };
+  Points centres;
+  double widest = 0;
+  for (Index c = 0; c < cover.count(); ++c) {
+    centres.push_back(middle(cover, c));
+    for (Index const corner : cover.of(c))
+      widest = std::max(widest, distance(centres.back(), x[static_cast<std::size_t>(corner)]));
+  }
+  CellGrid const grid(centres, widest);
+  Cells kept = all;
+  kept.corner.clear();
+  for (Index c = 0; c < all.count(); ++c) {
+    Point const m = middle(all, c);
+    bool inside = false;
+    grid.visit(m, [&](Index other) { inside = inside || is_inside(m, cover.of(other), x, all.dimension); });
+    if (inside) kept.corner.insert(kept.corner.end(), all.of(c).begin(), all.of(c).end());
+  }
+  return kept;
+}
+
+std::vector<double> flattened(Points const& points, int D) {
+  std::vector<double> r;
+  for (auto const& p : points) r.insert(r.end(), p.begin(), p.begin() + D);
+  return r;
+}
+
+Points points_of(std::vector<double> const& values, int D) {
+  Points r(values.size() / static_cast<std::size_t>(D));
+  for (std::size_t k = 0; k < values.size(); ++k) r[k / static_cast<std::size_t>(D)][k % static_cast<std::size_t>(D)] = values[k];
+  return r;
+}
+
+}  // namespace
+
+Points TaylorBody::middles(Points const& x) const {
+  Points r(at(cells_.count()));
+  for (Index c = 0; c < cells_.count(); ++c) {
+    for (Index const corner : cells_.of(c))
+      for (std::size_t k = 0; k < 3; ++k) r[at(c)][k] += x[at(corner)][k];
+    for (double& k : r[at(c)]) k /= cells_.corners;
+  }
+  return r;
+}
+
+/// Spacing that each cell stands for: its longest diagonal over that of a unit box.
+std::vector<double> TaylorBody::reach_of_cells(Points const& x) const {
+  std::vector<double> r(at(cells_.count()));
+  bool const boxes = cells_.corners > D() + 1;
+  double const unit = std::sqrt(D() == 1 ? 1.0 : boxes ? D() : 2.0);
+  for (Index c = 0; c < cells_.count(); ++c) {
+    auto const corners = cells_.of(c);
+    double longest = 0;
+    for (Index const a : corners)
+      for (Index const b : corners) longest = std::max(longest, distance(x[at(a)], x[at(b)]));
+    r[at(c)] = longest / unit;
+  }
+  return r;
+}
+
+std::vector<double> TaylorBody::reach_of_particles(std::vector<double> const& cells) const {
+  std::vector<double> r(X_.size(), 0);
+  for (Index c = 0; c < cells_.count(); ++c)
+    for (Index const corner : cells_.of(c)) r[at(corner)] = std::max(r[at(corner)], cells[at(c)]);
+  return r;
+}
+
+bool TaylorBody::sees(Index particle, Index cell) const {
+  Point middle{};
+  for (Index const corner : cells_.of(cell))
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += X_[at(corner)][k] / cells_.corners;
+  Place const p{X_[at(particle)], crack_side_[at(particle)]};
+  return std::none_of(cracks_.begin(), cracks_.end(), [&](Crack const& crack) { return is_blocked(p, {middle, 0}, crack); });
+}
+
+void TaylorBody::make_lists(Points const& x) {
+  Stopwatch const watch(seconds_.lists);
+  x_of_lists_ = x;
+  auto cell_h = reach_of_cells(x), real_h = reach_of_particles(cell_h);
+  for (auto* all : {&cell_h, &real_h})
+    for (double& h : *all) h *= options_.smoothing_length;
+  Points const middle = middles(x);
+  std::vector<int> const corners(middle.size(), D() + 1);
+  std::vector<int> least(X_.size(), D() == 1 ? 2 : D() + 1);
+  for (Index i = 0; i < particles(); ++i)
+    if (D() == 1 && slot_of_[at(i)] >= state_.boundary.first) least[at(i)] = 1;
+  std::vector<Index> cell_in_slot(at(state_.virtuals.last), -1), slot_of_cell(middle.size());
+  std::iota(slot_of_cell.begin(), slot_of_cell.end(), 0);
+  std::copy(slot_of_cell.begin(), slot_of_cell.end(), cell_in_slot.begin());
+  std::function<bool(Index, Index)> real_sees, cell_sees;
+  if (!cracks_.empty()) {
+    real_sees = [&](Index particle, Index cell) { return sees(particle, cell); };
+    cell_sees = [&](Index cell, Index particle) { return sees(particle, cell); };
+  }
+  double const reach = state_.k.moving ? skin : 0;
+  to_virtual_.build({middle, x, cell_h, 2, reach, corners, cell_in_slot, slot_of_, cell_sees}, machine_->lanes,
+                    state_.boundary.last);
+  to_real_.build({x, middle, real_h, 2, reach, least, local_of_, slot_of_cell, real_sees}, machine_->lanes,
+                 state_.virtuals.last);
+  state_.to_virtual = to_virtual_.table();
+  state_.to_real = to_real_.table();
+  note_distances(x);
+}
+
+/// Squared distances between the corners of each cell, from which it is seen when lists have served their time.
+void TaylorBody::note_distances(Points const& x) {
+  int const lanes = machine_->lanes;
+  Index const pairs = cells_.corners * (cells_.corners - 1) / 2;
+  reference_square_.assign(static_cast<std::size_t>(state_.virtuals.last * pairs), 0);
+  for (Index v = 0; v < state_.virtuals.last; ++v) {
+    auto const corners = cells_.of(std::min(v, state_.virtual_count - 1));
+    Index pair = 0;
+    for (std::size_t a = 0; a < corners.size(); ++a)
+      for (std::size_t b = a + 1; b < corners.size(); ++b, ++pair) {
+        double const d = distance(x[at(corners[a])], x[at(corners[b])]);
+        reference_square_[static_cast<std::size_t>((v / lanes * pairs + pair) * lanes + v % lanes)] = d * d;
+      }
+  }
+  state_.cells.reference_square = reference_square_.data();
+}
+
+void TaylorBody::follow_motion() {
+  measures_ = machine_->place(state_);
+  if (measures_.inverted) return;
+  if (measures_.quality < least_quality && steps_since_triangulation_ >= least_steps && triangulate_anew()) return;
+  if (measures_.strain < largest_strain) return;
+  make_lists(positions());
+  ++list_updates_;
+  measures_ = machine_->place(state_);
+}
+
+/// Delaunay's triangulation of where the particles are now, of it what lies in a cell of before: the cells of before
+/// cover the body, however deformed they are. False if nothing would change.
+bool TaylorBody::triangulate_anew() {
+  steps_since_triangulation_ = 0;
+  if (!cracks_.empty() || options_.lattice_cells) return false;
+  Points const now = positions();
+  Cells inside;
+  {
+    Stopwatch const watch(seconds_.triangulation);
+    Cells const all = delaunay(now, D(), 2 * largest_radius_);
+    inside = cells_within(all, cells_, now);
+  }
+  ++triangulations_;
+  Snapshot s = snapshot();
+  s.x_of_lists = s.x_of_cells = s.x;
+  s.corners.assign(inside.corner.begin(), inside.corner.end());
+  s.books[4] = static_cast<double>(triangulations_);
+  restore(s);
+  return true;
+}
+
+Snapshot TaylorBody::snapshot() const {
+  Snapshot s;
+  int const n = D() * (D() + 1) / 2;
+  for (Index i = 0; i < particles(); ++i) {
+    double const* const own = record(i);
+    s.x.insert(s.x.end(), own, own + D());
+    s.volume.push_back(own[D()]);
+    s.v.insert(s.v.end(), own + D() + 1, own + 2 * D() + 1);
+    s.stress.insert(s.stress.end(), own + 2 * D() + 1, own + 2 * D() + 1 + n);
+    s.across.push_back(across_.at(slot_of_[at(i)]));
+  }
+  s.x_of_lists = flattened(x_of_lists_, D());
+  s.x_of_cells = flattened(x_of_cells_, D());
+  s.corners.assign(cells_.corner.begin(), cells_.corner.end());
+  s.books = {work_,
+             power_,
+             state_.filter_loss,
+             static_cast<double>(list_updates_),
+             static_cast<double>(triangulations_),
+             static_cast<double>(steps_since_triangulation_)};
+  return s;
+}
+
+void TaylorBody::restore(Snapshot const& s) {
+  cells_.corner.clear();
+  for (double const corner : s.corners) cells_.corner.push_back(static_cast<Index>(corner));
+  arrange(points_of(s.x_of_cells, D()));
+  int const n = D() * (D() + 1) / 2;
+  for (Index i = 0; i < particles(); ++i) {
+    double* const own = record(i);
+    auto const k = static_cast<std::ptrdiff_t>(i);
+    std::copy_n(s.x.begin() + k * D(), D(), own);
+    own[D()] = s.volume[at(i)];
+    std::copy_n(s.v.begin() + k * D(), D(), own + D() + 1);
+    std::copy_n(s.stress.begin() + k * n, n, own + 2 * D() + 1);
+    across_.at(slot_of_[at(i)]) = s.across[at(i)];
+  }
+  work_ = s.books[0];
+  power_ = s.books[1];
+  state_.filter_loss = s.books[2];
+  list_updates_ = static_cast<long>(s.books[3]);
+  triangulations_ = static_cast<long>(s.books[4]);
+  steps_since_triangulation_ = static_cast<long>(s.books[5]);
+  make_lists(points_of(s.x_of_lists, D()));
+  measures_ = machine_->place(state_);
+}
+
+}  // namespace piola::taylor_sph

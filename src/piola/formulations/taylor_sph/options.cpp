@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/taylor_sph/options.hpp"
+#include "piola/base/problems.hpp"
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola::taylor_sph {
+namespace {
+
+constexpr std::array<std::string_view, 2> configuration_words{"updated", "fixed"};
+constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
+                                                           "uniaxial_stress", "uniaxial_strain"};
+constexpr std::array<std::string_view, 2> virtual_words{"delaunay", "lattice_cells"};
+constexpr std::array<std::string_view, 2> gradient_words{"linear_exact", "printed"};
+constexpr std::array<std::string_view, 2> kernel_words{"cubic_spline", "wendland_c2"};
+
+constexpr std::array choices{
+    Choice{"configuration",
+           "updated: updated Lagrangian, everything in the current configuration; fixed: that of the start, "
+           "geometrically linear, exact transport at Courant number 1",
+           configuration_words},
+    Choice{"assumption",
+           "about the directions that a body does not have; as_dimension: 1D uniaxial_stress (a bar), 2D plane_strain",
+           assumption_words},
+    Choice{"virtual_particles",
+           "where values of half time live; delaunay: centroids of triangles (tetrahedra, in 1D midpoints), with "
+           "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice",
+           virtual_words},
+    Choice{"gradient",
+           "linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: eqs. 19, 20",
+           gradient_words},
+    Choice{"kernel", "smoothing kernel, support 2h", kernel_words}};
+
+constexpr std::array parameters{
+    Parameter{"smoothing_length", "1",
+              "h in spacings of real particles (1D 0.6, triangles 0.9, lattice cells 0.6); it follows the cells as they "
+              "deform",
+              Interval{0.3, 3, false, false}, no_default},
+    Parameter{"hourglass_filter", "1",
+              "share of the checkerboard pattern of velocity and stress that each step takes away, eq. of Flanagan and "
+              "Belytschko's hourglass vectors; 0: none (updated 0.05, fixed 0)",
+              Interval{0, 1, false, false}, no_default}};
+
+constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};
+
+constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"}};
+
+std::string_view word(FormulationSpec const& spec, std::string_view name) {
+  auto const given = spec.words.find(name);
+  if (given != spec.words.end()) return given->second;
+  for (auto const& choice : choices)
+    if (choice.name == name) return choice.allowed.front();
+  return {};
+}
+
+double number(FormulationSpec const& spec, std::string_view name, double otherwise) {
+  auto const given = spec.numbers.find(name);
+  return given != spec.numbers.end() ? given->second : otherwise;
+}
+
+bool is_stress_free(std::string_view assumption, int dimension, Problems& problems) {
+  if (assumption == "as_dimension") return dimension == 1;
+  int const needed = assumption.starts_with("plane") ? 2 : 1;
+  if (dimension != needed)
+    problems.add({}, fmt::format("formulation: assumption = \"{}\" is for bodies in {}D, this one is in {}D - leave it "
+                                 "out",
+                                 assumption, needed, dimension));
+  return assumption.ends_with("stress");
+}
+
+}  // namespace
+
+FormulationInfo info() {
+  FormulationInfo info{"taylor_sph",
+                       "updated-Lagrangian SPH of stress and velocity on two sets of particles, two-step Taylor in time "
+                       "(Serroukh, Mabssout 2022)",
+                       parameters,
+                       choices,
+                       usable_laws,
+                       diagnostics};
+  return info;
+}
+
+Options read_options(FormulationSpec const& spec, int dimension, double cfl) {
+  Problems problems;
+  Options o;
+  o.moving = word(spec, "configuration") == "updated";
+  o.form = word(spec, "gradient") == "printed" ? GradientForm::printed : GradientForm::linear_exact;
+  o.kernel = word(spec, "kernel") == "wendland_c2" ? KernelShape::wendland_c2 : KernelShape::cubic_spline;
+  o.lattice_cells = dimension > 1 && word(spec, "virtual_particles") == "lattice_cells";
+  o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
+  o.smoothing_length = number(spec, "smoothing_length", dimension == 1 || o.lattice_cells ? 0.6 : 0.9);
+  o.hourglass = number(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.05 : 0);
+  o.cfl = std::isnan(cfl) ? (o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
+  if (o.cfl > 1)
+    problems.add({}, fmt::format("run.cfl = {} is above 1: two-step Taylor amplifies short waves then and blows up within "
+                                 "some hundred steps (allowed: up to 1, where waves along a lattice travel exactly one "
+                                 "spacing per step) - set run.cfl to 1 or less",
+                                 o.cfl));
+  problems.raise_if_any();
+  return o;
+}
+
+}  // namespace piola::taylor_sph

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/registry.hpp"
+#include "piola/formulations/taylor_sph/state.hpp"
+
+namespace piola::taylor_sph {
+
+/// What a user may choose, with every default resolved.
+struct Options {
+  bool moving = true;  ///< updated Lagrangian; else the configuration of the start
+  GradientForm form = GradientForm::linear_exact;
+  KernelShape kernel = KernelShape::cubic_spline;
+  bool lattice_cells = false;   ///< virtual particles in the middle of lattice boxes; else of simplices
+  bool stress_free = false;     ///< the missing directions: free of stress, else held
+  double smoothing_length = 1;  ///< h in particle spacings
+  double hourglass = 0;         ///< share of the hourglass pattern taken away by each step
+  double cfl = 1;               ///< c dt / spacing
+};
+
+/// Registry entry: keys, meanings, defaults, laws.
+FormulationInfo info();
+
+/// Options of a body of that dimension. `cfl`: nan for the default. Throws InputError with all that cannot work.
+Options read_options(FormulationSpec const& spec, int dimension, double cfl);
+
+}  // namespace piola::taylor_sph

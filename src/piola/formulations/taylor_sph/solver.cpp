@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/taylor_sph/solver.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/observation.hpp"
+#include "piola/formulations/prescribed.hpp"
+#include "piola/formulations/taylor_sph/body.hpp"
+#include "piola/formulations/taylor_sph/observe.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+namespace piola::taylor_sph {
+namespace {
+
+void check(Assembly const& assembly) {
+  Problems problems;
+  if (!assembly.mirrors.empty())
+    problems.add({}, "taylor_sph: there are mirror planes (none are allowed) - hold the face with a roller, "
+                     "[[support]] fix = \"normal\", which is a plane of symmetry here");
+  if (!assembly.initial_deformation_gradient.empty())
+    problems.add({}, "taylor_sph: there is an initial deformation gradient (stress starts at zero here) - remove it");
+  problems.raise_if_any();
+}
+
+Machine const* choose(std::string const& name) {
+  if (Machine const* machine = find_machine(name.c_str())) return machine;
+  std::string known = "auto";
+  for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
+  throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
+}
+
+/// Taylor-SPH of one or more bodies that do not touch each other.
+class Solver final : public Formulation {
+ public:
+  explicit Solver(Assembly const& assembly) : particles_(assembly.particles.size()), D_(assembly.particles.dimension) {
+    Machine const* machine = choose(assembly.machine);
+    for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
+      Options const options = read_options(assembly.formulations[k], D_, assembly.cfl);
+      bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, *machine));
+    }
+    set_ = assembly.particles;
+  }
+
+  double stable_time_step() const override {
+    double const dt = settled_time_step();
+    double rest = std::numeric_limits<double>::infinity();
+    for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
+    return up_to_release(dt, rest);
+  }
+  double settled_time_step() const override {
+    double dt = std::numeric_limits<double>::infinity();
+    for (auto const& body : bodies_) dt = std::min(dt, body->stable_time_step());
+    return dt;
+  }
+  void step(double time, double dt) override {
+    for (auto const& body : bodies_) body->step(time, dt);
+    time_ = time + dt;
+  }
+
+  std::optional<Failure> failure() const override;
+  Diagnostics diagnose() const override {
+    Observation all;
+    std::array<double, 3> more{};
+    for (auto const& body : bodies_) {
+      observe(*body, set_, all);
+      more[0] += body->state().filter_loss;
+      more[1] += static_cast<double>(body->list_updates());
+      more[2] += static_cast<double>(body->triangulations());
+    }
+    Diagnostics d = all.finish();
+    d.stabilisation_loss = more[0];
+    d.more = {{"list_updates", more[1]}, {"triangulations", more[2]}};
+    return d;
+  }
+
+  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  void sample(std::string_view field, std::span<double> values) const override {
+    for (std::size_t k = 0; k < bodies_.size(); ++k) taylor_sph::sample(*bodies_[k], static_cast<int>(k), field, values);
+  }
+
+  void save(StateWriter& writer) const override;
+  void load(StateReader& reader) override;
+
+  int stages_per_step() const override { return 2; }
+  std::size_t memory_bytes() const override {
+    std::size_t total = 0;
+    for (auto const& body : bodies_) total += body->bytes();
+    return total;
+  }
+
+ private:
+  std::int64_t particles_;
+  int D_;
+  ParticleSet set_;
+  std::vector<std::unique_ptr<TaylorBody>> bodies_;
+  double time_ = 0;  ///< at the end of the last step [s]
+};
+
+std::optional<Failure> Solver::failure() const {
+  for (auto const& body : bodies_) {
+    FailureSlot const& slot = *body->state().failure;
+    bool const lost = slot.index != FailureSlot::none;
+    if (!lost && !body->inverted()) continue;
+    Index const i = lost ? body->local_of(slot.index) : 0;
+    Failure f;
+    f.what = lost ? "has a velocity or stress that is not a number" : "belongs to a body with a cell turned inside out";
+    f.particle = body->body().first + i;
+    f.body = body->body().name;
+    f.X = body->X(i);
+    f.x = body->x(i);
+    auto const v = body->v(i);
+    f.values = {{"rho0 / rho", body->volume_ratio(i)},
+                {"virtual neighbours", body->neighbours(i)},
+                {"speed [m/s]", std::hypot(v[0], v[1], v[2])},
+                {"cfl", body->options().cfl}};
+    return f;
+  }
+  return std::nullopt;
+}
+
+/// f(name, values) for what a checkpoint holds of a body.
+template <class S, class F>
+void each_array(S& snapshot, std::size_t body, F const& f) {
+  f(fmt::format("body{}_position", body), snapshot.x);
+  f(fmt::format("body{}_velocity", body), snapshot.v);
+  f(fmt::format("body{}_stress", body), snapshot.stress);
+  f(fmt::format("body{}_out_of_plane_stress", body), snapshot.across);
+  f(fmt::format("body{}_kernel_volume", body), snapshot.volume);
+  f(fmt::format("body{}_position_of_lists", body), snapshot.x_of_lists);
+  f(fmt::format("body{}_position_of_cells", body), snapshot.x_of_cells);
+  f(fmt::format("body{}_cells", body), snapshot.corners);
+  f(fmt::format("body{}_books", body), snapshot.books);
+}
+
+void Solver::save(StateWriter& writer) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    Snapshot const snapshot = bodies_[k]->snapshot();
+    std::array const cells{static_cast<double>(snapshot.corners.size())};
+    writer.put(fmt::format("body{}_cell_corners", k), cells);
+    each_array(snapshot, k, [&](std::string const& name, std::vector<double> const& values) { writer.put(name, values); });
+  }
+  writer.put("time", std::array{time_});
+}
+
+void Solver::load(StateReader& reader) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    Snapshot snapshot = bodies_[k]->snapshot();
+    std::array<double, 1> cells{};
+    reader.get(fmt::format("body{}_cell_corners", k), cells);
+    snapshot.corners.resize(static_cast<std::size_t>(cells[0]));
+    each_array(snapshot, k, [&](std::string const& name, std::vector<double>& values) { reader.get(name, values); });
+    bodies_[k]->restore(snapshot);
+  }
+  std::array<double, 1> time{};
+  reader.get("time", time);
+  time_ = time[0];
+}
+
+}  // namespace
+
+std::unique_ptr<Formulation> make(Assembly const& assembly) {
+  check(assembly);
+  return std::make_unique<Solver>(assembly);
+}
+
+}  // namespace piola::taylor_sph

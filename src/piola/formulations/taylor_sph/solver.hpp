@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include <memory>
+
+namespace piola::taylor_sph {
+
+/// Throws InputError for what it cannot build: mirror planes, laws without a rate form, thin bodies.
+std::unique_ptr<Formulation> make(Assembly const& assembly);
+
+}  // namespace piola::taylor_sph

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/field.hpp"
+#include "piola/exec/parallel.hpp"
+#include "piola/materials/registry.hpp"
+#include "piola/neighbours/set_pairs.hpp"
+
+/// One body of a Taylor-SPH run as its loops see it: plain data that crosses between machines.
+namespace piola::taylor_sph {
+
+enum class KernelShape { cubic_spline, wendland_c2 };
+
+/// How values and gradients are estimated from the sources around a target.
+enum class GradientForm {
+  linear_exact,  ///< about the centroid of the weights: linear fields exactly, on any set
+  printed        ///< eqs. (19), (20): the interpolated value counts as that of the target's own place
+};
+
+struct Constants {
+  double rho0;           ///< density at the start [kg/m^3]
+  double kernel_volume;  ///< volume of a real particle in kernel sums, at the start [m^D]
+  double lateral;        ///< strain rate of a direction without stress over minus that along the body; 0: held
+  double modulus;        ///< D_11 of the body's assumption: c = sqrt(D_11 / rho) [Pa]
+  double hourglass;      ///< share of the hourglass pattern that each step takes away
+  GradientForm form;
+  KernelShape kernel;
+  bool moving;  ///< updated Lagrangian; false: the configuration of the start, geometrically linear
+  bool loaded;  ///< there are accelerations
+};
+
+/// A particle as its neighbours read it: one record of `stride` doubles,
+///   x (D) | volume in kernel sums | v (D) | Cauchy stress (SymMat<D>)
+/// Virtual particles have the same record, with the values of half time.
+template <int D>
+struct Record {
+  static constexpr int stress = D * (D + 1) / 2;
+  static constexpr int fields = D + stress;  ///< v and stress
+  static constexpr int x = 0, volume = D, v = D + 1, s = 2 * D + 1;
+  static constexpr int values = D + 1 + fields;
+  static constexpr int stride = (values + 7) / 8 * 8;
+};
+constexpr int record_stride(int dimension) { return dimension == 3 ? Record<3>::stride : Record<2>::stride; }
+
+/// What is prescribed at a particle of the surface, or of a support, during one step. Rows of stress are orthonormal in
+/// the space of stresses with shear components times sqrt(2) (Mandel), in the order of SymMat.
+struct BoundaryItem {
+  int held = 0;            ///< velocity: orthonormal directions with a prescribed speed
+  double direction[3][3];  ///< unit vectors
+  double speed_before[3], speed_after[3];  ///< at the start and at the end of the step [m/s]
+  int rows = 0;                            ///< stress: combinations with a prescribed value
+  double row[6][6];
+  double before[6], after[6];  ///< [Pa]
+  /// Row k concerns the traction on `normal` along `along`: the velocity's derivative along `normal` is not seen by
+  /// the particles inside and follows from the rate of that traction.
+  double along[6][3], normal[6][3];
+};
+
+/// Cells, whose centres are the virtual particles, interleaved by lanes as SetPairTable is.
+struct CellTable {
+  int corners = 0;
+  bool simplices = true;
+  Index const* corner = nullptr;               ///< corner k of lane l of group g: [(g * corners + k) * lanes + l]
+  double const* reference_square = nullptr;    ///< of the distance of each pair of corners, when lists were made [m2]
+  double const* reference_quality = nullptr;   ///< volume / (longest edge)^D, when cells were made
+};
+
+/// Boxes of the lattice, for the hourglass filter.
+struct HourglassTable {
+  Index boxes = 0;                ///< a multiple of the lanes
+  Index const* corner = nullptr;  ///< as CellTable::corner, 2^D corners
+  double* pattern = nullptr;      ///< [box][mode][field]
+  Index const* box_of = nullptr;  ///< per slot, 2^D entries: box * 2^D + corner number, or -1
+};
+
+/// What the cells say about a moving body.
+struct CellMeasures {
+  double strain = 0;      ///< largest relative change of a squared distance since lists were made
+  double quality = 1;     ///< smallest quality over that when cells were made
+  double spacing = 0;     ///< smallest distance that a wave may cross in a step [m]
+  double dilation = 1;    ///< largest volume of a real particle over that at the start
+  bool inverted = false;  ///< a cell has turned inside out
+};
+
+struct BodyState {
+  int dimension = 0;
+  MaterialParameters material;
+  Constants k{};
+  Range interior, boundary, virtuals;  ///< slots; ranges are multiples of every lane count
+  Index interior_count = 0, boundary_count = 0, virtual_count = 0;
+  double* real = nullptr;          ///< records
+  double* virtual_ = nullptr;      ///< records
+  FieldRef out_of_plane;           ///< stress across the plane [Pa]
+  FieldRef acceleration;           ///< of loads, at half time [m/s2]
+  FieldRef mass;                   ///< [kg]
+  SetPairTable to_virtual, to_real;
+  CellTable cells;
+  HourglassTable hourglass;
+  BoundaryItem* items = nullptr;  ///< per slot of `boundary`
+  double* partial = nullptr;      ///< room for partial sums of reductions, 4 per block
+  FailureSlot* failure = nullptr;
+  double filter_loss = 0;  ///< energy taken by the hourglass filter since the start [J]
+};
+
+/// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
+struct Machine {
+  char const* name;
+  int lanes;
+  void (*half_step)(BodyState& body, double dt);  ///< eqs. (21): real to virtual
+  void (*full_step)(BodyState& body, double dt);  ///< eqs. (22), (23): virtual to real
+  void (*impose)(BodyState& body);                ///< prescribed speeds and stresses at the end of the step
+  void (*filter)(BodyState& body);                ///< hourglass filter
+  CellMeasures (*place)(BodyState& body);         ///< virtual particles into the middle of their cells
+};
+
+/// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.
+Machine const* find_machine(char const* name);
+/// Names of the machines in this program that this processor can run, best first; ends with nullptr.
+char const* const* machine_names();
+
+}  // namespace piola::taylor_sph

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/taylor_sph/boundary_passes.hpp"
+#include "piola/formulations/taylor_sph/cell_passes.hpp"
+#include "piola/formulations/taylor_sph/filter_passes.hpp"
+
+namespace piola::taylor_sph::inline PIOLA_MACHINE {
+
+/// The parts of a step of one body, in their order; solver.cpp calls them.
+template <int D, class Kernel, class Law>
+class Step {
+ public:
+  Step(BodyState& body, Law const& law) : b_(body), law_(law) {}
+
+  /// Eqs. (21): v and sigma of the virtual particles at t^(n+1/2) from the real ones at t^n.
+  void half(double dt) {
+    exec::for_each(b_.virtuals, HalfStep<D, Kernel, Law>{law_, b_.k, b_.to_virtual, b_.cells, b_.real, b_.virtual_,
+                                                         acceleration(), dt});
+  }
+  /// Eqs. (22), (23): v, sigma, x of the real particles at t^(n+1) from the virtual ones at t^(n+1/2).
+  void full(double dt) {
+    exec::for_each(b_.interior, FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, out_of_plane(),
+                                                         acceleration(), b_.interior_count, b_.failure, dt});
+    exec::for_each(b_.boundary,
+                   BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, out_of_plane(),
+                                                acceleration(), b_.items, b_.boundary.first, b_.boundary_count,
+                                                b_.failure, dt});
+  }
+  /// Prescribed values at t^(n+1).
+  void impose() {
+    exec::for_each_item(b_.boundary_count, Impose<D>{b_.real, b_.items, b_.boundary.first});
+  }
+  /// The hourglass filter, where the lattice has patterns to filter.
+  void filter() {
+    if constexpr (D > 1) {
+      exec::for_each(Range{0, b_.hourglass.boxes}, MeasurePatterns<D>{b_.hourglass, b_.real});
+      damp(b_.interior, b_.interior_count);
+      damp(b_.boundary, b_.boundary_count);
+    }
+  }
+  /// Virtual particles into the middle of their cells.
+  CellMeasures place() {
+    exec::for_each_block(b_.virtuals, PlaceVirtuals<D>{b_.cells, b_.real, b_.virtual_, b_.partial});
+    CellMeasures m{0, 1e300, 1e300, 0};
+    for (Index k = 0; k < exec::block_count(b_.virtuals); ++k) {
+      double const* const part = b_.partial + PlaceVirtuals<D>::results * k;
+      m.strain = maximum(m.strain, part[0]);
+      m.quality = minimum(m.quality, part[1]);
+      m.spacing = minimum(m.spacing, part[2]);
+      if (!(part[3] > 0)) m.inverted = true;
+    }
+    m.dilation = maximum(largest_volume(b_.interior, b_.interior_count),
+                         largest_volume(b_.boundary, b_.boundary_count)) / b_.k.kernel_volume;
+    return m;
+  }
+
+ private:
+  View acceleration() const { return view(b_.acceleration); }
+  static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
+  WriteView out_of_plane() const {
+    FieldRef const& f = b_.out_of_plane;
+    return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
+  }
+  void damp(Range range, Index count) {
+    exec::for_each_block(range, DampPatterns<D, Law>{law_, b_.k, b_.hourglass, b_.real, view(b_.mass),
+                                                     view(b_.out_of_plane), range.first, count, b_.partial});
+    b_.filter_loss += exec::add_partials<1>(b_.partial, exec::block_count(range)).v[0];
+  }
+  double largest_volume(Range range, Index count) {
+    exec::for_each_block(range, LargestVolume<D>{b_.real, range.first + count, b_.partial});
+    double largest = 0;
+    for (Index k = 0; k < exec::block_count(range); ++k) largest = maximum(largest, b_.partial[k]);
+    return largest;
+  }
+
+  BodyState& b_;
+  Law const& law_;
+};
+
+}  // namespace piola::taylor_sph::inline PIOLA_MACHINE

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/neighbours/set_pairs.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+#include <optional>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+
+struct Candidate {
+  double distance;
+  Index slot;
+};
+
+/// Smoothing lengths grow in these steps, at most to this multiple.
+constexpr double growth = 1.1, largest_growth = 4;
+
+/// The sources around one target after the other.
+class Search {
+ public:
+  explicit Search(SetPairRequest const& request)
+      : request_(request),
+        widest_(request.h.empty() ? 1 : *std::max_element(request.h.begin(), request.h.end())),
+        near_(request.sources, request.support * widest_ * (1 + request.skin)) {}
+
+  /// Leaves candidates in `found`, in order of their records; returns the smoothing length that has enough of them.
+  double operator()(Index target) {
+    auto const t = static_cast<std::size_t>(target);
+    double h = request_.h[t];
+    collect(near_, target, h);
+    while (within(h) < request_.least[t]) {
+      h *= growth;
+      if (h > largest_growth * request_.h[t]) refuse(target, within(h));
+      if (!far_) far_.emplace(request_.sources, largest_growth * request_.support * widest_ * (1 + request_.skin));
+      collect(*far_, target, h);
+    }
+    return h;
+  }
+  /// Sources on the very edge of the support do not count: the kernel vanishes there.
+  int within(double h) const {
+    double const reach = request_.support * h * (1 - 1e-6);
+    return static_cast<int>(
+        std::count_if(found.begin(), found.end(), [&](Candidate const& c) { return c.distance < reach; }));
+  }
+  std::vector<Candidate> found;
+
+ private:
+  void collect(CellGrid const& grid, Index target, double h) {
+    found.clear();
+    Point const& x = request_.targets[static_cast<std::size_t>(target)];
+    double const reach = request_.support * h * (1 + request_.skin);
+    grid.visit(x, [&](Index source) {
+      Point const& y = request_.sources[static_cast<std::size_t>(source)];
+      double const distance = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+      if (distance > reach || (request_.visible && !request_.visible(target, source))) return;
+      found.push_back({distance, request_.slot_of_source[static_cast<std::size_t>(source)]});
+    });
+    std::sort(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.slot < b.slot; });
+  }
+  [[noreturn]] void refuse(Index target, int has) const {
+    auto const t = static_cast<std::size_t>(target);
+    Point const& x = request_.targets[t];
+    throw InputError(
+        fmt::format("neighbours: the particle at ({:.4g}, {:.4g}, {:.4g}) m has {} of the other set around it ({} are "
+                    "needed) - make the body wider or the spacing smaller",
+                    x[0], x[1], x[2], has, request_.least[t]));
+  }
+
+  SetPairRequest const& request_;
+  double widest_;
+  CellGrid near_;
+  std::optional<CellGrid> far_;  // for the few that have to look further
+};
+
+}  // namespace
+
+void SetPairs::build(SetPairRequest const& request, int lanes, Index filler) {
+  Search search(request);
+  std::size_t const slots = request.target_in_slot.size(), width = static_cast<std::size_t>(lanes);
+  begin_.assign(1, 0);
+  source_.clear();
+  inverse_h_.assign(slots, 1 / std::max(request.h.empty() ? 1.0 : request.h.front(), 1e-300));
+  count_.assign(request.targets.size(), 0);
+  std::vector<std::vector<Index>> rows(width);
+  for (std::size_t first = 0; first < slots; first += width) {
+    std::size_t longest = 0;
+    for (std::size_t l = 0; l < width; ++l) {
+      auto& row = rows[l];
+      row.clear();
+      Index const target = request.target_in_slot[first + l];
+      if (target < 0) continue;
+      double const h = search(target);
+      count_[static_cast<std::size_t>(target)] = search.within(h);
+      inverse_h_[first + l] = 1 / h;
+      for (Candidate const& c : search.found) row.push_back(c.slot);
+      longest = std::max(longest, row.size());
+    }
+    for (std::size_t k = 0; k < longest; ++k)
+      for (auto const& row : rows) source_.push_back(k < row.size() ? row[k] : filler);
+    begin_.push_back(begin_.back() + static_cast<Index>(longest));
+  }
+}
+
+double SetPairs::mean_count() const {
+  return count_.empty() ? 0 : std::accumulate(count_.begin(), count_.end(), 0.0) / static_cast<double>(count_.size());
+}
+
+std::size_t SetPairs::bytes() const {
+  return (begin_.size() + source_.size()) * sizeof(Index) + inverse_h_.size() * sizeof(double) +
+         count_.size() * sizeof(int);
+}
+
+}  // namespace piola
