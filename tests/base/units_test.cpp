@@ -81,7 +81,8 @@ TEST(Units, TheLastFactorMayHaveAHalfPower) {
   EXPECT_FALSE(same_dimension("Pa m^0.5", "Pa^2 m"));
   EXPECT_EQ(problem_of("5 MPa", "Pa m^0.5"),
             "\"5 MPa\" is not a stress intensity factor (expected a unit such as Pa m^0.5)");
-  for (std::string_view const text : {"5 ^0.5", "5 Pa ^0.5", "5 Pa/m^0.5", "5 Pa m^0.5^0.5", "5 Pa m^0.5 m^0.5", "5 m^0.5 Pa", "5 Pa m^1.5"})
+  for (std::string_view const text :
+       {"5 ^0.5", "5 Pa ^0.5", "5 Pa/m^0.5", "5 Pa m^0.5^0.5", "5 Pa m^0.5 m^0.5", "5 m^0.5 Pa", "5 Pa m^1.5"})
     EXPECT_TRUE(read_quantity(text, "Pa m^0.5").problem) << text;
 }
 

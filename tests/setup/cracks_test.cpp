@@ -2,6 +2,7 @@
 #include "piola/setup/cracks.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/setup/shapes.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -108,24 +109,27 @@ TEST(Crack, EndsMayBeOffByLessThanAMillionthOfTheSpacing) {
 TEST(Crack, WhatCannotBeACrackSaysWhy) {
   EXPECT_EQ(problem({1, 0.5, 0}, {1, 0.5, 0}),
             "the crack in body \"plate\" has no length (allowed: two different ends) - move one end");
-  EXPECT_EQ(problem({-0.5, 0.5, 0}, {1, 0.5, 0}),
-            "crack.from is (-0.5, 0.5) m, where body \"plate\" has no particle (allowed: the place of one, within 1e-6 of "
-            "the spacing) - the nearest is at (0, 0.5) m");
-  EXPECT_EQ(problem({0, 0.5, 0}, {1.1, 0.5, 0}),
-            "crack.to is (1.1, 0.5) m, where body \"plate\" has no particle (allowed: the place of one, within 1e-6 of the "
-            "spacing) - the nearest is at (1, 0.5) m");
+  EXPECT_EQ(
+      problem({-0.5, 0.5, 0}, {1, 0.5, 0}),
+      "crack.from is (-0.5, 0.5) m, where body \"plate\" has no particle (allowed: the place of one, within 1e-6 of "
+      "the spacing) - the nearest is at (0, 0.5) m");
+  EXPECT_EQ(
+      problem({0, 0.5, 0}, {1.1, 0.5, 0}),
+      "crack.to is (1.1, 0.5) m, where body \"plate\" has no particle (allowed: the place of one, within 1e-6 of the "
+      "spacing) - the nearest is at (1, 0.5) m");
   EXPECT_EQ(problem({0, 0.5, 0}, {0.25, 0.5, 0}),
             "the crack in body \"plate\" has 2 particles (allowed: 3 or more) - make it longer or the spacing smaller");
-  EXPECT_EQ(problem({0, 0, 0}, {1, 0.5, 0}),
-            "the crack in body \"plate\" has no particle between (0, 0) m and (0.5, 0.25) m (allowed: lines from particle "
-            "to particle, along a row or across cells from corner to corner, where no jitter moved them) - turn it, or "
-            "remove the jitter");
+  EXPECT_EQ(
+      problem({0, 0, 0}, {1, 0.5, 0}),
+      "the crack in body \"plate\" has no particle between (0, 0) m and (0.5, 0.25) m (allowed: lines from particle "
+      "to particle, along a row or across cells from corner to corner, where no jitter moved them) - turn it, or "
+      "remove the jitter");
   EXPECT_EQ(problem({0, 1, 0}, {2, 1, 0}),
             "the crack in body \"plate\" lies on the boundary of the body (allowed: inside) - move it");
   ShapeSpec shaken = plate();
   shaken.jitter = 0.1;
-  EXPECT_EQ(problem({0, 0.5, 0}, {2, 0.5, 0}, shaken).substr(0, 54),
-            "the crack in body \"plate\" has no particle between (0,");
+  EXPECT_TRUE(problem({0, 0.5, 0}, {2, 0.5, 0}, shaken)
+                  .starts_with("the crack in body \"plate\" has no particle between (0, 0.5) m and (2, 0.5) m"));
   ParticleSet set = filled();
   EXPECT_THROW(open_crack(set, 0, {0, 0, 0}, {1, 0.5, 0}), InputError);
   EXPECT_TRUE(set.cracks.empty());

@@ -169,8 +169,8 @@ TEST(Probe, AgreementWithNothingIsNoError) {
   EXPECT_EQ(evaluate(s, testing::Springs(set), set)[0], 0);
 }
 
-/// The stress of a crack tip at (3, 3) with K = 5, on the line ahead in the direction (0.6, 0.8): s_nn = K/sqrt(2 pi r),
-/// with 7 along the line and no shear there.
+/// The stress of a crack tip at (3, 3) with K = 5, on the line ahead in the direction (0.6, 0.8): s_nn = K/sqrt(2 pi
+/// r), with 7 along the line and no shear there.
 class Cracked : public testing::Springs {
  public:
   explicit Cracked(ParticleSet const& set) : Springs(set), set_(set) {}

@@ -95,8 +95,8 @@ TEST(Quantity, TakesTheMeanPeriodOfAnOscillation) {
 TEST(Quantity, CountsACrossingOnASampleOnce) {
   HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 1}, {1, 0}, {2, -1}, {3, 1}, {4, 0}, {5, -1}}};
   std::string why;
-  EXPECT_NEAR(measure({.name = "q", .column = "y", .take = Take::oscillation_period, .reference = {}}, t, why)->value, 3,
-              1e-14);
+  EXPECT_NEAR(measure({.name = "q", .column = "y", .take = Take::oscillation_period, .reference = {}}, t, why)->value,
+              3, 1e-14);
 }
 
 TEST(Quantity, InterpolatesLinearlyBetweenRows) {

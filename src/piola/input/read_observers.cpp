@@ -23,7 +23,7 @@ void read_point(Section const& section, int dimension, ProbeSpec& probe) {
 
 void read_distance(Section const& section, std::string_view key, double& target) {
   if (!section.has(key))
-    section.report_missing(key, section.info_of(key).meaning, std::string(key) + " = \"1 mm\"");
+    section.report_missing(key, "a distance from the crack tip", std::string(key) + " = \"1 mm\"");
   else
     section.read(key, target);
 }
