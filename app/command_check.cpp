@@ -129,6 +129,16 @@ void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
   }
 }
 
+void print_cracks(ParticleSet const& particles) {
+  for (Crack const& crack : particles.cracks) {
+    auto const point = [](std::array<double, 3> const& X, bool tip) {
+      return fmt::format("({}, {}){}", quantity_text(X[0], "m"), quantity_text(X[1], "m"), tip ? " (tip)" : "");
+    };
+    fmt::print("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
+               point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
+  }
+}
+
 void print_output(CaseSpec const& spec) {
   auto const every = [&](std::string_view what, double interval) {
     if (interval > 0) {
@@ -198,6 +208,7 @@ int check(CaseOptions const& options) {
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
   print_supports(spec, particles);
   print_loads(spec, particles);
+  print_cracks(particles);
   fmt::print("step: about {}, about {} steps\n", quantity_text(cost.step, "s", 3),
              count_text(static_cast<std::int64_t>(std::min(std::ceil(spec.run.end / cost.step), 1e18))));
   fmt::print("needs: about {} of memory and {} with {} {} ({})\n", size_text(cost.bytes), duration_text(cost.seconds),

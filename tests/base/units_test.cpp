@@ -68,6 +68,24 @@ TEST(Units, ValuesAreConvertedBackForPrinting) {
   EXPECT_FALSE(same_dimension("parsnips", "s"));
 }
 
+// 1 MPa mm^0.5 = 1e6 sqrt(1e-3) Pa m^0.5.
+TEST(Units, TheLastFactorMayHaveAHalfPower) {
+  EXPECT_DOUBLE_EQ(value_of("2 MPa m^0.5", "Pa m^0.5"), 2e6);
+  EXPECT_DOUBLE_EQ(value_of("-2 MPa.mm^0.5", "Pa m^0.5"), -2e6 * std::sqrt(1e-3));
+  EXPECT_DOUBLE_EQ(value_of("3 kg/s^2 mm^0.5", "N/m m^0.5"), 3 * std::sqrt(1e-3));
+  EXPECT_DOUBLE_EQ(value_of("4 mm^0.5", "m^0.5"), 4 * std::sqrt(1e-3));
+  EXPECT_DOUBLE_EQ(read_any_quantity("2 MPa mm^0.5").value, 2e6 * std::sqrt(1e-3));
+  EXPECT_DOUBLE_EQ(convert_from_si(5e6, "Pa m^0.5", "MPa m^0.5"), 5);
+  EXPECT_TRUE(same_dimension("Pa m^0.5", "kPa mm^0.5"));
+  EXPECT_FALSE(same_dimension("Pa m^0.5", "Pa m"));
+  EXPECT_FALSE(same_dimension("Pa m^0.5", "Pa^2 m"));
+  EXPECT_EQ(problem_of("5 MPa", "Pa m^0.5"),
+            "\"5 MPa\" is not a stress intensity factor (expected a unit such as Pa m^0.5)");
+  for (std::string_view const text :
+       {"5 ^0.5", "5 Pa ^0.5", "5 Pa/m^0.5", "5 Pa m^0.5^0.5", "5 Pa m^0.5 m^0.5", "5 m^0.5 Pa", "5 Pa m^1.5"})
+    EXPECT_TRUE(read_quantity(text, "Pa m^0.5").problem) << text;
+}
+
 TEST(Units, ReadingIsSafeFromSeveralThreads) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/registry.hpp"
+#include "piola/base/problems.hpp"
 #include "piola/base/units.hpp"
+#include "piola/formulations/make.hpp"
 #include "piola/materials/registry.hpp"
 #include <gtest/gtest.h>
 #include <set>
@@ -42,6 +44,28 @@ TEST(Formulations, NameOnlyLawsThatExist) {
     EXPECT_FALSE(info.laws.empty());
     for (auto const law : info.laws) EXPECT_TRUE(find_law(law).has_value()) << law;
   }
+}
+
+// A formulation that ignored a crack would run a body that is whole there.
+TEST(Formulations, RefuseWhatTheyDoNotKnow) {
+  for (auto const& info : formulations()) {
+    Assembly assembly;
+    assembly.formulations.push_back({std::string(info.name), {}, {}});
+    assembly.particles.cracks.resize(1);
+    assembly.mirrors.resize(1);
+    std::string message;
+    if (info.cracks && info.mirrors) continue;
+    try {
+      make_formulation(assembly);
+    } catch (InputError const& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(message.find(refusal(info, "cracks")) != std::string::npos, !info.cracks) << message;
+    EXPECT_EQ(message.find(refusal(info, "mirrors")) != std::string::npos, !info.mirrors) << message;
+  }
+  EXPECT_FALSE(find_formulation("jst_sph")->cracks);
+  EXPECT_TRUE(find_formulation("jst_sph")->mirrors);
+  EXPECT_FALSE(find_formulation("jst_advection")->cracks);
 }
 
 }  // namespace

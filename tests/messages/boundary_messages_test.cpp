@@ -21,7 +21,7 @@ TEST(BoundaryMessages, SupportsSayWhatMayBeHeld) {
             "case.toml:17:7: support.fix is \"xyz\" (allowed with a normal: \"normal\", \"tangent\") - choose one, or "
             "remove normal");
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"tangent\"\nnormal = [0, 0, 0]")),
-            "case.toml:18:10: support.normal is zero (allowed: any other length) - give the direction of the normal");
+            "case.toml:18:10: support.normal is zero (allowed: any other length) - give a direction");
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"tangent\"\nnormal = [1, 0]")),
             "case.toml:18:10: support.normal has 2 components (allowed: 3, the dimension of the body)");
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"xyz\"\nuntill = 1\nuntil = 0")),

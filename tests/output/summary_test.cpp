@@ -33,6 +33,14 @@ TEST(Summary, HasNoMomentumWhereItMeansNothing) {
   EXPECT_FALSE(nlohmann::json::parse(to_json(Summary{})).contains("momentum"));
 }
 
+TEST(Summary, HasSecondsWhereTheFormulationTellsThem) {
+  EXPECT_FALSE(nlohmann::json::parse(to_json(Summary{})).contains("seconds"));
+  Summary s;
+  s.seconds = {{"neighbours", 1.5}, {"forces", 0.25}};
+  auto const seconds = nlohmann::ordered_json::parse(to_json(s))["seconds"];
+  EXPECT_EQ(seconds.dump(), R"({"neighbours":1.5,"forces":0.25})");
+}
+
 TEST(Summary, WritesNullForWhatIsNotANumber) {
   Summary s;
   s.energy_final = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/faces.hpp"
+#include "piola/setup/cracks.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {
@@ -54,6 +55,20 @@ TEST(Faces, TheOutermostLayerIsTheFace) {
     EXPECT_GE(id, 60);
     EXPECT_EQ(set.X[static_cast<std::size_t>(id)][1], 1.7);
   }
+}
+
+// A crack from the middle of the face -x, whose particle there becomes two.
+TEST(Faces, TheFacesOfACrackShareTheAreaWhereItOpens) {
+  ShapeSpec const shape = box(2, {7, 5, 1}, ShapeSpec::Placement::on_boundary);
+  ParticleSet set;
+  fill(shape, "body", set);
+  open_crack(set, 0, {0, 0.85, 0}, {0.15, 0.85, 0});
+  auto const ids = face_particles(set, set.bodies[0], {0, false});
+  ASSERT_EQ(ids.size(), 6u);
+  double area = 0;
+  for (std::int64_t const id : ids) area += face_area(shape, set, id, {0, false});
+  EXPECT_NEAR(area, 1.7, 1e-15);
+  EXPECT_DOUBLE_EQ(face_area(shape, set, ids.back(), {0, false}), 1.7 / 8);
 }
 
 TEST(Faces, AreasAreHalvedAtEdgesAndQuarteredAtCorners) {

@@ -67,6 +67,9 @@ acceleration = ["2 m/s^2", 0, 0]
   }
   EXPECT_EQ(a.loads[0].particles.size(), 25u);
   EXPECT_DOUBLE_EQ(a.loads[0].until, 1e-3);
+  EXPECT_EQ(a.loads[0].normal, (std::array<double, 3>{0, 1, 0}));
+  EXPECT_FALSE(a.loads[1].normal);
+  EXPECT_FALSE(a.loads[2].normal);
   EXPECT_EQ(a.loads[1].particles.size(), 625u);
 }
 

@@ -169,6 +169,48 @@ TEST(Probe, AgreementWithNothingIsNoError) {
   EXPECT_EQ(evaluate(s, testing::Springs(set), set)[0], 0);
 }
 
+/// The stress of a crack tip at (3, 3) with K = 5, on the line ahead in the direction (0.6, 0.8): s_nn = K/sqrt(2 pi
+/// r), with 7 along the line and no shear there.
+class Cracked : public testing::Springs {
+ public:
+  explicit Cracked(ParticleSet const& set) : Springs(set), set_(set) {}
+  void sample(std::string_view, std::span<double> values) const override {
+    for (std::size_t i = 0; i < set_.X.size(); ++i) {
+      double const r = std::hypot(set_.X[i][0] - 3, set_.X[i][1] - 3);
+      double const across = 5 / std::sqrt(2 * std::numbers::pi * r), along = 7;
+      values[6 * i] = along * 0.36 + across * 0.64;
+      values[6 * i + 1] = along * 0.64 + across * 0.36;
+      values[6 * i + 3] = (along - across) * 0.48;
+    }
+  }
+
+ private:
+  ParticleSet set_;
+};
+
+TEST(Probe, FitsTheStressIntensityAheadOfATip) {
+  ParticleSet const set = testing::make_plate(20);
+  auto s = spec(ProbeSpec::Kind::stress_intensity);
+  s.at = {3.1, 2.8, 0};
+  s.direction = {0.6, 0.8, 0};
+  s.from = 5;
+  s.to = 15;
+  Probe const probe(s, set);
+  EXPECT_EQ(probe.ids(), (std::vector<std::int64_t>{7 * 20 + 6, 11 * 20 + 9, 15 * 20 + 12}));
+  EXPECT_EQ(probe.columns().at(0).name, "p.stress_intensity");
+  EXPECT_EQ(probe.columns().at(0).unit, "Pa m^0.5");
+  EXPECT_NEAR(evaluate(s, Cracked(set), set).at(0), 5, 1e-13);
+  s.to = 5 * (1 - 1e-9);
+  s.from = s.to;
+  EXPECT_EQ(Probe(s, set).ids().size(), 1u);
+  EXPECT_NEAR(evaluate(s, Cracked(set), set).at(0), 5, 1e-14);
+  s.from = s.to = 6;
+  EXPECT_THROW(Probe(s, set), InputError);
+  s.direction = {-0.6, -0.8, 0};
+  s.from = s.to = 5;
+  EXPECT_THROW(Probe(s, set), InputError);
+}
+
 TEST(Probe, GivesNoNumberForAFieldThatTheFormulationDoesNotHave) {
   ParticleSet const set = testing::make_plate(4);
   EXPECT_TRUE(std::isnan(evaluate(spec(ProbeSpec::Kind::average, {"damage"}), testing::Springs(set), set)[0]));

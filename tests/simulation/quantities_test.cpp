@@ -46,6 +46,59 @@ TEST(Quantity, TakesEveryKindOfNumber) {
   EXPECT_NEAR(value(Take::mean_absolute_difference), 0.5, 1e-12);
 }
 
+TEST(Quantity, TakesTheRange) { EXPECT_NEAR(value(Take::range), 4, 1e-5); }
+
+// Against 0.8 of the column itself the relative error is 0.2/0.8, in percent if that is asked for.
+TEST(Quantity, TakesTheRelativeErrorOverAllRows) {
+  QuantitySpec spec{
+      .name = "q", .column = "y", .take = Take::relative_error, .reference = Expression("-1.6*sin(5*t)"), .unit = "1"};
+  std::string why;
+  auto const q = measure(spec, table(), why);
+  ASSERT_TRUE(q) << why;
+  EXPECT_NEAR(q->value, 0.25, 1e-13);
+  EXPECT_EQ(q->unit, "1");
+  spec.unit = "%";
+  EXPECT_NEAR(measure(spec, table(), why)->value, 25, 1e-11);
+}
+
+TEST(Quantity, ComparesOnlyTheRowsOfAWindow) {
+  HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 9}, {0.1, 3}, {0.3, -4}, {0.7, 9}}};
+  QuantitySpec spec{.name = "q",
+                    .column = "y",
+                    .take = Take::relative_error,
+                    .reference = Expression("2"),
+                    .from = 0.1,
+                    .until = 0.3};
+  std::string why;
+  EXPECT_NEAR(measure(spec, t, why)->value, std::sqrt((1.0 + 36) / (4 + 4)), 1e-15);
+  spec.take = Take::mean_absolute_difference;
+  EXPECT_NEAR(measure(spec, t, why)->value, (1.0 + 6) / 2, 1e-15);
+  spec.from = 0.2;
+  EXPECT_NEAR(measure(spec, t, why)->value, 6, 1e-15);
+  spec.until = 0.25;
+  EXPECT_FALSE(measure(spec, t, why));
+}
+
+// 3 + cos(20 t) over 1.2 s has the period pi/10; its mean is not 3, because the time is no whole number of periods.
+TEST(Quantity, TakesTheMeanPeriodOfAnOscillation) {
+  HistoryTable t{{{"time", "s"}, {"y", "Pa"}}, {}};
+  for (int k = 0; k <= 12000; ++k) t.rows.push_back({1e-4 * k, 3 + std::cos(20 * 1e-4 * k)});
+  QuantitySpec const spec{.name = "q", .column = "y", .take = Take::oscillation_period, .reference = {}, .unit = "ms"};
+  std::string why;
+  EXPECT_NEAR(measure(spec, t, why)->value, 100 * std::acos(-1.0), 1e-4);
+  EXPECT_EQ(measure(spec, t, why)->unit, "ms");
+  t.rows.resize(2500);  // 5 rad: two crossings
+  EXPECT_FALSE(measure(spec, t, why));
+}
+
+// Crossings at 1 (a sample on the mean), 2.5 and 4 s.
+TEST(Quantity, CountsACrossingOnASampleOnce) {
+  HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 1}, {1, 0}, {2, -1}, {3, 1}, {4, 0}, {5, -1}}};
+  std::string why;
+  EXPECT_NEAR(measure({.name = "q", .column = "y", .take = Take::oscillation_period, .reference = {}}, t, why)->value,
+              3, 1e-14);
+}
+
 TEST(Quantity, InterpolatesLinearlyBetweenRows) {
   HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 1}, {0.1, 2}, {0.4, -4}}};
   std::string why;

@@ -52,6 +52,15 @@ void expect_same_results(std::filesystem::path const& a, std::filesystem::path c
   EXPECT_EQ(read_checkpoint(ca[0]).observers.arrays(), read_checkpoint(cb[0]).observers.arrays());
 }
 
+TEST(RunCase, TheSummaryTellsWhereTheTimeWent) {
+  TemporaryFolder const folder;
+  Simulation s = make_springs();
+  CaseOutcome const outcome = run(s, folder.path());
+  auto const summary = nlohmann::json::parse(text_of(folder / "summary.json"));
+  EXPECT_EQ(summary["seconds"]["springs"], 0.5 * static_cast<double>(outcome.summary.steps));
+  EXPECT_EQ(text_of(folder / "history.csv").find("springs"), std::string::npos);
+}
+
 TEST(RunCase, MomentaDriftOnlyWhereNothingHoldsOrPushes) {
   TemporaryFolder const folder;
   Simulation s = make_springs();

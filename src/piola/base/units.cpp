@@ -41,7 +41,7 @@ ut_system* unit_system() {
 }
 
 // Everything UDUNITS could take for something else than a product of units is kept away from it: numbers in front
-// ("10 6 m"), time stamps ("s since 2000"), logarithms, shifted origins.
+// ("10 6 m"), broken powers ("m^0.5" is 0.5 to it), time stamps ("s since 2000"), logarithms, shifted origins.
 bool is_plain_unit(std::string_view text) {
   if (text.empty() || text.size() > 64) return false;
   char const first = text.front();
@@ -51,6 +51,8 @@ bool is_plain_unit(std::string_view text) {
     bool const word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     return word || static_cast<unsigned char>(c) >= 0x80 || marks.find(c) != std::string_view::npos;
   });
+  for (std::size_t dot = text.find('.'); dot != std::string_view::npos; dot = text.find('.', dot + 1))
+    if (dot + 1 < text.size() && text[dot + 1] >= '0' && text[dot + 1] <= '9') return false;
   constexpr std::array<std::string_view, 6> not_units{"since", "after", "from", "ref", "re ", "re:"};
   return allowed && std::none_of(not_units.begin(), not_units.end(), [&](std::string_view word) {
            return text.find(" " + std::string(word)) != std::string_view::npos ||
@@ -58,11 +60,48 @@ bool is_plain_unit(std::string_view text) {
          });
 }
 
-Unit parse_unit(std::string_view text) {
+Unit whole_unit(std::string_view text) {
   if (text == "1") return Unit(ut_get_dimensionless_unit_one(unit_system()));
   if (!is_plain_unit(text)) return nullptr;
   return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
 }
+
+/// A unit, or the square of one that ends in a half power such as "MPa m^0.5": UDUNITS knows whole powers only.
+struct Measure {
+  Unit unit;
+  bool squared = false;
+};
+
+Measure parse_unit(std::string_view text) {
+  constexpr std::string_view half = "^0.5";
+  if (!text.ends_with(half)) return {whole_unit(text), false};
+  text.remove_suffix(half.size());
+  std::size_t const before = text.find_last_of(" .*") + 1;  // 0 if there is nothing before
+  std::string_view const last = text.substr(before);
+  std::string_view const rest = text.substr(0, text.find_last_not_of(" .*", before > 0 ? before - 1 : 0) + 1);
+  Unit const root = whole_unit(last), others = whole_unit(before > 0 ? rest : "1");
+  if (!root || !others) return {};
+  Unit const square(ut_raise(others.get(), 2));
+  return {Unit(square ? ut_multiply(square.get(), root.get()) : nullptr), true};
+}
+
+/// Takes values of one unit to another, if they measure the same.
+class Conversion {
+ public:
+  Conversion(Measure const& from, Measure const& to)
+      : converter_(from.unit && to.unit && from.squared == to.squared ? ut_get_converter(from.unit.get(), to.unit.get())
+                                                                      : nullptr),
+        squared_(from.squared) {}
+  explicit operator bool() const { return converter_ != nullptr; }
+  double operator()(double value) const {
+    auto const converted = [&](double x) { return cv_convert_double(converter_.get(), x); };
+    return squared_ ? value * std::sqrt(converted(1) - converted(0)) : converted(value);
+  }
+
+ private:
+  Converter converter_;
+  bool squared_;
+};
 
 struct Dimension {
   std::string_view unit, noun;
@@ -83,6 +122,7 @@ constexpr std::array dimensions{
     Dimension{"degree", "an angle"},
     Dimension{"m/s^2", "an acceleration"},
     Dimension{"N/m^3", "a force per volume"},
+    Dimension{"Pa m^0.5", "a stress intensity factor"},
 };
 
 std::string unit_advice(std::string_view si_unit) {
@@ -123,13 +163,13 @@ Split split(std::string_view text) {
 
 Quantity failed(std::string problem) { return {0, std::move(problem)}; }
 
-Quantity convert(std::string_view text, Split const& parts, ut_unit const* from, ut_unit const* to,
+Quantity convert(std::string_view text, Split const& parts, Measure const& from, Measure const& to,
                  std::string_view si_unit) {
-  Converter const converter(ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to)));
-  if (!converter) {
+  Conversion const conversion(from, to);
+  if (!conversion) {
     return failed(in_quotes(text) + " is not " + dimension_noun(si_unit) + " " + unit_advice(si_unit));
   }
-  double const value = cv_convert_double(converter.get(), *parts.number);
+  double const value = conversion(*parts.number);
   if (!std::isfinite(value))
     return failed(in_quotes(text) + " is too large for a number (at most 1.8e308 in SI units)");
   return {value, std::nullopt};
@@ -184,11 +224,12 @@ Quantity read_quantity(std::string_view text, std::string_view si_unit) {
     return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
   if (parts.unit.empty()) return {*parts.number, std::nullopt};
   std::lock_guard const lock(library_lock());
-  Unit const to = parse_unit(si_unit);
-  if (!to) throw std::invalid_argument("not a unit: " + std::string(si_unit));
-  Unit const from = parse_unit(parts.unit);
-  if (!from) return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit " + unit_advice(si_unit));
-  return convert(text, parts, from.get(), to.get(), si_unit);
+  Measure const to = parse_unit(si_unit);
+  if (!to.unit) throw std::invalid_argument("not a unit: " + std::string(si_unit));
+  Measure const from = parse_unit(parts.unit);
+  if (!from.unit)
+    return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit " + unit_advice(si_unit));
+  return convert(text, parts, from, to, si_unit);
 }
 
 Quantity read_any_quantity(std::string_view text) {
@@ -198,30 +239,28 @@ Quantity read_any_quantity(std::string_view text) {
     return failed(in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324)");
   if (parts.unit.empty()) return {*parts.number, std::nullopt};
   std::lock_guard const lock(library_lock());
-  Unit const from = parse_unit(parts.unit);
-  std::string base;
-  bool const known = from && ut_accept_visitor(from.get(), &base_units, &base) == UT_SUCCESS;
-  Unit const to = known ? parse_unit(base) : nullptr;
-  if (!to)
+  Measure const from = parse_unit(parts.unit);
+  std::string base;  // of the square, if it is one
+  bool const known = from.unit && ut_accept_visitor(from.unit.get(), &base_units, &base) == UT_SUCCESS;
+  Measure const to{known ? whole_unit(base) : nullptr, from.squared};
+  if (!to.unit)
     return failed(in_quotes(parts.unit) + " in " + in_quotes(text) + " is not a unit (expected one such as m/s)");
-  return convert(text, parts, from.get(), to.get(), base);
+  return convert(text, parts, from, to, base);
 }
 
 bool same_dimension(std::string_view a, std::string_view b) {
   std::lock_guard const lock(library_lock());
-  Unit const left = parse_unit(a), right = parse_unit(b);
-  return left && right && ut_are_convertible(left.get(), right.get()) != 0;
+  return static_cast<bool>(Conversion(parse_unit(a), parse_unit(b)));
 }
 
 double convert_from_si(double value, std::string_view si_unit, std::string_view unit) {
   std::lock_guard const lock(library_lock());
-  Unit const from = parse_unit(si_unit), to = parse_unit(unit);
-  Converter const converter(from && to ? ut_get_converter(from.get(), to.get()) : nullptr);
-  if (!converter) {
+  Conversion const conversion(parse_unit(si_unit), parse_unit(unit));
+  if (!conversion) {
     throw std::invalid_argument(in_quotes(unit) + " is not a unit of " + dimension_noun(si_unit) + " " +
                                 unit_advice(si_unit));
   }
-  return cv_convert_double(converter.get(), value);
+  return conversion(value);
 }
 
 }  // namespace piola

@@ -12,7 +12,8 @@ struct Quantity {
   std::optional<std::string> problem;  ///< e.g. '"5 MPa" is not a length (expected a unit such as m)'
 };
 
-/// Reads "number unit" and converts to `si_unit` (UDUNITS-2 notation; "1" for a pure number).
+/// Reads "number unit" and converts to `si_unit` (UDUNITS-2 notation; "1" for a pure number). The last factor of a unit
+/// may have the power 0.5, as in "MPa m^0.5", which UDUNITS itself does not know.
 /// A number without unit is taken as SI. Thread safe after first use. Never throws on bad text.
 Quantity read_quantity(std::string_view text, std::string_view si_unit);
 

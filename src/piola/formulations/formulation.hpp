@@ -77,6 +77,8 @@ class Formulation {
   virtual void load(StateReader& reader) = 0;
 
   virtual int stages_per_step() const = 0;  ///< right-hand sides per step
+  /// Wall time by part of the work since the formulation was built [s], for the summary.
+  virtual std::vector<std::pair<std::string, double>> costs() const { return {}; }
   virtual std::size_t memory_bytes() const = 0;
 };
 

@@ -23,9 +23,12 @@ std::optional<FieldQuantity> find_quantity(std::string_view name);
 /// Every known quantity name, for suggestions and the manual.
 std::vector<FieldQuantity> const& all_quantities();
 
-/// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m] and "relative_error" [1].
+/// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
+/// "stress_intensity" [Pa m^0.5].
 inline constexpr std::string_view twist_quantity = "twist_angle";
 inline constexpr std::string_view extent_quantity = "extent";
 inline constexpr std::string_view error_quantity = "relative_error";
+inline constexpr std::string_view intensity_quantity = "stress_intensity";
+inline constexpr std::string_view intensity_unit = "Pa m^0.5";
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/registry.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/solver.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
@@ -24,6 +25,16 @@ std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection
 
 std::array const infos{all[0].info, all[1].info, all[2].info};
 
+bool knows(FormulationInfo const& info, std::string_view what) { return what == "cracks" ? info.cracks : info.mirrors; }
+
+/// What a case asks for that not every formulation knows.
+void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
+  Problems problems;
+  if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));
+  if (!info.mirrors && !assembly.mirrors.empty()) problems.add({}, refusal(info, "mirrors"));
+  problems.raise_if_any();
+}
+
 }  // namespace
 
 std::span<FormulationInfo const> formulations() { return infos; }
@@ -34,14 +45,27 @@ std::optional<FormulationInfo> find_formulation(std::string_view name) {
   return std::nullopt;
 }
 
+std::string refusal(FormulationInfo const& info, std::string_view what) {
+  std::vector<std::string_view> able;
+  for (FormulationInfo const& other : infos)
+    if (knows(other, what)) able.push_back(other.name);
+  std::string const text(what);
+  return "the formulation " + in_quotes(info.name) + " knows no " + text +
+         " (allowed: " + (able.empty() ? "no " + text + " at all" : text + " in " + joined(able)) + ") - remove the " +
+         text.substr(0, text.size() - 1) + " or change body.formulation";
+}
+
 std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
   std::string const name = assembly.formulations.empty() ? std::string() : assembly.formulations.front().name;
   for (auto const& other : assembly.formulations)
     if (other.name != name)
       throw InputError("formulations '" + name + "' and '" + other.name +
                        "' cannot run together - give all bodies the same one");
-  for (auto const& entry : all)
-    if (entry.info.name == name) return entry.make(assembly);
+  for (auto const& entry : all) {
+    if (entry.info.name != name) continue;
+    check_abilities(entry.info, assembly);
+    return entry.make(assembly);
+  }
   throw InputError("no formulation is named '" + name + "'");
 }
 

@@ -24,10 +24,15 @@ struct FormulationInfo {
   std::span<Choice const> choices;         ///< optional words
   std::span<std::string_view const> laws;  ///< names of the laws it can use
   std::span<DiagnosticInfo const> diagnostics = {};  ///< all that it may put into Diagnostics::more
+  bool cracks = false;                               ///< whether bodies may have cracks
+  bool mirrors = true;                               ///< whether bodies may go on across a face as their mirror image
 };
 
 std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
+
+/// What a formulation says to a case that asks for what it does not know; `what` is "cracks" or "mirrors".
+std::string refusal(FormulationInfo const& info, std::string_view what);
 
 /// What a case file says about a formulation: only the keys that were given (checked against FormulationInfo).
 struct FormulationSpec {

@@ -71,19 +71,28 @@ struct MirrorSpec {
   Places places;
 };
 
+/// [[crack]]: a straight crack in a two-dimensional box.
+struct CrackSpec {
+  std::string body;
+  std::array<double, 3> from{}, to{};  ///< ends [m]
+  Places places;
+};
+
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
-  enum class Kind { point, average, maximum, minimum, twist, extent, error };
+  enum class Kind { point, average, maximum, minimum, twist, extent, error, stress_intensity };
   std::string name;
   std::string body;
   Kind kind = Kind::point;
-  std::array<double, 3> at{};           ///< point: the nearest particle is used [m]
-  std::optional<Expression> where;      ///< the others: particles that count (default all)
-  int axis = 1;                         ///< twist, extent: 0 x, 1 y, 2 z
-  std::string field;                    ///< error: name of a field, e.g. "FirstPiolaStress"
-  std::vector<Expression> reference;    ///< error: one formula in X, Y, Z, t per component of the field [SI]
-  std::vector<std::string> quantities;  ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
-                                        ///< error: "relative_error"
+  std::array<double, 3> at{};  ///< point: the nearest particle is used; stress_intensity: that is the crack tip [m]
+  std::optional<Expression> where;           ///< the others: particles that count (default all)
+  int axis = 1;                              ///< twist, extent: 0 x, 1 y, 2 z
+  std::string field;                         ///< error: name of a field, e.g. "FirstPiolaStress"
+  std::vector<Expression> reference;         ///< error: one formula in X, Y, Z, t per component of the field [SI]
+  std::vector<std::string> quantities;       ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
+                                             ///< error: "relative_error"; stress_intensity: "stress_intensity"
+  std::array<double, 3> direction{1, 0, 0};  ///< stress_intensity: ahead of the tip, unit vector
+  double from = 0, to = 0;                   ///< stress_intensity: distances from the tip [m]
   Places places;
 };
 
@@ -101,15 +110,20 @@ struct QuantitySpec {
     first_time_above,
     first_time_below,
     mean_absolute_difference,
-    at_time
+    at_time,
+    relative_error,
+    oscillation_period,
+    range
   };
   std::string name;
   std::string column;
   Take take = Take::maximum;
   double threshold = 0;                 ///< first_time_above, first_time_below [SI]
   double time = 0;                      ///< at_time [s]
-  std::optional<Expression> reference;  ///< mean_absolute_difference: formula in t
+  std::optional<Expression> reference;  ///< mean_absolute_difference, relative_error: formula in t
   std::string unit = "1";               ///< as shown
+  double from = 0;                      ///< mean_absolute_difference, relative_error: rows from this time on [s]
+  double until = std::numeric_limits<double>::infinity();  ///< and up to this one [s]
 };
 
 /// [output]; times in s, 0 = never. Output falls on the first step at or after each multiple.
@@ -135,6 +149,7 @@ struct CaseSpec {
   std::vector<SupportSpec> supports;
   std::vector<LoadSpec> loads;
   std::vector<MirrorSpec> mirrors;
+  std::vector<CrackSpec> cracks;
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;

@@ -30,9 +30,9 @@ void check_body(BodySpec const& spec, ParticleSet const& particles, Body const& 
 }
 
 // A point of the body is at most half a cell diagonal away from a particle; jitter adds to that.
-void check_point(ProbeSpec const& probe, double jitter, ParticleSet const& particles, Body const& body,
+bool check_point(ProbeSpec const& probe, double jitter, ParticleSet const& particles, Body const& body,
                  Problems& problems) {
-  if (body.first == body.last) return;
+  if (body.first == body.last) return false;
   double nearest2 = std::numeric_limits<double>::infinity();
   for (std::int64_t id = body.first; id < body.last; ++id) {
     double distance2 = 0;
@@ -42,10 +42,22 @@ void check_point(ProbeSpec const& probe, double jitter, ParticleSet const& parti
     }
     nearest2 = std::min(nearest2, distance2);
   }
-  if (std::sqrt(nearest2) <= 1.2 + jitter) return;
+  if (std::sqrt(nearest2) <= 1.2 + jitter) return true;
   problems.add(place_of(probe.places, "at"),
                "probe.at of " + in_quotes(probe.name) + " is " + point_text(probe.at, particles.dimension) +
                    ", outside body " + in_quotes(body.name) + " (" + box_of(particles, body) + ") - move the point");
+  return false;
+}
+
+void check_tip(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, Problems& problems) {
+  if (!particles_ahead(particles, body, probe).empty()) return;
+  auto const tip = static_cast<std::size_t>(nearest_particle(particles, body, probe.at));
+  problems.add(
+      place_of(probe.places, "from"),
+      "probe " + in_quotes(probe.name) + " finds no particle " + number_text(probe.from) + " m to " +
+          number_text(probe.to) + " m ahead of the tip at " + point_text(particles.X[tip], 2) + " in the direction (" +
+          number_text(probe.direction[0], 4) + ", " + number_text(probe.direction[1], 4) +
+          ") (allowed: one or more, within 1e-3 of the distance from that line) - change from, to or direction");
 }
 
 void check_reference(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, Problems& problems) {
@@ -59,10 +71,48 @@ void check_reference(ProbeSpec const& probe, ParticleSet const& particles, Body 
 
 }  // namespace
 
-ParticleSet make_particles(CaseSpec const& spec) {
+ParticleSet make_particles(CaseSpec const& spec, Problems& problems) {
   ParticleSet particles;
-  for (BodySpec const& body : spec.bodies) fill(body.shape, body.name, particles);
+  for (BodySpec const& body : spec.bodies) {
+    fill(body.shape, body.name, particles);
+    open_cracks(spec, particles, problems);
+  }
   return particles;
+}
+
+ParticleSet make_particles(CaseSpec const& spec) {
+  Problems problems;
+  ParticleSet particles = make_particles(spec, problems);
+  problems.raise_if_any();
+  return particles;
+}
+
+std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, std::array<double, 3> const& at) {
+  std::int64_t best = body.first;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (std::int64_t id = body.first; id < body.last; ++id) {
+    std::array<double, 3> const& X = particles.X[static_cast<std::size_t>(id)];
+    double const distance = std::hypot(X[0] - at[0], X[1] - at[1], X[2] - at[2]);
+    if (distance >= best_distance) continue;
+    best = id;
+    best_distance = distance;
+  }
+  return best;
+}
+
+std::vector<std::int64_t> particles_ahead(ParticleSet const& particles, Body const& body, ProbeSpec const& probe) {
+  constexpr double slack = 1e-6, aside = 1e-3;
+  auto const& tip = particles.X[static_cast<std::size_t>(nearest_particle(particles, body, probe.at))];
+  std::vector<std::int64_t> ids;
+  for (std::int64_t id = body.first; id < body.last; ++id) {
+    auto const& X = particles.X[static_cast<std::size_t>(id)];
+    double const x = X[0] - tip[0], y = X[1] - tip[1], r = std::hypot(x, y);
+    double const ahead = x * probe.direction[0] + y * probe.direction[1];
+    double const off = x * probe.direction[1] - y * probe.direction[0];
+    bool const in_range = r >= probe.from * (1 - slack) && r <= probe.to * (1 + slack);
+    if (in_range && ahead > 0 && std::abs(off) <= aside * r) ids.push_back(id);
+  }
+  return ids;
 }
 
 std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body const& body, Expression const* where) {
@@ -87,11 +137,16 @@ void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems&
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);
   check_boundaries(spec, particles, problems);
+  check_abilities(spec, problems);
   for (ProbeSpec const& probe : spec.probes) {
     Body const* const body = body_named(particles, probe.body);
     if (body == nullptr) continue;
     double const jitter = spec.bodies[static_cast<std::size_t>(body - particles.bodies.data())].shape.jitter;
-    if (probe.kind == ProbeSpec::Kind::point) check_point(probe, jitter, particles, *body, problems);
+    bool const tip = probe.kind == ProbeSpec::Kind::stress_intensity;
+    if (probe.kind == ProbeSpec::Kind::point || tip) {
+      bool const inside = check_point(probe, jitter, particles, *body, problems);
+      if (tip && inside) check_tip(probe, particles, *body, problems);
+    }
     if (!probe.where) continue;
     check_where(*probe.where, "probe.where", place_of(probe.places, "where"), particles, *body, problems);
   }

@@ -5,16 +5,27 @@
 
 namespace piola {
 
-/// The particles that a case describes, body after body.
+/// The particles that a case describes, body after body, with its cracks. Throws InputError where no crack can be.
 ParticleSet make_particles(CaseSpec const& spec);
+/// The same; cracks that cannot be are problems, and are left out.
+ParticleSet make_particles(CaseSpec const& spec, Problems& problems);
 
 /// What can be found out only with the particles: bodies without any, regions of supports, loads and probes that select
 /// none, points of probes outside their body, formulas whose value is not a finite number at a particle, initial
-/// deformation gradients that turn a particle inside out, supports and mirrors that contradict each other.
+/// deformation gradients that turn a particle inside out, supports and mirrors that contradict each other. Also cracks
+/// and mirrors that the formulation does not know.
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// Ids of a body's particles that a condition selects; all of them without a condition.
 std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body const& body, Expression const* where);
+
+/// The particle of a body whose reference position is nearest to a place [m]; of several, the first. The body has one
+/// or more.
+std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, std::array<double, 3> const& at);
+
+/// Ids of the particles that a probe of kind stress_intensity looks at: straight ahead of the particle nearest to `at`,
+/// off that line by at most 1e-3 of the distance, at distances in [from, to] with a slack of 1e-6 of them.
+std::vector<std::int64_t> particles_ahead(ParticleSet const& particles, Body const& body, ProbeSpec const& probe);
 
 /// Ids of the particles that a load acts on; of a traction, only those of its face.
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load);

@@ -38,6 +38,7 @@ constexpr std::array fields{
     FieldName{"DeformationGradient", "1", 9},
     FieldName{"Jacobian", "1", 1},
     FieldName{"VonMisesStress", "Pa", 1},
+    FieldName{"Density", "kg/m^3", 1},
     FieldName{"Body", "1", 1},
     FieldName{"Id", "1", 1},
 };

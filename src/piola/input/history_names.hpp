@@ -15,7 +15,7 @@ struct HistoryName {
 };
 std::span<HistoryName const> history_names();
 
-/// A field that every formulation can write, as frames and pictures name it.
+/// A field that formulations can write, as frames and pictures name it. Not every one has all of them.
 struct FieldName {
   std::string_view name;
   std::string_view unit;

@@ -2,29 +2,11 @@
 #include "piola/base/text.hpp"
 #include "piola/input/sections.hpp"
 #include <array>
-#include <cmath>
 
 namespace piola {
 namespace {
 
 using Frame = Support::Frame;
-
-void read_normal(Section const& section, int dimension, SupportSpec& support) {
-  auto const normal = section.point("normal");
-  if (!normal) return;
-  double length = 0;
-  for (double const component : *normal) length = std::hypot(length, component);
-  if (static_cast<int>(normal->size()) != dimension) {
-    section.problems().add(section.place_of("normal"), "support.normal has " + std::to_string(normal->size()) +
-                                                           " components (allowed: " + std::to_string(dimension) +
-                                                           ", the dimension of the body)");
-  } else if (!(length > 0)) {
-    section.problems().add(section.place_of("normal"),
-                           "support.normal is zero (allowed: any other length) - give the direction of the normal");
-  } else {
-    for (std::size_t d = 0; d < normal->size(); ++d) support.normal[d] = (*normal)[d] / length;
-  }
-}
 
 // Letters name directions of the axes; the two words refer to the normal.
 void read_fix(Section const& section, int dimension, SupportSpec& support) {
@@ -97,7 +79,7 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   if (auto where = section.formula("where", body != nullptr ? body->names : Names{})) support.where = std::move(*where);
   read_fix(section, dimension, support);
   if (body != nullptr) {
-    read_normal(section, dimension, support);
+    if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;
     support.velocity = read_vector(section, "velocity", *body);
   }
   section.read("until", support.until);
@@ -138,6 +120,24 @@ MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bod
   section.refuse_unknown();
   mirror.places = places_of(section, {"body", "face"});
   return mirror;
+}
+
+CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies) {
+  CrackSpec crack;
+  BodyNames const* const body = find_body(section, bodies, crack.body);
+  if (body != nullptr && (body->shape.kind != ShapeSpec::Kind::box || body->dimension != 2)) {
+    std::string const what =
+        body->shape.kind != ShapeSpec::Kind::box ? "no box" : "in " + std::to_string(body->dimension) + "D";
+    section.problems().add(section.place_of("body"), "body " + in_quotes(body->name) +
+                                                         " cannot have a crack, because it is " + what +
+                                                         " (allowed: boxes in 2D) - remove the crack");
+  }
+  int const dimension = body != nullptr ? body->dimension : 2;
+  if (auto const from = read_components(section, "from", dimension)) crack.from = *from;
+  if (auto const to = read_components(section, "to", dimension)) crack.to = *to;
+  section.refuse_unknown();
+  crack.places = places_of(section, {"body", "from", "to"});
+  return crack;
 }
 
 }  // namespace piola

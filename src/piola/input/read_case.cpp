@@ -114,6 +114,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   for (Section const& section : tables_of(top, "support")) spec.supports.push_back(read_support(section, names));
   for (Section const& section : tables_of(top, "load")) spec.loads.push_back(read_load(section, names));
   for (Section const& section : tables_of(top, "mirror")) spec.mirrors.push_back(read_mirror(section, names));
+  for (Section const& section : tables_of(top, "crack")) spec.cracks.push_back(read_crack(section, names));
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   refuse_twins(probes, spec.probes, "probe");
@@ -144,7 +145,10 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
   }
   problems.raise_if_any();
   CaseSpec spec = read_document(*document, problems, limits);
-  if (problems.empty()) check_regions(spec, make_particles(spec), problems);
+  if (problems.empty()) {
+    ParticleSet const particles = make_particles(spec, problems);
+    check_regions(spec, particles, problems);
+  }
   problems.sort_by_place();
   problems.raise_if_any();
   return spec;

@@ -15,31 +15,60 @@ using Kind = ProbeSpec::Kind;
 using Take = QuantitySpec::Take;
 
 void read_point(Section const& section, int dimension, ProbeSpec& probe) {
-  if (!section.has("at")) {
+  if (!section.has("at"))
     section.report_missing("at", "the point of the probe", "at = [\"0 m\", ...]");
+  else if (auto const at = read_components(section, "at", dimension))
+    probe.at = *at;
+}
+
+void read_distance(Section const& section, std::string_view key, double& target) {
+  if (!section.has(key))
+    section.report_missing(key, "a distance from the crack tip", std::string(key) + " = \"1 mm\"");
+  else
+    section.read(key, target);
+}
+
+// What the kind "stress_intensity" looks at ahead of a crack tip.
+void read_ahead(Section const& section, int dimension, ProbeSpec& probe) {
+  if (probe.kind != Kind::stress_intensity) {
+    for (std::string_view const key : {"direction", "from", "to"})
+      section.refuse(key, "is used only by the kind \"stress_intensity\"");
     return;
   }
-  auto const at = section.point("at");
-  if (!at) return;
-  if (static_cast<int>(at->size()) != dimension) {
-    section.problems().add(section.place_of("at"), "probe.at has " + std::to_string(at->size()) +
-                                                       " components (allowed: " + std::to_string(dimension) +
-                                                       ", the dimension of the body)");
+  if (dimension != 2) {
+    section.problems().add(section.place_of("kind"), "probe.kind is \"stress_intensity\" for a body in " +
+                                                         std::to_string(dimension) +
+                                                         "D (allowed in 2D) - choose another kind");
     return;
   }
-  std::copy(at->begin(), at->end(), probe.at.begin());
+  if (auto const direction = read_direction(section, "direction", dimension)) probe.direction = *direction;
+  read_distance(section, "from", probe.from);
+  read_distance(section, "to", probe.to);
+  if (section.has("from") && section.has("to") && probe.from > probe.to)
+    section.problems().add(section.place_of("to"), "probe.to is " + quantity_text(probe.to, "m") +
+                                                       " (allowed: at least probe.from, which is " +
+                                                       quantity_text(probe.from, "m") + ")");
+}
+
+/// The number that a kind of probe stands for; empty for the kinds that take any quantities of fields.
+std::string_view own_quantity(Kind kind) {
+  switch (kind) {
+    case Kind::twist: return twist_quantity;
+    case Kind::extent: return extent_quantity;
+    case Kind::error: return error_quantity;
+    case Kind::stress_intensity: return intensity_quantity;
+    default: return "";
+  }
 }
 
 void read_quantities(Section const& section, ProbeSpec& probe) {
   std::vector<std::string> known;
   for (FieldQuantity const& quantity : all_quantities()) known.push_back(quantity.name);
-  bool const whole = probe.kind == Kind::twist || probe.kind == Kind::extent || probe.kind == Kind::error;
-  if (probe.kind == Kind::twist) known = {std::string(twist_quantity)};
-  if (probe.kind == Kind::extent) known = {std::string(extent_quantity)};
-  if (probe.kind == Kind::error) known = {std::string(error_quantity)};
+  std::string const own(own_quantity(probe.kind));
+  if (!own.empty()) known = {own};
   auto const value = section.find("quantities");
   if (!value) {
-    if (whole)
+    if (!own.empty())
       probe.quantities = known;
     else
       section.report_missing("quantities", "what to record, for example velocity_x or pressure",
@@ -97,6 +126,7 @@ struct Column {
 std::string unit_of_probe_quantity(std::string const& quantity) {
   if (quantity == twist_quantity) return "rad";
   if (quantity == extent_quantity) return "m";
+  if (quantity == intensity_quantity) return std::string(intensity_unit);
   auto const found = find_quantity(quantity);
   return found ? found->unit : "1";
 }
@@ -136,7 +166,15 @@ std::optional<std::string> read_column(Section const& section, CaseSpec const& s
 
 bool takes_time(Take take) {
   return take == Take::time_of_first_peak || take == Take::time_of_maximum || take == Take::time_of_minimum ||
-         take == Take::first_time_above || take == Take::first_time_below;
+         take == Take::first_time_above || take == Take::first_time_below || take == Take::oscillation_period;
+}
+
+bool compares(Take take) { return take == Take::mean_absolute_difference || take == Take::relative_error; }
+
+/// SI unit of the number that is taken from a column.
+std::string unit_of_take(Take take, std::string const& column_unit) {
+  if (take == Take::relative_error) return "1";
+  return takes_time(take) ? "s" : column_unit;
 }
 
 // Keys that only some ways of taking a number have: needed there, refused elsewhere.
@@ -146,6 +184,20 @@ bool wants(Section const& section, std::string_view key, bool wanted, std::strin
   else if (!section.has(key))
     section.report_missing(key, what, std::string(key) + " = ...");
   return wanted && section.has(key);
+}
+
+// The rows that a comparison looks at.
+void read_rows(Section const& section, QuantitySpec& quantity) {
+  if (!compares(quantity.take)) {
+    for (std::string_view const key : {"from", "until"}) section.refuse(key, "is not used by this \"take\"");
+    return;
+  }
+  section.read("from", quantity.from);
+  section.read("until", quantity.until);
+  if (quantity.from > quantity.until)
+    section.problems().add(section.place_of("until"), "quantity.until is " + quantity_text(quantity.until, "s") +
+                                                          " (allowed: at least quantity.from, which is " +
+                                                          quantity_text(quantity.from, "s") + ")");
 }
 
 void read_take(Section const& section, std::string const& column_unit, std::map<std::string, double> const& constants,
@@ -158,9 +210,10 @@ void read_take(Section const& section, std::string const& column_unit, std::map<
   }
   if (wants(section, "time", quantity.take == Take::at_time, "the time to look at"))
     section.read("time", quantity.time);
-  if (wants(section, "reference", quantity.take == Take::mean_absolute_difference, "the formula to compare with")) {
+  if (wants(section, "reference", compares(quantity.take), "the formula to compare with")) {
     quantity.reference = section.formula("reference", Names{constants, {}});
   }
+  read_rows(section, quantity);
 }
 
 void read_unit(Section const& section, std::string const& si_unit, QuantitySpec& quantity) {
@@ -185,19 +238,20 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
   if (int const kind = section.word_index("kind"); kind >= 0) probe.kind = static_cast<Kind>(kind);
   if (int const axis = section.word_index("axis"); axis >= 0) probe.axis = axis;
   bool const along = probe.kind == Kind::twist || probe.kind == Kind::extent;
-  if (probe.kind == Kind::point) {
+  if (probe.kind == Kind::point || probe.kind == Kind::stress_intensity) {
     if (body != nullptr) read_point(section, dimension, probe);
-    section.refuse("where", "is not used by the kind \"point\"");
+    section.refuse("where", "is not used by the kinds \"point\" and \"stress_intensity\"");
   } else {
-    section.refuse("at", "is used only by the kind \"point\"");
+    section.refuse("at", "is used only by the kinds \"point\" and \"stress_intensity\"");
     probe.where = section.formula("where", body != nullptr ? body->names : Names{});
   }
   read_comparison(section, body != nullptr ? body->names : Names{}, probe);
+  read_ahead(section, body != nullptr ? dimension : 2, probe);
   if (along && body != nullptr) check_axis(section, dimension, probe);
   if (!along) section.refuse("axis", "is used only by the kinds \"twist\" and \"extent\"");
   read_quantities(section, probe);
   section.refuse_unknown();
-  probe.places = places_of(section, {"where", "at", "body", "name", "reference"});
+  probe.places = places_of(section, {"where", "at", "body", "name", "reference", "from"});
   return probe;
 }
 
@@ -208,7 +262,7 @@ QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,
   auto const unit = read_column(section, spec, quantity.column);
   if (int const take = section.word_index("take"); take >= 0) quantity.take = static_cast<Take>(take);
   read_take(section, unit.value_or("1"), constants, quantity);
-  if (unit) read_unit(section, takes_time(quantity.take) ? "s" : *unit, quantity);
+  if (unit) read_unit(section, unit_of_take(quantity.take, *unit), quantity);
   section.refuse_unknown();
   return quantity;
 }

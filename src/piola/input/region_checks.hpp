@@ -43,6 +43,11 @@ class FormulaCheck {
 bool check_where(Expression const& where, std::string const& name, Place const& place, ParticleSet const& particles,
                  Body const& body, Problems& problems);
 
+/// Opens the cracks of the last body of the set; those that cannot be are problems.
+void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems);
+/// Reports the cracks and mirrors that the formulation of their body does not know.
+void check_abilities(CaseSpec const& spec, Problems& problems);
+
 /// The parts of check_regions that look at supports, loads and mirrors.
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 

@@ -2,6 +2,7 @@
 #include "piola/input/sections.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace piola {
 
@@ -39,6 +40,33 @@ std::optional<std::array<Expression, 3>> read_vector(Section const& section, std
   std::array<Expression, 3> vector;
   std::move(formulas->begin(), formulas->end(), vector.begin());
   return vector;
+}
+
+std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension) {
+  auto const numbers = section.point(key);
+  if (!numbers) return std::nullopt;
+  if (static_cast<int>(numbers->size()) != dimension) {
+    section.problems().add(section.place_of(key), section.name_of(key) + " has " + std::to_string(numbers->size()) +
+                                                      " components (allowed: " + std::to_string(dimension) +
+                                                      ", the dimension of the body)");
+    return std::nullopt;
+  }
+  std::array<double, 3> components{};
+  std::copy(numbers->begin(), numbers->end(), components.begin());
+  return components;
+}
+
+std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension) {
+  auto direction = read_components(section, key, dimension);
+  if (!direction) return std::nullopt;
+  double const length = std::hypot((*direction)[0], (*direction)[1], (*direction)[2]);
+  if (!(length > 0)) {
+    section.problems().add(section.place_of(key),
+                           section.name_of(key) + " is zero (allowed: any other length) - give a direction");
+    return std::nullopt;
+  }
+  for (double& component : *direction) component /= length;
+  return direction;
 }
 
 Places places_of(Section const& section, std::initializer_list<char const*> keys) {

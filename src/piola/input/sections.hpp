@@ -27,6 +27,10 @@ std::optional<std::array<Expression, 3>> read_vector(Section const& section, std
                                                      BodyNames const& body);
 std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
                                                      Names const& names, Problems& problems);
+/// A point or a direction with as many components as the body has.
+std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension);
+/// The same as a unit vector.
+std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension);
 Places places_of(Section const& section, std::initializer_list<char const*> keys);
 
 void read_run(Section const& section, RunSpec& run);
@@ -42,6 +46,7 @@ std::vector<Definition> read_definitions(Value const& value, Names const& names,
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies);
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
+CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,

@@ -22,6 +22,7 @@ std::string to_json(Summary const& s) {
       {"energy", {{"initial", s.energy_initial}, {"final", s.energy_final}, {"max_increase", s.energy_max_increase}}}};
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
+  for (auto const& [name, value] : s.seconds) document["seconds"][name] = value;
   document["quantities"] = quantities;
   document["warnings"] = s.warnings;
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

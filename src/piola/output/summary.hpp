@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -28,6 +29,7 @@ struct Summary {
   double energy_max_increase = 0;
   /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
   std::optional<double> linear_drift, angular_drift;
+  std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation tells
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;
 };

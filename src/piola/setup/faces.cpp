@@ -27,7 +27,9 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
     area *= body.spacing[i];
     if (at_end && shape.placement == ShapeSpec::Placement::on_boundary) area /= 2;
   }
-  return area;
+  // Where a crack opens to the face, its two faces share what was one particle.
+  bool const doubled = !particles.crack_side.empty() && particles.crack_side[particle] != 0;
+  return doubled ? area / 2 : area;
 }
 
 }  // namespace piola

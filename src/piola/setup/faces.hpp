@@ -20,7 +20,8 @@ std::string face_text(Face const& face);
 std::vector<std::int64_t> face_particles(ParticleSet const& particles, Body const& body, Face const& face);
 
 /// The part of a face that a particle of it stands for [m^(Dim-1); 1 in 1D]: the product of its tributary lengths along
-/// the face, halved at the ends of on_boundary directions. The parts sum to the face.
+/// the face, halved at the ends of on_boundary directions and between the two faces of a crack. The parts sum to the
+/// face.
 double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int64_t id, Face const& face);
 
 }  // namespace piola

@@ -203,6 +203,7 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
     }
   }
   body.last = set.size();
+  if (!set.crack_side.empty()) set.crack_side.resize(set.X.size());
   set.dimension = shape.dimension;
   set.bodies.push_back(std::move(body));
 }

@@ -79,6 +79,10 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
             .factor = {},
             .value = spec.value,
             .until = spec.until};
+  if (spec.kind == LoadSpec::Kind::traction) {
+    load.normal = std::array<double, 3>{};
+    (*load.normal)[static_cast<std::size_t>(spec.face.axis)] = spec.face.upper ? 1 : -1;
+  }
   for (std::int64_t const id : load.particles) {
     double factor = 1;
     if (spec.kind == LoadSpec::Kind::body_force) factor = 1 / density;
@@ -112,8 +116,8 @@ std::string formulation_names(CaseSpec const& spec) {
 
 Assembly assemble(CaseSpec const& spec) {
   Assembly a;
-  a.particles = make_particles(spec);
   Problems problems;
+  a.particles = make_particles(spec, problems);
   check_regions(spec, a.particles, problems);
   report_mixed_start(spec, problems);
   problems.raise_if_any();

@@ -2,6 +2,7 @@
 #include "piola/simulation/probes.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/simulation/stress_intensity.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,21 +20,20 @@ Body const& find_body(ParticleSet const& particles, ProbeSpec const& spec) {
       fmt::format("probe '{}': there is no body '{}' - give the name of a [[body]]", spec.name, spec.body));
 }
 
-std::vector<std::int64_t> nearest(ParticleSet const& particles, Body const& body, Point const& at) {
-  std::int64_t best = body.first;
-  double best_distance = std::numeric_limits<double>::infinity();
-  for (std::int64_t id = body.first; id < body.last; ++id) {
-    Point const& X = particles.X[static_cast<std::size_t>(id)];
-    double const distance = std::hypot(X[0] - at[0], X[1] - at[1], X[2] - at[2]);
-    if (distance < best_distance) {
-      best = id;
-      best_distance = distance;
-    }
+std::vector<std::int64_t> ahead(ParticleSet const& particles, Body const& body, ProbeSpec const& spec) {
+  auto ids = particles_ahead(particles, body, spec);
+  if (ids.empty()) {
+    throw InputError(
+        fmt::format("probe '{}': no particle of body '{}' is {} m to {} m ahead of the tip - change from and to",
+                    spec.name, body.name, spec.from, spec.to));
   }
-  return {best};
+  return ids;
 }
 
+/// The particles that a probe looks at.
 std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& body, ProbeSpec const& spec) {
+  if (spec.kind == ProbeSpec::Kind::point) return {nearest_particle(particles, body, spec.at)};
+  if (spec.kind == ProbeSpec::Kind::stress_intensity) return ahead(particles, body, spec);
   auto ids = select_particles(particles, body, spec.where ? &*spec.where : nullptr);
   if (ids.empty()) {
     throw InputError(fmt::format("probe '{}': where = \"{}\" selects no particle of body '{}' - widen the region",
@@ -74,16 +74,25 @@ Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
       axis_(static_cast<std::size_t>(spec.axis)),
       quantities_(quantities_of(spec)),
       field_(spec.field),
-      reference_(spec.reference) {
+      reference_(spec.reference),
+      direction_(spec.direction) {
   Body const& body = find_body(particles, spec);
-  ids_ = kind_ == ProbeSpec::Kind::point ? nearest(particles, body, spec.at) : selected(particles, body, spec);
+  ids_ = selected(particles, body, spec);
   for (std::int64_t id : ids_) weight_.push_back(particles.volume[static_cast<std::size_t>(id)]);
+  if (kind_ != ProbeSpec::Kind::stress_intensity) return;
+  Point const& tip = particles.X[static_cast<std::size_t>(nearest_particle(particles, body, spec.at))];
+  for (std::int64_t id : ids_) {
+    Point const& X = particles.X[static_cast<std::size_t>(id)];
+    distance_.push_back(std::hypot(X[0] - tip[0], X[1] - tip[1]));
+  }
 }
 
 std::vector<HistoryColumn> Probe::columns() const {
   if (kind_ == ProbeSpec::Kind::twist) return {{fmt::format("{}.{}", name_, twist_quantity), "rad"}};
   if (kind_ == ProbeSpec::Kind::extent) return {{fmt::format("{}.{}", name_, extent_quantity), "m"}};
   if (kind_ == ProbeSpec::Kind::error) return {{fmt::format("{}.{}", name_, error_quantity), "1"}};
+  if (kind_ == ProbeSpec::Kind::stress_intensity)
+    return {{fmt::format("{}.{}", name_, intensity_quantity), std::string(intensity_unit)}};
   std::vector<HistoryColumn> list;
   for (FieldQuantity const& q : quantities_) list.push_back({fmt::format("{}.{}", name_, q.name), q.unit});
   return list;
@@ -93,6 +102,7 @@ std::vector<double> Probe::evaluate(FieldCache& cache, double time) {
   if (kind_ == ProbeSpec::Kind::twist) return {twist(cache)};
   if (kind_ == ProbeSpec::Kind::extent) return {extent(cache)};
   if (kind_ == ProbeSpec::Kind::error) return {relative_error(cache, time)};
+  if (kind_ == ProbeSpec::Kind::stress_intensity) return {intensity(cache)};
   std::vector<double> out;
   for (FieldQuantity const& q : quantities_) {
     bool const known = cache.knows(q.field);
@@ -173,6 +183,19 @@ double Probe::relative_error(FieldCache& cache, double time) const {
     }
   }
   return difference == 0 ? 0 : std::sqrt(difference / whole);
+}
+
+/// From the stress across the ligament, n.sigma n with n normal to the direction ahead.
+double Probe::intensity(FieldCache& cache) const {
+  if (!cache.knows("CauchyStress")) return std::numeric_limits<double>::quiet_NaN();
+  auto const sigma = cache.values("CauchyStress");  // XX YY ZZ XY YZ XZ
+  double const nx = -direction_[1], ny = direction_[0];
+  std::vector<double> stress;
+  for (std::int64_t const id : ids_) {
+    double const* const s = &sigma[static_cast<std::size_t>(id) * 6];
+    stress.push_back(s[0] * nx * nx + s[1] * ny * ny + 2 * s[3] * nx * ny);
+  }
+  return stress_intensity(distance_, stress);
 }
 
 }  // namespace piola

@@ -4,6 +4,7 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/output/field_cache.hpp"
 #include "piola/output/history.hpp"
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace piola {
 /// One [[probe]] of a case, with its particles chosen once from their reference positions.
 class Probe {
  public:
-  /// Throws InputError if `where` selects nothing, or if the body or a quantity is not known.
+  /// Throws InputError if `where` (or `from` and `to`) selects nothing, or if the body or a quantity is not known.
   Probe(ProbeSpec const& spec, ParticleSet const& particles);
   /// "NAME.quantity" with units, one for each value of `evaluate`.
   std::vector<HistoryColumn> columns() const;
@@ -30,14 +31,17 @@ class Probe {
   double twist(FieldCache& cache);
   double extent(FieldCache& cache) const;
   double relative_error(FieldCache& cache, double time) const;
+  double intensity(FieldCache& cache) const;
   ProbeSpec::Kind kind_;
   std::string name_;
   std::size_t axis_;
   std::vector<std::int64_t> ids_;
   std::vector<double> weight_;             ///< tributary volumes of ids_
-  std::vector<FieldQuantity> quantities_;  ///< empty for twist, extent, error
+  std::vector<FieldQuantity> quantities_;  ///< empty for the kinds with a number of their own
   std::string field_;                      ///< error
   std::vector<Expression> reference_;      ///< error: one per component of the field
+  std::array<double, 3> direction_;        ///< stress_intensity: ahead of the tip
+  std::vector<double> distance_;           ///< stress_intensity: of ids_ from the tip [m]
   double last_angle_ = 0;
 };
 

@@ -61,15 +61,70 @@ std::optional<double> interpolate(Series const& s, double time) {
   return s.value[k - 1] + share * (s.value[k] - s.value[k - 1]);
 }
 
-double mean_difference(Series const& s, Expression const& reference) {
-  double sum = 0;
-  for (std::size_t k = 0; k < s.value.size(); ++k) sum += std::abs(s.value[k] - reference({0, 0, 0}, s.time[k]));
-  return sum / static_cast<double>(s.value.size());
+/// How far the values are from a formula, over the rows that count. Nothing if no row does.
+std::optional<double> compare(QuantitySpec const& spec, Series const& s) {
+  constexpr double rounding = 1e-12;
+  Expression const reference = spec.reference.value_or(Expression());
+  double count = 0, sum = 0, squares = 0, whole = 0;
+  for (std::size_t k = 0; k < s.value.size(); ++k) {
+    if (s.time[k] < spec.from * (1 - rounding) || s.time[k] > spec.until * (1 + rounding)) continue;
+    double const r = reference({0, 0, 0}, s.time[k]), d = s.value[k] - r;
+    count += 1;
+    sum += std::abs(d);
+    squares += d * d;
+    whole += r * r;
+  }
+  if (count == 0) return std::nullopt;
+  if (spec.take == Take::mean_absolute_difference) return sum / count;
+  return squares == 0 ? 0 : std::sqrt(squares / whole);
 }
 
-bool is_time(Take take) {
-  return take == Take::time_of_first_peak || take == Take::time_of_maximum || take == Take::time_of_minimum ||
-         take == Take::first_time_above || take == Take::first_time_below;
+/// Mean over time, linear between samples.
+double mean_of(Series const& s) {
+  double sum = 0;
+  for (std::size_t k = 1; k < s.value.size(); ++k)
+    sum += (s.time[k] - s.time[k - 1]) * (s.value[k] + s.value[k - 1]) / 2;
+  return sum / (s.time.back() - s.time.front());
+}
+
+/// Times at which the column passes a level, upwards or downwards, linear between samples.
+std::vector<double> crossings(Series const& s, double level) {
+  std::vector<double> times;
+  double side = 0;  // where the last sample off the level was
+  for (std::size_t k = 0; k < s.value.size(); ++k) {
+    double const now = s.value[k] - level;
+    if (now == 0) continue;
+    if (side * now < 0) {
+      double const before = s.value[k - 1] - level;
+      times.push_back(s.time[k - 1] + (s.time[k] - s.time[k - 1]) * before / (before - now));
+    }
+    side = now > 0 ? 1 : -1;
+  }
+  return times;
+}
+
+/// Mean time from one crossing of the mean to the next but one, which goes the same way: right even where the mean of
+/// the rows is not the middle of the oscillation. Nothing for less than three crossings.
+std::optional<double> oscillation_period(Series const& s) {
+  std::vector<double> const times = crossings(s, mean_of(s));
+  if (times.size() < 3) return std::nullopt;
+  double sum = 0;
+  for (std::size_t k = 2; k < times.size(); ++k) sum += times[k] - times[k - 2];
+  return sum / static_cast<double>(times.size() - 2);
+}
+
+/// SI unit of the number that is taken from a column.
+std::string unit_of(Take take, std::string const& column_unit) {
+  switch (take) {
+    case Take::time_of_first_peak:
+    case Take::time_of_maximum:
+    case Take::time_of_minimum:
+    case Take::first_time_above:
+    case Take::first_time_below:
+    case Take::oscillation_period: return "s";
+    case Take::relative_error: return "1";
+    default: return column_unit;
+  }
 }
 
 std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
@@ -86,7 +141,10 @@ std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
     case Take::first_time_above: return first_crossing(s, spec.threshold, 1);
     case Take::first_time_below: return first_crossing(s, spec.threshold, -1);
     case Take::at_time: return interpolate(s, spec.time);
-    case Take::mean_absolute_difference: return mean_difference(s, spec.reference.value_or(Expression()));
+    case Take::mean_absolute_difference:
+    case Take::relative_error: return compare(spec, s);
+    case Take::oscillation_period: return oscillation_period(s);
+    case Take::range: return *high - *low;
     case Take::first_peak:
     case Take::time_of_first_peak: break;
   }
@@ -121,7 +179,7 @@ std::optional<MeasuredQuantity> measure(QuantitySpec const& spec, HistoryTable c
                       spec.column);
     return std::nullopt;
   }
-  std::string const si = is_time(spec.take) ? "s" : history.columns[*column].unit;
+  std::string const si = unit_of(spec.take, history.columns[*column].unit);
   // "1" also stands for "no unit given": the value is then shown in SI.
   if (spec.unit.empty() || spec.unit == "1" || spec.unit == si) return MeasuredQuantity{spec.name, *value, si};
   try {

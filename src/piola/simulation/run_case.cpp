@@ -138,6 +138,7 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
   double const stages =
       static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
   summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
+  summary.seconds = s.formulation->costs();
   add_conservation(summary, history, s);
   for (QuantitySpec const& spec : s.spec.quantities) {
     std::string why;

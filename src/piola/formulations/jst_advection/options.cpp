@@ -23,13 +23,16 @@ double number(FormulationSpec const& spec, std::string_view name, double otherwi
 }  // namespace
 
 FormulationInfo info() {
-  return {"jst_advection",
-          "one velocity carried along a periodic row of particles with Jameson-Schmidt-Turkel stabilisation: the model "
-          "equation of Lee, Gil, Greto, Kulasegaram, Bonet 2016, Appendix C",
-          parameters,
-          {},
-          usable_laws,
-          diagnostics};
+  FormulationInfo info{
+      "jst_advection",
+      "one velocity carried along a periodic row of particles with Jameson-Schmidt-Turkel stabilisation: the model "
+      "equation of Lee, Gil, Greto, Kulasegaram, Bonet 2016, Appendix C",
+      parameters,
+      {},
+      usable_laws,
+      diagnostics};
+  info.mirrors = false;  // a periodic row has no faces
+  return info;
 }
 
 Options read_options(FormulationSpec const& spec, double cfl) {

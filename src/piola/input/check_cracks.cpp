@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/registry.hpp"
+#include "piola/input/region_checks.hpp"
+#include "piola/setup/cracks.hpp"
+#include <algorithm>
+
+namespace piola {
+namespace {
+
+std::optional<FormulationInfo> formulation_of(CaseSpec const& spec, std::string const& body_name) {
+  auto const body = std::find_if(spec.bodies.begin(), spec.bodies.end(),
+                                 [&](BodySpec const& candidate) { return candidate.name == body_name; });
+  return body == spec.bodies.end() ? std::nullopt : find_formulation(body->formulation.name);
+}
+
+}  // namespace
+
+void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems) {
+  std::size_t const body = particles.bodies.size() - 1;
+  for (CrackSpec const& crack : spec.cracks) {
+    if (crack.body != particles.bodies[body].name) continue;
+    CrackPath const path = trace_crack(particles, body, crack.from, crack.to);
+    if (path.problem.empty())
+      open_crack(particles, body, crack.from, crack.to);
+    else
+      problems.add(place_of(crack.places, path.key), path.problem);
+  }
+}
+
+void check_abilities(CaseSpec const& spec, Problems& problems) {
+  for (CrackSpec const& crack : spec.cracks) {
+    auto const info = formulation_of(spec, crack.body);
+    if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));
+  }
+  for (MirrorSpec const& mirror : spec.mirrors) {
+    auto const info = formulation_of(spec, mirror.body);
+    if (info && !info->mirrors) problems.add(place_of(mirror.places, ""), refusal(*info, "mirrors"));
+  }
+}
+
+}  // namespace piola
