@@ -22,8 +22,9 @@ TEST(LatticeCells, FillBoxesOfEveryDimension) {
 
 TEST(LatticeCells, AreTheBoxesWithAllCorners) {
   auto const set = box({3, 2, 1}, {7, 5, 4});
-  EXPECT_EQ(lattice_cells(set, set.bodies[0]).count(), 6 * 4 * 3);
-  auto const first = lattice_cells(set, set.bodies[0]).of(0);
+  Cells const cells = lattice_cells(set, set.bodies[0]);
+  EXPECT_EQ(cells.count(), 6 * 4 * 3);
+  auto const first = cells.of(0);
   EXPECT_EQ(std::vector<Index>(first.begin(), first.end()), (std::vector<Index>{0, 1, 7, 8, 35, 36, 42, 43}));
   auto const row = box({1, 0.5, 0}, {5, 1, 1}, 2);  // one row of particles has no boxes
   EXPECT_EQ(lattice_cells(row, row.bodies[0]).count(), 0);
