@@ -28,6 +28,7 @@ function(piola_find_plain_library name header)
 endfunction()
 piola_find_plain_library(hdf5 hdf5.h hdf5_serial hdf5)
 piola_find_plain_library(libdeflate libdeflate.h deflate)
+piola_find_plain_library(qhull libqhull_r/qhull_ra.h qhull_r)
 piola_find_plain_library(udunits2 udunits2.h udunits2)
 
 # toml++ is used as headers only: the compiled Debian library aborts on some malformed files, while the headers let the

@@ -27,4 +27,5 @@ target_compile_definitions(piola PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
 target_link_libraries(piola
   PUBLIC piola_options
   PRIVATE $<BUILD_INTERFACE:piola_warnings> $<BUILD_INTERFACE:piola_host>
-          Piola::hdf5 PNG::PNG Piola::libdeflate Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)
+          Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2
+          muparser::muparser nlohmann_json::nlohmann_json)

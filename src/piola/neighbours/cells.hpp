@@ -40,23 +40,32 @@ struct Surface {
 Cells lattice_cells(ParticleSet const& set, Body const& body);
 
 /// Every box cut into simplices, with diagonals that alternate from box to box: 1D as they are, 2 triangles, 5
-/// tetrahedra. `offset`: lattice position of each box, whose parity decides; see lattice_cells.
+/// tetrahedra. The parity of a box's lattice position decides, so that the diagonals on a facet are those of the
+/// box beside. `boxes`: from lattice_cells of the same body.
 Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body);
 
 /// Delaunay triangulation (tetrahedralisation in 3D, intervals in 1D) of any points, without what lies outside of the
-/// body: simplices whose circumradius is above `largest_radius`, and slivers. Corners are in the order of a positive
-/// volume. The same points give the same cells on every machine. Throws InputError: fewer than dimension + 1 points,
-/// points that coincide, points on a line (in 3D: in a plane).
+/// body: simplices whose circumradius is above `largest_radius` [m] (never more than 4 times the diagonal of the box
+/// around the points; the radius of an interval is half its length), and slivers on the surface. On a lattice 0.9
+/// to 1.5 spacings are right; above 1, single missing particles are filled. Flat tetrahedra inside stay, so that the
+/// surface is closed; a regular lattice has none. Diagonals between points on one circle are chosen by the numbers of
+/// the points. Corners are in the order of a positive volume, cells in the order of their corners. The same points give
+/// the same cells on every machine. Throws InputError: fewer than dimension + 1 points, points that coincide (1e-9 of
+/// the extent), points on a line (in 3D: in a plane), positions that are not finite.
 Cells delaunay(Points const& points, int dimension, double largest_radius);
 
 /// Moves the corners of cells beside a crack to the particles of their side: after a triangulation in which only one
-/// particle of each pair took part. `X`: reference positions; `twin[k]`: the other particle at the same place, or -1.
+/// particle of each pair took part. `X`: reference positions; `side`: as ParticleSet::crack_side; `twin[k]`: the other
+/// particle at the same place, or -1. A cell lies on the side of its centroid; each doubled particle belongs to the
+/// crack nearest to it. Cracks must run along edges between particles.
 void open_cracks(Cells& cells, Points const& X, std::vector<std::int8_t> const& side, std::vector<Index> const& twin,
                  std::vector<Crack> const& cracks);
 
+/// Facets in the order of their cells. Neither overlapping cells nor facets of more than two cells are expected.
 Surface surface_of(Cells const& cells, Points const& points);
 
-/// Signed volume of a cell (area, length): of a simplex exactly, of a box by its simplices [m^dimension].
+/// Signed volume of a cell (area, length): of a simplex, or of the trilinear map of a box, which is the mean of its two
+/// cuts into simplices [m^dimension].
 double volume_of(Cells const& cells, Index cell, Points const& points);
 
 }  // namespace piola
