@@ -79,6 +79,8 @@ FormulationInfo info() {
                        choices,
                        usable_laws,
                        diagnostics};
+  info.cracks = true;
+  info.mirrors = false;
   return info;
 }
 

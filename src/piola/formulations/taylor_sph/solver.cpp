@@ -14,9 +14,6 @@ namespace {
 
 void check(Assembly const& assembly) {
   Problems problems;
-  if (!assembly.mirrors.empty())
-    problems.add({}, "taylor_sph: there are mirror planes (none are allowed) - hold the face with a roller, "
-                     "[[support]] fix = \"normal\", which is a plane of symmetry here");
   if (!assembly.initial_deformation_gradient.empty())
     problems.add({}, "taylor_sph: there is an initial deformation gradient (stress starts at zero here) - remove it");
   problems.raise_if_any();
@@ -82,6 +79,14 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return 2; }
+  std::vector<std::pair<std::string, double>> costs() const override {
+    SetupSeconds sum;
+    for (auto const& body : bodies_) {
+      sum.triangulation += body->seconds().triangulation;
+      sum.lists += body->seconds().lists;
+    }
+    return {{"triangulation", sum.triangulation}, {"neighbour_lists", sum.lists}};
+  }
   std::size_t memory_bytes() const override {
     std::size_t total = 0;
     for (auto const& body : bodies_) total += body->bytes();
