@@ -2,6 +2,7 @@
 #include "piola/neighbours/cell_facets.hpp"
 #include "piola/base/contracts.hpp"
 #include <algorithm>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -12,6 +13,9 @@ constexpr std::array<std::array<int, 4>, 4> of_rectangle{{{0, 1}, {1, 3}, {3, 2}
 constexpr std::array<std::array<int, 4>, 4> of_tetrahedron{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 constexpr std::array<std::array<int, 4>, 6> of_box{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+
+/// Fills up the corners of facets that have fewer than four; after all others in rising order.
+constexpr Index none = std::numeric_limits<Index>::max();
 
 /// A facet as its cell sees it, known to its neighbour by its corners in rising order.
 struct SeenFacet {
@@ -24,10 +28,10 @@ std::vector<SeenFacet> all_facets(Cells const& cells, FacetTable const& table) {
   all.reserve(static_cast<std::size_t>(cells.count()) * table.facet.size());
   for (Index cell = 0; cell < cells.count(); ++cell)
     for (auto const& facet : table.facet) {
-      SeenFacet seen{{-1, -1, -1, -1}, static_cast<Index>(all.size())};
+      SeenFacet seen{{none, none, none, none}, static_cast<Index>(all.size())};
       for (int c = 0; c < table.corners; ++c)
         seen.key[static_cast<std::size_t>(c)] = cells.of(cell)[static_cast<std::size_t>(facet[c])];
-      std::sort(seen.key.begin(), seen.key.begin() + table.corners);
+      std::sort(seen.key.begin(), seen.key.end());
       all.push_back(seen);
     }
   return all;

@@ -7,6 +7,7 @@
 #include "piola/neighbours/delaunay_peel.hpp"
 #include "piola/neighbours/simplex.hpp"
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace piola {
@@ -103,9 +104,10 @@ Cells between_points(std::vector<Index> const& all, Points const& points, int di
   std::vector<std::array<Index, 4>> inside;
   inside.reserve(all.size() / corners);
   for (std::size_t k = 0; k < all.size(); k += corners) {
-    std::array<Index, 4> corner{-1, -1, -1, -1};
+    constexpr Index none = std::numeric_limits<Index>::max();
+    std::array<Index, 4> corner{none, none, none, none};
     std::copy_n(&all[k], corners, corner.begin());
-    std::sort(corner.begin(), corner.begin() + cells.corners);
+    std::sort(corner.begin(), corner.end());
     if (corner[corners - 1] < std::ssize(points)) inside.push_back(corner);
   }
   std::sort(inside.begin(), inside.end());

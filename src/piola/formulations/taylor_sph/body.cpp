@@ -89,6 +89,7 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   }
   s.stress.assign(X_.size() * D * (D + 1) / 2, 0);
   s.across.assign(X_.size(), 0);
+  s.drift = s.v;
   s.x_of_lists = s.x_of_cells = s.x;
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
   s.books.assign(6, 0);
@@ -139,8 +140,9 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   state_.real = real_.data();
   state_.virtual_ = virtual_.data();
   Index const slots = state_.boundary.last;
-  for (Field* field : {&across_, &acceleration_, &slot_mass_}) field->allocate(slots, alignment);
+  for (Field* field : {&across_, &drift_, &acceleration_, &slot_mass_}) field->allocate(slots, alignment);
   state_.out_of_plane = across_.ref();
+  state_.drift = drift_.ref();
   state_.acceleration = acceleration_.ref();
   state_.mass = slot_mass_.ref();
   for (Index i = 0; i < particles(); ++i) slot_mass_.at(slot_of_[at(i)]) = mass_[at(i)];
@@ -202,10 +204,8 @@ void TaylorBody::step(double time, double dt) {
   if (state_.k.loaded) prepare_loads(time + 0.5 * dt);
   Points half = positions();
   if (state_.k.moving)
-    for (Index i = 0; i < particles(); ++i) {
-      auto const velocity = v(i);
-      for (std::size_t c = 0; c < 3; ++c) half[at(i)][c] += 0.5 * dt * velocity[c];
-    }
+    for (Index i = 0; i < particles(); ++i)
+      for (int c = 0; c < D(); ++c) half[at(i)][static_cast<std::size_t>(c)] += 0.5 * dt * drift_.at(slot_of_[at(i)], c);
   prepare_boundary(time, dt, half);
   machine_->half_step(state_, dt);
   machine_->full_step(state_, dt);
@@ -286,7 +286,7 @@ Points TaylorBody::positions() const {
 }
 
 std::size_t TaylorBody::bytes() const {
-  return real_.bytes() + virtual_.bytes() + across_.bytes() + acceleration_.bytes() + slot_mass_.bytes() +
+  return real_.bytes() + virtual_.bytes() + across_.bytes() + drift_.bytes() + acceleration_.bytes() + slot_mass_.bytes() +
          to_virtual_.bytes() + to_real_.bytes() +
          sizeof(double) * (reference_square_.size() + reference_quality_.size() + pattern_.size() + partial_.size()) +
          sizeof(Index) * (corner_.size() + box_corner_.size() + box_of_.size() + cells_.corner.size());

@@ -13,7 +13,7 @@ namespace piola::taylor_sph {
 
 /// What a checkpoint holds of one body, particle by particle in Id order.
 struct Snapshot {
-  std::vector<double> x, v, stress, across, volume;  ///< D, D, SymMat<D>, 1, 1 per particle
+  std::vector<double> x, v, drift, stress, across, volume;  ///< D, D, D, SymMat<D>, 1, 1 per particle
   std::vector<double> x_of_lists, x_of_cells;        ///< positions when lists and cells were made
   std::vector<double> corners;                       ///< of the cells
   std::vector<double> books;                         ///< work, power, filter loss, list updates, triangulations, steps
@@ -105,6 +105,7 @@ class TaylorBody {
   std::vector<Index> slot_of_, local_of_;
   Memory real_, virtual_;
   Field across_{"OutOfPlaneStress", "Pa", 1, Role::evolved};
+  Field drift_{"Drift", "m/s", 3, Role::evolved};
   Field acceleration_{"Acceleration", "m/s2", 3, Role::derived};
   Field slot_mass_{"Mass", "kg", 1, Role::reference};
   SetPairs to_virtual_, to_real_;
@@ -113,6 +114,7 @@ class TaylorBody {
   FailureSlot failure_;
   BodyState state_;
   CellMeasures measures_;
+  double first_spacing_ = 0;  ///< at the start [m]
   double work_ = 0, power_ = 0;
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
   SetupSeconds seconds_;

@@ -202,7 +202,7 @@ struct BoundaryStep {
   SetPairTable pairs;
   double const* virtual_;
   double* real;
-  WriteView out_of_plane;
+  WriteView out_of_plane, drift;
   View acceleration;
   BoundaryItem const* items;
   Index first, count;
@@ -213,7 +213,7 @@ struct BoundaryStep {
     using R = Record<D>;
     Lanes own[R::values];
     load_own<D>(real, i, own);
-    auto const sums = sum_sources<D, Kernel>(pairs, virtual_, i, half_time_place<D>(k, own, dt));
+    auto const sums = sum_sources<D, Kernel>(pairs, virtual_, i, half_time_place<D>(k, own, drift, i, dt));
     for (int l = 0; l < lane_count && i + l < first + count; ++l) advance(i + l, lane_of<D>(sums, l));
   }
 
@@ -236,6 +236,7 @@ struct BoundaryStep {
     for (int c = 0; c < D; ++c) {
       double const load = k.loaded ? acceleration.scalar<double>(i, c) : 0;
       if (k.moving) own[R::x + c] += dt * e.f[c];
+      drift.scalar(i, e.f[c], c);
       own[R::v + c] += dt * (specific_volume * force[c] + load);
       size += own[R::v + c] * own[R::v + c];
     }

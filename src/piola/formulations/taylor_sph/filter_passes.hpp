@@ -100,10 +100,10 @@ struct DampPatterns {
         for (int c = 0; c < R::fields; ++c)
           sum[c] += P::sign(p, entry % P::corners) * pattern[p * R::fields + c];
     }
-    if (boxes == 0) return 0;
+    if (2 * boxes < P::corners) return 0;
     double* const f = real + i * R::stride + R::v;
     double const before = energy(i, f);
-    for (int c = 0; c < R::fields; ++c) f[c] -= k.hourglass * sum[c] / boxes;
+    for (int c = 0; c < D; ++c) f[c] -= k.hourglass * sum[c] / boxes;
     return before - energy(i, f);
   }
   PIOLA_FN double energy(Index i, double const* f) const {

@@ -201,7 +201,10 @@ void TaylorBody::note_distances(Points const& x) {
 
 void TaylorBody::follow_motion() {
   measures_ = machine_->place(state_);
-  if (measures_.inverted) return;
+  // A cell that doubled since its lists were made, or was crushed to a fiftieth, is as lost as one turned inside out.
+  constexpr double doubled = 3, crushed = 0.02;
+  if (!(measures_.strain < doubled) || !(measures_.spacing > crushed * first_spacing_)) measures_.inverted = true;
+  if (measures_.inverted || failure_.index != FailureSlot::none) return;
   if (measures_.quality < least_quality && steps_since_triangulation_ >= least_steps && triangulate_anew()) return;
   if (measures_.strain < largest_strain) return;
   make_lists(positions());
@@ -240,6 +243,7 @@ Snapshot TaylorBody::snapshot() const {
     s.v.insert(s.v.end(), own + D() + 1, own + 2 * D() + 1);
     s.stress.insert(s.stress.end(), own + 2 * D() + 1, own + 2 * D() + 1 + n);
     s.across.push_back(across_.at(slot_of_[at(i)]));
+    for (int c = 0; c < D(); ++c) s.drift.push_back(drift_.at(slot_of_[at(i)], c));
   }
   s.x_of_lists = flattened(x_of_lists_, D());
   s.x_of_cells = flattened(x_of_cells_, D());
@@ -266,6 +270,7 @@ void TaylorBody::restore(Snapshot const& s) {
     std::copy_n(s.v.begin() + k * D(), D(), own + D() + 1);
     std::copy_n(s.stress.begin() + k * n, n, own + 2 * D() + 1);
     across_.at(slot_of_[at(i)]) = s.across[at(i)];
+    for (int c = 0; c < D(); ++c) drift_.at(slot_of_[at(i)], c) = s.drift[static_cast<std::size_t>(i * D() + c)];
   }
   work_ = s.books[0];
   power_ = s.books[1];
@@ -275,6 +280,7 @@ void TaylorBody::restore(Snapshot const& s) {
   steps_since_triangulation_ = static_cast<long>(s.books[5]);
   make_lists(points_of(s.x_of_lists, D()));
   measures_ = machine_->place(state_);
+  if (!(first_spacing_ > 0)) first_spacing_ = measures_.spacing;
 }
 
 }  // namespace piola::taylor_sph

@@ -63,13 +63,15 @@ struct HalfStep {
   }
 };
 
-/// Where a real particle is at half time, seen from which the virtual particles lie.
+/// Where a real particle is at half time, seen from which the virtual particles lie: it drifts on as in the step before.
+/// Its own velocity may hold a checkerboard that the virtual particles do not see and that must not move it.
 template <int D>
-PIOLA_FN Vec<D, Lanes> half_time_place(Constants const& k, Lanes const (&own)[Record<D>::values], double dt) {
+PIOLA_FN Vec<D, Lanes> half_time_place(Constants const& k, Lanes const (&own)[Record<D>::values], WriteView const& drift,
+                                       Index i, double dt) {
   Vec<D, Lanes> x;
   for (int c = 0; c < D; ++c) {
     x[c] = own[Record<D>::x + c];
-    if (k.moving) x[c] = x[c] + 0.5 * dt * own[Record<D>::v + c];
+    if (k.moving) x[c] = x[c] + 0.5 * dt * load<Lanes>(drift.data + c * drift.component_stride + i);
   }
   return x;
 }
@@ -84,7 +86,7 @@ struct FullStep {
   SetPairTable pairs;
   double const* virtual_;
   double* real;
-  WriteView out_of_plane;
+  WriteView out_of_plane, drift;
   View acceleration;
   Index count;
   FailureSlot* failure;
@@ -94,7 +96,7 @@ struct FullStep {
     using R = Record<D>;
     Lanes own[R::values];
     load_own<D>(real, i, own);
-    auto const sums = sum_sources<D, Kernel>(pairs, virtual_, i, half_time_place<D>(k, own, dt));
+    auto const sums = sum_sources<D, Kernel>(pairs, virtual_, i, half_time_place<D>(k, own, drift, i, dt));
     auto const e = estimate<D>(sums, k.form);
     Mat<D, Lanes> const L = velocity_gradient<D>(e);
     // 1 / rho at half time.
@@ -106,7 +108,10 @@ struct FullStep {
     for (int c = 0; c < R::stress; ++c) sigma.c[c] = e.f[D + c];
     auto const rate = stress_rate<D>(law, k, L, sigma);
     if (k.moving) {
-      for (int c = 0; c < D; ++c) own[R::x + c] = own[R::x + c] + dt * e.f[c];
+      for (int c = 0; c < D; ++c) {
+        own[R::x + c] = own[R::x + c] + dt * e.f[c];
+        drift.scalar(i, e.f[c], c);
+      }
       own[R::volume] = volume_after(own[R::volume], trace(L), dt);
     }
     Lanes size = own[R::volume];

@@ -90,6 +90,7 @@ struct BodyState {
   double* real = nullptr;          ///< records
   double* virtual_ = nullptr;      ///< records
   FieldRef out_of_plane;           ///< stress across the plane [Pa]
+  FieldRef drift;                  ///< velocity with which particles moved in the step before [m/s]
   FieldRef acceleration;           ///< of loads, at half time [m/s2]
   FieldRef mass;                   ///< [kg]
   SetPairTable to_virtual, to_real;

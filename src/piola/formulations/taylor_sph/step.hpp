@@ -19,11 +19,11 @@ class Step {
   }
   /// Eqs. (22), (23): v, sigma, x of the real particles at t^(n+1) from the virtual ones at t^(n+1/2).
   void full(double dt) {
-    exec::for_each(b_.interior, FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, out_of_plane(),
-                                                         acceleration(), b_.interior_count, b_.failure, dt});
+    exec::for_each(b_.interior, FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
+                                                         write(b_.drift), acceleration(), b_.interior_count, b_.failure, dt});
     exec::for_each(b_.boundary,
-                   BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, out_of_plane(),
-                                                acceleration(), b_.items, b_.boundary.first, b_.boundary_count,
+                   BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
+                                                write(b_.drift), acceleration(), b_.items, b_.boundary.first, b_.boundary_count,
                                                 b_.failure, dt});
   }
   /// Prescribed values at t^(n+1).
@@ -57,8 +57,7 @@ class Step {
  private:
   View acceleration() const { return view(b_.acceleration); }
   static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
-  WriteView out_of_plane() const {
-    FieldRef const& f = b_.out_of_plane;
+  static WriteView write(FieldRef const& f) {
     return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
   }
   void damp(Range range, Index count) {
