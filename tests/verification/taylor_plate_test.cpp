@@ -118,6 +118,7 @@ TurnError quarter_turn(int n, SymMat<2> const& stress, bool driven, std::string 
   Assembly a = assemble_taylor(unit_box(2, 6));
   give_velocity(a, [&](Point const& X) { return Point{-w * (X[1] - 0.5), w * (X[0] - 0.5), 0}; });
   choose(a, "momentum_projection", projection);
+  choose(a, "hourglass_filter", 0);  // its share is per step, whatever the step
   load(a, turned(-w * w, w, false), everywhere);
   if (driven) drive(a, {true, true, false}, turned(w, w, true), [](Point const& X) { return is_on_edge(X, 2); });
   auto const f = make_formulation(a);
@@ -141,8 +142,8 @@ TurnError quarter_turn(int n, SymMat<2> const& stress, bool driven, std::string 
 TEST(TaylorTurningPlate, HasNoStressAndTurnsWithSecondOrder) {
   for (auto const* projection : {"off", "on"}) {
     TurnError const coarse = quarter_turn(40, {}, false, projection), fine = quarter_turn(80, {}, false, projection);
-    EXPECT_GT(coarse.place / fine.place, 3.7) << projection << " " << coarse.place << " " << fine.place;
-    EXPECT_GT(coarse.stress / fine.stress, 3.5) << projection << " " << coarse.stress << " " << fine.stress;
+    EXPECT_GT(coarse.place / fine.place, 3.8) << projection << " " << coarse.place << " " << fine.place;
+    EXPECT_GT(coarse.stress / fine.stress, 3.6) << projection << " " << coarse.stress << " " << fine.stress;
     EXPECT_LT(fine.place, 1e-3);
     EXPECT_LT(fine.stress, 1e-3 * youngs_modulus);
   }
@@ -152,8 +153,8 @@ TEST(TaylorTurningPlate, HasNoStressAndTurnsWithSecondOrder) {
 TEST(TaylorTurningPlate, CarriesItsStressAlongWithSecondOrder) {
   SymMat<2> const stress{{1000, 200, 100}};
   TurnError const coarse = quarter_turn(40, stress, true, "on"), fine = quarter_turn(80, stress, true, "on");
-  EXPECT_GT(coarse.stress / fine.stress, 3.5) << coarse.stress << " " << fine.stress;
-  EXPECT_LT(fine.stress, 2e-3 * youngs_modulus);
+  EXPECT_GT(coarse.stress / fine.stress, 3.8) << coarse.stress << " " << fine.stress;
+  EXPECT_LT(fine.stress, 5e-4 * youngs_modulus);
 }
 
 // ---- free plates
