@@ -37,7 +37,24 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   largest_radius_ = (0.6 + 0.35 * D()) * widest;
   cells_ = first_cells(set);
   if (D() > 1 && options_.hourglass > 0) boxes_ = lattice_cells(set, body_);
+  if (!assembly.initial_displacement.empty()) weigh_displaced(assembly);
   place_initially(assembly);
+}
+
+/// Particles are born where the initial displacement puts them, free of stress and with the given density: their masses
+/// follow the cells.
+void TaylorBody::weigh_displaced(Assembly const& assembly) {
+  Points x = X_;
+  for (Index i = 0; i < particles(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      x[at(i)][c] += assembly.initial_displacement[static_cast<std::size_t>(body_.first + i)][c];
+  std::vector<double> before(X_.size(), 0), after(X_.size(), 0);
+  for (Index cell = 0; cell < cells_.count(); ++cell)
+    for (Index const corner : cells_.of(cell)) {
+      before[at(corner)] += volume_of(cells_, cell, X_);
+      after[at(corner)] += volume_of(cells_, cell, x);
+    }
+  for (std::size_t i = 0; i < X_.size(); ++i) mass_[i] *= after[i] / before[i];
 }
 
 void TaylorBody::set_constants(Assembly const& assembly, std::size_t body) {
@@ -90,10 +107,15 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   s.stress.assign(X_.size() * D * (D + 1) / 2, 0);
   s.across.assign(X_.size(), 0);
   s.drift = s.v;
+  s.displacement.assign(s.v.size(), 0);
   s.x_of_lists = s.x_of_cells = s.x;
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
-  s.books.assign(6, 0);
+  s.books.assign(12, 0);
   restore(s);
+  free_ = !boundary_.holds();
+  double now[MotionSums::size];
+  machine_->motion(state_, now);
+  for (std::size_t k = 0; k < 6; ++k) momentum_[k] = now[MotionSums::v + k];
 }
 
 void TaylorBody::order_slots(std::vector<Index> const& on_boundary) {
@@ -140,13 +162,14 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   state_.real = real_.data();
   state_.virtual_ = virtual_.data();
   Index const slots = state_.boundary.last;
-  for (Field* field : {&across_, &drift_, &acceleration_, &slot_mass_}) field->allocate(slots, alignment);
+  for (Field* field : {&across_, &drift_, &displacement_, &acceleration_, &slot_mass_}) field->allocate(slots, alignment);
   state_.out_of_plane = across_.ref();
   state_.drift = drift_.ref();
+  state_.displacement = displacement_.ref();
   state_.acceleration = acceleration_.ref();
   state_.mass = slot_mass_.ref();
   for (Index i = 0; i < particles(); ++i) slot_mass_.at(slot_of_[at(i)]) = mass_[at(i)];
-  partial_.assign(static_cast<std::size_t>(4 * (std::max(slots, state_.virtuals.last) / 64 + 2)), 0);
+  partial_.assign(static_cast<std::size_t>(MotionSums::size * (std::max(slots, state_.virtuals.last) / 64 + 2)), 0);
   state_.partial = partial_.data();
   state_.failure = &failure_;
   state_.items = boundary_.items();
@@ -213,6 +236,7 @@ void TaylorBody::step(double time, double dt) {
   // Normals of the end of the step.
   if (state_.k.moving) prepare_boundary(time + dt, 0, positions());
   machine_->impose(state_);
+  if (free_ && state_.k.moving && options_.conserve) conserve_momentum(time, dt);
   double const before = power_;
   power_ = boundary_.power([&](Index i) { return BoundaryMotion{x(i), v(i)}; }, [&](Index i) { return record_stress(i); });
   work_ += 0.5 * dt * (before + power_);
@@ -257,6 +281,13 @@ std::array<double, 3> TaylorBody::v(Index i) const {
   return r;
 }
 
+std::array<double, 3> TaylorBody::displacement(Index i) const {
+  std::array<double, 3> u = x(i);
+  for (std::size_t c = 0; c < 3; ++c)
+    u[c] = state_.k.moving ? u[c] - X_[at(i)][c] : displacement_.at(slot_of_[at(i)], static_cast<int>(c));
+  return u;
+}
+
 std::array<double, 6> TaylorBody::record_stress(Index i) const {
   std::array<double, 6> r{};
   std::copy_n(record(i) + 2 * D() + 1, D() * (D() + 1) / 2, r.begin());
@@ -286,7 +317,7 @@ Points TaylorBody::positions() const {
 }
 
 std::size_t TaylorBody::bytes() const {
-  return real_.bytes() + virtual_.bytes() + across_.bytes() + drift_.bytes() + acceleration_.bytes() + slot_mass_.bytes() +
+  return real_.bytes() + virtual_.bytes() + across_.bytes() + drift_.bytes() + displacement_.bytes() + acceleration_.bytes() + slot_mass_.bytes() +
          to_virtual_.bytes() + to_real_.bytes() +
          sizeof(double) * (reference_square_.size() + reference_quality_.size() + pattern_.size() + partial_.size()) +
          sizeof(Index) * (corner_.size() + box_corner_.size() + box_of_.size() + cells_.corner.size());

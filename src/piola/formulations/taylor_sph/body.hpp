@@ -13,10 +13,11 @@ namespace piola::taylor_sph {
 
 /// What a checkpoint holds of one body, particle by particle in Id order.
 struct Snapshot {
-  std::vector<double> x, v, drift, stress, across, volume;  ///< D, D, D, SymMat<D>, 1, 1 per particle
+  std::vector<double> x, v, drift, displacement;  ///< D per particle; displacement: fixed configuration
+  std::vector<double> stress, across, volume;     ///< SymMat<D>, 1, 1 per particle
   std::vector<double> x_of_lists, x_of_cells;        ///< positions when lists and cells were made
   std::vector<double> corners;                       ///< of the cells
-  std::vector<double> books;                         ///< work, power, filter loss, list updates, triangulations, steps
+  std::vector<double> books;                         ///< work, power, filter loss, list updates, triangulations, steps, momenta
 };
 
 /// Wall time spent besides the steps themselves [s].
@@ -42,6 +43,7 @@ class TaylorBody {
   std::array<double, 3> X(Index i) const { return X_[at(i)]; }
   std::array<double, 3> x(Index i) const;
   std::array<double, 3> v(Index i) const;
+  std::array<double, 3> displacement(Index i) const;
   SymMat<3> stress(Index i) const;      ///< Cauchy stress [Pa]
   double volume_ratio(Index i) const;   ///< rho0 / rho
   double mass(Index i) const { return mass_[at(i)]; }
@@ -73,6 +75,7 @@ class TaylorBody {
 
   void set_constants(Assembly const& assembly, std::size_t body);
   Cells first_cells(ParticleSet const& set) const;
+  void weigh_displaced(Assembly const& assembly);
   void place_initially(Assembly const& assembly);
   Points positions() const;
   Points middles(Points const& x) const;
@@ -89,6 +92,7 @@ class TaylorBody {
   void prepare_boundary(double time, double dt, Points const& x);
   void prepare_loads(double time);
   void follow_motion();
+  void conserve_momentum(double time, double dt);
   bool triangulate_anew();
 
   Body body_;
@@ -106,6 +110,7 @@ class TaylorBody {
   Memory real_, virtual_;
   Field across_{"OutOfPlaneStress", "Pa", 1, Role::evolved};
   Field drift_{"Drift", "m/s", 3, Role::evolved};
+  Field displacement_{"Displacement", "m", 3, Role::evolved};
   Field acceleration_{"Acceleration", "m/s2", 3, Role::derived};
   Field slot_mass_{"Mass", "kg", 1, Role::reference};
   SetPairs to_virtual_, to_real_;
@@ -115,6 +120,8 @@ class TaylorBody {
   BodyState state_;
   CellMeasures measures_;
   double first_spacing_ = 0;  ///< at the start [m]
+  bool free_ = false;  ///< no support: momentum changes by loads alone
+  std::array<double, 6> momentum_{};  ///< linear and angular, that a free body must have
   double work_ = 0, power_ = 0;
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
   SetupSeconds seconds_;

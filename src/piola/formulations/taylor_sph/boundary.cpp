@@ -289,6 +289,27 @@ double Boundary::power(std::function<BoundaryMotion(Index)> const& motion,
   return sum;
 }
 
+std::array<double, 6> Boundary::resultant(double time, Points const& x) const {
+  std::array<double, 6> sum{};
+  for (Index const particle : particles_) {
+    auto const at = static_cast<std::size_t>(particle);
+    for (auto const& side : sides_[at]) {
+      Point f = traction_on(side, X_[at], time);
+      for (std::size_t c = 0; c < 3; ++c) f[c] *= length(side.area);
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
+        sum[c] += f[c];
+        sum[3 + c] += x[at][p] * f[q] - x[at][q] * f[p];
+      }
+    }
+  }
+  return sum;
+}
+
+bool Boundary::holds() const {
+  return std::any_of(held_.begin(), held_.end(), [](auto const& held) { return !held.empty(); });
+}
+
 void Boundary::each_acceleration(double time, std::function<void(Index, Point const&)> const& add) const {
   for (auto const& load : accelerations_) {
     if (has_ended(load.until, time)) continue;

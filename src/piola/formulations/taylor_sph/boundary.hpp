@@ -37,6 +37,11 @@ class Boundary {
   double power(std::function<BoundaryMotion(Index)> const& motion,
                std::function<std::array<double, 6>(Index)> const& stress) const;
 
+  /// Force of tractions and its moment about the origin [N, N m per unit of missing directions] at a time, with the
+  /// sides of the last preparation.
+  std::array<double, 6> resultant(double time, Points const& x) const;
+  bool holds() const;  ///< there is a support on this body
+
   bool has_accelerations() const { return !accelerations_.empty(); }
   /// Adds the accelerations of loads at a time: add(particle, acceleration [m/s2]).
   void each_acceleration(double time, std::function<void(Index, std::array<double, 3> const&)> const& add) const;

@@ -202,7 +202,7 @@ struct BoundaryStep {
   SetPairTable pairs;
   double const* virtual_;
   double* real;
-  WriteView out_of_plane, drift;
+  WriteView out_of_plane, drift, displacement;
   View acceleration;
   BoundaryItem const* items;
   Index first, count;
@@ -237,6 +237,7 @@ struct BoundaryStep {
       double const load = k.loaded ? acceleration.scalar<double>(i, c) : 0;
       if (k.moving) own[R::x + c] += dt * e.f[c];
       drift.scalar(i, e.f[c], c);
+      if (!k.moving) displacement.data[c * displacement.component_stride + i] += dt * e.f[c];
       own[R::v + c] += dt * (specific_volume * force[c] + load);
       size += own[R::v + c] * own[R::v + c];
     }

@@ -40,6 +40,13 @@ void impose(BodyState& body) {
 void filter(BodyState& body) {
   with_step(body, [](auto step) { step.filter(); });
 }
+void motion(BodyState& body, double* sums) {
+  for (int k = 0; k < MotionSums::size; ++k) sums[k] = 0;
+  with_step(body, [&](auto step) { step.motion(sums); });
+}
+void add_rigid(BodyState& body, double const* rate) {
+  with_step(body, [&](auto step) { step.add_rigid(rate); });
+}
 CellMeasures place(BodyState& body) {
   CellMeasures m;
   with_step(body, [&](auto step) { m = step.place(); });
@@ -53,6 +60,7 @@ CellMeasures place(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &half_step, &full_step, &impose, &filter, &place};
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &half_step, &full_step, &impose, &filter,
+                      &motion,                   &add_rigid, &place};
 
 }  // namespace piola::taylor_sph::inline PIOLA_MACHINE

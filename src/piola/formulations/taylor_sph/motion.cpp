@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/math/solve.hpp"
+#include "piola/mechanics/rigid_rate.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <chrono>
@@ -199,6 +200,37 @@ void TaylorBody::note_distances(Points const& x) {
   state_.cells.reference_square = reference_square_.data();
 }
 
+/// Interpolation between two sets of particles keeps no momentum by itself. The rigid motion that makes up for it is
+/// found as for the projections of JST-SPH: momentum and moment of momentum at the end of the step are those of the start
+/// and the impulse of the loads.
+void TaylorBody::conserve_momentum(double time, double dt) {
+  double now[MotionSums::size];
+  machine_->motion(state_, now);
+  Points const x = positions();
+  auto const before = boundary_.resultant(time, x), after = boundary_.resultant(time + dt, x);
+  for (std::size_t k = 0; k < 6; ++k) momentum_[k] += 0.5 * dt * (before[k] + after[k]);
+  boundary_.each_acceleration(time + 0.5 * dt, [&](Index i, std::array<double, 3> const& a) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
+      momentum_[c] += dt * mass_[at(i)] * a[c];
+      momentum_[3 + c] += dt * mass_[at(i)] * (x[at(i)][p] * a[q] - x[at(i)][q] * a[p]);
+    }
+  });
+  RateSums sums;
+  sums.volume = now[MotionSums::mass];
+  for (int c = 0; c < 3; ++c) {
+    auto const k = static_cast<std::size_t>(c);
+    sums.x[c] = now[MotionSums::x + c];
+    sums.f[c] = now[MotionSums::v + c] - momentum_[k];
+    sums.moment[c] = now[MotionSums::moment + c] - momentum_[3 + k];
+  }
+  std::copy_n(now + MotionSums::xx, 6, sums.xx);
+  RigidRate const g = balancing_rate(sums, D());
+  double const rate[9] = {g.spin[0], g.spin[1], g.spin[2], g.push[0], g.push[1], g.push[2],
+                          g.centre[0], g.centre[1], g.centre[2]};
+  machine_->add_rigid(state_, rate);
+}
+
 void TaylorBody::follow_motion() {
   measures_ = machine_->place(state_);
   // A cell that doubled since its lists were made, or was crushed to a fiftieth, is as lost as one turned inside out.
@@ -243,7 +275,10 @@ Snapshot TaylorBody::snapshot() const {
     s.v.insert(s.v.end(), own + D() + 1, own + 2 * D() + 1);
     s.stress.insert(s.stress.end(), own + 2 * D() + 1, own + 2 * D() + 1 + n);
     s.across.push_back(across_.at(slot_of_[at(i)]));
-    for (int c = 0; c < D(); ++c) s.drift.push_back(drift_.at(slot_of_[at(i)], c));
+    for (int c = 0; c < D(); ++c) {
+      s.drift.push_back(drift_.at(slot_of_[at(i)], c));
+      s.displacement.push_back(displacement_.at(slot_of_[at(i)], c));
+    }
   }
   s.x_of_lists = flattened(x_of_lists_, D());
   s.x_of_cells = flattened(x_of_cells_, D());
@@ -254,6 +289,7 @@ Snapshot TaylorBody::snapshot() const {
              static_cast<double>(list_updates_),
              static_cast<double>(triangulations_),
              static_cast<double>(steps_since_triangulation_)};
+  s.books.insert(s.books.end(), momentum_.begin(), momentum_.end());
   return s;
 }
 
@@ -270,7 +306,11 @@ void TaylorBody::restore(Snapshot const& s) {
     std::copy_n(s.v.begin() + k * D(), D(), own + D() + 1);
     std::copy_n(s.stress.begin() + k * n, n, own + 2 * D() + 1);
     across_.at(slot_of_[at(i)]) = s.across[at(i)];
-    for (int c = 0; c < D(); ++c) drift_.at(slot_of_[at(i)], c) = s.drift[static_cast<std::size_t>(i * D() + c)];
+    for (int c = 0; c < D(); ++c) {
+      auto const from = static_cast<std::size_t>(i * D() + c);
+      drift_.at(slot_of_[at(i)], c) = s.drift[from];
+      displacement_.at(slot_of_[at(i)], c) = s.displacement[from];
+    }
   }
   work_ = s.books[0];
   power_ = s.books[1];
@@ -278,6 +318,7 @@ void TaylorBody::restore(Snapshot const& s) {
   list_updates_ = static_cast<long>(s.books[3]);
   triangulations_ = static_cast<long>(s.books[4]);
   steps_since_triangulation_ = static_cast<long>(s.books[5]);
+  std::copy_n(s.books.begin() + 6, 6, momentum_.begin());
   make_lists(points_of(s.x_of_lists, D()));
   measures_ = machine_->place(state_);
   if (!(first_spacing_ > 0)) first_spacing_ = measures_.spacing;

@@ -28,7 +28,7 @@ double stored_energy(TaylorBody const& body, SymMat<3> const& s) {
 
 /// Everything an output formula may need of one particle.
 struct Particle {
-  std::array<double, 3> X, x, v;
+  std::array<double, 3> u, x, v;
   SymMat<3> stress;
   double J, rho0, body, neighbours, id;
 };
@@ -42,9 +42,7 @@ struct Observed {
 
 constexpr std::array table{
     Observed{"Displacement", "m", 3,
-             [](Particle const& p, double* out) {
-               for (std::size_t c = 0; c < 3; ++c) out[c] = p.x[c] - p.X[c];
-             }},
+             [](Particle const& p, double* out) { std::copy(p.u.begin(), p.u.end(), out); }},
     Observed{"Position", "m", 3, [](Particle const& p, double* out) { std::copy(p.x.begin(), p.x.end(), out); }},
     Observed{"Velocity", "m/s", 3, [](Particle const& p, double* out) { std::copy(p.v.begin(), p.v.end(), out); }},
     Observed{"Momentum", "kg/(m2 s)", 3,
@@ -88,7 +86,7 @@ void sample(TaylorBody const& body, int body_number, std::string_view field, std
   if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
   for (Index i = 0; i < body.particles(); ++i) {
     auto const id = body.body().first + i;
-    Particle const p{body.X(i),
+    Particle const p{body.displacement(i),
                      body.x(i),
                      body.v(i),
                      body.stress(i),

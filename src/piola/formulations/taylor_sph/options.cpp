@@ -15,6 +15,8 @@ constexpr std::array<std::string_view, 2> virtual_words{"delaunay", "lattice_cel
 constexpr std::array<std::string_view, 2> gradient_words{"linear_exact", "printed"};
 constexpr std::array<std::string_view, 2> kernel_words{"cubic_spline", "wendland_c2"};
 
+constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
+
 constexpr std::array choices{
     Choice{"configuration",
            "updated: updated Lagrangian, everything in the current configuration; fixed: that of the start, "
@@ -30,7 +32,11 @@ constexpr std::array choices{
     Choice{"gradient",
            "linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: eqs. 19, 20",
            gradient_words},
-    Choice{"kernel", "smoothing kernel, support 2h", kernel_words}};
+    Choice{"kernel", "smoothing kernel, support 2h", kernel_words},
+    Choice{"momentum_projection",
+           "updated configuration, bodies without supports: linear and angular momentum change by the loads alone, by a "
+           "rigid motion added after each step",
+           switch_words}};
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1",
@@ -93,6 +99,7 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl) {
   o.lattice_cells = dimension > 1 && word(spec, "virtual_particles") == "lattice_cells";
   o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
   o.smoothing_length = number(spec, "smoothing_length", dimension == 1 || o.lattice_cells ? 0.6 : 0.9);
+  o.conserve = word(spec, "momentum_projection") == "on";
   o.hourglass = number(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.05 : 0);
   o.cfl = std::isnan(cfl) ? (o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
   if (o.cfl > 1)

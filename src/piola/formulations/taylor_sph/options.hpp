@@ -14,6 +14,7 @@ struct Options {
   bool stress_free = false;     ///< the missing directions: free of stress, else held
   double smoothing_length = 1;  ///< h in particle spacings
   double hourglass = 0;         ///< share of the hourglass pattern taken away by each step
+  bool conserve = true;         ///< momenta of bodies without supports, exactly
   double cfl = 1;               ///< c dt / spacing
 };
 

@@ -86,7 +86,7 @@ struct FullStep {
   SetPairTable pairs;
   double const* virtual_;
   double* real;
-  WriteView out_of_plane, drift;
+  WriteView out_of_plane, drift, displacement;
   View acceleration;
   Index count;
   FailureSlot* failure;
@@ -114,6 +114,8 @@ struct FullStep {
       }
       own[R::volume] = volume_after(own[R::volume], trace(L), dt);
     }
+    for (int c = 0; c < D && !k.moving; ++c)
+      displacement.scalar(i, load<Lanes>(displacement.data + c * displacement.component_stride + i) + dt * e.f[c], c);
     Lanes size = own[R::volume];
     for (int c = 0; c < D; ++c) {
       own[R::v + c] = own[R::v + c] + dt * a[c];

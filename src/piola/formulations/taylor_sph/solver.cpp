@@ -129,6 +129,7 @@ void each_array(S& snapshot, std::size_t body, F const& f) {
   f(fmt::format("body{}_position", body), snapshot.x);
   f(fmt::format("body{}_velocity", body), snapshot.v);
   f(fmt::format("body{}_drift", body), snapshot.drift);
+  f(fmt::format("body{}_displacement", body), snapshot.displacement);
   f(fmt::format("body{}_stress", body), snapshot.stress);
   f(fmt::format("body{}_out_of_plane_stress", body), snapshot.across);
   f(fmt::format("body{}_kernel_volume", body), snapshot.volume);

@@ -91,15 +91,22 @@ struct BodyState {
   double* virtual_ = nullptr;      ///< records
   FieldRef out_of_plane;           ///< stress across the plane [Pa]
   FieldRef drift;                  ///< velocity with which particles moved in the step before [m/s]
+  FieldRef displacement;           ///< in the fixed configuration, where positions stay [m]
   FieldRef acceleration;           ///< of loads, at half time [m/s2]
   FieldRef mass;                   ///< [kg]
   SetPairTable to_virtual, to_real;
   CellTable cells;
   HourglassTable hourglass;
   BoundaryItem* items = nullptr;  ///< per slot of `boundary`
-  double* partial = nullptr;      ///< room for partial sums of reductions, 4 per block
+  double* partial = nullptr;      ///< room for partial sums of reductions, 16 per block
   FailureSlot* failure = nullptr;
   double filter_loss = 0;  ///< energy taken by the hourglass filter since the start [J]
+};
+
+/// Positions in sums over a body: mass, mass x, mass x (x) x (XX YY ZZ XY YZ XZ), momentum, moment of momentum; components
+/// that a body does not have are zero.
+struct MotionSums {
+  static constexpr int mass = 0, x = 1, xx = 4, v = 10, moment = 13, size = 16;
 };
 
 /// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
@@ -110,6 +117,8 @@ struct Machine {
   void (*full_step)(BodyState& body, double dt);  ///< eqs. (22), (23): virtual to real
   void (*impose)(BodyState& body);                ///< prescribed speeds and stresses at the end of the step
   void (*filter)(BodyState& body);                ///< hourglass filter
+  void (*motion)(BodyState& body, double* sums);  ///< MotionSums of the real particles
+  void (*add_rigid)(BodyState& body, double const* rate);  ///< to the velocities: spin, push, centre
   CellMeasures (*place)(BodyState& body);         ///< virtual particles into the middle of their cells
 };
 

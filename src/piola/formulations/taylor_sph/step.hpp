@@ -3,6 +3,7 @@
 #include "piola/formulations/taylor_sph/boundary_passes.hpp"
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/filter_passes.hpp"
+#include "piola/formulations/taylor_sph/momentum_passes.hpp"
 
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
@@ -20,10 +21,10 @@ class Step {
   /// Eqs. (22), (23): v, sigma, x of the real particles at t^(n+1) from the virtual ones at t^(n+1/2).
   void full(double dt) {
     exec::for_each(b_.interior, FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
-                                                         write(b_.drift), acceleration(), b_.interior_count, b_.failure, dt});
+                                                         write(b_.drift), write(b_.displacement), acceleration(), b_.interior_count, b_.failure, dt});
     exec::for_each(b_.boundary,
                    BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
-                                                write(b_.drift), acceleration(), b_.items, b_.boundary.first, b_.boundary_count,
+                                                write(b_.drift), write(b_.displacement), acceleration(), b_.items, b_.boundary.first, b_.boundary_count,
                                                 b_.failure, dt});
   }
   /// Prescribed values at t^(n+1).
@@ -37,6 +38,15 @@ class Step {
       damp(b_.interior, b_.interior_count);
       damp(b_.boundary, b_.boundary_count);
     }
+  }
+  /// Mass, momentum and inertia of the body.
+  void motion(double* sums) {
+    sum_motion(b_.interior, b_.interior_count, sums);
+    sum_motion(b_.boundary, b_.boundary_count, sums);
+  }
+  void add_rigid(double const* r) {
+    AddRigidMotion<D> const pass{b_.real, {r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
+    for (Range const range : {b_.interior, b_.boundary}) exec::for_each(range, pass);
   }
   /// Virtual particles into the middle of their cells.
   CellMeasures place() {
@@ -59,6 +69,11 @@ class Step {
   static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   static WriteView write(FieldRef const& f) {
     return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
+  }
+  void sum_motion(Range range, Index count, double* sums) {
+    exec::for_each_block(range, SumMotion<D>{b_.real, view(b_.mass), range.first + count, b_.partial});
+    auto const part = exec::add_partials<MotionSums::size>(b_.partial, exec::block_count(range));
+    for (int k = 0; k < MotionSums::size; ++k) sums[k] += part.v[k];
   }
   void damp(Range range, Index count) {
     exec::for_each_block(range, DampPatterns<D, Law>{law_, b_.k, b_.hourglass, b_.real, view(b_.mass),
