@@ -20,6 +20,7 @@ struct Candidate {
 
 /// Smoothing lengths grow in these steps, at most to this multiple.
 constexpr double growth = 1.1, largest_growth = 4;
+constexpr double weighty = 0.8;
 
 /// The sources around one target after the other.
 class Search {
@@ -34,7 +35,9 @@ class Search {
     auto const t = static_cast<std::size_t>(target);
     double h = request_.h[t];
     collect(near_, target, h);
-    while (within(h) < request_.least[t]) {
+    // Where h has to grow, the sources for which it does shall have some weight.
+    bool const enough = within(h) >= request_.least[t];
+    while (!enough && within(h, weighty) < request_.least[t]) {
       h *= growth;
       if (h > largest_growth * request_.h[t]) refuse(target, within(h));
       if (!far_) far_.emplace(request_.sources, largest_growth * request_.support * widest_ * (1 + request_.skin));
@@ -42,9 +45,9 @@ class Search {
     }
     return h;
   }
-  /// Sources on the very edge of the support do not count: the kernel vanishes there.
-  int within(double h) const {
-    double const reach = request_.support * h * (1 - 1e-6);
+  /// Sources within a share of the support. On its very edge they do not count: the kernel vanishes there.
+  int within(double h, double share = 1 - 1e-6) const {
+    double const reach = request_.support * h * share;
     return static_cast<int>(
         std::count_if(found.begin(), found.end(), [&](Candidate const& c) { return c.distance < reach; }));
   }

@@ -31,6 +31,8 @@ class Boundary {
   void prepare(double time, double dt, Points const& x,
                std::function<BoundaryMotion(Index)> const& motion,
                std::function<std::array<double, 6>(Index)> const& stress_now);
+  /// How many sides meet at a particle; 0 inside.
+  int sides(Index particle) const { return static_cast<int>(sides_[static_cast<std::size_t>(particle)].size()); }
   BoundaryItem* items() { return items_.data(); }
 
   /// Power of tractions and supports: sum v.(sigma.a) over the surface [W], with the normals of the last preparation.

@@ -162,9 +162,10 @@ void TaylorBody::make_lists(Points const& x) {
     for (double& h : *all) h *= options_.smoothing_length;
   Points const middle = middles(x);
   std::vector<int> const corners(middle.size(), D() + 1);
-  std::vector<int> least(X_.size(), D() == 1 ? 2 : D() + 1);
+  // On a plain side two sources (in 3D three) give the derivatives that are needed there; edges and corners need more.
+  std::vector<int> least(X_.size(), D() + 1);
   for (Index i = 0; i < particles(); ++i)
-    if (D() == 1 && slot_of_[at(i)] >= state_.boundary.first) least[at(i)] = 1;
+    if (boundary_.sides(i) == 1) least[at(i)] = D();
   std::vector<Index> cell_in_slot(at(state_.virtuals.last), -1), slot_of_cell(middle.size());
   std::iota(slot_of_cell.begin(), slot_of_cell.end(), 0);
   std::copy(slot_of_cell.begin(), slot_of_cell.end(), cell_in_slot.begin());
