@@ -18,6 +18,14 @@ constexpr double far_away = 1e20;
 
 }  // namespace
 
+bool is_whole_lattice(ParticleSet const& set, Body const& body) {
+  std::int64_t full = 1, doubled = 0;
+  for (int const n : body.lattice) full *= n;
+  for (std::int64_t id = body.first; id < body.last && !set.crack_side.empty(); ++id)
+    doubled += set.crack_side[static_cast<std::size_t>(id)] < 0 ? 1 : 0;
+  return body.last - body.first - doubled == full;
+}
+
 TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Machine const& machine)
     : body_(assembly.particles.bodies[body]), options_(options), machine_(&machine), boundary_(assembly, body) {
   auto const& set = assembly.particles;
@@ -81,14 +89,9 @@ void TaylorBody::set_constants(Assembly const& assembly, std::size_t body) {
 
 /// A lattice is triangulated with alternating diagonals: all triangulations of its squares are Delaunay's.
 Cells TaylorBody::first_cells(ParticleSet const& set) const {
-  std::int64_t full = 1;
-  for (int const n : body_.lattice) full *= n;
-  std::int64_t const doubled = std::count(crack_side_.begin(), crack_side_.end(), std::int8_t{-1});
-  bool const whole_lattice = body_.last - body_.first - doubled == full && (body_.regular || !cracks_.empty());
-  if (options_.lattice_cells || whole_lattice) {
-    Cells const boxes = lattice_cells(set, body_);
-    return options_.lattice_cells ? boxes : split_alternately(boxes, set, body_);
-  }
+  if (options_.lattice_cells) return lattice_cells(set, body_);
+  if (is_whole_lattice(set, body_) && (body_.regular || !cracks_.empty()))
+    return split_alternately(lattice_cells(set, body_), set, body_);
   return delaunay(X_, D(), largest_radius_);
 }
 

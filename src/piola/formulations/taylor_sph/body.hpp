@@ -25,6 +25,9 @@ struct SetupSeconds {
   double triangulation = 0, lists = 0;
 };
 
+/// Whether every point of the body's lattice is a particle (particles on cracks count once).
+bool is_whole_lattice(ParticleSet const& set, Body const& body);
+
 /// One body of a Taylor-SPH run: owns its memory, hands its state to the loops, answers in Id order.
 class TaylorBody {
  public:

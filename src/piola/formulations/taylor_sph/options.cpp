@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 2> configuration_words{"updated", "fixed"};
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_stress", "uniaxial_strain"};
-constexpr std::array<std::string_view, 2> virtual_words{"delaunay", "lattice_cells"};
+constexpr std::array<std::string_view, 3> virtual_words{"as_configuration", "delaunay", "lattice_cells"};
 constexpr std::array<std::string_view, 2> gradient_words{"linear_exact", "printed"};
 constexpr std::array<std::string_view, 2> kernel_words{"cubic_spline", "wendland_c2"};
 
@@ -27,7 +27,8 @@ constexpr std::array choices{
            assumption_words},
     Choice{"virtual_particles",
            "where values of half time live; delaunay: centroids of triangles (tetrahedra, in 1D midpoints), with "
-           "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice",
+           "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice; as_configuration: "
+           "updated: lattice_cells where the body is a whole box of particles, else and fixed: delaunay",
            virtual_words},
     Choice{"gradient",
            "linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: eqs. 19, 20",
@@ -40,8 +41,8 @@ constexpr std::array choices{
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1",
-              "h in spacings of real particles (1D 0.6, simplices 0.9, triangles of the updated configuration 1.1, lattice "
-              "cells 0.6); it follows the cells as they deform",
+              "h in spacings of real particles (1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: triangles 1.1, else "
+              "0.9); it follows the cells as they deform",
               Interval{0.3, 3, false, false}, no_default},
     Parameter{"hourglass_filter", "1",
               "share of the checkerboard pattern of velocity that each step takes away, as Flanagan and Belytschko's "
@@ -90,17 +91,19 @@ FormulationInfo info() {
   return info;
 }
 
-Options read_options(FormulationSpec const& spec, int dimension, double cfl) {
+Options read_options(FormulationSpec const& spec, int dimension, double cfl, bool whole_lattice) {
   Problems problems;
   Options o;
   o.moving = word(spec, "configuration") == "updated";
   o.form = word(spec, "gradient") == "printed" ? GradientForm::printed : GradientForm::linear_exact;
   o.kernel = word(spec, "kernel") == "wendland_c2" ? KernelShape::wendland_c2 : KernelShape::cubic_spline;
-  o.lattice_cells = dimension > 1 && word(spec, "virtual_particles") == "lattice_cells";
+  auto const virtual_particles = word(spec, "virtual_particles");
+  bool const by_configuration = virtual_particles == "as_configuration" && o.moving && whole_lattice;
+  o.lattice_cells = dimension > 1 && (virtual_particles == "lattice_cells" || by_configuration);
   o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
-  // Surfaces under strong compression need more neighbours than small strains do.
-  double const of_simplices = o.moving && dimension == 2 ? 1.1 : 0.9;
-  o.smoothing_length = number(spec, "smoothing_length", dimension == 1 || o.lattice_cells ? 0.6 : of_simplices);
+  // Moving surfaces need more neighbours than small strains do.
+  double const of_cells = o.moving ? 0.9 : 0.6, of_simplices = o.moving && dimension == 2 ? 1.1 : 0.9;
+  o.smoothing_length = number(spec, "smoothing_length", dimension == 1 ? 0.6 : o.lattice_cells ? of_cells : of_simplices);
   o.conserve = word(spec, "momentum_projection") == "on";
   o.hourglass = number(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
   o.cfl = std::isnan(cfl) ? (o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;

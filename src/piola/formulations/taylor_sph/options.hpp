@@ -21,7 +21,8 @@ struct Options {
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
-/// Options of a body of that dimension. `cfl`: nan for the default. Throws InputError with all that cannot work.
-Options read_options(FormulationSpec const& spec, int dimension, double cfl);
+/// Options of a body of that dimension. `cfl`: nan for the default; `whole_lattice`: every point of its lattice is a
+/// particle. Throws InputError with all that cannot work.
+Options read_options(FormulationSpec const& spec, int dimension, double cfl, bool whole_lattice);
 
 }  // namespace piola::taylor_sph

@@ -32,7 +32,8 @@ class Solver final : public Formulation {
   explicit Solver(Assembly const& assembly) : particles_(assembly.particles.size()), D_(assembly.particles.dimension) {
     Machine const* machine = choose(assembly.machine);
     for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
-      Options const options = read_options(assembly.formulations[k], D_, assembly.cfl);
+      bool const whole = is_whole_lattice(assembly.particles, assembly.particles.bodies[k]);
+      Options const options = read_options(assembly.formulations[k], D_, assembly.cfl, whole);
       bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, *machine));
     }
     set_ = assembly.particles;
