@@ -36,15 +36,15 @@ PIOLA_FN double logarithm_exact(double a) { return std::log(a); }
 using Lanes = std::experimental::native_simd<double>;
 inline constexpr int lane_count = static_cast<int>(Lanes::size());
 
-PIOLA_FN Lanes select(Lanes::mask_type const& condition, Lanes const& yes, Lanes const& no) {
+[[gnu::always_inline]] PIOLA_FN Lanes select(Lanes::mask_type const& condition, Lanes const& yes, Lanes const& no) {
   Lanes r = no;
   where(condition, r) = yes;
   return r;
 }
-PIOLA_FN Lanes minimum(Lanes const& a, Lanes const& b) { return std::experimental::min(a, b); }
-PIOLA_FN Lanes maximum(Lanes const& a, Lanes const& b) { return std::experimental::max(a, b); }
-PIOLA_FN Lanes square_root(Lanes const& a) { return std::experimental::sqrt(a); }
-PIOLA_FN bool any(Lanes::mask_type const& condition) { return any_of(condition); }
+[[gnu::always_inline]] PIOLA_FN Lanes minimum(Lanes const& a, Lanes const& b) { return std::experimental::min(a, b); }
+[[gnu::always_inline]] PIOLA_FN Lanes maximum(Lanes const& a, Lanes const& b) { return std::experimental::max(a, b); }
+[[gnu::always_inline]] PIOLA_FN Lanes square_root(Lanes const& a) { return std::experimental::sqrt(a); }
+[[gnu::always_inline]] PIOLA_FN bool any(Lanes::mask_type const& condition) { return any_of(condition); }
 PIOLA_FN Lanes power_minus_third_exact(Lanes const& a) {
   Lanes r = a;
   for (int l = 0; l < lane_count; ++l) r[l] = 1.0 / std::cbrt(static_cast<double>(a[l]));

@@ -12,9 +12,9 @@ namespace piola {
 /// lane l of group g is source[(begin[g] + k) * lanes + l]. Shorter lists are filled up with a source so far away that
 /// its kernel vanishes.
 struct SetPairTable {
-  Index const* begin = nullptr;         ///< per group of targets, one more at the end
-  Index const* source = nullptr;        ///< records of sources
-  double const* inverse_h = nullptr;    ///< 1 / smoothing length of each target [1/m]
+  Index const* begin = nullptr;       ///< per group of targets, one more at the end
+  Index const* source = nullptr;      ///< records of sources
+  double const* inverse_h = nullptr;  ///< 1 / smoothing length of each target [1/m]
 };
 
 /// What is asked of a list.
@@ -23,7 +23,7 @@ struct SetPairRequest {
   std::vector<std::array<double, 3>> const& sources;  ///< positions [m]
   std::vector<double> const& h;                       ///< wanted smoothing length of each target [m]
   double support = 2;                                 ///< of the kernel, in h
-  double skin = 0;  ///< candidates up to support * h * (1 + skin) are listed, for sets that move
+  double skin = 0;                ///< candidates up to support * h * (1 + skin) are listed, for sets that move
   std::vector<int> const& least;  ///< sources that each target needs within its support; h grows until it has them
   std::vector<Index> const& target_in_slot;  ///< which target is in each slot, -1: none; a multiple of the lanes
   std::vector<Index> const& slot_of_source;  ///< record of each source
@@ -34,7 +34,8 @@ struct SetPairRequest {
 /// Lists of one pair of sets.
 class SetPairs {
  public:
-  /// `filler`: a source record that is far away. Slots without a target get an empty list. Throws InputError if a target cannot get enough sources within four times its h.
+  /// `filler`: a source record that is far away. Slots without a target get an empty list. Throws InputError if a
+  /// target cannot get enough sources within four times its h.
   void build(SetPairRequest const& request, int lanes, Index filler);
 
   SetPairTable table() const { return {begin_.data(), source_.data(), inverse_h_.data()}; }

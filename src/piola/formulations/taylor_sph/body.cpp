@@ -140,7 +140,6 @@ void TaylorBody::order_slots(std::vector<Index> const& on_boundary) {
 
 void TaylorBody::arrange(Points const& x_of_cells) {
   x_of_cells_ = x_of_cells;
-  order_slots(boundary_.arrange(surface_of(cells_, x_of_cells), x_of_cells));
   // Corners near each other belong to cells near each other.
   Index const n = cells_.count();
   std::vector<Index> order(at(n)), first(at(n));
@@ -151,6 +150,7 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   for (Index c = 0; c < n; ++c)
     std::ranges::copy(cells_.of(order[at(c)]), sorted.corner.begin() + static_cast<std::ptrdiff_t>(c) * cells_.corners);
   cells_ = sorted;
+  order_slots(boundary_.arrange(surface_of(cells_, x_of_cells), x_of_cells));
   state_.virtual_count = n;
   state_.virtuals = {0, aligned(n)};
   int const stride = record_stride(D());
@@ -165,7 +165,8 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   state_.real = real_.data();
   state_.virtual_ = virtual_.data();
   Index const slots = state_.boundary.last;
-  for (Field* field : {&across_, &drift_, &displacement_, &acceleration_, &slot_mass_}) field->allocate(slots, alignment);
+  for (Field* field : {&across_, &drift_, &displacement_, &acceleration_, &slot_mass_})
+    field->allocate(slots, alignment);
   state_.out_of_plane = across_.ref();
   state_.drift = drift_.ref();
   state_.displacement = displacement_.ref();
@@ -228,30 +229,35 @@ void TaylorBody::fill_hourglass_tables() {
 
 void TaylorBody::step(double time, double dt) {
   if (state_.k.loaded) prepare_loads(time + 0.5 * dt);
-  Points half = positions();
-  if (state_.k.moving)
-    for (Index i = 0; i < particles(); ++i)
-      for (int c = 0; c < D(); ++c) half[at(i)][static_cast<std::size_t>(c)] += 0.5 * dt * drift_.at(slot_of_[at(i)], c);
-  prepare_boundary(time, dt, half);
+  prepare_boundary(time, dt, 0.5 * dt);
   machine_->half_step(state_, dt);
   machine_->full_step(state_, dt);
   if (options_.hourglass > 0 && boxes_.count() > 0) machine_->filter(state_);
   // Normals of the end of the step.
-  if (state_.k.moving) prepare_boundary(time + dt, 0, positions());
+  if (state_.k.moving) prepare_boundary(time, dt, 0);
   machine_->impose(state_);
   if (free_ && state_.k.moving && options_.conserve) conserve_momentum(time, dt);
   double const before = power_;
-  power_ = boundary_.power([&](Index i) { return BoundaryMotion{x(i), v(i)}; }, [&](Index i) { return record_stress(i); });
+  power_ = boundary_.power([&](Index i) { return v(i); }, [&](Index i) { return record_stress(i); });
   work_ += 0.5 * dt * (before + power_);
   ++steps_since_triangulation_;
   if (state_.k.moving) follow_motion();
 }
 
-void TaylorBody::prepare_boundary(double time, double dt, Points const& x) {
+/// `ahead`: how far the surface has drifted on when its normals are taken [s].
+void TaylorBody::prepare_boundary(double time, double dt, double ahead) {
+  if (surface_positions_.size() != X_.size()) surface_positions_ = X_;
+  for (Index const i : boundary_.particles()) surface_positions_[at(i)] = place_at(i, state_.k.moving ? ahead : 0);
   boundary_.prepare(
-      time, dt, x, [&](Index i) { return BoundaryMotion{this->x(i), v(i)}; },
-      [&](Index i) { return record_stress(i); });
+      time, dt, surface_positions_, [&](Index i) { return v(i); }, [&](Index i) { return record_stress(i); });
   state_.items = boundary_.items();
+}
+
+/// Where a particle is when it has drifted on for a time, negative: where it was.
+std::array<double, 3> TaylorBody::place_at(Index i, double ahead) const {
+  auto r = x(i);
+  for (int c = 0; c < D(); ++c) r[static_cast<std::size_t>(c)] += ahead * drift_.at(slot_of_[at(i)], c);
+  return r;
 }
 
 void TaylorBody::prepare_loads(double time) {
@@ -320,8 +326,8 @@ Points TaylorBody::positions() const {
 }
 
 std::size_t TaylorBody::bytes() const {
-  return real_.bytes() + virtual_.bytes() + across_.bytes() + drift_.bytes() + displacement_.bytes() + acceleration_.bytes() + slot_mass_.bytes() +
-         to_virtual_.bytes() + to_real_.bytes() +
+  return real_.bytes() + virtual_.bytes() + across_.bytes() + drift_.bytes() + displacement_.bytes() +
+         acceleration_.bytes() + slot_mass_.bytes() + to_virtual_.bytes() + to_real_.bytes() +
          sizeof(double) * (reference_square_.size() + reference_quality_.size() + pattern_.size() + partial_.size()) +
          sizeof(Index) * (corner_.size() + box_corner_.size() + box_of_.size() + cells_.corner.size());
 }

@@ -15,9 +15,9 @@ namespace piola::taylor_sph {
 struct Snapshot {
   std::vector<double> x, v, drift, displacement;  ///< D per particle; displacement: fixed configuration
   std::vector<double> stress, across, volume;     ///< SymMat<D>, 1, 1 per particle
-  std::vector<double> x_of_lists, x_of_cells;        ///< positions when lists and cells were made
-  std::vector<double> corners;                       ///< of the cells
-  std::vector<double> books;                         ///< work, power, filter loss, list updates, triangulations, steps, momenta
+  std::vector<double> x_of_lists, x_of_cells;     ///< positions when lists and cells were made
+  std::vector<double> corners;                    ///< of the cells
+  std::vector<double> books;  ///< work, power, filter loss, list updates, triangulations, steps, momenta
 };
 
 /// Wall time spent besides the steps themselves [s].
@@ -47,8 +47,8 @@ class TaylorBody {
   std::array<double, 3> x(Index i) const;
   std::array<double, 3> v(Index i) const;
   std::array<double, 3> displacement(Index i) const;
-  SymMat<3> stress(Index i) const;      ///< Cauchy stress [Pa]
-  double volume_ratio(Index i) const;   ///< rho0 / rho
+  SymMat<3> stress(Index i) const;     ///< Cauchy stress [Pa]
+  double volume_ratio(Index i) const;  ///< rho0 / rho
   double mass(Index i) const { return mass_[at(i)]; }
   double volume(Index i) const { return mass_[at(i)] / state_.k.rho0; }  ///< at the start
   int neighbours(Index i) const { return to_real_.count(i); }
@@ -92,9 +92,11 @@ class TaylorBody {
   bool sees(Index particle, Index cell) const;
   void make_lists(Points const& x);
   void note_distances(Points const& x);
-  void prepare_boundary(double time, double dt, Points const& x);
+  void prepare_boundary(double time, double dt, double ahead);
+  std::array<double, 3> place_at(Index i, double ahead) const;
   void prepare_loads(double time);
   void follow_motion();
+  void add_impulses(double time, double dt);
   void conserve_momentum(double time, double dt);
   bool triangulate_anew();
 
@@ -108,7 +110,7 @@ class TaylorBody {
   double largest_radius_ = 0;  ///< of a simplex inside the body, at the start [m]
   Boundary boundary_;
   Cells cells_, boxes_;  ///< local corners
-  Points x_of_lists_, x_of_cells_;
+  Points x_of_lists_, x_of_cells_, surface_positions_;
   std::vector<Index> slot_of_, local_of_;
   Memory real_, virtual_;
   Field across_{"OutOfPlaneStress", "Pa", 1, Role::evolved};
@@ -122,8 +124,8 @@ class TaylorBody {
   FailureSlot failure_;
   BodyState state_;
   CellMeasures measures_;
-  double first_spacing_ = 0;  ///< at the start [m]
-  bool free_ = false;  ///< no support: momentum changes by loads alone
+  double first_spacing_ = 0;          ///< at the start [m]
+  bool free_ = false;                 ///< no support: momentum changes by loads alone
   std::array<double, 6> momentum_{};  ///< linear and angular, that a free body must have
   double work_ = 0, power_ = 0;
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;

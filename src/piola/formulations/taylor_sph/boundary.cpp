@@ -29,7 +29,8 @@ Point traction_of(Stress const& s, Point const& n, int D) {
   Point t{};
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
-      t[static_cast<std::size_t>(i)] += s[static_cast<std::size_t>(component(i, j, D))] * n[static_cast<std::size_t>(j)];
+      t[static_cast<std::size_t>(i)] +=
+          s[static_cast<std::size_t>(component(i, j, D))] * n[static_cast<std::size_t>(j)];
   return t;
 }
 
@@ -185,10 +186,10 @@ void Boundary::attach_tractions() {
           best = &side;
         }
       if (best == nullptr)
-        throw InputError(
-            fmt::format("load: the particle at ({:.4g}, {:.4g}, {:.4g}) m carries a traction but is not on the surface - "
-                        "load particles of a face, and give the box placement = \"on_boundary\"",
-                        X_[k][0], X_[k][1], X_[k][2]));
+        throw InputError(fmt::format(
+            "load: the particle at ({:.4g}, {:.4g}, {:.4g}) m carries a traction but is not on the surface - "
+            "load particles of a face, and give the box placement = \"on_boundary\"",
+            X_[k][0], X_[k][1], X_[k][2]));
       best->tractions.push_back(traction.load);
     }
 }
@@ -217,7 +218,7 @@ Point Boundary::traction_on(Side const& side, Point const& X, double time) const
   return t;
 }
 
-void Boundary::hold(Index particle, double time, double dt, BoundaryMotion const& now, BoundaryItem& item) const {
+void Boundary::hold(Index particle, double time, double dt, Point const& velocity, BoundaryItem& item) const {
   auto const at = static_cast<std::size_t>(particle);
   std::vector<Point> chosen;
   item.held = 0;
@@ -232,7 +233,7 @@ void Boundary::hold(Index particle, double time, double dt, BoundaryMotion const
       speed -= dot(held->direction, chosen[static_cast<std::size_t>(h)]) * item.speed_after[h];
     speed /= dot(held->direction, d);
     std::copy(d.begin(), d.end(), item.direction[item.held]);
-    item.speed_before[item.held] = dot(now.v, d);
+    item.speed_before[item.held] = dot(velocity, d);
     item.speed_after[item.held] = speed;
     ++item.held;
     chosen.push_back(d);
@@ -244,8 +245,13 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
   int const n = D_ * (D_ + 1) / 2;
   item.rows = 0;
   std::vector<Point> held;
-  for (int h = 0; h < item.held; ++h) held.push_back({item.direction[h][0], item.direction[h][1], item.direction[h][2]});
+  for (int h = 0; h < item.held; ++h)
+    held.push_back({item.direction[h][0], item.direction[h][1], item.direction[h][2]});
   std::vector<Point> const free = free_directions(held, D_);
+  bool const fresh = !(time > 0) || std::any_of(held_[at].begin(), held_[at].end(), [&](Held const& h) {
+    double const until = supports_[h.support].until;
+    return has_ended(until, time) && !has_ended(until, time * (1 - 1e-8));
+  });
   for (auto const& side : sides_[at]) {
     Point const now = traction_on(side, X_[at], time), then = traction_on(side, X_[at], time + dt);
     for (auto const& d : free) {
@@ -262,7 +268,7 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
       double const rest = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
       if (rest < 0.3 * whole || item.rows == n) continue;  // says nothing new
       for (int c = 0; c < n; ++c) item.row[item.rows][c] = row[static_cast<std::size_t>(c)] / rest;
-      item.before[item.rows] = time > 0 ? before / rest : mandel_product(item.row[item.rows], stress, D_);
+      item.before[item.rows] = !fresh ? before / rest : mandel_product(item.row[item.rows], stress, D_);
       item.after[item.rows] = after / rest;
       std::copy(d.begin(), d.end(), item.along[item.rows]);
       std::copy(side.normal.begin(), side.normal.end(), item.normal[item.rows]);
@@ -271,39 +277,30 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
   }
 }
 
-void Boundary::prepare(double time, double dt, Points const& x, std::function<BoundaryMotion(Index)> const& motion,
+void Boundary::prepare(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity,
                        std::function<Stress(Index)> const& stress_now) {
   turn(x);
   for (std::size_t k = 0; k < particles_.size(); ++k) {
-    hold(particles_[k], time, dt, motion(particles_[k]), items_[k]);
+    hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);
     load(particles_[k], time, dt, stress_now(particles_[k]), items_[k]);
   }
 }
 
-double Boundary::power(std::function<BoundaryMotion(Index)> const& motion,
-                       std::function<Stress(Index)> const& stress) const {
+double Boundary::power(std::function<Point(Index)> const& velocity, std::function<Stress(Index)> const& stress) const {
   double sum = 0;
   for (Index const particle : particles_)
     for (auto const& side : sides_[static_cast<std::size_t>(particle)])
-      sum += dot(motion(particle).v, traction_of(stress(particle), side.area, D_));
+      sum += dot(velocity(particle), traction_of(stress(particle), side.area, D_));
   return sum;
 }
 
-std::array<double, 6> Boundary::resultant(double time, Points const& x) const {
-  std::array<double, 6> sum{};
-  for (Index const particle : particles_) {
-    auto const at = static_cast<std::size_t>(particle);
-    for (auto const& side : sides_[at]) {
-      Point f = traction_on(side, X_[at], time);
-      for (std::size_t c = 0; c < 3; ++c) f[c] *= length(side.area);
-      for (std::size_t c = 0; c < 3; ++c) {
-        std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
-        sum[c] += f[c];
-        sum[3 + c] += x[at][p] * f[q] - x[at][q] * f[p];
-      }
+void Boundary::each_traction(double time, std::function<void(Index, Point const&)> const& add) const {
+  for (Index const particle : particles_)
+    for (auto const& side : sides_[static_cast<std::size_t>(particle)]) {
+      Point f = traction_on(side, X_[static_cast<std::size_t>(particle)], time);
+      for (double& c : f) c *= length(side.area);
+      add(particle, f);
     }
-  }
-  return sum;
 }
 
 bool Boundary::holds() const {

@@ -10,11 +10,6 @@
 
 namespace piola::taylor_sph {
 
-/// Position and velocity of a particle as the boundary sees them.
-struct BoundaryMotion {
-  std::array<double, 3> x, v;
-};
-
 /// What is prescribed on the surface of one body and at its supports: the sides that meet at a particle with their
 /// normals, the tractions on them (zero where nothing loads them), the velocities of supports; and the work that these
 /// do. Particles are local: numbers from the body's first particle on. Theory: docs/theory/taylor-sph.md.
@@ -22,28 +17,30 @@ class Boundary {
  public:
   Boundary(Assembly const& assembly, std::size_t body);
 
-  /// Particles with something prescribed, in increasing order: those of the surface but for the tips of cracks, and those
-  /// of supports. The order of items. Throws InputError if a traction is given where there is no surface.
+  /// Particles with something prescribed, in increasing order: those of the surface but for the tips of cracks, and
+  /// those of supports. The order of items. Throws InputError if a traction is given where there is no surface.
   std::vector<Index> const& arrange(Surface const& surface, Points const& x);
 
   /// For a step from `time` to time + dt. `x`: positions by which normals are taken; `stress_now(k)`: the stress of the
-  /// item's particle, which counts as what was prescribed before at time 0.
-  void prepare(double time, double dt, Points const& x,
-               std::function<BoundaryMotion(Index)> const& motion,
+  /// item's particle, which counts as what was prescribed before where it was not: at time 0 and after a release.
+  /// Velocities before are those that the particles have.
+  void prepare(double time, double dt, Points const& x, std::function<std::array<double, 3>(Index)> const& velocity,
                std::function<std::array<double, 6>(Index)> const& stress_now);
   /// How many sides meet at a particle; 0 inside.
   int sides(Index particle) const { return static_cast<int>(sides_[static_cast<std::size_t>(particle)].size()); }
+  std::vector<Index> const& particles() const { return particles_; }
   BoundaryItem* items() { return items_.data(); }
 
   /// Power of tractions and supports: sum v.(sigma.a) over the surface [W], with the normals of the last preparation.
-  double power(std::function<BoundaryMotion(Index)> const& motion,
+  double power(std::function<std::array<double, 3>(Index)> const& velocity,
                std::function<std::array<double, 6>(Index)> const& stress) const;
 
-  /// Force of tractions and its moment about the origin [N, N m per unit of missing directions] at a time, with the
-  /// sides of the last preparation.
-  std::array<double, 6> resultant(double time, Points const& x) const;
+  /// Forces of tractions at a time, with the sides of the last preparation: add(particle, force [N per unit of missing
+  /// directions]).
+  void each_traction(double time, std::function<void(Index, std::array<double, 3> const&)> const& add) const;
   bool holds() const;  ///< there is a support on this body
 
+  bool has_tractions() const { return !tractions_.empty(); }
   bool has_accelerations() const { return !accelerations_.empty(); }
   /// Adds the accelerations of loads at a time: add(particle, acceleration [m/s2]).
   void each_acceleration(double time, std::function<void(Index, std::array<double, 3> const&)> const& add) const;
@@ -73,15 +70,15 @@ class Boundary {
   std::array<double, 3> facet_area(Index facet, Points const& x) const;
   void turn(Points const& x);
   std::array<double, 3> traction_on(Side const& side, std::array<double, 3> const& X, double time) const;
-  void hold(Index particle, double time, double dt, BoundaryMotion const& now, BoundaryItem& item) const;
+  void hold(Index particle, double time, double dt, std::array<double, 3> const& velocity, BoundaryItem& item) const;
   void load(Index particle, double time, double dt, std::array<double, 6> const& stress, BoundaryItem& item) const;
 
   int D_;
   std::int64_t first_;
   Points X_;
-  std::vector<std::vector<Held>> held_;          ///< per particle
-  std::vector<std::vector<Traction>> loaded_;    ///< per particle
-  std::vector<bool> tip_;                        ///< tips of cracks
+  std::vector<std::vector<Held>> held_;        ///< per particle
+  std::vector<std::vector<Traction>> loaded_;  ///< per particle
+  std::vector<bool> tip_;                      ///< tips of cracks
   std::vector<Support> supports_;
   std::vector<Load> tractions_, accelerations_;  ///< tractions: `particles` empty
   Surface surface_;

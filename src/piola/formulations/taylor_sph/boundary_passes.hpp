@@ -51,31 +51,41 @@ PIOLA_FN KernelSums<D, double> lane_of(KernelSums<D, Lanes> const& s, int l) {
   return r;
 }
 
-/// Least-squares solution of A^T c = q that leaves out directions in which A is much weaker than in its best.
+/// Least-squares solution of A^T c = q that leaves out directions which A does not see.
 template <int D>
 struct PseudoInverse {
   Mat<D> A;
   Eigen<D> e;
-  double largest = 0;
+  double least;  ///< eigenvalues of A A^T below are left out
 
-  PIOLA_FN explicit PseudoInverse(Mat<D> const& of) : A(of) {
+  /// `weakest`: smallest eigenvalue of A A^T beside the largest; `scale`: size of A where nothing cancels.
+  PIOLA_FN PseudoInverse(Mat<D> const& of, double weakest, double scale) : A(of) {
     SymMat<D> N{};
     for (int i = 0; i < D; ++i)
       for (int j = i; j < D; ++j)
         for (int k = 0; k < D; ++k) N(i, j) += A(i, k) * A(j, k);
     e = symmetric_eigen(N);
+    double largest = 0;
     for (int k = 0; k < D; ++k) largest = maximum(largest, e.value[k]);
+    constexpr double roundoff = 1e-20;
+    least = maximum(weakest * largest, roundoff * scale * scale);
   }
   PIOLA_FN Vec<D> operator()(Vec<D> const& q) const {
-    // Of the squares. Edges of lattices have 0.01; a direction that one layer of sources does not see is far below.
-    constexpr double least = 0.002;
     Vec<D> const b = A * q;
     Vec<D> c{};
     for (int k = 0; k < D; ++k)
-      if (e.value[k] > least * largest) c = c + (dot(e.vector[k], b) / e.value[k]) * e.vector[k];
+      if (e.value[k] > least) c = c + (dot(e.vector[k], b) / e.value[k]) * e.vector[k];
     return c;
   }
 };
+
+/// Size of the second moment of the sources about their target.
+template <int D>
+PIOLA_FN double moment_size(KernelSums<D, double> const& sums) {
+  double size = 0;
+  for (int a = 0; a < D; ++a) size += sums.xg(a, a);
+  return size;
+}
 
 /// Centroid form with a pseudo-inverse, for free components.
 template <int D>
@@ -86,7 +96,9 @@ PIOLA_FN Estimate<D, double> estimate_free(KernelSums<D, double> const& sums) {
   Mat<D> A;
   for (int a = 0; a < D; ++a)
     for (int b = 0; b < D; ++b) A(a, b) = sums.xg(a, b) - xb[a] * sums.g[b];
-  PseudoInverse<D> const solve(A);
+  // Edges of lattices have 0.01; a direction that one layer of sources does not see is far below.
+  constexpr double weakest = 0.002;
+  PseudoInverse<D> const solve(A, weakest, moment_size<D>(sums));
   for (int c = 0; c < Record<D>::fields; ++c) {
     double const mean = share * sums.wf[c];
     e.gradient[c] = solve(sums.fg[c] - mean * sums.g);
@@ -102,7 +114,9 @@ PIOLA_FN void estimate_known(KernelSums<D, double> const& sums, double const (&k
   Mat<D> A;
   for (int a = 0; a < D; ++a)
     for (int b = 0; b < D; ++b) A(a, b) = sums.xg(a, b);
-  PseudoInverse<D> const solve(A);
+  // Nothing is extrapolated from a known value: what the sources see at all is good.
+  constexpr double weakest = 1e-8;
+  PseudoInverse<D> const solve(A, weakest, moment_size<D>(sums));
   for (int c = 0; c < Record<D>::fields; ++c) gradient[c] = solve(sums.fg[c] - known[c] * sums.g);
 }
 

@@ -97,8 +97,7 @@ struct DampPatterns {
       double const* const pattern =
           table.pattern + static_cast<std::ptrdiff_t>(entry / P::corners) * P::count * R::fields;
       for (int p = 0; p < P::count; ++p)
-        for (int c = 0; c < R::fields; ++c)
-          sum[c] += P::sign(p, entry % P::corners) * pattern[p * R::fields + c];
+        for (int c = 0; c < R::fields; ++c) sum[c] += P::sign(p, entry % P::corners) * pattern[p * R::fields + c];
     }
     if (2 * boxes < P::corners) return 0;
     double* const f = real + i * R::stride + R::v;

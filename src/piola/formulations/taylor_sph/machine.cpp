@@ -60,7 +60,7 @@ CellMeasures place(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &half_step, &full_step, &impose, &filter,
-                      &motion,                   &add_rigid, &place};
+Machine const machine{
+    PIOLA_NAME(PIOLA_MACHINE), lane_count, &half_step, &full_step, &impose, &filter, &motion, &add_rigid, &place};
 
 }  // namespace piola::taylor_sph::inline PIOLA_MACHINE

@@ -108,7 +108,8 @@ std::vector<double> flattened(Points const& points, int D) {
 
 Points points_of(std::vector<double> const& values, int D) {
   Points r(values.size() / static_cast<std::size_t>(D));
-  for (std::size_t k = 0; k < values.size(); ++k) r[k / static_cast<std::size_t>(D)][k % static_cast<std::size_t>(D)] = values[k];
+  for (std::size_t k = 0; k < values.size(); ++k)
+    r[k / static_cast<std::size_t>(D)][k % static_cast<std::size_t>(D)] = values[k];
   return r;
 }
 
@@ -151,7 +152,9 @@ bool TaylorBody::sees(Index particle, Index cell) const {
   for (Index const corner : cells_.of(cell))
     for (std::size_t k = 0; k < 3; ++k) middle[k] += X_[at(corner)][k] / cells_.corners;
   Place const p{X_[at(particle)], crack_side_[at(particle)]};
-  return std::none_of(cracks_.begin(), cracks_.end(), [&](Crack const& crack) { return is_blocked(p, {middle, 0}, crack); });
+  return std::none_of(cracks_.begin(), cracks_.end(), [&](Crack const& crack) {
+    return is_blocked(p, {middle, 0}, crack);
+  });
 }
 
 void TaylorBody::make_lists(Points const& x) {
@@ -201,22 +204,36 @@ void TaylorBody::note_distances(Points const& x) {
   state_.cells.reference_square = reference_square_.data();
 }
 
+/// Impulse of tractions and accelerations, and its moment, with the places of half time.
+void TaylorBody::add_impulses(double time, double dt) {
+  auto const add = [&](std::array<double, 3> const& x, std::array<double, 3> const& impulse) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
+      momentum_[c] += impulse[c];
+      momentum_[3 + c] += x[p] * impulse[q] - x[q] * impulse[p];
+    }
+  };
+  boundary_.each_acceleration(time + 0.5 * dt, [&](Index i, std::array<double, 3> a) {
+    for (double& c : a) c *= dt * mass_[at(i)];
+    add(place_at(i, -0.5 * dt), a);
+  });
+  if (!boundary_.has_tractions()) return;
+  prepare_boundary(time, dt, -0.5 * dt);
+  for (double const t : {time, time + dt})
+    boundary_.each_traction(t, [&](Index i, std::array<double, 3> f) {
+      for (double& c : f) c *= 0.5 * dt;
+      add(surface_positions_[at(i)], f);
+    });
+  prepare_boundary(time, dt, 0);
+}
+
 /// Interpolation between two sets of particles keeps no momentum by itself. The rigid motion that makes up for it is
-/// found as for the projections of JST-SPH: momentum and moment of momentum at the end of the step are those of the start
-/// and the impulse of the loads.
+/// found as for the projections of JST-SPH: momentum and moment of momentum at the end of the step are those of the
+/// start and the impulse of the loads.
 void TaylorBody::conserve_momentum(double time, double dt) {
   double now[MotionSums::size];
   machine_->motion(state_, now);
-  Points const x = positions();
-  auto const before = boundary_.resultant(time, x), after = boundary_.resultant(time + dt, x);
-  for (std::size_t k = 0; k < 6; ++k) momentum_[k] += 0.5 * dt * (before[k] + after[k]);
-  boundary_.each_acceleration(time + 0.5 * dt, [&](Index i, std::array<double, 3> const& a) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
-      momentum_[c] += dt * mass_[at(i)] * a[c];
-      momentum_[3 + c] += dt * mass_[at(i)] * (x[at(i)][p] * a[q] - x[at(i)][q] * a[p]);
-    }
-  });
+  add_impulses(time, dt);
   RateSums sums;
   sums.volume = now[MotionSums::mass];
   for (int c = 0; c < 3; ++c) {
@@ -227,8 +244,8 @@ void TaylorBody::conserve_momentum(double time, double dt) {
   }
   std::copy_n(now + MotionSums::xx, 6, sums.xx);
   RigidRate const g = balancing_rate(sums, D());
-  double const rate[9] = {g.spin[0], g.spin[1], g.spin[2], g.push[0], g.push[1], g.push[2],
-                          g.centre[0], g.centre[1], g.centre[2]};
+  double const rate[9] = {g.spin[0], g.spin[1],   g.spin[2],   g.push[0],  g.push[1],
+                          g.push[2], g.centre[0], g.centre[1], g.centre[2]};
   machine_->add_rigid(state_, rate);
 }
 

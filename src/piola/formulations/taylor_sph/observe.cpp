@@ -41,8 +41,7 @@ struct Observed {
 };
 
 constexpr std::array table{
-    Observed{"Displacement", "m", 3,
-             [](Particle const& p, double* out) { std::copy(p.u.begin(), p.u.end(), out); }},
+    Observed{"Displacement", "m", 3, [](Particle const& p, double* out) { std::copy(p.u.begin(), p.u.end(), out); }},
     Observed{"Position", "m", 3, [](Particle const& p, double* out) { std::copy(p.x.begin(), p.x.end(), out); }},
     Observed{"Velocity", "m/s", 3, [](Particle const& p, double* out) { std::copy(p.v.begin(), p.v.end(), out); }},
     Observed{"Momentum", "kg/(m2 s)", 3,

@@ -25,23 +25,26 @@ constexpr std::array choices{
     Choice{"assumption",
            "about the directions that a body does not have; as_dimension: 1D uniaxial_stress (a bar), 2D plane_strain",
            assumption_words},
-    Choice{"virtual_particles",
-           "where values of half time live; delaunay: centroids of triangles (tetrahedra, in 1D midpoints), with "
-           "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice; as_configuration: "
-           "updated: lattice_cells where the body is a whole box of particles, else and fixed: delaunay",
-           virtual_words},
+    Choice{
+        "virtual_particles",
+        "where values of half time live; delaunay: centroids of triangles (tetrahedra, in 1D midpoints), with "
+        "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice; as_configuration: "
+        "updated: lattice_cells where the body is a whole box of particles, else and fixed: delaunay",
+        virtual_words},
     Choice{"gradient",
            "linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: eqs. 19, 20",
            gradient_words},
     Choice{"kernel", "smoothing kernel, support 2h", kernel_words},
-    Choice{"momentum_projection",
-           "updated configuration, bodies without supports: linear and angular momentum change by the loads alone, by a "
-           "rigid motion added after each step",
-           switch_words}};
+    Choice{
+        "momentum_projection",
+        "updated configuration, bodies without supports: linear and angular momentum change by the loads alone, by a "
+        "rigid motion added after each step",
+        switch_words}};
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1",
-              "h in spacings of real particles (1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: triangles 1.1, else "
+              "h in spacings of real particles (1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: triangles "
+              "1.1, else "
               "0.9); it follows the cells as they deform",
               Interval{0.3, 3, false, false}, no_default},
     Parameter{"hourglass_filter", "1",
@@ -79,13 +82,14 @@ bool is_stress_free(std::string_view assumption, int dimension, Problems& proble
 }  // namespace
 
 FormulationInfo info() {
-  FormulationInfo info{"taylor_sph",
-                       "updated-Lagrangian SPH of stress and velocity on two sets of particles, two-step Taylor in time "
-                       "(Serroukh, Mabssout 2022)",
-                       parameters,
-                       choices,
-                       usable_laws,
-                       diagnostics};
+  FormulationInfo info{
+      "taylor_sph",
+      "updated-Lagrangian SPH of stress and velocity on two sets of particles, two-step Taylor in time "
+      "(Serroukh, Mabssout 2022)",
+      parameters,
+      choices,
+      usable_laws,
+      diagnostics};
   info.cracks = true;
   info.mirrors = false;
   return info;
@@ -103,15 +107,19 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
   o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
   // Moving surfaces need more neighbours than small strains do.
   double const of_cells = o.moving ? 0.9 : 0.6, of_simplices = o.moving && dimension == 2 ? 1.1 : 0.9;
-  o.smoothing_length = number(spec, "smoothing_length", dimension == 1 ? 0.6 : o.lattice_cells ? of_cells : of_simplices);
+  o.smoothing_length = number(spec, "smoothing_length",
+                              dimension == 1    ? 0.6
+                              : o.lattice_cells ? of_cells
+                                                : of_simplices);
   o.conserve = word(spec, "momentum_projection") == "on";
   o.hourglass = number(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
   o.cfl = std::isnan(cfl) ? (o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
   if (o.cfl > 1)
-    problems.add({}, fmt::format("run.cfl = {} is above 1: two-step Taylor amplifies short waves then and blows up within "
-                                 "some hundred steps (allowed: up to 1, where waves along a lattice travel exactly one "
-                                 "spacing per step) - set run.cfl to 1 or less",
-                                 o.cfl));
+    problems.add({},
+                 fmt::format("run.cfl = {} is above 1: two-step Taylor amplifies short waves then and blows up within "
+                             "some hundred steps (allowed: up to 1, where waves along a lattice travel exactly one "
+                             "spacing per step) - set run.cfl to 1 or less",
+                             o.cfl));
   problems.raise_if_any();
   return o;
 }

@@ -11,7 +11,8 @@ template <int D>
 PIOLA_FN Vec<D, Lanes> mean_of_corners(CellTable const& cells, View const& values, Index i) {
   Vec<D, Lanes> sum{};
   for (int k = 0; k < cells.corners; ++k) {
-    Index const* const at = cells.corner + (static_cast<std::ptrdiff_t>(i / lane_count) * cells.corners + k) * lane_count;
+    Index const* const at =
+        cells.corner + (static_cast<std::ptrdiff_t>(i / lane_count) * cells.corners + k) * lane_count;
     for (int c = 0; c < D; ++c) {
       double value[lane_count];
       for (int l = 0; l < lane_count; ++l) value[l] = values.scalar<double>(at[l], c);
@@ -63,11 +64,11 @@ struct HalfStep {
   }
 };
 
-/// Where a real particle is at half time, seen from which the virtual particles lie: it drifts on as in the step before.
-/// Its own velocity may hold a checkerboard that the virtual particles do not see and that must not move it.
+/// Where a real particle is at half time, seen from which the virtual particles lie: it drifts on as in the step
+/// before. Its own velocity may hold a checkerboard that the virtual particles do not see and that must not move it.
 template <int D>
-PIOLA_FN Vec<D, Lanes> half_time_place(Constants const& k, Lanes const (&own)[Record<D>::values], WriteView const& drift,
-                                       Index i, double dt) {
+PIOLA_FN Vec<D, Lanes> half_time_place(Constants const& k, Lanes const (&own)[Record<D>::values],
+                                       WriteView const& drift, Index i, double dt) {
   Vec<D, Lanes> x;
   for (int c = 0; c < D; ++c) {
     x[c] = own[Record<D>::x + c];

@@ -73,7 +73,8 @@ class Solver final : public Formulation {
 
   std::vector<FieldInfo> fields() const override { return observed_fields(); }
   void sample(std::string_view field, std::span<double> values) const override {
-    for (std::size_t k = 0; k < bodies_.size(); ++k) taylor_sph::sample(*bodies_[k], static_cast<int>(k), field, values);
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+      taylor_sph::sample(*bodies_[k], static_cast<int>(k), field, values);
   }
 
   void save(StateWriter& writer) const override;
@@ -145,7 +146,8 @@ void Solver::save(StateWriter& writer) const {
     Snapshot const snapshot = bodies_[k]->snapshot();
     std::array const cells{static_cast<double>(snapshot.corners.size())};
     writer.put(fmt::format("body{}_cell_corners", k), cells);
-    each_array(snapshot, k, [&](std::string const& name, std::vector<double> const& values) { writer.put(name, values); });
+    each_array(snapshot, k,
+               [&](std::string const& name, std::vector<double> const& values) { writer.put(name, values); });
   }
   writer.put("time", std::array{time_});
 }

@@ -44,8 +44,8 @@ constexpr int record_stride(int dimension) { return dimension == 3 ? Record<3>::
 /// What is prescribed at a particle of the surface, or of a support, during one step. Rows of stress are orthonormal in
 /// the space of stresses with shear components times sqrt(2) (Mandel), in the order of SymMat.
 struct BoundaryItem {
-  int held = 0;            ///< velocity: orthonormal directions with a prescribed speed
-  double direction[3][3];  ///< unit vectors
+  int held = 0;                            ///< velocity: orthonormal directions with a prescribed speed
+  double direction[3][3];                  ///< unit vectors
   double speed_before[3], speed_after[3];  ///< at the start and at the end of the step [m/s]
   int rows = 0;                            ///< stress: combinations with a prescribed value
   double row[6][6];
@@ -59,9 +59,9 @@ struct BoundaryItem {
 struct CellTable {
   int corners = 0;
   bool simplices = true;
-  Index const* corner = nullptr;               ///< corner k of lane l of group g: [(g * corners + k) * lanes + l]
-  double const* reference_square = nullptr;    ///< of the distance of each pair of corners, when lists were made [m2]
-  double const* reference_quality = nullptr;   ///< volume / (longest edge)^D, when cells were made
+  Index const* corner = nullptr;              ///< corner k of lane l of group g: [(g * corners + k) * lanes + l]
+  double const* reference_square = nullptr;   ///< of the distance of each pair of corners, when lists were made [m2]
+  double const* reference_quality = nullptr;  ///< volume / (longest edge)^D, when cells were made
 };
 
 /// Boxes of the lattice, for the hourglass filter.
@@ -87,13 +87,13 @@ struct BodyState {
   Constants k{};
   Range interior, boundary, virtuals;  ///< slots; ranges are multiples of every lane count
   Index interior_count = 0, boundary_count = 0, virtual_count = 0;
-  double* real = nullptr;          ///< records
-  double* virtual_ = nullptr;      ///< records
-  FieldRef out_of_plane;           ///< stress across the plane [Pa]
-  FieldRef drift;                  ///< velocity with which particles moved in the step before [m/s]
-  FieldRef displacement;           ///< in the fixed configuration, where positions stay [m]
-  FieldRef acceleration;           ///< of loads, at half time [m/s2]
-  FieldRef mass;                   ///< [kg]
+  double* real = nullptr;      ///< records
+  double* virtual_ = nullptr;  ///< records
+  FieldRef out_of_plane;       ///< stress across the plane [Pa]
+  FieldRef drift;              ///< velocity with which particles moved in the step before [m/s]
+  FieldRef displacement;       ///< in the fixed configuration, where positions stay [m]
+  FieldRef acceleration;       ///< of loads, at half time [m/s2]
+  FieldRef mass;               ///< [kg]
   SetPairTable to_virtual, to_real;
   CellTable cells;
   HourglassTable hourglass;
@@ -103,8 +103,8 @@ struct BodyState {
   double filter_loss = 0;  ///< energy taken by the hourglass filter since the start [J]
 };
 
-/// Positions in sums over a body: mass, mass x, mass x (x) x (XX YY ZZ XY YZ XZ), momentum, moment of momentum; components
-/// that a body does not have are zero.
+/// Positions in sums over a body: mass, mass x, mass x (x) x (XX YY ZZ XY YZ XZ), momentum, moment of momentum;
+/// components that a body does not have are zero.
 struct MotionSums {
   static constexpr int mass = 0, x = 1, xx = 4, v = 10, moment = 13, size = 16;
 };
@@ -113,13 +113,13 @@ struct MotionSums {
 struct Machine {
   char const* name;
   int lanes;
-  void (*half_step)(BodyState& body, double dt);  ///< eqs. (21): real to virtual
-  void (*full_step)(BodyState& body, double dt);  ///< eqs. (22), (23): virtual to real
-  void (*impose)(BodyState& body);                ///< prescribed speeds and stresses at the end of the step
-  void (*filter)(BodyState& body);                ///< hourglass filter
-  void (*motion)(BodyState& body, double* sums);  ///< MotionSums of the real particles
+  void (*half_step)(BodyState& body, double dt);           ///< eqs. (21): real to virtual
+  void (*full_step)(BodyState& body, double dt);           ///< eqs. (22), (23): virtual to real
+  void (*impose)(BodyState& body);                         ///< prescribed speeds and stresses at the end of the step
+  void (*filter)(BodyState& body);                         ///< hourglass filter
+  void (*motion)(BodyState& body, double* sums);           ///< MotionSums of the real particles
   void (*add_rigid)(BodyState& body, double const* rate);  ///< to the velocities: spin, push, centre
-  CellMeasures (*place)(BodyState& body);         ///< virtual particles into the middle of their cells
+  CellMeasures (*place)(BodyState& body);                  ///< virtual particles into the middle of their cells
 };
 
 /// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.

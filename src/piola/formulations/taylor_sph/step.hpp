@@ -20,17 +20,17 @@ class Step {
   }
   /// Eqs. (22), (23): v, sigma, x of the real particles at t^(n+1) from the virtual ones at t^(n+1/2).
   void full(double dt) {
-    exec::for_each(b_.interior, FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
-                                                         write(b_.drift), write(b_.displacement), acceleration(), b_.interior_count, b_.failure, dt});
+    exec::for_each(
+        b_.interior,
+        FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane), write(b_.drift),
+                                 write(b_.displacement), acceleration(), b_.interior_count, b_.failure, dt});
     exec::for_each(b_.boundary,
                    BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
-                                                write(b_.drift), write(b_.displacement), acceleration(), b_.items, b_.boundary.first, b_.boundary_count,
-                                                b_.failure, dt});
+                                                write(b_.drift), write(b_.displacement), acceleration(), b_.items,
+                                                b_.boundary.first, b_.boundary_count, b_.failure, dt});
   }
   /// Prescribed values at t^(n+1).
-  void impose() {
-    exec::for_each_item(b_.boundary_count, Impose<D>{b_.real, b_.items, b_.boundary.first});
-  }
+  void impose() { exec::for_each_item(b_.boundary_count, Impose<D>{b_.real, b_.items, b_.boundary.first}); }
   /// The hourglass filter, where the lattice has patterns to filter.
   void filter() {
     if constexpr (D > 1) {
@@ -59,17 +59,16 @@ class Step {
       m.spacing = minimum(m.spacing, part[2]);
       if (!(part[3] > 0)) m.inverted = true;
     }
-    m.dilation = maximum(largest_volume(b_.interior, b_.interior_count),
-                         largest_volume(b_.boundary, b_.boundary_count)) / b_.k.kernel_volume;
+    m.dilation =
+        maximum(largest_volume(b_.interior, b_.interior_count), largest_volume(b_.boundary, b_.boundary_count)) /
+        b_.k.kernel_volume;
     return m;
   }
 
  private:
   View acceleration() const { return view(b_.acceleration); }
   static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
-  static WriteView write(FieldRef const& f) {
-    return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
-  }
+  static WriteView write(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   void sum_motion(Range range, Index count, double* sums) {
     exec::for_each_block(range, SumMotion<D>{b_.real, view(b_.mass), range.first + count, b_.partial});
     auto const part = exec::add_partials<MotionSums::size>(b_.partial, exec::block_count(range));

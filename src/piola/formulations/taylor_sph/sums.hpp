@@ -15,10 +15,10 @@ namespace piola::taylor_sph::inline PIOLA_MACHINE {
 template <int D, class V>
 struct KernelSums {
   static constexpr int fields = Record<D>::fields;
-  V w, w_volume;      ///< sum w, sum w Omega
-  Vec<D, V> wx, g;    ///< sum w x, sum g
-  SymMat<D, V> xg;    ///< sum x (x) g
-  V wf[fields];       ///< sum w f
+  V w, w_volume;         ///< sum w, sum w Omega
+  Vec<D, V> wx, g;       ///< sum w x, sum g
+  SymMat<D, V> xg;       ///< sum x (x) g
+  V wf[fields];          ///< sum w f
   Vec<D, V> fg[fields];  ///< sum f g
 };
 

@@ -34,8 +34,8 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
     T const volume = trace(e);
     return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume));
   }
-  /// D : d = lambda tr(d) 1 + 2 mu d: the rate of the Cauchy stress in a frame that turns with the material, for a rate of
-  /// deformation d (Serroukh and Mabssout 2022, eq. 2) [Pa/s].
+  /// D : d = lambda tr(d) 1 + 2 mu d: the rate of the Cauchy stress in a frame that turns with the material, for a rate
+  /// of deformation d (Serroukh and Mabssout 2022, eq. 2) [Pa/s].
   template <class T>
   PIOLA_FN SymMat<3, T> stress_rate(SymMat<3, T> const& d) const {
     SymMat<3, T> r;
