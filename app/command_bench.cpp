@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/simulation/bench.hpp"
+#include "piola/simulation/bench_taylor.hpp"
 #include "commands.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,30 +11,61 @@ namespace piola::app {
 namespace {
 
 struct Options {
-  std::string formulation = "jst_sph";
-  BenchOptions bench;
+  std::string formulation = "jst_sph", machine = "auto";
   std::vector<std::string> parts;
+  std::vector<int> threads{1, 2};
+  int side = 0, repeats = 8;  ///< side 0: that of the benchmark
   bool json = false, quick = false;
 };
 
-int bench(Options options) {
-  if (options.formulation != "jst_sph")
-    throw InputError(fmt::format("no benchmark is named '{}' (known: jst_sph)", options.formulation));
+template <class Report>
+int print(Report const& report, bool json) {
+  fmt::print("{}", json ? to_json(report) : to_text(report));
+  return completed;
+}
+
+int bench_jst(Options const& options) {
+  BenchOptions bench;
+  bench.machine = options.machine;
+  bench.threads = options.threads;
+  bench.repeats = options.quick ? 3 : options.repeats;
   if (options.quick) {
-    options.bench.particles_per_side = 24;
-    options.bench.repeats = 3;
-    options.bench.column_particles = {14, 79, 14};
-    options.bench.column_steps = 20;
+    bench.particles_per_side = 24;
+    bench.column_particles = {14, 79, 14};
+    bench.column_steps = 20;
   }
+  if (options.side > 0) bench.particles_per_side = options.side;
   auto const wanted = [&](char const* part) {
     return options.parts.empty() || std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
   };
-  options.bench.rates = wanted("rates");
-  options.bench.column = wanted("column");
-  options.bench.variables = wanted("variables");
-  BenchReport const report = bench_jst_sph(options.bench);
-  fmt::print("{}", options.json ? to_json(report) : to_text(report));
-  return completed;
+  bench.rates = wanted("rates");
+  bench.column = wanted("column");
+  bench.variables = wanted("variables");
+  return print(bench_jst_sph(bench), options.json);
+}
+
+int bench_taylor(Options const& options) {
+  if (!options.parts.empty())
+    throw InputError("--only: the benchmark of taylor_sph has one part (only jst_sph has several) - leave it out");
+  TaylorBenchOptions bench;
+  bench.machine = options.machine;
+  bench.threads = options.threads;
+  bench.repeats = options.quick ? 3 : options.repeats;
+  if (options.quick) {
+    bench.plate_side = 80;
+    bench.cube_side = 16;
+    bench.bar_particles = 10000;
+    bench.steps = 30;
+  }
+  if (options.side > 0) bench.plate_side = options.side;
+  return print(bench_taylor_sph(bench), options.json);
+}
+
+int bench(Options const& options) {
+  if (options.formulation == "jst_sph") return bench_jst(options);
+  if (options.formulation == "taylor_sph") return bench_taylor(options);
+  throw InputError(fmt::format("no benchmark is named '{}' (known: jst_sph, taylor_sph) - give one of these",
+                               options.formulation));
 }
 
 }  // namespace
@@ -41,21 +73,21 @@ int bench(Options options) {
 void add_bench(CLI::App& program, Action& action) {
   auto const options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("bench", "Measure the speed of the solver on this computer");
-  command->add_option("formulation", options->formulation, "What to measure (default: jst_sph)");
+  command->add_option("formulation", options->formulation, "What to measure: jst_sph (default) or taylor_sph");
   command
       ->add_option("--only", options->parts,
-                   "Parts to measure: rates (particle-stages per second), column (simulated time per processor time of "
+                   "jst_sph: parts to measure: rates (particle-stages per second), column (simulated time per processor time of "
                    "the twisting column), variables (cost of the filter, of J and of H); default: all")
       ->check(CLI::IsMember({"rates", "column", "variables"}));
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quick", options->quick, "A few seconds only: 24^3 particles, a coarser column");
-  command->add_option("--side", options->bench.particles_per_side, "Particles per side of the cube (default 64)")
+  command->add_flag("--quick", options->quick, "A few seconds only: fewer particles and steps");
+  command->add_option("--side", options->side, "Particles per side of the cube (default 64), of the plate (320)")
       ->check(CLI::Range(8, 512));
-  command->add_option("--repeats", options->bench.repeats, "Time steps per measurement, the fastest counts (default 8)")
+  command->add_option("--repeats", options->repeats, "Time steps per measurement, the fastest counts (default 8)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--threads", options->bench.threads, "Numbers of threads (default 1 2)")
+  command->add_option("--threads", options->threads, "Numbers of threads (default 1 2)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--machine", options->bench.machine, "Instruction set beside the scalar path (default auto)");
+  command->add_option("--machine", options->machine, "Instruction set beside the scalar path (default auto)");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }
 

@@ -2,21 +2,18 @@
 #include "piola/simulation/bench.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/memory.hpp"
-#include "piola/exec/threads.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/setup/shapes.hpp"
+#include "piola/simulation/bench_support.hpp"
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 
 namespace piola {
 namespace {
@@ -24,15 +21,6 @@ namespace {
 // Counted by hand from passes.hpp, D = 3, literal biharmonic, regular lattice; bench/README.md has the count.
 constexpr double operations_per_pair = 38;
 constexpr double doubles_per_stage = 99;
-
-double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 MaterialParameters rubber() {
   MaterialParameters material;
@@ -56,26 +44,6 @@ Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::str
   return a;
 }
 
-struct Timing {
-  double wall, cpu;
-};
-
-/// Fastest of several whole time steps.
-Timing fastest_step(Formulation& formulation, int repeats) {
-  Timing best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  double time = 0;
-  for (int k = 0; k <= repeats; ++k) {
-    double const wall = wall_seconds(), cpu = cpu_seconds();
-    double const dt = formulation.stable_time_step();
-    formulation.step(time, dt);
-    time += dt;
-    if (k == 0) continue;  // the first step warms caches and threads
-    best.wall = std::min(best.wall, wall_seconds() - wall);
-    best.cpu = std::min(best.cpu, cpu_seconds() - cpu);
-  }
-  return best;
-}
-
 void measure_peaks(BenchReport& report, jst_sph::Machine const& machine) {
   constexpr long rounds = 4'000'000;
   constexpr int chains = 16;
@@ -93,12 +61,6 @@ void measure_peaks(BenchReport& report, jst_sph::Machine const& machine) {
   }
   report.fma_per_second = chains * static_cast<double>(rounds) / fma;
   report.copy_bytes_per_second = 2.0 * sizeof(double) * n / copied;
-}
-
-double mean_neighbours(Formulation const& formulation, Assembly const& assembly) {
-  std::vector<double> neighbours(assembly.particles.X.size());
-  formulation.sample("Neighbours", neighbours);
-  return std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / static_cast<double>(neighbours.size());
 }
 
 /// The column of Lee et al. 2016, example 8.9: 1 m x 6 m x 1 m, foot clamped, omega = 105 sin(pi Y / 12) rad/s about Y.
@@ -124,11 +86,6 @@ Assembly twisting_column(std::array<int, 3> const& particles, std::string const&
   return a;
 }
 
-void one_thread() {
-  exec_host::set_threads(1);
-  exec_host::pin_threads();
-}
-
 void measure_column(BenchReport& report, BenchOptions const& options) {
   struct Choice {
     char const* name;
@@ -136,26 +93,17 @@ void measure_column(BenchReport& report, BenchOptions const& options) {
   };
   Choice const choices[] = {{"default, one support 1.2", {{"gradient_support", 1.2}, {"laplacian_support", 1.2}}},
                             {"default", {}}};
-  one_thread();
+  pin_to(1);
   for (auto const& choice : choices) {
     Assembly assembly = twisting_column(options.column_particles, report.machine);
     assembly.formulations[0].numbers = choice.numbers;
     report.column_particles = static_cast<long>(assembly.particles.size());
     auto const formulation = make_formulation(assembly);
-    ColumnRow row{choice.name, mean_neighbours(*formulation, assembly), options.column_steps};
-    double time = 0;
-    auto const take = [&](int steps) {
-      for (int k = 0; k < steps; ++k) {
-        double const dt = formulation->stable_time_step();
-        formulation->step(time, dt);
-        time += dt;
-      }
-    };
-    take(options.column_settling);
-    double const from = time, start = cpu_seconds();
-    take(row.steps);
+    ColumnRow row{choice.name, mean_neighbours(*formulation, assembly.particles.size()), options.column_steps};
+    double const from = take_steps(*formulation, 0, options.column_settling), start = cpu_seconds();
+    double const to = take_steps(*formulation, from, row.steps);
     row.cpu = cpu_seconds() - start;
-    row.simulated = time - from;
+    row.simulated = to - from;
     report.column.push_back(row);
   }
 }
@@ -167,7 +115,7 @@ void measure_variables(BenchReport& report, BenchOptions const& options) {
   constexpr Choice choices[] = {{"{p,F}, no filter", "pF", "off"},    {"{p,F}, filter", "pF", "on"},
                                 {"{p,F,J}, no filter", "pFJ", "off"}, {"{p,F,H,J}, no filter", "pFHJ", "off"},
                                 {"{p,F,J}, filter", "pFJ", "on"},     {"{p,F,H,J}, filter", "pFHJ", "on"}};
-  one_thread();
+  pin_to(1);
   std::vector<std::unique_ptr<Formulation>> formulations;
   std::vector<double> cpu(std::size(choices), std::numeric_limits<double>::infinity());
   int const side = std::min(options.particles_per_side, 40);
@@ -177,7 +125,7 @@ void measure_variables(BenchReport& report, BenchOptions const& options) {
     assembly.formulations[0].words["volumetric_filter"] = choice.filter;
     report.variables_particles = static_cast<long>(assembly.particles.size());
     formulations.push_back(make_formulation(assembly));
-    report.variables.push_back({choice.name, mean_neighbours(*formulations.back(), assembly)});
+    report.variables.push_back({choice.name, mean_neighbours(*formulations.back(), assembly.particles.size())});
   }
   // In turns, so that what else the machine does meets all of them.
   for (int round = 0; round < options.repeats; ++round)
@@ -209,10 +157,9 @@ void measure_rates(BenchReport& report, BenchOptions const& options) {
     auto const formulation = make_formulation(assembly);
     auto const particles = static_cast<double>(assembly.particles.size());
     report.particles = static_cast<long>(assembly.particles.size());
-    double const neighbours = mean_neighbours(*formulation, assembly);
+    double const neighbours = mean_neighbours(*formulation, assembly.particles.size());
     for (int const threads : options.threads) {
-      exec_host::set_threads(threads);
-      exec_host::pin_threads();
+      pin_to(threads);
       Timing const best = fastest_step(*formulation, options.repeats);
       double const stages = formulation->stages_per_step() * particles;
       BenchRow row{subject.name, subject.scalar ? "scalar" : report.machine, threads};
@@ -242,7 +189,7 @@ BenchReport bench_jst_sph(BenchOptions const& options) {
   BenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;
-  one_thread();
+  pin_to(1);
   measure_peaks(report, *machine);
   if (options.rates) measure_rates(report, options);
   if (options.column) measure_column(report, options);

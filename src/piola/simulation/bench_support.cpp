@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/bench_support.hpp"
+#include "piola/exec/threads.hpp"
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace piola {
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+void pin_to(int threads) {
+  exec_host::set_threads(threads);
+  exec_host::pin_threads();
+}
+
+double take_steps(Formulation& formulation, double time, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    double const dt = formulation.stable_time_step();
+    formulation.step(time, dt);
+    time += dt;
+  }
+  return time;
+}
+
+Timing fastest_step(Formulation& formulation, int repeats) {
+  Timing best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double time = take_steps(formulation, 0, 1);
+  for (int k = 0; k < repeats; ++k) {
+    double const wall = wall_seconds(), cpu = cpu_seconds();
+    time = take_steps(formulation, time, 1);
+    best.wall = std::min(best.wall, wall_seconds() - wall);
+    best.cpu = std::min(best.cpu, cpu_seconds() - cpu);
+  }
+  return best;
+}
+
+double mean_neighbours(Formulation const& formulation, std::int64_t particles) {
+  std::vector<double> neighbours(static_cast<std::size_t>(particles));
+  formulation.sample("Neighbours", neighbours);
+  return std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / static_cast<double>(particles);
+}
+
+}  // namespace piola

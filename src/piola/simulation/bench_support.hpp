@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include <cstdint>
+
+/// What the benchmarks of all formulations share.
+namespace piola {
+
+double wall_seconds();  ///< since some moment [s]
+double cpu_seconds();   ///< processor time of all threads of this program [s]
+
+struct Timing {
+  double wall, cpu;  ///< s
+};
+
+/// Loops run on this many threads from now on, one per core.
+void pin_to(int threads);
+
+/// Takes `steps` steps as long as they are stable; returns the time at their end [s].
+double take_steps(Formulation& formulation, double time, int steps);
+
+/// Fastest of several whole time steps; one before them, which is not measured, warms caches and threads.
+Timing fastest_step(Formulation& formulation, int repeats);
+
+/// Mean over all particles of the field Neighbours.
+double mean_neighbours(Formulation const& formulation, std::int64_t particles);
+
+}  // namespace piola

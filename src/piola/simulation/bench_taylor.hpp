@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+namespace piola {
+
+struct TaylorBenchOptions {
+  int plate_side = 320;  ///< particles per side of the plate
+  int cube_side = 40;
+  int bar_particles = 100000;
+  int repeats = 8;  ///< time steps per measurement of a step alone; the fastest counts
+  int steps = 60;   ///< of the deforming plate, all of which count
+  std::vector<int> threads{1, 2};
+  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+};
+
+/// Whole time steps of one body.
+struct TaylorBenchRow {
+  std::string name;     ///< what was measured
+  std::string machine;  ///< instruction set
+  int threads = 1;
+  long particles = 0;             ///< real ones
+  double neighbours = 0;          ///< virtual particles that a real one sees, mean
+  double bytes_per_particle = 0;  ///< memory, virtual particles and lists included
+  long list_updates = 0;          ///< in the steps measured
+  double per_second = 0;          ///< particle-steps per second of wall time, threads pinned
+  double per_cpu_second = 0;      ///< per second of processor time of all threads: undisturbed by other programs
+};
+
+/// What the deforming plate spends beside its steps, on one thread [s of processor time].
+struct TaylorUpkeep {
+  long particles = 0, cells = 0;
+  double step = 0, list_update = 0, triangulation = 0;
+  static constexpr int between = 20;  ///< steps from one triangulation to the next in the rate below
+  /// Particle-steps per second if lists and cells were made anew after so many steps.
+  double per_cpu_second() const {
+    return static_cast<double>(particles) / (step + (list_update + triangulation) / between);
+  }
+};
+
+struct TaylorBenchReport {
+  std::string machine;  ///< instruction set that "auto" found
+  int lanes = 1;
+  std::vector<TaylorBenchRow> rows;
+  TaylorUpkeep upkeep;
+};
+
+/// Measures inside the real solver, cubic spline, linear elastic, double, whole steps (both halves):
+///  - a plate of triangles in the fixed configuration and moving, a bar, a cube: the fastest step;
+///  - the plate in shear waves that strain it by more than a tenth: all steps, list updates included;
+///  - the same machine's scalar path beside them;
+///  - what an update of the lists and Delaunay's triangulation of the deformed plate cost.
+/// Throws InputError if the machine is unknown or not usable here.
+TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options);
+
+std::string to_json(TaylorBenchReport const& report);
+std::string to_text(TaylorBenchReport const& report);
+
+}  // namespace piola

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/bench_taylor.hpp"
+#include "piola/base/problems.hpp"
+#include "exec/thread_count.hpp"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace piola {
+namespace {
+
+TaylorBenchOptions small() {
+  TaylorBenchOptions options;
+  options.plate_side = 20;
+  options.cube_side = 5;
+  options.bar_particles = 50;
+  options.repeats = 1;
+  options.steps = 25;
+  options.threads = {1};
+  return options;
+}
+
+TEST(TaylorBench, MeasuresEachBodyBesideItsScalarPathInAllDimensions) {
+  testing::Threads const keep(1);
+  TaylorBenchReport const report = bench_taylor_sph(small());
+  ASSERT_EQ(report.rows.size(), 12U);
+  for (std::size_t k = 0; k < report.rows.size(); ++k) {
+    auto const& row = report.rows[k];
+    EXPECT_EQ(row.machine, k % 2 == 0 ? report.machine : "scalar");
+    EXPECT_EQ(row.particles, k < 6 ? 400 : k < 8 ? 50 : 125) << row.name;
+    EXPECT_EQ(row.neighbours, report.rows[k / 2 * 2].neighbours) << row.name;
+    EXPECT_GT(row.bytes_per_particle, 8 * 8) << row.name;
+    EXPECT_GT(row.per_second, 0) << row.name;
+    EXPECT_GT(row.per_cpu_second, 0) << row.name;
+  }
+}
+
+TEST(TaylorBench, StrainsThePlateSoThatListsDoNotLast) {
+  testing::Threads const keep(1);
+  TaylorBenchReport const report = bench_taylor_sph(small());
+  for (auto const& row : report.rows)
+    EXPECT_EQ(row.list_updates > 0, row.name == "plate, moving, lists follow") << row.name;
+  EXPECT_EQ(report.upkeep.particles, 400);
+  EXPECT_GE(report.upkeep.cells, 2 * 18 * 18);
+  EXPECT_GT(report.upkeep.list_update, 0);
+  EXPECT_GT(report.upkeep.triangulation, 0);
+}
+
+TEST(TaylorBench, UpkeepIsSharedByTheStepsBetween) {
+  TaylorUpkeep const upkeep{1000, 2000, 0.5, 4, 6};
+  EXPECT_DOUBLE_EQ(upkeep.per_cpu_second(), 1000 / (0.5 + 10.0 / 20));
+}
+
+TEST(TaylorBench, IsPrintedAsTextAndAsJson) {
+  TaylorBenchReport report;
+  report.machine = "v4";
+  report.rows.push_back({"plate, fixed", "v4", 2, 400, 23.5, 800, 3, 4e6, 2e6});
+  report.upkeep = {1000, 2000, 0.5, 4, 6};
+  auto const json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["formulation"], "taylor_sph");
+  EXPECT_EQ(json["rows"][0]["particle_steps_per_second"], 4e6);
+  EXPECT_EQ(json["rows"][0]["list_updates"], 3);
+  EXPECT_EQ(json["upkeep"]["particle_steps_per_cpu_second"], 1000);
+  std::string const text = to_text(report);
+  EXPECT_NE(text.find("plate, fixed"), std::string::npos);
+  EXPECT_NE(text.find("4.00         2.00"), std::string::npos) << text;
+}
+
+TEST(TaylorBench, RefusesAnUnknownMachine) {
+  TaylorBenchOptions options = small();
+  options.machine = "v9";
+  EXPECT_THROW(bench_taylor_sph(options), InputError);
+}
+
+}  // namespace
+}  // namespace piola
