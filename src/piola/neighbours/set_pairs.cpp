@@ -39,7 +39,7 @@ class Search {
     bool const enough = within(h) >= request_.least[t];
     while (!enough && within(h, weighty) < request_.least[t]) {
       h *= growth;
-      if (h > largest_growth * request_.h[t]) refuse(target, within(h));
+      if (h > largest_growth * request_.h[t]) refuse(target, within(h, weighty));
       if (!far_) far_.emplace(request_.sources, largest_growth * request_.support * widest_ * (1 + request_.skin));
       collect(*far_, target, h);
     }

@@ -254,25 +254,26 @@ void TaylorBody::follow_motion() {
   // A cell that doubled since its lists were made, or was crushed to a fiftieth, is as lost as one turned inside out.
   constexpr double doubled = 3, crushed = 0.02;
   if (!(measures_.strain < doubled) || !(measures_.spacing > crushed * first_spacing_)) measures_.inverted = true;
+  // Distances that change by 10 % in every step, or cells that are spoilt in no time, are no motion that steps resolve.
+  constexpr long most_hasty = 25;
+  if (hasty_updates_ > most_hasty) measures_.inverted = true;
   if (measures_.inverted || failure_.index != FailureSlot::none) return;
   if (measures_.quality < least_quality && steps_since_triangulation_ >= least_steps && triangulate_anew()) return;
   if (measures_.strain < largest_strain) {
-    hasty_updates_ = 0;
+    if (steps_since_triangulation_ > least_steps) hasty_updates_ = 0;
     return;
   }
   make_lists(positions());
   ++list_updates_;
-  // Distances that change by 10 % in every step are no motion that the step resolves.
-  constexpr long most_hasty = 25;
-  if (++hasty_updates_ > most_hasty) measures_.inverted = true;
-  bool const lost = measures_.inverted;
+  ++hasty_updates_;
   measures_ = machine_->place(state_);
-  measures_.inverted = measures_.inverted || lost;
 }
 
 /// Delaunay's triangulation of where the particles are now, of it what lies in a cell of before: the cells of before
 /// cover the body, however deformed they are. False if nothing would change.
 bool TaylorBody::triangulate_anew() {
+  constexpr long hasty = 5;  // a triangulation as soon as one may be counts as so many lists
+  if (triangulations_ > 0 && steps_since_triangulation_ <= least_steps) hasty_updates_ += hasty;
   steps_since_triangulation_ = 0;
   if (!cracks_.empty() || options_.lattice_cells) return false;
   Points const now = positions();

@@ -5,6 +5,7 @@
 #include "piola/formulations/prescribed.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/formulations/taylor_sph/observe.hpp"
+#include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -14,6 +15,15 @@ namespace {
 
 void check(Assembly const& assembly) {
   Problems problems;
+  for (auto const& material : assembly.materials)
+    with_law(material, [&](auto const& law) {
+      using Law = std::decay_t<decltype(law)>;
+      if constexpr (!RateForm<Law>)
+        problems.add({},
+                     fmt::format("taylor_sph: the law {} has no rate form (allowed: linear_elastic) - choose another "
+                                 "law or formulation",
+                                 Law::name));
+    });
   if (!assembly.initial_deformation_gradient.empty())
     problems.add({}, "taylor_sph: there is an initial deformation gradient (stress starts at zero here) - remove it");
   problems.raise_if_any();
