@@ -64,8 +64,8 @@ int bench_taylor(Options const& options) {
 int bench(Options const& options) {
   if (options.formulation == "jst_sph") return bench_jst(options);
   if (options.formulation == "taylor_sph") return bench_taylor(options);
-  throw InputError(fmt::format("no benchmark is named '{}' (known: jst_sph, taylor_sph) - give one of these",
-                               options.formulation));
+  throw InputError(
+      fmt::format("no benchmark is named '{}' (known: jst_sph, taylor_sph) - give one of these", options.formulation));
 }
 
 }  // namespace
@@ -75,9 +75,10 @@ void add_bench(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("bench", "Measure the speed of the solver on this computer");
   command->add_option("formulation", options->formulation, "What to measure: jst_sph (default) or taylor_sph");
   command
-      ->add_option("--only", options->parts,
-                   "jst_sph: parts to measure: rates (particle-stages per second), column (simulated time per processor time of "
-                   "the twisting column), variables (cost of the filter, of J and of H); default: all")
+      ->add_option(
+          "--only", options->parts,
+          "jst_sph: parts to measure: rates (particle-stages per second), column (simulated time per processor time of "
+          "the twisting column), variables (cost of the filter, of J and of H); default: all")
       ->check(CLI::IsMember({"rates", "column", "variables"}));
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quick", options->quick, "A few seconds only: fewer particles and steps");
@@ -85,8 +86,7 @@ void add_bench(CLI::App& program, Action& action) {
       ->check(CLI::Range(8, 512));
   command->add_option("--repeats", options->repeats, "Time steps per measurement, the fastest counts (default 8)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--threads", options->threads, "Numbers of threads (default 1 2)")
-      ->check(CLI::Range(1, 1024));
+  command->add_option("--threads", options->threads, "Numbers of threads (default 1 2)")->check(CLI::Range(1, 1024));
   command->add_option("--machine", options->machine, "Instruction set beside the scalar path (default auto)");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }
