@@ -117,17 +117,17 @@ TEST(Kernels, AreFoundByTheirNames) {
 
 TEST(CubicSpline, HasTheValuesOfItsFormula) {
   // w(0) = 2^3/4 - 1 = 1, w(1) = 1/4, w(1/2) = 27/32 - 1/8 = 23/32, w(3/2) = 1/32
-  EXPECT_DOUBLE_EQ(CubicSpline::w(0), 1);
-  EXPECT_DOUBLE_EQ(CubicSpline::w(1), 0.25);
+  EXPECT_DOUBLE_EQ(CubicSpline::w(0.0), 1);
+  EXPECT_DOUBLE_EQ(CubicSpline::w(1.0), 0.25);
   EXPECT_DOUBLE_EQ(CubicSpline::w(0.5), 23.0 / 32);
   EXPECT_DOUBLE_EQ(CubicSpline::w(1.5), 1.0 / 32);
-  EXPECT_DOUBLE_EQ(CubicSpline::dw(1), -0.75);
+  EXPECT_DOUBLE_EQ(CubicSpline::dw(1.0), -0.75);
   EXPECT_DOUBLE_EQ(CubicSpline::sigma(3), 1 / std::numbers::pi);
 }
 
 TEST(QuarticSpline, HasTheValuesOfItsFormula) {
   // w(0) = (625 - 405 + 10) / 16, w(1/2) = 2^4 - 5 = 11, w(3/2) = 1; dw(3/2) = -4
-  EXPECT_DOUBLE_EQ(QuarticSpline::w(0), 230.0 / 16);
+  EXPECT_DOUBLE_EQ(QuarticSpline::w(0.0), 230.0 / 16);
   EXPECT_DOUBLE_EQ(QuarticSpline::w(0.5), 11);
   EXPECT_DOUBLE_EQ(QuarticSpline::w(1.5), 1);
   EXPECT_DOUBLE_EQ(QuarticSpline::dw(1.5), -4);
@@ -135,24 +135,24 @@ TEST(QuarticSpline, HasTheValuesOfItsFormula) {
 
 TEST(QuinticSpline, HasTheValuesOfItsFormula) {
   // w(0) = 243 - 192 + 15, w(1) = 32 - 6, w(2) = 1; dw(1) = -5 (16 - 6)
-  EXPECT_DOUBLE_EQ(QuinticSpline::w(0), 66);
-  EXPECT_DOUBLE_EQ(QuinticSpline::w(1), 26);
-  EXPECT_DOUBLE_EQ(QuinticSpline::w(2), 1);
-  EXPECT_DOUBLE_EQ(QuinticSpline::dw(1), -50);
+  EXPECT_DOUBLE_EQ(QuinticSpline::w(0.0), 66);
+  EXPECT_DOUBLE_EQ(QuinticSpline::w(1.0), 26);
+  EXPECT_DOUBLE_EQ(QuinticSpline::w(2.0), 1);
+  EXPECT_DOUBLE_EQ(QuinticSpline::dw(1.0), -50);
 }
 
 TEST(WendlandC2, HasTheValuesOfItsFormula) {
   // s = 1/2: (1/16) 3 in 2D and 3D, (1/8) (5/2) in 1D
-  EXPECT_DOUBLE_EQ(WendlandC2::w(3, 1), 3.0 / 16);
-  EXPECT_DOUBLE_EQ(WendlandC2::w(2, 1), 3.0 / 16);
-  EXPECT_DOUBLE_EQ(WendlandC2::w(1, 1), 5.0 / 16);
-  EXPECT_DOUBLE_EQ(WendlandC2::dw(3, 1), -5.0 / 8);
+  EXPECT_DOUBLE_EQ(WendlandC2::w(3, 1.0), 3.0 / 16);
+  EXPECT_DOUBLE_EQ(WendlandC2::w(2, 1.0), 3.0 / 16);
+  EXPECT_DOUBLE_EQ(WendlandC2::w(1, 1.0), 5.0 / 16);
+  EXPECT_DOUBLE_EQ(WendlandC2::dw(3, 1.0), -5.0 / 8);
 }
 
 TEST(WendlandC4, HasTheValuesOfItsFormula) {
   // s = 1/2: (1/64) (1 + 3 + 35/12) in 2D and 3D, (1/32) (1 + 5/2 + 2) in 1D
-  EXPECT_DOUBLE_EQ(WendlandC4::w(3, 1), 83.0 / 768);
-  EXPECT_DOUBLE_EQ(WendlandC4::w(1, 1), 11.0 / 64);
+  EXPECT_DOUBLE_EQ(WendlandC4::w(3, 1.0), 83.0 / 768);
+  EXPECT_DOUBLE_EQ(WendlandC4::w(1, 1.0), 11.0 / 64);
 }
 
 }  // namespace

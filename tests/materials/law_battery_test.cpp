@@ -223,6 +223,76 @@ TYPED_TEST(LawBattery, HasTheWaveSpeedsOfItsStiffnessAtRest) {
   }
 }
 
+/// What the stress does on a strain rate d is what its energy grows by: dW/dt = sigma : d, for a stress that a strain
+/// has made.
+TYPED_TEST(LawBattery, StoresThePowerOfItsStressInRateForm) {
+  if constexpr (!RateForm<TypeParam>) {
+    GTEST_SKIP() << "has no rate form";
+  } else {
+    Random random(12);
+    for (int path = 0; path < 20; ++path) {
+      SymMat<3> stress{};
+      double worked = 0;
+      // Steps of one constant rate each: the stress is linear in time, so the trapezoidal rule is exact.
+      for (int k = 0; k < 10; ++k) {
+        SymMat<3> d;
+        for (double& c : d.c) c = random.in(-1e-2, 1e-2);
+        SymMat<3> const rate = this->law.stress_rate(d);
+        for (int c = 0; c < 6; ++c) {
+          worked += (c < 3 ? 1 : 2) * (stress.c[c] + 0.5 * rate.c[c]) * d.c[c];
+          stress.c[c] += rate.c[c];
+        }
+        EXPECT_NEAR(this->law.energy_of_stress(stress), worked, 1e-12 * (worked + 1e-4 * this->stiffness));
+      }
+      EXPECT_GT(worked, 0);
+    }
+  }
+}
+
+SymMat<3> symmetric_part(Mat<3> const& A) {
+  SymMat<3> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) r(i, j) = 0.5 * (A(i, j) + A(j, i));
+  return r;
+}
+Mat<3> full(SymMat<3> const& s) {
+  Mat<3> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) r(i, j) = s(i, j);
+  return r;
+}
+
+TYPED_TEST(LawBattery, IsIsotropicInRateForm) {
+  if constexpr (!RateForm<TypeParam>) {
+    GTEST_SKIP() << "has no rate form";
+  } else {
+    Random random(13);
+    for (int k = 0; k < 100; ++k) {
+      SymMat<3> const d = symmetric_part(random.matrix(1));
+      Mat<3> const Q = random.rotation(), rate = full(this->law.stress_rate(d));
+      Mat<3> const turned = full(this->law.stress_rate(symmetric_part(Q * full(d) * transpose(Q))));
+      EXPECT_LT(size(turned - Q * rate * transpose(Q)), 1e-14 * 10 * this->stiffness);
+      double const energy = this->law.energy_of_stress(symmetric_part(rate));
+      EXPECT_NEAR(this->law.energy_of_stress(symmetric_part(turned)), energy, 1e-13 * energy);
+    }
+  }
+}
+
+/// Rates are those of the stress near rest: what the law says of a small strain, over the time that it takes.
+TYPED_TEST(LawBattery, HasTheRateOfItsStressAtRest) {
+  if constexpr (!RateForm<TypeParam>) {
+    GTEST_SKIP() << "has no rate form";
+  } else {
+    Random random(14);
+    double const step = 1e-5;
+    for (int k = 0; k < 20; ++k) {
+      Mat<3> const G = random.matrix(1), I = identity<3>();
+      Mat<3> const slope = (0.5 / step) * (this->law.first_piola(I + step * G) - this->law.first_piola(I - step * G));
+      EXPECT_LT(size(full(this->law.stress_rate(symmetric_part(G))) - slope), 1e-9 * this->stiffness);
+    }
+  }
+}
+
 TYPED_TEST(LawBattery, GivesNumbersForAnyVolumeRatio) {
   Random random(6);
   for (double J : {1e-6, 1e-3, 0.1, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 1e3, 1e6}) {

@@ -24,6 +24,28 @@ TEST(Tensor, ProductOfAMatrixAndItsInverseIsTheIdentity) {
   }
 }
 
+template <int D>
+void expect_inverse(Mat<D> const& A) {
+  Mat<D> const product = A * inverse(A), reverse = inverse(A) * A;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) {
+      EXPECT_NEAR(product(i, j), i == j ? 1 : 0, round_off);
+      EXPECT_NEAR(reverse(i, j), i == j ? 1 : 0, round_off);
+    }
+}
+
+TEST(Tensor, OfOneAndTwoDimensionsHasAnInverse) {
+  EXPECT_EQ(inverse(Mat<1>{{-4}}).c[0], -0.25);
+  Mat<2> const known = inverse(Mat<2>{{1, 2, 3, 4}});  // det -2
+  double const expected[] = {-2, 1, 1.5, -0.5};
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(known.c[k], expected[k]);
+  Random random(11);
+  for (int k = 0; k < 100; ++k) {
+    expect_inverse<1>({{random.in(0.1, 2)}});
+    expect_inverse<2>({{2 + random.in(-0.5, 0.5), random.in(-1, 1), random.in(-1, 1), -2 + random.in(-0.5, 0.5)}});
+  }
+}
+
 TEST(Tensor, CofactorIsTheDeterminantTimesTheTransposedInverse) {
   Mat<3> const A{{1, 2, 3, 0, 1, 4, 5, 6, 0}};  // det 1, inverse known in integers
   Mat<3> const inverse_transposed{{-24, 20, -5, 18, -15, 4, 5, -4, 1}};

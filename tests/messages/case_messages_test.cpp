@@ -58,9 +58,9 @@ TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
             "case.toml:10:20: body.material.law is \"neo_hooke\" (allowed: linear_elastic, neo_hookean, mooney_rivlin, "
             "saint_venant_kirchhoff, compressible_neo_hookean) - did you mean "
             "\"neo_hookean\"?");
-  EXPECT_EQ(
-      message_of(sample_with("jst_sph", "mpm")),
-      "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection) - choose one of these");
+  EXPECT_EQ(message_of(sample_with("jst_sph", "mpm")),
+            "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph) - choose "
+            "one of these");
 }
 
 TEST(CaseMessages, RegionsThatSelectNothingSayWhereTheBodyIs) {

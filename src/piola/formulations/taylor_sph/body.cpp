@@ -113,7 +113,7 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   s.displacement.assign(s.v.size(), 0);
   s.x_of_lists = s.x_of_cells = s.x;
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
-  s.books.assign(12, 0);
+  s.books.assign(13, 0);
   restore(s);
   free_ = !boundary_.holds();
   double now[MotionSums::size];

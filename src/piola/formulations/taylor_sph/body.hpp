@@ -17,7 +17,8 @@ struct Snapshot {
   std::vector<double> stress, across, volume;     ///< SymMat<D>, 1, 1 per particle
   std::vector<double> x_of_lists, x_of_cells;     ///< positions when lists and cells were made
   std::vector<double> corners;                    ///< of the cells
-  std::vector<double> books;  ///< work, power, filter loss, list updates, triangulations, steps, momenta
+  std::vector<double> books;  ///< work, power, filter loss, list updates, triangulations, steps, hasty updates,
+                              ///< momenta
 };
 
 /// Wall time spent besides the steps themselves [s].
@@ -129,6 +130,7 @@ class TaylorBody {
   std::array<double, 6> momentum_{};  ///< linear and angular, that a free body must have
   double work_ = 0, power_ = 0;
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
+  long hasty_updates_ = 0;  ///< list updates in successive steps, up to now
   SetupSeconds seconds_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of Taylor-SPH for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this file
-// proves is that the same source makes device code for every dimension, kernel and rate-form law.
+// The passes of Taylor-SPH for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this
+// file proves is that the same source makes device code for every dimension, kernel and rate-form law.
 #include "piola/formulations/taylor_sph/boundary_passes.hpp"
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/filter_passes.hpp"

@@ -256,10 +256,18 @@ void TaylorBody::follow_motion() {
   if (!(measures_.strain < doubled) || !(measures_.spacing > crushed * first_spacing_)) measures_.inverted = true;
   if (measures_.inverted || failure_.index != FailureSlot::none) return;
   if (measures_.quality < least_quality && steps_since_triangulation_ >= least_steps && triangulate_anew()) return;
-  if (measures_.strain < largest_strain) return;
+  if (measures_.strain < largest_strain) {
+    hasty_updates_ = 0;
+    return;
+  }
   make_lists(positions());
   ++list_updates_;
+  // Distances that change by 10 % in every step are no motion that the step resolves.
+  constexpr long most_hasty = 25;
+  if (++hasty_updates_ > most_hasty) measures_.inverted = true;
+  bool const lost = measures_.inverted;
   measures_ = machine_->place(state_);
+  measures_.inverted = measures_.inverted || lost;
 }
 
 /// Delaunay's triangulation of where the particles are now, of it what lies in a cell of before: the cells of before
@@ -306,7 +314,8 @@ Snapshot TaylorBody::snapshot() const {
              state_.filter_loss,
              static_cast<double>(list_updates_),
              static_cast<double>(triangulations_),
-             static_cast<double>(steps_since_triangulation_)};
+             static_cast<double>(steps_since_triangulation_),
+             static_cast<double>(hasty_updates_)};
   s.books.insert(s.books.end(), momentum_.begin(), momentum_.end());
   return s;
 }
@@ -336,7 +345,8 @@ void TaylorBody::restore(Snapshot const& s) {
   list_updates_ = static_cast<long>(s.books[3]);
   triangulations_ = static_cast<long>(s.books[4]);
   steps_since_triangulation_ = static_cast<long>(s.books[5]);
-  std::copy_n(s.books.begin() + 6, 6, momentum_.begin());
+  hasty_updates_ = static_cast<long>(s.books[6]);
+  std::copy_n(s.books.begin() + 7, 6, momentum_.begin());
   make_lists(points_of(s.x_of_lists, D()));
   measures_ = machine_->place(state_);
   if (!(first_spacing_ > 0)) first_spacing_ = measures_.spacing;

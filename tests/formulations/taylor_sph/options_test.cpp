@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/taylor_sph/options.hpp"
+#include "piola/base/problems.hpp"
+#include "formulations/taylor_sph/taylor_bodies.hpp"
+
+namespace piola::taylor_sph {
+namespace {
+
+using Words = std::map<std::string, std::string, std::less<>>;
+using Numbers = std::map<std::string, double, std::less<>>;
+
+Options options(int dimension, Words words = {}, Numbers numbers = {}, double cfl = std::nan(""),
+                bool whole_lattice = true) {
+  return read_options({"taylor_sph", std::move(numbers), std::move(words)}, dimension, cfl, whole_lattice);
+}
+
+std::string message(int dimension, Words words, double cfl = std::nan("")) {
+  try {
+    (void)options(dimension, std::move(words), {}, cfl);
+  } catch (InputError const& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TaylorOptions, AreAMovingBodyOfLatticeBoxesByDefault) {
+  for (int D = 1; D <= 3; ++D) {
+    Options const o = options(D);
+    EXPECT_TRUE(o.moving);
+    EXPECT_EQ(o.form, GradientForm::linear_exact);
+    EXPECT_EQ(o.kernel, KernelShape::cubic_spline);
+    EXPECT_EQ(o.lattice_cells, D > 1);
+    EXPECT_EQ(o.stress_free, D == 1) << "a bar is free across, a plate held";
+    EXPECT_EQ(o.smoothing_length, D == 1 ? 0.6 : 0.9);
+    EXPECT_EQ(o.hourglass, D == 1 ? 0 : 0.3);
+    EXPECT_TRUE(o.conserve);
+    EXPECT_EQ(o.cfl, 0.9);
+  }
+}
+
+TEST(TaylorOptions, TakeSimplicesWhereTheLatticeIsNotWholeOrDoesNotMove) {
+  for (int D = 2; D <= 3; ++D) {
+    Options const part = options(D, {}, {}, std::nan(""), false), fixed = options(D, {{"configuration", "fixed"}});
+    EXPECT_FALSE(part.lattice_cells);
+    EXPECT_EQ(part.smoothing_length, D == 2 ? 1.1 : 0.9);
+    EXPECT_FALSE(fixed.lattice_cells);
+    EXPECT_EQ(fixed.smoothing_length, 0.9);
+    EXPECT_FALSE(options(D, {{"virtual_particles", "delaunay"}}).lattice_cells);
+  }
+}
+
+TEST(TaylorOptions, OfAFixedBodyTakeTheLargestStepThatIsExact) {
+  EXPECT_EQ(options(1, {{"configuration", "fixed"}}).cfl, 1);
+  EXPECT_EQ(options(2, {{"configuration", "fixed"}, {"virtual_particles", "lattice_cells"}}).cfl, 1);
+  EXPECT_EQ(options(2, {{"configuration", "fixed"}}).cfl, 0.9) << "triangles";
+  for (int D = 1; D <= 3; ++D) {
+    Options const o = options(D, {{"configuration", "fixed"}});
+    EXPECT_FALSE(o.moving);
+    EXPECT_EQ(o.smoothing_length, D == 1 ? 0.6 : 0.9);
+    EXPECT_EQ(o.hourglass, 0);
+  }
+}
+
+TEST(TaylorOptions, FollowTheWordsThatAreGiven) {
+  EXPECT_EQ(options(2, {{"gradient", "printed"}}).form, GradientForm::printed);
+  EXPECT_EQ(options(2, {{"gradient", "linear_exact"}}).form, GradientForm::linear_exact);
+  EXPECT_EQ(options(2, {{"kernel", "wendland_c2"}}).kernel, KernelShape::wendland_c2);
+  EXPECT_EQ(options(2, {{"kernel", "cubic_spline"}}).kernel, KernelShape::cubic_spline);
+  EXPECT_TRUE(options(2, {{"configuration", "updated"}}).moving);
+  EXPECT_FALSE(options(2, {{"momentum_projection", "off"}}).conserve);
+  Options const boxes = options(3, {{"virtual_particles", "lattice_cells"}, {"configuration", "fixed"}});
+  EXPECT_TRUE(boxes.lattice_cells);
+  EXPECT_EQ(boxes.smoothing_length, 0.6);
+  EXPECT_FALSE(options(1, {{"virtual_particles", "lattice_cells"}}).lattice_cells) << "the same thing in 1D";
+}
+
+TEST(TaylorOptions, KnowWhatHappensInTheDirectionsThatAreMissing) {
+  EXPECT_TRUE(options(1, {{"assumption", "as_dimension"}}).stress_free);
+  EXPECT_TRUE(options(1, {{"assumption", "uniaxial_stress"}}).stress_free);
+  EXPECT_FALSE(options(1, {{"assumption", "uniaxial_strain"}}).stress_free);
+  EXPECT_TRUE(options(2, {{"assumption", "plane_stress"}}).stress_free);
+  EXPECT_FALSE(options(2, {{"assumption", "plane_strain"}}).stress_free);
+  EXPECT_FALSE(options(3, {{"assumption", "as_dimension"}}).stress_free);
+}
+
+TEST(TaylorOptions, FollowTheNumbersThatAreGiven) {
+  Options const o = options(2, {}, {{"smoothing_length", 1.1}, {"hourglass_filter", 0.2}}, 0.5);
+  EXPECT_EQ(o.smoothing_length, 1.1);
+  EXPECT_EQ(o.hourglass, 0.2);
+  EXPECT_EQ(o.cfl, 0.5);
+  EXPECT_EQ(options(2, {{"configuration", "fixed"}}, {{"hourglass_filter", 0.3}}).hourglass, 0.3);
+}
+
+TEST(TaylorOptions, RefuseACourantNumberAboveOne) {
+  EXPECT_EQ(message(1, {}, 1), "");
+  EXPECT_EQ(
+      message(1, {}, 1.05),
+      "run.cfl = 1.05 is above 1: two-step Taylor amplifies short waves then and blows up within some hundred "
+      "steps (allowed: up to 1, where waves along a lattice travel exactly one spacing per step) - set run.cfl to "
+      "1 or less");
+}
+
+TEST(TaylorOptions, RefuseAnAssumptionForAnotherDimension) {
+  EXPECT_EQ(message(3, {{"assumption", "plane_stress"}}),
+            "formulation: assumption = \"plane_stress\" is for bodies in 2D, this one is in 3D - leave it out");
+  for (auto const* word : {"plane_stress", "plane_strain"})
+    for (int D = 1; D <= 3; ++D) EXPECT_EQ(message(D, {{"assumption", word}}).empty(), D == 2) << word << D;
+  for (auto const* word : {"uniaxial_stress", "uniaxial_strain"})
+    for (int D = 1; D <= 3; ++D) EXPECT_EQ(message(D, {{"assumption", word}}).empty(), D == 1) << word << D;
+}
+
+TEST(TaylorOptions, AreRefusedTogether) {
+  std::string const text = message(3, {{"assumption", "plane_strain"}}, 2);
+  EXPECT_NE(text.find("plane_strain"), std::string::npos) << text;
+  EXPECT_NE(text.find("run.cfl = 2"), std::string::npos) << text;
+}
+
+TEST(TaylorOptions, AreAllDeclared) {
+  FormulationInfo const i = info();
+  EXPECT_EQ(i.name, "taylor_sph");
+  EXPECT_TRUE(i.cracks);
+  EXPECT_FALSE(i.mirrors);
+  for (auto const& choice : i.choices)
+    for (auto const word : choice.allowed) {
+      int const D = word.starts_with("uniaxial") ? 1 : 2;
+      EXPECT_EQ(message(D, {{std::string(choice.name), std::string(word)}}), "") << choice.name << " " << word;
+    }
+  EXPECT_EQ(i.laws.size(), 1u);
+  EXPECT_EQ(i.laws.front(), "linear_elastic");
+}
+
+TEST(TaylorSolver, RefusesMirrorsAndAnInitialDeformationGradient) {
+  using namespace testing;
+  Assembly a = assemble_taylor(unit_box(2, 5));
+  a.mirrors.push_back({});
+  EXPECT_EQ(refusal(a), piola::refusal(info(), "mirrors"));
+  a.mirrors.clear();
+  a.initial_deformation_gradient.assign(a.particles.X.size(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  EXPECT_EQ(refusal(a),
+            "taylor_sph: there is an initial deformation gradient (stress starts at zero here) - remove it");
+}
+
+TEST(TaylorSolver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
+  using namespace testing;
+  Assembly a = assemble_taylor(unit_box(2, 5));
+  a.machine = "abacus";
+  std::string expected = "machine 'abacus' is unknown or not usable on this processor (usable: auto";
+  for (auto names = machine_names(); *names != nullptr; ++names) expected += std::string(", ") + *names;
+  EXPECT_EQ(refusal(a), expected + ")");
+}
+
+}  // namespace
+}  // namespace piola::taylor_sph
