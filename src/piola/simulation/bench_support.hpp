@@ -19,7 +19,8 @@ void pin_to(int threads);
 /// Takes `steps` steps as long as they are stable; returns the time at their end [s].
 double take_steps(Formulation& formulation, double time, int steps);
 
-/// Fastest of several whole time steps; one before them, which is not measured, warms caches and threads.
+/// Fastest of several measurements of a whole time step, each the mean of 50 ms or more; one step before them, which is
+/// not measured, warms caches and threads.
 Timing fastest_step(Formulation& formulation, int repeats);
 
 /// Mean over all particles of the field Neighbours.

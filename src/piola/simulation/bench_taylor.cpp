@@ -23,6 +23,7 @@ struct Subject {
   char const* name;
   int dimension, side;
   char const* configuration;
+  char const* virtual_particles;
   bool deforming;  ///< strained by a wave, so that lists do not last; all steps count
 };
 
@@ -47,7 +48,8 @@ Assembly body(Subject const& subject, std::string const& machine) {
   std::array const values{density, youngs_modulus, poissons_ratio};
   std::copy(values.begin(), values.end(), material.value);
   a.materials = {material};
-  a.formulations = {FormulationSpec{"taylor_sph", {}, {{"configuration", subject.configuration}}}};
+  a.formulations = {FormulationSpec{
+      "taylor_sph", {}, {{"configuration", subject.configuration}, {"virtual_particles", subject.virtual_particles}}}};
   for (auto const& X : a.particles.X)
     a.initial_velocity.push_back(
         {subject.deforming ? shear_speed(X[1], subject.side) : 1e-3 * std::sin(2 * X[0]), 0, 0});
@@ -131,13 +133,16 @@ TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options) {
   TaylorBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;
-  Subject const deforming{"plate, moving, lists follow", 2, options.plate_side, "updated", true};
-  Subject const subjects[] = {{"plate, fixed", 2, options.plate_side, "fixed", false},
-                              {"plate, moving", 2, options.plate_side, "updated", false},
+  constexpr char const *triangles = "delaunay", *boxes = "lattice_cells";
+  int const plate = options.plate_side, cube = options.cube_side;
+  Subject const deforming{"plate, moving, lists follow", 2, plate, "updated", triangles, true};
+  Subject const subjects[] = {{"plate, fixed", 2, plate, "fixed", triangles, false},
+                              {"plate, moving", 2, plate, "updated", triangles, false},
                               deforming,
-                              {"bar, fixed", 1, options.bar_particles, "fixed", false},
-                              {"cube, fixed", 3, options.cube_side, "fixed", false},
-                              {"cube, moving", 3, options.cube_side, "updated", false}};
+                              {"plate, moving, boxes", 2, plate, "updated", boxes, false},
+                              {"bar, fixed", 1, options.bar_particles, "fixed", triangles, false},
+                              {"cube, fixed", 3, cube, "fixed", triangles, false},
+                              {"cube, moving, boxes", 3, cube, "updated", boxes, false}};
   for (auto const& subject : subjects)
     for (std::string const& name : {report.machine, std::string("scalar")}) measure(report, options, subject, name);
   report.upkeep = measure_upkeep(options, deforming, report.machine);

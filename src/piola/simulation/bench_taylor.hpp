@@ -47,7 +47,7 @@ struct TaylorBenchReport {
 };
 
 /// Measures inside the real solver, cubic spline, linear elastic, double, whole steps (both halves):
-///  - a plate of triangles in the fixed configuration and moving, a bar, a cube: the fastest step;
+///  - a plate in the fixed configuration and moving, a bar, a cube: the fastest step;
 ///  - the plate in shear waves that strain it by more than a tenth: all steps, list updates included;
 ///  - the same machine's scalar path beside them;
 ///  - what an update of the lists and Delaunay's triangulation of the deformed plate cost.
