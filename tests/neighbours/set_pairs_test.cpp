@@ -183,14 +183,14 @@ TEST(SetPairs, DoNotCountASourceOnTheEdge) {
 }
 
 TEST(SetPairs, RefuseATargetThatHasTooFewAroundIt) {
-  Sets sets = line(5);  // the fifth source is 4 away; 2 * 4 * 0.4 = 3.2
+  Sets sets = line(5);  // the fourth source is 3 away; of a support of 2 * 4 * 0.4 = 3.2 only 80 % count
   sets.targets[0] = {0, 0, 0};
   try {
     (void)sets.pairs();
     FAIL() << "was accepted";
   } catch (InputError const& error) {
     EXPECT_EQ(std::string(error.what()),
-              "neighbours: the particle at (0, 0, 0) m has 4 of the other set around it (5 are needed) - make the body "
+              "neighbours: the particle at (0, 0, 0) m has 3 of the other set around it (5 are needed) - make the body "
               "wider or the spacing smaller");
   }
 }
