@@ -228,7 +228,7 @@ TEST(TaylorFailure, OfACellTurnedInsideOutIsReported) {
   f->step(0, 1e-3);
   auto const failure = f->failure();
   ASSERT_TRUE(failure.has_value());
-  EXPECT_EQ(failure->what, "belongs to a body with a cell turned inside out");
+  EXPECT_EQ(failure->what, "is at a cell that is turned inside out, crushed or torn");
 }
 
 // ---- several bodies

@@ -65,6 +65,7 @@ class TaylorBody {
   long triangulations() const { return triangulations_; }
   SetupSeconds const& seconds() const { return seconds_; }
   bool inverted() const { return measures_.inverted; }
+  Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }

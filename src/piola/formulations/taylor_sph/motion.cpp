@@ -249,6 +249,14 @@ void TaylorBody::conserve_momentum(double time, double dt) {
   machine_->add_rigid(state_, rate);
 }
 
+Index TaylorBody::worst_corner() const {
+  Points const x = positions();
+  Index worst = 0;
+  for (Index c = 1; c < cells_.count(); ++c)
+    if (volume_of(cells_, c, x) < volume_of(cells_, worst, x)) worst = c;
+  return cells_.of(worst).front();
+}
+
 void TaylorBody::follow_motion() {
   measures_ = machine_->place(state_);
   // A cell that doubled since its lists were made, or was crushed to a fiftieth, is as lost as one turned inside out.

@@ -118,9 +118,10 @@ std::optional<Failure> Solver::failure() const {
     FailureSlot const& slot = *body->state().failure;
     bool const lost = slot.index != FailureSlot::none;
     if (!lost && !body->inverted()) continue;
-    Index const i = lost ? body->local_of(slot.index) : 0;
+    Index const i = lost ? body->local_of(slot.index) : body->worst_corner();
     Failure f;
-    f.what = lost ? "has a velocity or stress that is not a number" : "belongs to a body with a cell turned inside out";
+    f.what = lost ? "has a velocity or stress that is not a number"
+                  : "is at a cell that is turned inside out, crushed or torn";
     f.particle = body->body().first + i;
     f.body = body->body().name;
     f.X = body->X(i);
