@@ -60,9 +60,9 @@ class Search {
     double const reach = request_.support * h * (1 + request_.skin);
     grid.visit(x, [&](Index source) {
       Point const& y = request_.sources[static_cast<std::size_t>(source)];
-      double const distance = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
-      if (distance > reach || (request_.visible && !request_.visible(target, source))) return;
-      found.push_back({distance, request_.slot_of_source[static_cast<std::size_t>(source)]});
+      double const a = x[0] - y[0], b = x[1] - y[1], c = x[2] - y[2], square = a * a + b * b + c * c;
+      if (square > reach * reach || (request_.visible && !request_.visible(target, source))) return;
+      found.push_back({std::sqrt(square), request_.slot_of_source[static_cast<std::size_t>(source)]});
     });
     std::sort(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.slot < b.slot; });
   }
