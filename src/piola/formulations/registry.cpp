@@ -55,6 +55,19 @@ std::string refusal(FormulationInfo const& info, std::string_view what) {
          text.substr(0, text.size() - 1) + " or change body.formulation";
 }
 
+std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name) {
+  auto const given = spec.words.find(name);
+  if (given != spec.words.end()) return given->second;
+  for (auto const& choice : choices)
+    if (choice.name == name) return choice.allowed.front();
+  return {};
+}
+
+double number_of(FormulationSpec const& spec, std::string_view name, double otherwise) {
+  auto const given = spec.numbers.find(name);
+  return given != spec.numbers.end() ? given->second : otherwise;
+}
+
 std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
   std::string const name = assembly.formulations.empty() ? std::string() : assembly.formulations.front().name;
   for (auto const& other : assembly.formulations)

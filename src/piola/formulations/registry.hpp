@@ -41,4 +41,10 @@ struct FormulationSpec {
   std::map<std::string, std::string, std::less<>> words;
 };
 
+/// The word given for a choice, else the first that is allowed.
+std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name);
+
+/// The number given for a parameter, else `otherwise`.
+double number_of(FormulationSpec const& spec, std::string_view name, double otherwise);
+
 }  // namespace piola

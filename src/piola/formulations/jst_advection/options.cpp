@@ -15,11 +15,6 @@ constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};  // onl
 constexpr std::array diagnostics{DiagnosticInfo{"dispersion", "1"}, DiagnosticInfo{"diffusion", "1"},
                                  DiagnosticInfo{"amplitude", "1"}};
 
-double number(FormulationSpec const& spec, std::string_view name, double otherwise) {
-  auto const given = spec.numbers.find(name);
-  return given != spec.numbers.end() ? given->second : otherwise;
-}
-
 }  // namespace
 
 FormulationInfo info() {
@@ -37,7 +32,7 @@ FormulationInfo info() {
 
 Options read_options(FormulationSpec const& spec, double cfl) {
   Options const usual;
-  return {number(spec, "wave_speed", usual.wave_speed), number(spec, "eps4_momentum", usual.eps4),
+  return {number_of(spec, "wave_speed", usual.wave_speed), number_of(spec, "eps4_momentum", usual.eps4),
           std::isnan(cfl) ? usual.cfl : cfl};
 }
 

@@ -82,18 +82,7 @@ constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"},
 constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
                                                       "saint_venant_kirchhoff", "compressible_neo_hookean"};
 
-std::string_view word(FormulationSpec const& spec, std::string_view name) {
-  auto const given = spec.words.find(name);
-  if (given != spec.words.end()) return given->second;
-  for (auto const& choice : choices)
-    if (choice.name == name) return choice.allowed.front();
-  return {};
-}
-
-double number(FormulationSpec const& spec, std::string_view name, double otherwise) {
-  auto const given = spec.numbers.find(name);
-  return given != spec.numbers.end() ? given->second : otherwise;
-}
+std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
 }  // namespace
 
@@ -190,13 +179,13 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.gradient = form_of(word(spec, "gradient"));
   auto const force = word(spec, "internal_force");
   o.force = force == "as_gradient" ? o.gradient : form_of(force);
-  o.eps2_J = number(spec, "eps2_volume", 0);
-  o.eps4_J = number(spec, "eps4_volume", 0);
+  o.eps2_J = number_of(spec, "eps2_volume", 0);
+  o.eps4_J = number_of(spec, "eps4_volume", 0);
   o.kernel = find_kernel(word(spec, "kernel"));
-  o.eps2 = displacement ? 0 : number(spec, "eps2_momentum", 0);
-  o.eps4 = displacement ? 0 : number(spec, "eps4_momentum", 0.125);
-  o.gradient_support = number(spec, "gradient_support", paper ? 1.2 : 0.8);
-  o.laplacian_support = number(spec, "laplacian_support", 1.2);
+  o.eps2 = displacement ? 0 : number_of(spec, "eps2_momentum", 0);
+  o.eps4 = displacement ? 0 : number_of(spec, "eps4_momentum", 0.125);
+  o.gradient_support = number_of(spec, "gradient_support", paper ? 1.2 : 0.8);
+  o.laplacian_support = number_of(spec, "laplacian_support", 1.2);
   o.multipliers = word(spec, "supports") == "multipliers";
   o.project = word(spec, "angular_momentum_projection") == "on" && !displacement;
   bool const verlet = !displacement && chosen(spec, "integrator", filtered ? "verlet" : "tvd_rk2") == "verlet";
@@ -217,7 +206,7 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   // The estimate c_p0 / lambda_min is a bound for nearly incompressible solids, not for laws that stiffen in tension.
   o.exact_speed = word(spec, "wave_speed") == "exact" || !split;
   o.filter = chosen(spec, "volumetric_filter", by_scheme ? "on" : "off") == "on";
-  o.filter_passes = static_cast<int>(number(spec, "filter_passes", 2));
+  o.filter_passes = static_cast<int>(number_of(spec, "filter_passes", 2));
   o.cfl = !std::isnan(cfl) ? cfl : verlet ? 0 : 0.3;
   check(o);
   check_filter(o, material);

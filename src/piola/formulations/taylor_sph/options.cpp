@@ -56,18 +56,7 @@ constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};
 
 constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"}};
 
-std::string_view word(FormulationSpec const& spec, std::string_view name) {
-  auto const given = spec.words.find(name);
-  if (given != spec.words.end()) return given->second;
-  for (auto const& choice : choices)
-    if (choice.name == name) return choice.allowed.front();
-  return {};
-}
-
-double number(FormulationSpec const& spec, std::string_view name, double otherwise) {
-  auto const given = spec.numbers.find(name);
-  return given != spec.numbers.end() ? given->second : otherwise;
-}
+std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
 bool is_stress_free(std::string_view assumption, int dimension, Problems& problems) {
   if (assumption == "as_dimension") return dimension == 1;
@@ -107,12 +96,12 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
   o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
   // Moving surfaces need more neighbours than small strains do.
   double const of_cells = o.moving ? 0.9 : 0.6, of_simplices = o.moving && dimension == 2 ? 1.1 : 0.9;
-  o.smoothing_length = number(spec, "smoothing_length",
-                              dimension == 1    ? 0.6
-                              : o.lattice_cells ? of_cells
-                                                : of_simplices);
+  o.smoothing_length = number_of(spec, "smoothing_length",
+                                 dimension == 1    ? 0.6
+                                 : o.lattice_cells ? of_cells
+                                                   : of_simplices);
   o.conserve = word(spec, "momentum_projection") == "on";
-  o.hourglass = number(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
+  o.hourglass = number_of(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
   o.cfl = std::isnan(cfl) ? (o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
   if (o.cfl > 1)
     problems.add({},
