@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct Definition {
 struct Names {
   std::map<std::string, double> constants;  ///< SI values
   std::vector<Definition> definitions;      ///< in order; each may use those before it
+  std::vector<std::string> variables;       ///< further variables, whose values are given at each evaluation
 };
 
 /// A formula in X, Y, Z, t, compiled once (muParser). Copies are independent and share nothing mutable; one object must
@@ -38,6 +40,8 @@ class Expression {
 
   /// Value at reference position X [m] and time t [s]; may be inf or nan, the caller checks.
   double operator()(std::array<double, 3> const& X, double t = 0) const;
+  /// The same with the values of `Names::variables`, in their order.
+  double operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const;
   std::string const& text() const;
   bool depends_on_time() const;  ///< t occurs in it, or in a definition that it uses
 

@@ -46,6 +46,33 @@ struct MirrorPlane {
   bool skew = false;   ///< the image moves the opposite way: zero velocity along the plane; small strains
 };
 
+/// A rigid obstacle that bodies slide on without friction.
+struct RigidShape {
+  enum class Kind { plane, sphere, cylinder, box };
+  std::string name;
+  Kind kind = Kind::plane;
+  std::array<double, 3> centre{};        ///< of sphere, cylinder and box; a point of the plane [m]
+  std::array<double, 3> axis{0, 0, 1};   ///< unit vector: plane: outward normal, towards the bodies; cylinder: its axis
+  std::array<double, 3> half_lengths{};  ///< box: half its edges; cylinder: half its length in the first [m]
+  double radius = 0;                     ///< sphere, cylinder [m]
+  std::array<Expression, 3> velocity;    ///< prescribed, in t [m/s]
+};
+
+/// What keeps bodies of one run apart.
+struct ContactRule {
+  enum class Law {
+    none,    ///< bodies see each other as one
+    kernel,  ///< repulsion by the kernel, stiffness from the impedances
+    linear,  ///< linear spring with the stiffness of the material: slow impacts
+    printed  ///< repulsion by the kernel with a constant and current volumes, as published
+  };
+  Law law = Law::kernel;
+  double scale = 1;                                                 ///< factor on the stiffness
+  double stiffness = std::numeric_limits<double>::quiet_NaN();      ///< printed: K [Pa/m^D]; nan: not given
+  double closing_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]; nan: from the initial velocities
+  double exponent = 4;                                              ///< n of eq. (15)
+};
+
 /// Everything that a formulation is built from: plain numbers in Id order, no input text.
 struct Assembly {
   ParticleSet particles;
@@ -58,6 +85,8 @@ struct Assembly {
   std::vector<Support> supports;
   std::vector<Load> loads;
   std::vector<MirrorPlane> mirrors;
+  std::vector<RigidShape> rigid_shapes;
+  ContactRule contact;
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v2, v3, v4
 };

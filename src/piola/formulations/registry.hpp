@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/expression.hpp"
 #include "piola/base/parameter.hpp"
 #include <map>
 #include <optional>
@@ -14,6 +15,13 @@ namespace piola {
 struct DiagnosticInfo {
   std::string_view name;
   std::string_view unit;  ///< SI, UDUNITS notation
+};
+
+/// A formula that a user may give to a formulation.
+struct FormulaInfo {
+  std::string_view name;
+  std::string_view meaning;
+  std::span<std::string_view const> variables;  ///< known besides X, Y, Z, t
 };
 
 /// A formulation as the case reader, `piola describe` and the manual see it.
@@ -39,6 +47,7 @@ struct FormulationSpec {
   std::string name;
   std::map<std::string, double, std::less<>> numbers;
   std::map<std::string, std::string, std::less<>> words;
+  std::map<std::string, Expression, std::less<>> formulas;
 };
 
 /// The word given for a choice, else the first that is allowed.

@@ -13,14 +13,17 @@ struct LawInfo {
   std::string_view about;  ///< one line
   std::span<Parameter const> parameters;
   bool volumetric_split = false;  ///< energy: isochoric part plus kappa/2 (J - 1)^2
+  bool rate_form = false;         ///< a solid in rate form (solid.hpp), else a hyperelastic law
+  std::span<Choice const> choices = {};
   int index = 0;                  ///< position in the registry; goes into MaterialParameters::law
 };
 
 /// A law with the values of its parameters: plain data, so that it may cross to any machine.
 struct MaterialParameters {
-  static constexpr int max_values = 24;
+  static constexpr int max_values = 48, max_words = 4;
   int law = 0;                 ///< LawInfo::index
   double value[max_values]{};  ///< in the order of LawInfo::parameters, SI
+  int word[max_words]{};       ///< in the order of LawInfo::choices: which of the allowed words
 };
 
 std::span<LawInfo const> laws();
