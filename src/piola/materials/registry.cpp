@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
 #include "piola/materials/solids.hpp"
+#include <algorithm>
 #include <array>
 
 namespace piola {
@@ -26,6 +27,20 @@ std::optional<LawInfo> find_law(std::string_view name) {
   for (auto const& law : all)
     if (law.name == name) return law;
   return std::nullopt;
+}
+
+int index_of(Choice const& choice, std::string_view word) {
+  auto const at = std::find(choice.allowed.begin(), choice.allowed.end(), word);
+  return at == choice.allowed.end() ? -1 : static_cast<int>(at - choice.allowed.begin());
+}
+
+bool applies(LawInfo const& law, Parameter const& parameter, MaterialParameters const& material) {
+  if (parameter.when.always()) return true;
+  for (std::size_t i = 0; i < law.choices.size(); ++i) {
+    auto const word = static_cast<std::size_t>(material.word[i]);
+    if (law.choices[i].name == parameter.when.choice) return parameter.when.holds(law.choices[i].allowed[word]);
+  }
+  return false;
 }
 
 }  // namespace piola

@@ -29,4 +29,9 @@ struct MaterialParameters {
 std::span<LawInfo const> laws();
 std::optional<LawInfo> find_law(std::string_view name);
 
+/// Position of a word among those that a choice allows; -1 if it is none of them.
+int index_of(Choice const& choice, std::string_view word);
+/// Whether a parameter counts with these words.
+bool applies(LawInfo const& law, Parameter const& parameter, MaterialParameters const& material);
+
 }  // namespace piola
