@@ -163,7 +163,8 @@ TEST(CaseMessages, ErrorsNeedAFieldAndAFormulaPerComponent) {
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
       "case.toml:27:9: probe.field is \"Presure\" (allowed: Displacement, Velocity, Momentum, Pressure, CauchyStress, "
-      "FirstPiolaStress, DeformationGradient, Jacobian, VonMisesStress, Density, Body, Id) - did you mean "
+      "FirstPiolaStress, DeformationGradient, Jacobian, VonMisesStress, Density, Damage, EquivalentPlasticStrain, "
+      "Temperature, InternalEnergy, KernelType, Body, Id) - did you mean "
       "\"Pressure\"?");
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Pressure\"\nreference = [\"1/t\"]\nwhere = \"Y > 5\"\n"),

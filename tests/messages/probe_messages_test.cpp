@@ -43,31 +43,33 @@ TEST(ProbeMessages, GoodProbesHaveNoMessage) {
 
 TEST(ProbeMessages, KindsHaveNumbersOfTheirOwn) {
   EXPECT_EQ(of_plate("kind = \"spacing\"\nquantities = [\"spacing_mn\"]\nat = [0, 0]\naxis = \"x\"\n"),
+            "case.toml:12:15: probe.quantities[0] is \"spacing_mn\" (allowed: spacing_min, spacing_p1, spacing_p5, "
+            "spacing_median, spacing_std, share_below_0_75, share_below_0_5) - did you mean \"spacing_min\"?\n"
             "case.toml:13:6: probe.at is used only by the kinds \"point\", \"stress_intensity\", \"fragment\", \"rim\" "
             "and \"hole\" - remove it\n"
             "case.toml:14:8: probe.axis is used only by the kinds \"twist\", \"extent\", \"fragment\", \"rim\" and "
-            "\"hole\" - remove it\n"
-            "case.toml:12:16: probe.quantities[0] is \"spacing_mn\" (allowed: spacing_min, spacing_p1, spacing_p5, "
-            "spacing_std, spacing_median, share_below_0_5, share_below_0_75) - did you mean \"spacing_min\"?");
+            "\"hole\" - remove it");
 }
 
 TEST(ProbeMessages, FragmentsNeedWhatTheyAreFoundBy) {
   EXPECT_EQ(of_plate("kind = \"fragment\"\nfragment = \"largest_free\"\nat = [0, 0]\nlink = 0\n"),
-            "case.toml:14:8: probe.link is 0 (allowed: above 0, at most 100)\n"
-            "case.toml:13:6: probe.at is used by the kind \"fragment\" only with near_axis - remove it\n"
             "case.toml:8:1: probe needs \"anchored_where\" (which particles stay in place) - add anchored_where = "
-            "\"abs(X) > 0.04\"");
+            "\"abs(X) > 0.04\"\n"
+            "case.toml:13:6: probe.at is used by the kind \"fragment\" only with near_axis - remove it\n"
+            "case.toml:14:8: probe.link is 0 (allowed: above 0, at most 100)");
   EXPECT_EQ(
       of_plate("kind = \"fragment\"\nnear_axis = 1\naxis = \"z\"\nanchored_where = \"X > 1\"\nwhere = \"X > 1\"\n"),
-      "case.toml:15:9: probe.where is not used by the kinds \"fragment\", \"rim\" and \"hole\", which look at the "
-      "whole body - remove it\n"
       "case.toml:8:1: probe needs \"at\" (a point of the axis) - add at = [\"0 m\", ...]\n"
       "case.toml:13:8: probe.axis does not fit a body in 2D (allowed: x, y)\n"
-      "case.toml:14:18: probe.anchored_where is used only with fragment = \"largest_free\" - remove it");
+      "case.toml:14:18: probe.anchored_where is used only with fragment = \"largest_free\" - remove it\n"
+      "case.toml:15:9: probe.where is not used by the kinds \"fragment\", \"rim\" and \"hole\", which look at the "
+      "whole body - remove it");
 }
 
 TEST(ProbeMessages, AnchorRegionsSelectParticles) {
-  EXPECT_EQ(of_plate("kind = \"hole\"\nat = [0, 0]\nslab_from = 0\nslab_to = 1\nanchored_where = \"X > 7\"\n"), "");
+  EXPECT_EQ(of_plate("kind = \"hole\"\nat = [0, 0]\nslab_from = 0\nslab_to = 1\nanchored_where = \"X > 7\"\n"),
+            "case.toml:15:18: probe.anchored_where, formula \"X > 7\" selects no particle of body \"plate\" (its "
+            "particles reach from (0, 0) m to (2, 1) m) - change the condition");
 }
 
 TEST(ProbeMessages, RimsAreInSpaceAndHolesInThePlane) {
@@ -79,22 +81,22 @@ TEST(ProbeMessages, RimsAreInSpaceAndHolesInThePlane) {
 
 TEST(ProbeMessages, RimsNeedAnAxisARadiusABaseAndAnAnchor) {
   EXPECT_EQ(of_column("kind = \"rim\"\nbin = 1\nsectors = 2\n"),
-            "case.toml:27:7: probe.bin is used only by the kind \"hole\" - remove it\n"
             "case.toml:23:1: probe needs \"at\" (a point of the axis) - add at = [\"0 m\", ...]\n"
             "case.toml:23:1: probe needs \"within\" (the largest distance from the axis) - add within = \"1 mm\"\n"
             "case.toml:23:1: probe needs \"base\" (the coordinate from which the height counts) - add base = \"1 mm\"\n"
-            "case.toml:28:11: probe.sectors is 2 (allowed: from 3 to 3600)\n"
             "case.toml:23:1: probe needs \"anchored_where\" (which particles stay in place) - add anchored_where = "
-            "\"abs(X) > 0.04\"");
+            "\"abs(X) > 0.04\"\n"
+            "case.toml:27:7: probe.bin is used only by the kind \"hole\" - remove it\n"
+            "case.toml:28:11: probe.sectors is 2 (allowed: a whole number from 3 to 3600)");
 }
 
 TEST(ProbeMessages, HolesNeedASlab) {
   EXPECT_EQ(of_plate("kind = \"hole\"\nat = [0, 0]\nslab_from = 2\n"),
             "case.toml:8:1: probe needs \"slab_to\" (where the slab ends along the axis) - add slab_to = \"1 mm\"");
   EXPECT_EQ(of_plate("kind = \"hole\"\nat = [0, 0]\nslab_from = 2\nslab_to = 1\ncavity_to = \"50 cm\"\nwithin = 1\n"),
-            "case.toml:16:10: probe.within is used only by the kind \"rim\" - remove it\n"
             "case.toml:14:11: probe.slab_to is 1 m (allowed: at least probe.slab_from, which is 2 m)\n"
-            "case.toml:15:13: probe.cavity_to is 500 mm (allowed: at least probe.slab_from, which is 2 m)");
+            "case.toml:15:13: probe.cavity_to is 500 mm (allowed: at least probe.slab_from, which is 2 m)\n"
+            "case.toml:16:10: probe.within is used only by the kind \"rim\" - remove it");
 }
 
 TEST(ProbeMessages, OtherKindsRefuseTheKeys) {

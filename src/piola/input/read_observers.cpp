@@ -237,7 +237,8 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
     section.refuse("axis", "is used only by the kinds \"twist\", \"extent\", \"fragment\", \"rim\" and \"hole\"");
   read_quantities(section, probe);
   section.refuse_unknown();
-  probe.places = places_of(section, {"where", "at", "body", "name", "reference", "from", "anchored_where"});
+  probe.places =
+      places_of(section, {"where", "at", "body", "name", "reference", "from", "anchored_where", "quantities"});
   return probe;
 }
 
