@@ -40,13 +40,20 @@ std::map<std::string, double> read_constants(Value const& value, Problems& probl
 ShapeSpec read_shape(Section const& section);
 BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names);
 void read_material(Section const& section, BodySpec& body);
-FormulationSpec read_formulation(Section const& section);
+/// `names` may be used in its formulas.
+FormulationSpec read_formulation(Section const& section, Names const& names);
+/// The part of read_formulation that reads the formulas of a formulation.
+void read_formulation_formulas(Section const& section, std::span<FormulaInfo const> formulas, Names const& names,
+                               FormulationSpec& spec);
 std::vector<Definition> read_definitions(Value const& value, Names const& names, Problems& problems);
 
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies);
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
+/// `dimension` is that of the bodies; `constants` may be used in the velocity.
+RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
+ContactSpec read_contact(Section const& section, int dimension);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,
