@@ -62,9 +62,16 @@ std::string arrangement_text(ShapeSpec const& shape, BodyFacts const& facts) {
 std::string material_text(BodySpec const& body) {
   LawInfo const law = *find_law(body.law);
   std::vector<std::string> values;
+  for (std::size_t i = 0; i < law.choices.size(); ++i) {
+    auto const word = law.choices[i].allowed[static_cast<std::size_t>(body.material.word[i])];
+    values.push_back(std::string(law.choices[i].name) + " = " + std::string(word));
+  }
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     Parameter const& parameter = law.parameters[i];
-    values.push_back(std::string(parameter.name) + " = " + quantity_text(body.material.value[i], parameter.unit));
+    double const value = body.material.value[i];
+    bool const in_words = !parameter.standard.empty() && value == parameter.default_value;
+    if (in_words || !applies(law, parameter, body.material)) continue;
+    values.push_back(std::string(parameter.name) + " = " + quantity_text(value, parameter.unit));
   }
   return body.law + ": " + joined(values);
 }

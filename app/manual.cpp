@@ -7,6 +7,7 @@
 #include "piola/input/case_keys.hpp"
 #include "piola/input/history_names.hpp"
 #include "piola/kernels/registry.hpp"
+#include "piola/materials/library.hpp"
 #include "piola/materials/registry.hpp"
 #include <algorithm>
 #include <array>
@@ -60,17 +61,24 @@ std::string value_with_range(std::string value, Interval const& allowed) {
   return range.empty() ? value : value + ", " + range;
 }
 
+std::string default_text(Parameter const& parameter, bool optional) {
+  if (parameter.required()) return optional ? "default: set by the other words" : "required";
+  std::string const value(parameter.standard);
+  return "default: " + (value.empty() ? number_text(parameter.default_value) : value);
+}
+
 Row row_of(Parameter const& parameter, bool optional, Layout layout) {
   std::string const unit =
       parameter.unit == "1" ? "a number" : "a number in " + std::string(parameter.unit) + " or a text with a unit";
-  std::string standard = "required";
-  if (optional)
-    standard =
-        parameter.required() ? "default: set by the other words" : "default: " + number_text(parameter.default_value);
-  else if (!parameter.required())
-    standard = "default: " + number_text(parameter.default_value);
-  return {std::string(parameter.name), value_with_range(unit, parameter.allowed), in_column(standard, layout),
-          std::string(parameter.meaning)};
+  std::string meaning(parameter.meaning);
+  if (!parameter.when.always()) meaning += "; only with " + condition_text(parameter.when);
+  return {std::string(parameter.name), value_with_range(unit, parameter.allowed),
+          in_column(default_text(parameter, optional), layout), meaning};
+}
+
+Row row_of(Choice const& choice, Layout layout) {
+  return {std::string(choice.name), "one of " + joined(choice.allowed),
+          in_column("default: \"" + std::string(choice.allowed.front()) + "\"", layout), std::string(choice.meaning)};
 }
 
 Row row_of(FormulaInfo const& formula, Layout layout) {
@@ -86,10 +94,40 @@ Row row_of(KeyInfo const& info, Layout layout) {
 
 std::string describe_law(LawInfo const& law, Layout layout) {
   std::vector<Row> rows;
+  for (Choice const& choice : law.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : law.parameters) rows.push_back(row_of(parameter, false, layout));
   return title(layout == Layout::markdown ? "law = \"" + std::string(law.name) + "\"" : std::string(law.name), 4,
                layout) +
          (layout == Layout::markdown ? "" : "  ") + std::string(law.about) + "\n" + table_text(rows, layout);
+}
+
+/// One material of the library: law, words, values with units, source.
+std::string describe_named(LibraryMaterial const& material, Layout layout) {
+  LawInfo const law = *find_law(material.law);
+  MaterialParameters const values = parameters_of(material);
+  std::string text = fmt::format("  law = \"{}\"\n", material.law);
+  for (LibraryWord const& word : material.words) text += fmt::format("  {} = \"{}\"\n", word.choice, word.word);
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    Parameter const& parameter = law.parameters[i];
+    if (!material.number(parameter.name) || !applies(law, parameter, values)) continue;
+    text += fmt::format("  {} = {}\n", parameter.name, quantity_text(values.value[i], parameter.unit));
+  }
+  bool const markdown = layout == Layout::markdown;
+  std::string const about = fmt::format("  {}\n", material.about),
+                    source = fmt::format("  source: {}\n", material.source);
+  return title(std::string(material.name), 4, layout) + about + (markdown ? "\n```\n" : "") + text +
+         (markdown ? "```\n\n" : "") + source;
+}
+
+std::string describe_library(Layout layout) {
+  bool const markdown = layout == Layout::markdown;
+  std::string text = title("Materials of the library, for the key name", 4, layout);
+  if (markdown) text += "| name | law | what | source |\n|---|---|---|---|\n";
+  for (LibraryMaterial const& m : material_library()) {
+    text += markdown ? fmt::format("| `{}` | `{}` | {} | {} |\n", m.name, m.law, m.about, m.source)
+                     : fmt::format("  {:<22} {}: {}\n", m.name, m.law, m.about);
+  }
+  return text;
 }
 
 std::string describe_kernel(Kernel const& kernel, Layout layout) {
@@ -99,11 +137,7 @@ std::string describe_kernel(Kernel const& kernel, Layout layout) {
 
 std::string describe_formulation(FormulationInfo const& info, Layout layout) {
   std::vector<Row> rows;
-  for (Choice const& choice : info.choices) {
-    rows.push_back({std::string(choice.name), "one of " + joined(choice.allowed),
-                    in_column("default: \"" + std::string(choice.allowed.front()) + "\"", layout),
-                    std::string(choice.meaning)});
-  }
+  for (Choice const& choice : info.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : info.parameters) rows.push_back(row_of(parameter, true, layout));
   for (FormulaInfo const& formula : info.formulas) rows.push_back(row_of(formula, layout));
   std::vector<std::string> columns;
@@ -175,7 +209,20 @@ std::string all_names(Layout layout) {
 }  // namespace
 
 std::string describe_materials(std::string const& name, Layout layout) {
-  return describe_some(laws(), name, "law", [&](LawInfo const& law) { return describe_law(law, layout); });
+  std::string text;
+  std::vector<std::string> known;
+  for (LawInfo const& law : laws()) {
+    known.emplace_back(law.name);
+    if (name.empty() || name == law.name) text += describe_law(law, layout);
+  }
+  for (LibraryMaterial const& material : material_library()) {
+    known.emplace_back(material.name);
+    if (name == material.name) text += describe_named(material, layout);
+  }
+  if (name.empty()) text += describe_library(layout);
+  if (!text.empty()) return text;
+  throw InputError("no law or material is named " + in_quotes(name) + " (known: " + known_names_text(name, known) +
+                   ") - " + advice_for_name(name, known));
 }
 
 std::string describe_kernels(std::string const& name, Layout layout) {
@@ -195,8 +242,8 @@ std::string describe_case(std::string const& section, Layout layout) {
 }
 
 std::string overview() {
-  return short_list("materials", laws()) + short_list("kernels", kernels()) +
-         short_list("formulations", formulations()) +
+  return short_list("materials", laws()) + short_list("materials of the library", material_library()) +
+         short_list("kernels", kernels()) + short_list("formulations", formulations()) +
          "piola describe material NAME, and so on, tells more; piola describe case lists the keys of a case file.\n";
 }
 

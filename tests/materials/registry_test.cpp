@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <gtest/gtest.h>
 #include <string_view>
 
@@ -15,12 +15,13 @@ TEST(Laws, AreFoundByTheirNamesAndNumberedInOrder) {
     EXPECT_EQ(find_law(law.name)->index, law.index);
     EXPECT_FALSE(law.about.empty());
   }
-  EXPECT_EQ(index, Laws::size);
+  EXPECT_EQ(index, Laws::size + Strengths::size);
   EXPECT_FALSE(find_law("no_such_law").has_value());
 }
 
 TEST(Laws, AreEachPickedByTheirNumber) {
   for (LawInfo const& law : laws()) {
+    if (law.rate_form) continue;
     MaterialParameters material;
     material.law = law.index;
     material.value[0] = 1000;
@@ -40,6 +41,25 @@ TEST(Laws, OfANumberThatDoesNotExistAreNotCalled) {
   for (int const number : {-1, Laws::size}) {
     material.law = number;
     with_law(material, [](auto const&) { ADD_FAILURE() << "no law has this number"; });
+  }
+}
+
+TEST(Solids, AreEachPickedByTheirNumberAndTheWordOfTheirEquationOfState) {
+  for (LawInfo const& law : laws()) {
+    MaterialParameters material;
+    material.law = law.index;
+    EXPECT_EQ(is_solid(material), law.rate_form);
+    for (double& value : material.value) value = 0.25;
+    for (int eos = 0; eos < 5; ++eos) {
+      material.word[0] = eos;
+      int calls = 0;
+      with_solid(material, [&](auto const& solid) {
+        ++calls;
+        EXPECT_EQ(solid.rho0, 0.25);
+      });
+      EXPECT_EQ(calls, law.rate_form && eos < 4 ? 1 : 0) << law.name << " " << eos;
+    }
+    if (law.rate_form) with_law(material, [](auto const&) { ADD_FAILURE() << "a solid is no hyperelastic law"; });
   }
 }
 

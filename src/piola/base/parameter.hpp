@@ -28,6 +28,16 @@ inline constexpr Interval not_negative{0, unbounded, false, true};
 /// A parameter without default must be given by the user.
 inline constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
 
+/// Which word of a choice makes a parameter count. Without a choice it always counts.
+struct Condition {
+  std::string_view choice{};  ///< Choice::name
+  std::string_view word{};    ///< the word, or one of two
+  std::string_view other{};
+
+  constexpr bool always() const { return choice.empty(); }
+  constexpr bool holds(std::string_view chosen) const { return chosen == word || (!other.empty() && chosen == other); }
+};
+
 /// One number that a user may give. It is declared once, beside the law or the scheme that owns it; reading,
 /// unit check, range check, error text, `piola describe` and the manual come from this entry.
 struct Parameter {
@@ -36,6 +46,8 @@ struct Parameter {
   std::string_view meaning;  ///< half a sentence for the manual
   Interval allowed = any_value;
   double default_value = no_default;  ///< SI; no_default: required
+  std::string_view standard{};        ///< the default in words, where a number says little ("none")
+  Condition when{};                   ///< given and needed only with this word
 
   constexpr bool required() const { return default_value != default_value; }
 };

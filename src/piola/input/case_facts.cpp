@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/case_facts.hpp"
 #include "piola/base/text.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -102,11 +102,13 @@ std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& parti
     BodyFacts facts{
         .name = body.name, .particles = body.last - body.first, .spacing = body.spacing, .lattice = body.lattice};
     facts.largest_speed = largest_speed(spec.bodies[b], particles, body);
-    with_law(spec.bodies[b].material, [&](auto const& law) {
+    auto const read = [&](auto const& law) {
       facts.mass = volume_of(particles, body) * law.rho0;
       facts.p_wave = law.p_wave_speed();
       if constexpr (requires { law.s_wave_speed(); }) facts.s_wave = law.s_wave_speed();
-    });
+    };
+    with_law(spec.bodies[b].material, read);
+    with_solid(spec.bodies[b].material, read);
     all.push_back(facts);
   }
   return all;

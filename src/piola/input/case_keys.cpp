@@ -222,7 +222,22 @@ constexpr std::array keys{
     KeyInfo{
         "body.shape.cylinder", "axis", word, "", {}, "\"z\"", "direction from the lower to the upper end", axis_words},
 
-    KeyInfo{"body.material", "law", text, "", {}, "", "name of the law; its parameters are further keys", {}},
+    KeyInfo{"body.material",
+            "name",
+            text,
+            "",
+            {},
+            "none",
+            "a material of the library; further keys change its parameters",
+            {}},
+    KeyInfo{"body.material",
+            "law",
+            text,
+            "",
+            {},
+            "that of `name`",
+            "name of the law; its words and parameters are further keys",
+            {}},
     KeyInfo{"body.formulation", "name", text, "", {}, "", "name of the formulation; its settings are further keys", {}},
 
     KeyInfo{"support", "body", name, "", {}, "", "name of the body", {}},
@@ -550,6 +565,12 @@ std::string interval_text(Interval const& allowed) {
   if (allowed.low_open) return "above " + from + ", at most " + to;
   if (allowed.high_open) return "at least " + from + ", below " + to;
   return "from " + from + " to " + to;
+}
+
+std::string condition_text(Condition const& condition) {
+  if (condition.always()) return "";
+  std::string const text = std::string(condition.choice) + " = " + in_quotes(condition.word);
+  return condition.other.empty() ? text : text + " or " + in_quotes(condition.other);
 }
 
 }  // namespace piola

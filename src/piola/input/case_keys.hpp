@@ -43,5 +43,7 @@ std::string value_text(KeyInfo const& info);
 
 /// What a value must satisfy, e.g. "above 0", "between -1 and 0.5, ends excluded"; empty if everything is allowed.
 std::string interval_text(Interval const& allowed);
+/// What a user must write for a condition to hold: eos = "polynomial"; empty if it always holds.
+std::string condition_text(Condition const& condition);
 
 }  // namespace piola

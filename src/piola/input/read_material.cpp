@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/materials/library.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -18,6 +19,12 @@ std::vector<std::string> formulation_names() {
   return names;
 }
 
+std::vector<std::string> material_names() {
+  std::vector<std::string> names;
+  for (LibraryMaterial const& material : material_library()) names.emplace_back(material.name);
+  return names;
+}
+
 std::string about_parameter(Parameter const& parameter) {
   std::string text(parameter.meaning);
   if (parameter.unit != "1") text += ", in " + std::string(parameter.unit);
@@ -32,30 +39,91 @@ std::optional<double> read_parameter(Node const& table, std::string const& secti
   return read_number({*node, section + "." + std::string(parameter.name)}, parameter.unit, parameter.allowed, problems);
 }
 
+/// Reads the words and numbers of one material; those of the library come first, if it has a name.
+class MaterialReader {
+ public:
+  MaterialReader(Section const& section, LawInfo const& law, std::optional<LibraryMaterial> const& base)
+      : section_(section), law_(law), base_(base) {
+    if (base) material_ = parameters_of(*base);
+    material_.law = law.index;
+  }
+
+  MaterialParameters read() {
+    for (std::size_t i = 0; i < law_.choices.size(); ++i) read_choice(i);
+    for (std::size_t i = 0; i < law_.parameters.size(); ++i) read_value(i);
+    section_.refuse_unknown(keys_);
+    return material_;
+  }
+
+ private:
+  void read_choice(std::size_t i) {
+    Choice const& choice = law_.choices[i];
+    keys_.emplace_back(choice.name);
+    Node const* const node = section_.node().find(choice.name);
+    if (node == nullptr) return;
+    Value const value{*node, section_.name_of(choice.name)};
+    auto const word = read_word(value, to_strings(choice.allowed), section_.problems());
+    if (word) material_.word[i] = index_of(choice, *word);
+    if (!word) unclear_.push_back(choice.name);
+  }
+
+  bool unclear(Parameter const& parameter) const {
+    return std::find(unclear_.begin(), unclear_.end(), parameter.when.choice) != unclear_.end();
+  }
+
+  void read_value(std::size_t i) {
+    Parameter const& parameter = law_.parameters[i];
+    std::string const key(parameter.name);
+    bool const given = section_.has(key), counts = applies(law_, parameter, material_) || unclear(parameter);
+    if (counts || given) keys_.push_back(key);
+    if (given && !counts) return report_useless(parameter);
+    bool const from_library = base_ && base_->number(key);
+    if (!from_library) material_.value[i] = parameter.required() ? 0 : parameter.default_value;
+    if (auto const number = read_parameter(section_.node(), "body.material", parameter, section_.problems())) {
+      material_.value[i] = *number;
+    } else if (parameter.required() && !given && counts && !unclear(parameter) && !from_library) {
+      std::string const example = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
+      section_.report_missing(key, about_parameter(parameter), key + " = " + example);
+    }
+  }
+
+  void report_useless(Parameter const& parameter) {
+    std::string const words = condition_text(parameter.when);
+    section_.problems().add(
+        section_.place_of(parameter.name),
+        section_.name_of(parameter.name) + " does not count here (it needs " + words + ") - remove it or set " + words);
+  }
+
+  Section const& section_;
+  LawInfo law_;
+  std::optional<LibraryMaterial> base_;
+  MaterialParameters material_;
+  std::vector<std::string> keys_;
+  std::vector<std::string_view> unclear_;  ///< choices whose word could not be read
+};
+
+/// The law of the key `law`, or of the material of the library that the key `name` names.
+std::optional<std::string> law_name(Section const& section, std::optional<LibraryMaterial>& base) {
+  if (auto const name = section.find("name")) {
+    section.refuse("law", "is that of the material of the library when \"name\" is given");
+    auto const word = read_word(*name, material_names(), section.problems());
+    if (!word) return std::nullopt;
+    base = find_material(*word);
+    return std::string(base->law);
+  }
+  if (auto const law = section.find("law")) return read_word(*law, law_names(), section.problems());
+  section.report_missing("law", "name of the law; or \"name\", a material of the library", "law = \"...\"");
+  return std::nullopt;
+}
+
 }  // namespace
 
 void read_material(Section const& section, BodySpec& body) {
-  auto const value = section.find("law");
-  if (!value) return;
-  auto const name = read_word(*value, law_names(), section.problems());
+  std::optional<LibraryMaterial> base;
+  auto const name = law_name(section, base);
   if (!name) return;
-  LawInfo const law = *find_law(*name);
   body.law = *name;
-  body.material.law = law.index;
-  std::vector<std::string> keys;
-  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
-    Parameter const& parameter = law.parameters[i];
-    std::string const key(parameter.name);
-    keys.push_back(key);
-    body.material.value[i] = parameter.required() ? 0 : parameter.default_value;
-    if (auto const number = read_parameter(section.node(), "body.material", parameter, section.problems())) {
-      body.material.value[i] = *number;
-    } else if (parameter.required() && !section.has(key)) {
-      std::string const example = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
-      section.report_missing(key, about_parameter(parameter), key + " = " + example);
-    }
-  }
-  section.refuse_unknown(keys);
+  body.material = MaterialReader(section, *find_law(*name), base).read();
 }
 
 void read_formulation_formulas(Section const& section, std::span<FormulaInfo const> formulas, Names const& names,

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
+#include <algorithm>
 #include <array>
 
 namespace piola {
 namespace {
 
-template <class... Law>
-constexpr auto table(LawList<Law...>) {
+template <class... Law, class... Strength>
+constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
   static_assert(((Law::parameters.size() <= MaterialParameters::max_values) && ...));
+  static_assert(((SolidLaw<Strength>::parameters.size() <= MaterialParameters::max_values) && ...));
   int index = 0;
-  return std::array{LawInfo{Law::name, Law::about, Law::parameters, Law::volumetric_split, index++}...};
+  return std::array{LawInfo{Law::name, Law::about, Law::parameters, Law::volumetric_split, false, {}, index++}...,
+                    LawInfo{SolidLaw<Strength>::name, SolidLaw<Strength>::about, SolidLaw<Strength>::parameters, false,
+                            true, SolidLaw<Strength>::choices, index++}...};
 }
 
-constexpr auto all = table(Laws{});
+constexpr auto all = table(Laws{}, Strengths{});
 
 }  // namespace
 
@@ -23,6 +27,20 @@ std::optional<LawInfo> find_law(std::string_view name) {
   for (auto const& law : all)
     if (law.name == name) return law;
   return std::nullopt;
+}
+
+int index_of(Choice const& choice, std::string_view word) {
+  auto const at = std::find(choice.allowed.begin(), choice.allowed.end(), word);
+  return at == choice.allowed.end() ? -1 : static_cast<int>(at - choice.allowed.begin());
+}
+
+bool applies(LawInfo const& law, Parameter const& parameter, MaterialParameters const& material) {
+  if (parameter.when.always()) return true;
+  for (std::size_t i = 0; i < law.choices.size(); ++i) {
+    auto const word = static_cast<std::size_t>(material.word[i]);
+    if (law.choices[i].name == parameter.when.choice) return parameter.when.holds(law.choices[i].allowed[word]);
+  }
+  return false;
 }
 
 }  // namespace piola

@@ -15,7 +15,7 @@ struct LawInfo {
   bool volumetric_split = false;  ///< energy: isochoric part plus kappa/2 (J - 1)^2
   bool rate_form = false;         ///< a solid in rate form (solid.hpp), else a hyperelastic law
   std::span<Choice const> choices = {};
-  int index = 0;                  ///< position in the registry; goes into MaterialParameters::law
+  int index = 0;  ///< position in the registry; goes into MaterialParameters::law
 };
 
 /// A law with the values of its parameters: plain data, so that it may cross to any machine.
@@ -28,5 +28,10 @@ struct MaterialParameters {
 
 std::span<LawInfo const> laws();
 std::optional<LawInfo> find_law(std::string_view name);
+
+/// Position of a word among those that a choice allows; -1 if it is none of them.
+int index_of(Choice const& choice, std::string_view word);
+/// Whether a parameter counts with these words.
+bool applies(LawInfo const& law, Parameter const& parameter, MaterialParameters const& material);
 
 }  // namespace piola

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/machine.hpp"
+#include "piola/materials/eos/values.hpp"
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Pressure that is linear in the density and knows no energy: p = K (rho/rho0 - 1).
+class ElasticEos {
+ public:
+  PIOLA_FN explicit ElasticEos(EosValues const& values) : rho0_(values.rho0), kappa_(values.kappa) {}
+  /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
+  PIOLA_FN double pressure(double rho, double) const { return kappa_ * (rho / rho0_ - 1); }
+  /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
+  PIOLA_FN double sound_speed_squared(double, double) const { return kappa_ / rho0_; }
+  /// Bulk modulus at rest [Pa].
+  PIOLA_FN double bulk_modulus() const { return kappa_; }
+
+ private:
+  double rho0_, kappa_;
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

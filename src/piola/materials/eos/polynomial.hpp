@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/machine.hpp"
+#include "piola/materials/eos/values.hpp"
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Polynomial in m = rho/rho0 - 1, linear in the energy per reference volume E = rho0 e (LS-DYNA keyword manual,
+/// EOS_LINEAR_POLYNOMIAL, with C0 = 0 so that the solid is free of stress at rest):
+///   m > 0:  p = C1 m + C2 m^2 + C3 m^3 + (C4 + C5 m + C6 m^2) E
+///   m <= 0: p = C1 m + (C4 + C5 m) E
+/// LS-DYNA drops C2 and C6 in tension; here C3 too, so that tension is linear as in Mie-Grueneisen.
+class PolynomialEos {
+ public:
+  PIOLA_FN explicit PolynomialEos(EosValues const& values)
+      : rho0_(values.rho0),
+        c1_(values.c1),
+        c2_(values.c2),
+        c3_(values.c3),
+        c4_(values.c4),
+        c5_(values.c5),
+        c6_(values.c6) {}
+  /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
+  PIOLA_FN double pressure(double rho, double e) const {
+    double const m = rho / rho0_ - 1, pressed = m > 0 ? m : 0;
+    return c1_ * m + (c2_ + c3_ * pressed) * pressed * pressed + by_energy(m) * (rho0_ * e);
+  }
+  /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
+  PIOLA_FN double sound_speed_squared(double rho, double e) const {
+    double const m = rho / rho0_ - 1, pressed = m > 0 ? m : 0;
+    double const slope = c1_ + (2 * c2_ + 3 * c3_ * pressed) * pressed + (c5_ + 2 * c6_ * pressed) * (rho0_ * e);
+    return slope / rho0_ + pressure(rho, e) / (rho * rho) * rho0_ * by_energy(m);
+  }
+  /// Bulk modulus at rest [Pa].
+  PIOLA_FN double bulk_modulus() const { return c1_; }
+
+ private:
+  PIOLA_FN double by_energy(double m) const { return c4_ + c5_ * m + (m > 0 ? c6_ * m * m : 0); }
+
+  double rho0_, c1_, c2_, c3_, c4_, c5_, c6_;
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

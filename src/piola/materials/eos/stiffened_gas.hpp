@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/machine.hpp"
+#include "piola/materials/eos/values.hpp"
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Stiffened gas: p = c0^2 (rho - rho0) + (gamma0 - 1) rho e (Young, Teixeira-Dias, Azevedo, Mill, Int. J. Mech. Sci.
+/// 192, 2021, eq. 17).
+class StiffenedGas {
+ public:
+  PIOLA_FN explicit StiffenedGas(EosValues const& values)
+      : rho0_(values.rho0), c0_squared_(values.c0 * values.c0), g_(values.exponent - 1) {}
+  /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
+  PIOLA_FN double pressure(double rho, double e) const { return c0_squared_ * (rho - rho0_) + g_ * rho * e; }
+  /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
+  PIOLA_FN double sound_speed_squared(double rho, double e) const {
+    return c0_squared_ + g_ * e + pressure(rho, e) / rho * g_;
+  }
+  /// Bulk modulus at rest [Pa].
+  PIOLA_FN double bulk_modulus() const { return rho0_ * c0_squared_; }
+
+ private:
+  double rho0_, c0_squared_, g_;
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

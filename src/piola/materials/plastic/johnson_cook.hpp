@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/plastic/heat.hpp"
+#include <cmath>
+#include <string_view>
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Flow stress of Johnson and Cook (Proc. 7th Int. Symp. Ballistics, The Hague 1983, pp. 541-547):
+///   sy = (A + B ep^n) (1 + C ln max(rate/rate0, 1)) (1 - T*^m),  T* = (T - Tr)/(Tm - Tr) between 0 and 1.
+/// The increment solves mises - 3 mu dep = sy(ep + dep, dep/dt, T), with the temperature of the start of the step.
+class JohnsonCook {
+ public:
+  static constexpr std::string_view name = "johnson_cook";
+  static constexpr std::string_view about = "elastic solid in rate form, flow stress by strain, rate and temperature";
+  static constexpr bool yields = true, thermal = true;
+  static constexpr std::array parameters{Parameter{"yield_stress", "Pa", "A, flow stress at first yield", positive},
+                                         Parameter{"hardening_coefficient", "Pa", "B of B ep^n", not_negative},
+                                         Parameter{"hardening_exponent", "1", "n of B ep^n", not_negative},
+                                         Parameter{"rate_coefficient", "1", "C of the rate term", not_negative, 0},
+                                         Parameter{"thermal_exponent", "1", "m of T*^m", positive, 1}};
+
+  PIOLA_FN JohnsonCook(double const* v, Heat const& heat)
+      : a_(v[0]), b_(v[1]), n_(v[2]), c_(v[3]), m_(v[4]), heat_(heat) {}
+  /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
+  PIOLA_FN double yield_stress(double plastic_strain, double rate, double temperature) const {
+    return static_stress(plastic_strain) * (1 + c_ * heat_.log_rate(rate)) * softening(temperature);
+  }
+  /// Plastic strain of a step of `dt` [s] whose trial stress has the von Mises stress `mises` [Pa]: Newton's method,
+  /// halving where it leaves the interval that is known to hold the root. dt = 0: no effect of rate.
+  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double temperature, double dt) const {
+    double const start = yield_stress(plastic_strain, 0, temperature);
+    if (!(mises > start)) return 0;
+    // The yield stress grows with strain and rate, so the increment without both is an upper bound.
+    double low = 0, high = (mises - start) / three_mu, x = high;
+    double const soft = softening(temperature);
+    for (int k = 0; k < 100; ++k) {
+      double const rate = dt > 0 ? x / dt : 0, fast = 1 + c_ * heat_.log_rate(rate);
+      double const hard = static_stress(plastic_strain + x);
+      double const miss = mises - three_mu * x - hard * fast * soft;
+      if (std::abs(miss) <= 4e-16 * mises) break;
+      (miss > 0 ? low : high) = x;
+      double slope = three_mu + hardening(plastic_strain + x) * fast * soft;
+      if (rate > heat_.reference_rate) slope += hard * c_ / x * soft;
+      double next = x + miss / slope;
+      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      if (next == x) break;
+      x = next;
+    }
+    return x;
+  }
+
+ private:
+  PIOLA_FN double static_stress(double strain) const { return a_ + b_ * std::pow(strain > 0 ? strain : 0, n_); }
+  PIOLA_FN double hardening(double strain) const { return strain > 0 ? b_ * n_ * std::pow(strain, n_ - 1) : 0; }
+  PIOLA_FN double softening(double temperature) const {
+    double const part = heat_.homologous(temperature);
+    return part <= 0 ? 1 : part >= 1 ? 0 : 1 - std::pow(part, m_);
+  }
+
+  double a_, b_, n_, c_, m_;
+  Heat heat_;
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

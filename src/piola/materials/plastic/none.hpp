@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/plastic/heat.hpp"
+#include <limits>
+#include <string_view>
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// A solid that never yields.
+struct NoPlasticity {
+  static constexpr std::string_view name = "elastic";
+  static constexpr std::string_view about = "elastic solid in rate form (Jaumann), with an equation of state";
+  static constexpr bool yields = false, thermal = false;
+  static constexpr std::array<Parameter, 0> parameters{};
+
+  PIOLA_FN NoPlasticity(double const*, Heat const&) {}
+  /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
+  PIOLA_FN double yield_stress(double, double, double) const { return std::numeric_limits<double>::infinity(); }
+  /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
+  PIOLA_FN double increment(double, double, double, double, double) const { return 0; }
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/plastic/heat.hpp"
+#include <string_view>
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Perfect plasticity of von Mises: the yield stress is a constant.
+class PerfectPlasticity {
+ public:
+  static constexpr std::string_view name = "perfectly_plastic";
+  static constexpr std::string_view about = "elastic solid in rate form with a constant yield stress (von Mises)";
+  static constexpr bool yields = true, thermal = false;
+  static constexpr std::array parameters{Parameter{"yield_stress", "Pa", "von Mises stress at yield", positive}};
+
+  PIOLA_FN PerfectPlasticity(double const* values, Heat const&) : yield_(values[0]) {}
+  /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
+  PIOLA_FN double yield_stress(double, double, double) const { return yield_; }
+  /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
+  PIOLA_FN double increment(double mises, double three_mu, double, double, double) const {
+    return mises > yield_ ? (mises - yield_) / three_mu : 0;
+  }
+
+ private:
+  double yield_;
+};
+
+}  // namespace piola::inline PIOLA_MACHINE

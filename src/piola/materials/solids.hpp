@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/eos/elastic.hpp"
+#include "piola/materials/eos/mie_grueneisen.hpp"
+#include "piola/materials/eos/polynomial.hpp"
+#include "piola/materials/eos/stiffened_gas.hpp"
+#include "piola/materials/laws.hpp"
+#include "piola/materials/plastic/isotropic_hardening.hpp"
+#include "piola/materials/plastic/johnson_cook.hpp"
+#include "piola/materials/plastic/none.hpp"
+#include "piola/materials/plastic/perfect.hpp"
+#include "piola/materials/solid.hpp"
+#include <array>
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// A law of a solid as the registry lists it: a strength, to be combined with any equation of state.
+template <class Strength>
+struct SolidLaw {
+  static constexpr std::string_view name = Strength::name;
+  static constexpr std::string_view about = Strength::about;
+  static constexpr std::array<Choice, 2> all_choices{
+      Choice{"eos", "equation of state: pressure by density and energy", eos_words},
+      Choice{"damage", "growth of damage with plastic strain", damage_words}};
+  /// What does not yield has no damage that grows with plastic strain.
+  static constexpr std::span<Choice const> choices{all_choices.data(), Strength::yields ? 2u : 1u};
+
+ private:
+  static constexpr auto joined_parameters() {
+    std::array<Parameter, static_cast<std::size_t>(SolidLayout<Strength>::size)> all{};
+    std::size_t n = 0;
+    auto const append = [&](auto const& some) {
+      for (Parameter const& parameter : some) all[n++] = parameter;
+    };
+    append(ElasticConstants::parameters);
+    append(Strength::parameters);
+    if (Strength::yields) append(Heat::parameters_for(Strength::thermal));
+    append(EosValues::parameters);
+    if (Strength::yields) append(JohnsonCookDamage::parameters);
+    append(std::array{
+        Parameter{"spall_pressure", "Pa", "largest tension that the material bears", positive, unbounded, "no limit"}});
+    return all;
+  }
+
+ public:
+  static constexpr auto parameters = joined_parameters();
+};
+
+/// The solids in rate form; in the registry they follow the hyperelastic laws. The order of the equations of state is
+/// that of `eos_words`.
+template <class... Strength>
+struct StrengthList {
+  static constexpr int size = sizeof...(Strength);
+};
+template <class... Eos>
+struct EosList {
+  static_assert(sizeof...(Eos) == eos_words.size());
+};
+using Strengths = StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook>;
+using EquationsOfState = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos>;
+
+/// Whether the material is a solid in rate form.
+inline bool is_solid(MaterialParameters const& material) {
+  return material.law >= Laws::size && material.law < Laws::size + Strengths::size;
+}
+
+template <class Strength, class F, class... Eos>
+void with_eos(MaterialParameters const& material, F const& f, EosList<Eos...>) {
+  int index = 0;
+  int const wanted = material.word[SolidLayout<Strength>::eos_word];
+  (void)((index++ == wanted ? (f(Solid<Strength, Eos>(material)), true) : false) || ...);
+}
+template <class F, class... Strength>
+void with_solid(MaterialParameters const& material, F const& f, StrengthList<Strength...>) {
+  int index = Laws::size;
+  (void)((index++ == material.law ? (with_eos<Strength>(material, f, EquationsOfState{}), true) : false) || ...);
+}
+
+/// Calls f(solid) with the solid in rate form that `material` names, one of 16 types; does nothing for other laws.
+template <class F>
+void with_solid(MaterialParameters const& material, F const& f) {
+  with_solid(material, f, Strengths{});
+}
+
+}  // namespace piola::inline PIOLA_MACHINE
