@@ -40,7 +40,7 @@ void SpatialLists::mark_cells(System const& s) {
 void SpatialLists::choose_targets(System const& s) {
   spatial_.target.clear();
   contact_.target.clear();
-  near_.assign(at(s.particles), 0);
+  cell_near_.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
   Index last = -1;
   bool eulerian = false;
   std::int32_t low = 0, high = 0;
@@ -56,13 +56,15 @@ void SpatialLists::choose_targets(System const& s) {
         low = std::min(low, cell_low_[at(other)]);
         high = std::max(high, cell_high_[at(other)]);
       });
+      // Targets read the records of all particles around them.
+      if (eulerian)
+        each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) { cell_near_[at(other)] = 1; });
     }
-    if (eulerian) {
-      spatial_.target.push_back(k);
-      near_[at(grid_.slots()[k])] = 1;
-    }
+    if (eulerian) spatial_.target.push_back(k);
     if (s.contact.law > 0 && high > low) contact_.target.push_back(k);
   }
+  near_.resize(at(s.particles));
+  for (Index k = 0; k < s.particles; ++k) near_[at(grid_.slots()[k])] = cell_near_[at(grid_.cells()[k])];
 }
 
 void SpatialLists::build(System const& s, Machine const& machine, int stride) {

@@ -28,7 +28,7 @@ class SpatialLists {
   void search(System const& system, Machine const& machine, List& list, bool across);
 
   MovingGrid grid_;
-  std::vector<std::uint8_t> cell_has_eulerian_, near_;
+  std::vector<std::uint8_t> cell_has_eulerian_, cell_near_, near_;
   std::vector<std::int32_t> cell_low_, cell_high_, group_;
   std::vector<float> reach_;
   List spatial_, contact_;
