@@ -20,7 +20,7 @@ struct Definition {
 struct Names {
   std::map<std::string, double> constants;  ///< SI values
   std::vector<Definition> definitions;      ///< in order; each may use those before it
-  std::vector<std::string> variables{};      ///< further variables, whose values are given at each evaluation
+  std::vector<std::string> variables{};     ///< further variables, whose values are given at each evaluation
 };
 
 /// A formula in X, Y, Z, t, compiled once (muParser). Copies are independent and share nothing mutable; one object must
