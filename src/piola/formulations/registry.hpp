@@ -47,7 +47,7 @@ struct FormulationSpec {
   std::string name;
   std::map<std::string, double, std::less<>> numbers;
   std::map<std::string, std::string, std::less<>> words;
-  std::map<std::string, Expression, std::less<>> formulas;
+  std::map<std::string, Expression, std::less<>> formulas{};
 };
 
 /// The word given for a choice, else the first that is allowed.
