@@ -132,7 +132,7 @@ TEST(CaseMessages, AnEmptyBodyIsReported) {
 TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(message_of(sample_with("\"pressure\"]", "\"presure\"]")),
             "case.toml:22:33: probe.quantities[1] is \"presure\" (allowed: pressure, damage, temperature, "
-            "density, momentum_x, momentum_y, momentum_z, jacobian and 39 more) - did you mean \"pressure\"?");
+            "density, momentum_x, momentum_y, momentum_z, jacobian and 42 more) - did you mean \"pressure\"?");
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: time, step, dt, kinetic_energy, strain_energy, "
@@ -163,7 +163,8 @@ TEST(CaseMessages, ErrorsNeedAFieldAndAFormulaPerComponent) {
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
       "case.toml:27:9: probe.field is \"Presure\" (allowed: Displacement, Velocity, Momentum, Pressure, CauchyStress, "
-      "FirstPiolaStress, DeformationGradient, Jacobian, VonMisesStress, Density, Body, Id) - did you mean "
+      "FirstPiolaStress, DeformationGradient, Jacobian, VonMisesStress, Density, Damage, EquivalentPlasticStrain, "
+      "Temperature, InternalEnergy, KernelType, Body, Id) - did you mean "
       "\"Pressure\"?");
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Pressure\"\nreference = [\"1/t\"]\nwhere = \"Y > 5\"\n"),

@@ -119,5 +119,25 @@ TEST(Build, AnnouncedColumnsCanBeAskedFor) {
   }
 }
 
+// The fields are those of the solver, which is known only when it is built.
+TEST(Build, ProbesAskForFieldsThatThereAre) {
+  std::string const probe = "[[probe]]\nname = \"d\"\nbody = \"column\"\nkind = \"average\"\n";
+  auto const built = [&](std::string const& quantities) -> std::string {
+    try {
+      build(read_case_text(test::sample_case() + probe + "quantities = " + quantities + "\n", "case.toml"));
+    } catch (InputError const& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(built("[\"position_x\", \"pressure\"]"), "");
+  std::string const message = built("[\"pressure\", \"kernel_type\"]");
+  EXPECT_TRUE(
+      message.starts_with("case.toml:27:14: probe \"d\" asks for \"kernel_type\", but jst_sph has no field "
+                          "\"KernelType\" here (allowed: quantities of Displacement, "))
+      << message;
+  EXPECT_TRUE(message.ends_with(") - remove it")) << message;
+}
+
 }  // namespace
 }  // namespace piola

@@ -111,6 +111,21 @@ TEST(Quantity, InterpolatesLinearlyBetweenRows) {
   EXPECT_FALSE(at(0.5));
 }
 
+// Linear between rows: 2 at 0.5 s, 5 at 1.5 s.
+TEST(Quantity, TakesTheChangeFromOneTimeToAnother) {
+  HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 1}, {1, 3}, {2, 7}}};
+  QuantitySpec spec{.name = "q", .column = "y", .take = Take::change, .reference = {}};
+  std::string why;
+  EXPECT_EQ(measure(spec, t, why)->value, 6);
+  spec.from = 0.5;
+  EXPECT_NEAR(measure(spec, t, why)->value, 5, 1e-14);
+  EXPECT_EQ(measure(spec, t, why)->unit, "Pa");
+  spec.until = 1.5;
+  EXPECT_NEAR(measure(spec, t, why)->value, 3, 1e-14);
+  spec.until = 2.5;
+  EXPECT_FALSE(measure(spec, t, why));
+}
+
 TEST(Quantity, FindsTheFirstPeakOfTheAbsoluteValueByAParabola) {
   EXPECT_NEAR(value(Take::first_peak), -2, 1e-9);
   EXPECT_NEAR(value(Take::time_of_first_peak), std::acos(0.0) / 5, 1e-7);

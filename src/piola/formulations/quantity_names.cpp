@@ -23,9 +23,12 @@ constexpr std::array fields{
     FieldWord{"first_piola_stress", "FirstPiolaStress", "Pa", 9},
     FieldWord{"deformation_gradient", "DeformationGradient", "1", 9},
     FieldWord{"equivalent_plastic_strain", "EquivalentPlasticStrain", "1", 1},
+    FieldWord{"plastic_strain", "EquivalentPlasticStrain", "1", 1},  // the same in short
     FieldWord{"damage", "Damage", "1", 1},
     FieldWord{"temperature", "Temperature", "K", 1},
     FieldWord{"density", "Density", "kg/m^3", 1},
+    FieldWord{"specific_energy", "InternalEnergy", "J/kg", 1},
+    FieldWord{"kernel_type", "KernelType", "1", 1},
 };
 
 constexpr std::array<std::string_view, 3> vector_suffix{"_x", "_y", "_z"};

@@ -80,19 +80,45 @@ struct CrackSpec {
 
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
-  enum class Kind { point, average, maximum, minimum, twist, extent, error, stress_intensity };
+  enum class Kind {
+    point,
+    average,
+    maximum,
+    minimum,
+    twist,
+    extent,
+    error,
+    stress_intensity,
+    spacing,
+    fragment,
+    rim,
+    hole
+  };
+  enum class Fragment { largest, largest_free };
   std::string name;
   std::string body;
   Kind kind = Kind::point;
-  std::array<double, 3> at{};  ///< point: the nearest particle is used; stress_intensity: that is the crack tip [m]
-  std::optional<Expression> where;           ///< the others: particles that count (default all)
-  int axis = 1;                              ///< twist, extent: 0 x, 1 y, 2 z
+  /// point: the nearest particle is used; stress_intensity: that is the crack tip; fragment, rim, hole: a point of the
+  /// axis [m]
+  std::array<double, 3> at{};
+  std::optional<Expression> where;           ///< where it has a meaning: particles that count (default all)
+  int axis = 1;                              ///< twist, extent, fragment, rim, hole: 0 x, 1 y, 2 z
   std::string field;                         ///< error: name of a field, e.g. "FirstPiolaStress"
   std::vector<Expression> reference;         ///< error: one formula in X, Y, Z, t per component of the field [SI]
   std::vector<std::string> quantities;       ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
-                                             ///< error: "relative_error"; stress_intensity: "stress_intensity"
+                                             ///< error: "relative_error"; stress_intensity: "stress_intensity";
+                                             ///< the others: see own_quantities
   std::array<double, 3> direction{1, 0, 0};  ///< stress_intensity: ahead of the tip, unit vector
   double from = 0, to = 0;                   ///< stress_intensity: distances from the tip [m]
+  double link = 1.5;                         ///< fragment, rim, hole: linked if closer than this many spacings
+  std::optional<Expression> anchored_where;  ///< fragment, rim, hole: particles in X, Y, Z of what stays in place
+  Fragment fragment = Fragment::largest;     ///< fragment: which one
+  double near_axis = std::numeric_limits<double>::infinity();  ///< fragment: extents, distance from the axis [m]
+  double within = 0, base = 0;        ///< rim: largest radius; coordinate along the axis from which heights count [m]
+  int sectors = 24;                   ///< rim
+  double slab_from = 0, slab_to = 0;  ///< hole: coordinates along the axis [m]
+  double cavity_from = 0, cavity_to = std::numeric_limits<double>::infinity();  ///< hole: the same for the cavity [m]
+  double bin = 1;                                                               ///< hole: in spacings
   Places places;
 };
 
@@ -113,7 +139,8 @@ struct QuantitySpec {
     at_time,
     relative_error,
     oscillation_period,
-    range
+    range,
+    change
   };
   std::string name;
   std::string column;
@@ -122,8 +149,8 @@ struct QuantitySpec {
   double time = 0;                      ///< at_time [s]
   std::optional<Expression> reference;  ///< mean_absolute_difference, relative_error: formula in t
   std::string unit = "1";               ///< as shown
-  double from = 0;                      ///< mean_absolute_difference, relative_error: rows from this time on [s]
-  double until = std::numeric_limits<double>::infinity();  ///< and up to this one [s]
+  double from = 0;  ///< mean_absolute_difference, relative_error: rows from this time on; change: start [s]
+  double until = std::numeric_limits<double>::infinity();  ///< and up to this one; change: end [s]
 };
 
 /// [output]; times in s, 0 = never. Output falls on the first step at or after each multiple.

@@ -147,6 +147,10 @@ void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems&
       bool const inside = check_point(probe, jitter, particles, *body, problems);
       if (tip && inside) check_tip(probe, particles, *body, problems);
     }
+    if (probe.anchored_where) {
+      check_where(*probe.anchored_where, "probe.anchored_where", place_of(probe.places, "anchored_where"), particles,
+                  *body, problems);
+    }
     if (!probe.where) continue;
     check_where(*probe.where, "probe.where", place_of(probe.places, "where"), particles, *body, problems);
   }

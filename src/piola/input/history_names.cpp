@@ -39,6 +39,11 @@ constexpr std::array fields{
     FieldName{"Jacobian", "1", 1},
     FieldName{"VonMisesStress", "Pa", 1},
     FieldName{"Density", "kg/m^3", 1},
+    FieldName{"Damage", "1", 1},
+    FieldName{"EquivalentPlasticStrain", "1", 1},
+    FieldName{"Temperature", "K", 1},
+    FieldName{"InternalEnergy", "J/kg", 1},
+    FieldName{"KernelType", "1", 1},
     FieldName{"Body", "1", 1},
     FieldName{"Id", "1", 1},
 };

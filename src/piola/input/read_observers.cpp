@@ -4,6 +4,7 @@
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/history_names.hpp"
+#include "piola/input/probe_quantities.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <array>
@@ -50,22 +51,12 @@ void read_ahead(Section const& section, int dimension, ProbeSpec& probe) {
                                                        quantity_text(probe.from, "m") + ")");
 }
 
-/// The number that a kind of probe stands for; empty for the kinds that take any quantities of fields.
-std::string_view own_quantity(Kind kind) {
-  switch (kind) {
-    case Kind::twist: return twist_quantity;
-    case Kind::extent: return extent_quantity;
-    case Kind::error: return error_quantity;
-    case Kind::stress_intensity: return intensity_quantity;
-    default: return "";
-  }
-}
-
 void read_quantities(Section const& section, ProbeSpec& probe) {
   std::vector<std::string> known;
   for (FieldQuantity const& quantity : all_quantities()) known.push_back(quantity.name);
-  std::string const own(own_quantity(probe.kind));
-  if (!own.empty()) known = {own};
+  auto const own = own_quantities(probe.kind);
+  if (!own.empty()) known.clear();
+  for (HistoryName const& quantity : own) known.emplace_back(quantity.name);
   auto const value = section.find("quantities");
   if (!value) {
     if (!own.empty())
@@ -123,14 +114,6 @@ struct Column {
   std::string name, unit;
 };
 
-std::string unit_of_probe_quantity(std::string const& quantity) {
-  if (quantity == twist_quantity) return "rad";
-  if (quantity == extent_quantity) return "m";
-  if (quantity == intensity_quantity) return std::string(intensity_unit);
-  auto const found = find_quantity(quantity);
-  return found ? found->unit : "1";
-}
-
 std::vector<Column> columns_of(CaseSpec const& spec) {
   std::vector<Column> columns;
   for (HistoryName const& column : history_names())
@@ -143,7 +126,7 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
   }
   for (ProbeSpec const& probe : spec.probes) {
     for (std::string const& quantity : probe.quantities) {
-      columns.push_back({probe.name + "." + quantity, unit_of_probe_quantity(quantity)});
+      columns.push_back({probe.name + "." + quantity, std::string(unit_of_probe_quantity(probe.kind, quantity))});
     }
   }
   return columns;
@@ -186,9 +169,9 @@ bool wants(Section const& section, std::string_view key, bool wanted, std::strin
   return wanted && section.has(key);
 }
 
-// The rows that a comparison looks at.
+// The rows that a comparison looks at, or the two times of a change.
 void read_rows(Section const& section, QuantitySpec& quantity) {
-  if (!compares(quantity.take)) {
+  if (!compares(quantity.take) && quantity.take != Take::change) {
     for (std::string_view const key : {"from", "until"}) section.refuse(key, "is not used by this \"take\"");
     return;
   }
@@ -211,7 +194,7 @@ void read_take(Section const& section, std::string const& column_unit, std::map<
   if (wants(section, "time", quantity.take == Take::at_time, "the time to look at"))
     section.read("time", quantity.time);
   if (wants(section, "reference", compares(quantity.take), "the formula to compare with")) {
-    quantity.reference = section.formula("reference", Names{constants, {}});
+    quantity.reference = section.formula("reference", Names{constants, {}, {}});
   }
   read_rows(section, quantity);
 }
@@ -241,17 +224,21 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
   if (probe.kind == Kind::point || probe.kind == Kind::stress_intensity) {
     if (body != nullptr) read_point(section, dimension, probe);
     section.refuse("where", "is not used by the kinds \"point\" and \"stress_intensity\"");
-  } else {
-    section.refuse("at", "is used only by the kinds \"point\" and \"stress_intensity\"");
+  } else if (!measures_debris(probe.kind)) {
+    section.refuse("at",
+                   "is used only by the kinds \"point\", \"stress_intensity\", \"fragment\", \"rim\" and \"hole\"");
     probe.where = section.formula("where", body != nullptr ? body->names : Names{});
   }
+  read_debris(section, body, probe);
   read_comparison(section, body != nullptr ? body->names : Names{}, probe);
   read_ahead(section, body != nullptr ? dimension : 2, probe);
   if (along && body != nullptr) check_axis(section, dimension, probe);
-  if (!along) section.refuse("axis", "is used only by the kinds \"twist\" and \"extent\"");
+  if (!along && !measures_debris(probe.kind))
+    section.refuse("axis", "is used only by the kinds \"twist\", \"extent\", \"fragment\", \"rim\" and \"hole\"");
   read_quantities(section, probe);
   section.refuse_unknown();
-  probe.places = places_of(section, {"where", "at", "body", "name", "reference", "from"});
+  probe.places =
+      places_of(section, {"where", "at", "body", "name", "reference", "from", "anchored_where", "quantities"});
   return probe;
 }
 

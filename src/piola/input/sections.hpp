@@ -47,6 +47,11 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
+/// Whether a probe measures what became of a whole body: the kinds fragment, rim and hole.
+bool measures_debris(ProbeSpec::Kind kind);
+/// The keys that only those kinds have, and those that they share with others; of other kinds refuses the former.
+/// Without a body only what does not depend on it is read.
+void read_debris(Section const& section, BodyNames const* body, ProbeSpec& probe);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,

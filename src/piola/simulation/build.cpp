@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/build.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/formulations/make.hpp"
+#include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
 #include <algorithm>
+#include <string_view>
 
 namespace piola {
 namespace {
@@ -112,6 +115,30 @@ std::string formulation_names(CaseSpec const& spec) {
   return text;
 }
 
+// Which fields there are depends on the law and on the settings, so that only the formulation itself can tell.
+void check_fields(CaseSpec const& spec, Formulation const& formulation, std::string const& name) {
+  Problems problems;
+  auto const fields = formulation.fields();
+  auto const has = [&](std::string_view field) {
+    return field == "Position" ||
+           std::any_of(fields.begin(), fields.end(), [&](FieldInfo const& info) { return info.name == field; });
+  };
+  for (ProbeSpec const& probe : spec.probes) {
+    for (std::string const& word : probe.quantities) {
+      auto const quantity = find_quantity(word);
+      if (!quantity || has(quantity->field)) continue;
+      std::vector<std::string> known;
+      for (FieldInfo const& info : fields) known.push_back(info.name);
+      auto const place = probe.places.find("quantities");
+      problems.add(place == probe.places.end() ? Place{} : place->second,
+                   "probe " + in_quotes(probe.name) + " asks for " + in_quotes(word) + ", but " + name +
+                       " has no field " + in_quotes(quantity->field) + " here (allowed: quantities of " +
+                       joined(known) + ") - remove it");
+    }
+  }
+  problems.raise_if_any();
+}
+
 }  // namespace
 
 Assembly assemble(CaseSpec const& spec) {
@@ -145,6 +172,7 @@ Simulation build(CaseSpec spec) {
   }
   simulation.formulation = make_formulation(assembly);
   simulation.formulation_name = formulation_names(spec);
+  check_fields(spec, *simulation.formulation, simulation.formulation_name);
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);
   return simulation;

@@ -23,7 +23,7 @@ struct Simulation {
 Assembly assemble(CaseSpec const& spec);
 
 /// Builds the whole simulation and sets the number of threads. Throws InputError, also for what the formulation
-/// refuses.
+/// refuses and for probes of fields that it does not have.
 Simulation build(CaseSpec spec);
 
 }  // namespace piola

@@ -2,6 +2,9 @@
 #include "piola/simulation/probes.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/probe_quantities.hpp"
+#include "piola/simulation/fragments.hpp"
+#include "piola/simulation/hole.hpp"
 #include "piola/simulation/stress_intensity.hpp"
 #include <algorithm>
 #include <cmath>
@@ -44,13 +47,24 @@ std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& bod
 
 std::vector<FieldQuantity> quantities_of(ProbeSpec const& spec) {
   std::vector<FieldQuantity> list;
-  if (spec.kind >= ProbeSpec::Kind::twist) return list;  // these have one number of their own
+  if (!own_quantities(spec.kind).empty()) return list;
   for (std::string const& name : spec.quantities) {
     auto quantity = find_quantity(name);
     if (!quantity)
       throw InputError(
           fmt::format("probe '{}': '{}' is not a known quantity - see docs/user/output.md", spec.name, name));
     list.push_back(*std::move(quantity));
+  }
+  return list;
+}
+
+/// Which of the numbers of a kind the probe gives; all of them if it names none.
+std::vector<std::size_t> own_of(ProbeSpec const& spec) {
+  auto const own = own_quantities(spec.kind);
+  std::vector<std::size_t> list;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    auto const& asked = spec.quantities;
+    if (asked.empty() || std::find(asked.begin(), asked.end(), own[k].name) != asked.end()) list.push_back(k);
   }
   return list;
 }
@@ -73,12 +87,14 @@ Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
       name_(spec.name),
       axis_(static_cast<std::size_t>(spec.axis)),
       quantities_(quantities_of(spec)),
+      own_(own_of(spec)),
       field_(spec.field),
       reference_(spec.reference),
       direction_(spec.direction) {
   Body const& body = find_body(particles, spec);
   ids_ = selected(particles, body, spec);
   for (std::int64_t id : ids_) weight_.push_back(particles.volume[static_cast<std::size_t>(id)]);
+  if (kind_ >= ProbeSpec::Kind::spacing) measured_.emplace(spec, particles, body, ids_);
   if (kind_ != ProbeSpec::Kind::stress_intensity) return;
   Point const& tip = particles.X[static_cast<std::size_t>(nearest_particle(particles, body, spec.at))];
   for (std::int64_t id : ids_) {
@@ -88,28 +104,41 @@ Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
 }
 
 std::vector<HistoryColumn> Probe::columns() const {
-  if (kind_ == ProbeSpec::Kind::twist) return {{fmt::format("{}.{}", name_, twist_quantity), "rad"}};
-  if (kind_ == ProbeSpec::Kind::extent) return {{fmt::format("{}.{}", name_, extent_quantity), "m"}};
-  if (kind_ == ProbeSpec::Kind::error) return {{fmt::format("{}.{}", name_, error_quantity), "1"}};
-  if (kind_ == ProbeSpec::Kind::stress_intensity)
-    return {{fmt::format("{}.{}", name_, intensity_quantity), std::string(intensity_unit)}};
   std::vector<HistoryColumn> list;
+  for (std::size_t const k : own_) {
+    HistoryName const& own = own_quantities(kind_)[k];
+    list.push_back({fmt::format("{}.{}", name_, own.name), std::string(own.unit)});
+  }
   for (FieldQuantity const& q : quantities_) list.push_back({fmt::format("{}.{}", name_, q.name), q.unit});
   return list;
 }
 
 std::vector<double> Probe::evaluate(FieldCache& cache, double time) {
-  if (kind_ == ProbeSpec::Kind::twist) return {twist(cache)};
-  if (kind_ == ProbeSpec::Kind::extent) return {extent(cache)};
-  if (kind_ == ProbeSpec::Kind::error) return {relative_error(cache, time)};
-  if (kind_ == ProbeSpec::Kind::stress_intensity) return {intensity(cache)};
   std::vector<double> out;
+  if (!own_.empty()) {
+    auto const values = own_values(cache, time);
+    for (std::size_t const k : own_) out.push_back(values[k]);
+  }
   for (FieldQuantity const& q : quantities_) {
     bool const known = cache.knows(q.field);
     out.push_back(known ? reduce(component_values(cache, q.field, q.component))
                         : std::numeric_limits<double>::quiet_NaN());
   }
   return out;
+}
+
+std::vector<double> Probe::own_values(FieldCache& cache, double time) {
+  switch (kind_) {
+    case ProbeSpec::Kind::twist: return {twist(cache)};
+    case ProbeSpec::Kind::extent: return {extent(cache)};
+    case ProbeSpec::Kind::error: return {relative_error(cache, time)};
+    case ProbeSpec::Kind::stress_intensity: return {intensity(cache)};
+    case ProbeSpec::Kind::spacing: return spacing_values(*measured_, cache);
+    case ProbeSpec::Kind::fragment: return fragment_values(*measured_, cache);
+    case ProbeSpec::Kind::rim: return rim_values(*measured_, cache);
+    case ProbeSpec::Kind::hole: return hole_values(*measured_, cache);
+    default: return {};
+  }
 }
 
 double Probe::reduce(std::vector<double> const& values) const {

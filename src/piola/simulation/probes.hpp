@@ -4,8 +4,10 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/output/field_cache.hpp"
 #include "piola/output/history.hpp"
+#include "piola/simulation/clusters.hpp"
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace piola {
@@ -32,12 +34,15 @@ class Probe {
   double extent(FieldCache& cache) const;
   double relative_error(FieldCache& cache, double time) const;
   double intensity(FieldCache& cache) const;
+  std::vector<double> own_values(FieldCache& cache, double time);
   ProbeSpec::Kind kind_;
   std::string name_;
   std::size_t axis_;
   std::vector<std::int64_t> ids_;
   std::vector<double> weight_;             ///< tributary volumes of ids_
-  std::vector<FieldQuantity> quantities_;  ///< empty for the kinds with a number of their own
+  std::vector<FieldQuantity> quantities_;  ///< empty for the kinds with numbers of their own
+  std::vector<std::size_t> own_;           ///< which of their own numbers those give
+  std::optional<Measured> measured_;       ///< spacing, fragment, rim, hole
   std::string field_;                      ///< error
   std::vector<Expression> reference_;      ///< error: one per component of the field
   std::array<double, 3> direction_;        ///< stress_intensity: ahead of the tip

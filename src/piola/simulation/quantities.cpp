@@ -79,6 +79,14 @@ std::optional<double> compare(QuantitySpec const& spec, Series const& s) {
   return squares == 0 ? 0 : std::sqrt(squares / whole);
 }
 
+/// The value at one time minus that at another; without an end, the last value.
+std::optional<double> change(QuantitySpec const& spec, Series const& s) {
+  auto const before = interpolate(s, spec.from);
+  auto const after = std::isinf(spec.until) ? s.value.back() : interpolate(s, spec.until);
+  if (!before || !after) return std::nullopt;
+  return *after - *before;
+}
+
 /// Mean over time, linear between samples.
 double mean_of(Series const& s) {
   double sum = 0;
@@ -145,6 +153,7 @@ std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
     case Take::relative_error: return compare(spec, s);
     case Take::oscillation_period: return oscillation_period(s);
     case Take::range: return *high - *low;
+    case Take::change: return change(spec, s);
     case Take::first_peak:
     case Take::time_of_first_peak: break;
   }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/contact.hpp"
+#include "piola/formulations/adaptle/records.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::adaptle {
+namespace {
+
+template <int D>
+double number_of(double h, double dp, double n) {
+  Kernel<D> const kernel(h);
+  double const reference = kernel(dp);
+  int const reach = static_cast<int>(std::ceil(2 * h / dp));
+  double sum = 0;
+  for (int m = 0; m <= reach; ++m)
+    for (int i = -reach; i <= reach; ++i)
+      for (int k = D == 3 ? -reach : 0; k <= (D == 3 ? reach : 0); ++k) {
+        double const z = (m + 1) * dp, square = z * z + (i * i + k * k) * dp * dp;
+        double s = 0, W = 0;
+        kernel.evaluate(square, s, W);
+        // |W'| z / r = s z; layers m apart meet m + 1 times.
+        sum += (m + 1) * n * std::pow(W / reference, n - 1) * s * z / reference;
+      }
+  return dp * sum;
+}
+
+}  // namespace
+
+double contact_number(int dimension, double h, double dp, double exponent) {
+  return dimension == 2 ? number_of<2>(h, dp, exponent) : number_of<3>(h, dp, exponent);
+}
+
+double reference_pressure(BodyConstants const& a, BodyConstants const& b, double v) {
+  double const c_a = std::sqrt(a.bulk_modulus / a.rho0), c_b = std::sqrt(b.bulk_modulus / b.rho0);
+  double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;
+  double const shock = Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
+  return std::max(shock, 0.01 * std::min(a.bulk_modulus, b.bulk_modulus));
+}
+
+std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
+                                       std::vector<std::array<double, 3>> const& mean_velocity) {
+  std::vector<ContactPair> pairs(bodies.size() * bodies.size());
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (a == b) continue;
+      ContactPair& p = pairs[a * bodies.size() + b];
+      p.h = 0.5 * (bodies[a].h + bodies[b].h);
+      p.dp = 0.5 * (bodies[a].spacing + bodies[b].spacing);
+      double square = 0;
+      for (std::size_t c = 0; c < 3; ++c) square += std::pow(mean_velocity[a][c] - mean_velocity[b][c], 2);
+      double const v = std::isnan(rule.closing_speed) ? std::sqrt(square) : rule.closing_speed;
+      // dp_a^(d-1) dp_b^(d-1) / dp^(d-2)
+      double const area = std::pow(bodies[a].spacing * bodies[b].spacing, dimension - 1) / std::pow(p.dp, dimension - 2);
+      if (rule.law == ContactRule::Law::kernel)
+        p.eps = rule.scale * reference_pressure(bodies[a], bodies[b], v) * area /
+                contact_number(dimension, p.h, p.dp, rule.exponent);
+      if (rule.law == ContactRule::Law::linear)
+        p.eps = rule.scale * std::min(bodies[a].bulk_modulus, bodies[b].bulk_modulus) * area;
+    }
+  return pairs;
+}
+
+}  // namespace piola::adaptle

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/state.hpp"
+#include "piola/formulations/assembly.hpp"
+#include <array>
+#include <vector>
+
+namespace piola::adaptle {
+
+/// Pressure that two flat lattices at stand-off dp exert on each other per eps dp^(d-2) / dp^(2(d-1)): the number C_n
+/// of the impedance-matched contact. h and dp [m].
+double contact_number(int dimension, double h, double dp, double exponent);
+
+/// Largest pressure when two half spaces meet at the speed v, Z_a Z_b / (Z_a + Z_b) v (1 + v / (2 c)), and at least a
+/// hundredth of the smaller bulk modulus [Pa].
+double reference_pressure(BodyConstants const& a, BodyConstants const& b, double v);
+
+/// Stiffness of every pair of bodies, [body][body]. mean_velocity: of each body at the start [m/s].
+std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
+                                       std::vector<std::array<double, 3>> const& mean_velocity);
+
+}  // namespace piola::adaptle

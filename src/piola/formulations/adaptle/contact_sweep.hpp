@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/records.hpp"
+
+/// Contact between bodies, and with rigid shapes: central, frictionless repulsion.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// Force and stiffness of one pair at distance r.
+struct ContactForce {
+  double force = 0;      ///< repulsion [N]
+  double stiffness = 0;  ///< bound of its derivative [N/m]
+  double overlap = 0;    ///< 1 - r / dp
+};
+
+/// F = -dU/dr, U = eps (W(r)/W(dp))^n: eqs. (15), (16) with constant coefficient.
+template <int D>
+PIOLA_FN ContactForce kernel_contact(ContactPair const& p, double exponent, double r) {
+  Kernel<D> const kernel(p.h);
+  double s, W;
+  kernel.evaluate(r * r, s, W);
+  if (!(W > 0)) return {};
+  double const reference = kernel(p.dp), w = W / reference, slope = s * r / reference;
+  double const power = std::pow(w, exponent - 2);
+  double const bend = 3 * kernel.norm * kernel.inverse_h * kernel.inverse_h / reference;
+  return {p.eps * exponent * power * w * slope,
+          p.eps * exponent * power * ((exponent - 1) * slope * slope + w * bend), 1 - r / p.dp};
+}
+
+/// F = eps (dp - r) / dp^2 below dp: a linear spring with the stiffness of the material.
+PIOLA_FN ContactForce linear_contact(ContactPair const& p, double r) {
+  if (!(r < p.dp)) return {};
+  return {p.eps * (p.dp - r) / (p.dp * p.dp), p.eps / (p.dp * p.dp), 1 - r / p.dp};
+}
+
+template <int D>
+struct ContactSweep {
+  ContactTable table;
+  Index const* slot;  ///< of sorted particles
+  BodyConstants const* body;
+  int const* body_of;
+  int bodies;
+  State const* state;
+  Half const* half;
+  Sums* sums;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index t = block.first; t < block.last; ++t) visit(t);
+  }
+
+ private:
+  PIOLA_FN ContactForce force_of(ContactPair const& pair, Index i, Index j, double r) const {
+    if (table.law == 2) return linear_contact(pair, r);
+    if (table.law == 1) return kernel_contact<D>(pair, table.exponent, r);
+    ContactPair printed = pair;
+    printed.eps = table.printed * half[i].volume * half[j].volume;
+    return kernel_contact<D>(printed, table.exponent, r);
+  }
+
+  PIOLA_FN void visit(Index t) const {
+    Index const i = slot[table.target[t]];
+    Index const* const row = table.list + static_cast<std::ptrdiff_t>(t) * table.capacity;
+    Sums& out = sums[i];
+    for (Index k = 0; k < table.length[t]; ++k) {
+      Index const j = slot[row[k]];
+      ContactPair const& pair = table.pair[body_of[i] * bodies + body_of[j]];
+      double square = 0;
+      for (int c = 0; c < D; ++c) {
+        double const d = state[i].x[c] - state[j].x[c];
+        square += d * d;
+      }
+      double const r = std::sqrt(square);
+      ContactForce const f = force_of(pair, i, j, r);
+      if (!(f.stiffness > 0)) continue;
+      double power = 0;
+      for (int c = 0; c < D; ++c) {
+        double const force = f.force * (state[i].x[c] - state[j].x[c]) / (r > 0 ? r : 1);
+        out.force[c] += force;
+        power += 0.5 * (half[j].v[c] - half[i].v[c]) * force;
+      }
+      out.contact += power;
+      out.stiffness += f.stiffness;
+      out.overlap = f.overlap > out.overlap ? f.overlap : out.overlap;
+    }
+  }
+};
+
+/// Distance of a point from the surface of a rigid shape, negative inside, and the outward normal there.
+template <int D>
+PIOLA_FN double distance_to(RigidPlace const& shape, double const* x, double* normal) {
+  double r[3]{}, along = 0;
+  for (int c = 0; c < D; ++c) {
+    r[c] = x[c] - shape.centre[c];
+    along += r[c] * shape.axis[c];
+  }
+  if (shape.kind == 0) {
+    for (int c = 0; c < 3; ++c) normal[c] = shape.axis[c];
+    return along;
+  }
+  double q[3]{}, bound[3]{};
+  int axes = D;
+  double direction[3][3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  if (shape.kind == 1) {
+    double const length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    for (int c = 0; c < 3; ++c) normal[c] = length > 0 ? r[c] / length : (c == 0 ? 1 : 0);
+    return length - shape.radius;
+  }
+  if (shape.kind == 2) {
+    axes = 2;
+    double across = 0;
+    for (int c = 0; c < 3; ++c) {
+      direction[0][c] = shape.axis[c] * (along < 0 ? -1 : 1);
+      direction[1][c] = r[c] - along * shape.axis[c];
+      across += direction[1][c] * direction[1][c];
+    }
+    across = std::sqrt(across);
+    for (int c = 0; c < 3; ++c) direction[1][c] = across > 0 ? direction[1][c] / across : 0;
+    q[0] = std::fabs(along);
+    q[1] = across;
+    bound[0] = shape.half[0];
+    bound[1] = shape.radius;
+  } else {
+    for (int c = 0; c < D; ++c) {
+      if (r[c] < 0) direction[c][c] = -1;
+      q[c] = std::fabs(r[c]);
+      bound[c] = shape.half[c];
+    }
+  }
+  // Outside: the nearest point of the box; inside: the nearest face.
+  double outside = 0, nearest = -1e300;
+  int face = 0;
+  for (int c = 0; c < axes; ++c) {
+    double const d = q[c] - bound[c];
+    if (d > 0) outside += d * d;
+    if (d > nearest) {
+      nearest = d;
+      face = c;
+    }
+  }
+  for (int k = 0; k < 3; ++k) normal[k] = direction[face][k];
+  if (!(outside > 0)) return nearest;
+  outside = std::sqrt(outside);
+  for (int k = 0; k < 3; ++k) normal[k] = 0;
+  for (int c = 0; c < axes; ++c)
+    for (int k = 0; k < 3; ++k)
+      if (q[c] > bound[c]) normal[k] += (q[c] - bound[c]) / outside * direction[c][k];
+  return outside;
+}
+
+/// A particle closer than dp/2 to a rigid shape is pushed off as by its mirror image under the linear law:
+/// F = 2 K dp^(D-2) (dp/2 - d).
+template <int D>
+struct RigidSweep {
+  RigidPlace const* shape;
+  int shapes;
+  double scale;
+  BodyConstants const* body;
+  int const* body_of;
+  State const* state;
+  Half const* half;
+  Sums* sums;
+  double* power_on_bodies;  ///< per slot: of the moving shapes [W]
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index i = block.first; i < block.last; ++i) {
+      power_on_bodies[i] = 0;
+      for (int k = 0; k < shapes; ++k) push(i, shape[k]);
+    }
+  }
+
+ private:
+  PIOLA_FN void push(Index i, RigidPlace const& s) const {
+    double normal[3];
+    BodyConstants const& b = body[body_of[i]];
+    double const stand_off = 0.5 * b.spacing, distance = distance_to<D>(s, state[i].x, normal);
+    if (!(distance < stand_off)) return;
+    double k = 2 * scale * b.bulk_modulus;
+    for (int c = 2; c < D; ++c) k *= b.spacing;
+    Sums& out = sums[i];
+    for (int c = 0; c < D; ++c) {
+      double const force = k * (stand_off - distance) * normal[c];
+      out.force[c] += force;
+      out.contact -= force * (half[i].v[c] - s.velocity[c]);
+      power_on_bodies[i] += force * s.velocity[c];
+    }
+    out.stiffness += k;
+    double const overlap = 1 - distance / stand_off;
+    out.overlap = overlap > out.overlap ? overlap : out.overlap;
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/point_passes.hpp"
+
+/// The second half of a step, from the sums of half time.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// What the particles of a block say: sums and extrema, in the order of Measures.
+struct BlockMeasures {
+  static constexpr int contact = 0, rigid = 1, held = 2, load = 3, viscous = 4, dt = 5, overlap = 6, wishes = 7,
+                       size = 8;
+};
+
+/// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18); in two dimensions with the strain across
+/// the plane of plane stress, -nu/E (s_xx + s_yy), eq. (19).
+template <int D>
+PIOLA_FN double equivalent_strain(double const* F, SymMat<3> const& stress, BodyConstants const& b) {
+  SymMat<3> E{};
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j) {
+      double sum = i == j ? -1 : 0;
+      for (int k = 0; k < D; ++k) sum += F[3 * k + i] * F[3 * k + j];
+      E(i, j) = 0.5 * sum;
+    }
+  if (D == 2) E(2, 2) = -b.poisson / b.young * (stress.c[0] + stress.c[1]);
+  double const mean = (E.c[0] + E.c[1] + E.c[2]) / 3;
+  double square = 0;
+  for (int c = 0; c < 6; ++c) square += c < 3 ? (E.c[c] - mean) * (E.c[c] - mean) : 2 * E.c[c] * E.c[c];
+  return std::sqrt(2.0 / 3.0 * square);
+}
+
+/// Kick, second drift, and update of density, stress, energy and history; stable step and wishes to convert.
+template <int D, class Law>
+struct Finish {
+  Law law;
+  BodyConstants body;
+  Settings settings;
+  double dt;
+  System s;  ///< views of all particles
+  double const* rigid_power;
+  double* partial;
+
+  PIOLA_FN void operator()(Range block, Index number) const {
+    double* m = partial + static_cast<std::ptrdiff_t>(number) * BlockMeasures::size;
+    for (int c = 0; c < BlockMeasures::size; ++c) m[c] = 0;
+    m[BlockMeasures::dt] = 1e300;
+    for (Index i = block.first; i < block.last; ++i) visit(i, m);
+  }
+
+ private:
+  PIOLA_FN void visit(Index i, double* m) const {
+    State& p = s.state[i];
+    Rates& k = s.rates[i];
+    Half const& h = s.half[i];
+    Sums const& sum = s.sums[i];
+    double const mass = s.reference[i].mass;
+    kick(i, p, k, sum, mass, m);
+    Mat<3> L = velocity_gradient(i, p, sum);
+    if (settings.plane_stress) L(2, 2) = across(p, h, sum, L, mass);
+    SymMat<3> const S_half = symmetric_of(h.S);
+    SymMat<3> const S_rate = p.alive > 0 ? law.deviator_rate(S_half, L) : SymMat<3>{};
+    double const trace_L = trace(L);
+    k.rho = -h.rho * trace_L;
+    p.rho = p.phi > 0 ? p.rho + dt * k.rho : h.rho;
+    k.thickness = h.thickness * L(2, 2);
+    if (settings.plane_stress) p.thickness += dt * k.thickness;
+    k.energy = (p.alive > 0 ? stress_power(h, S_half, L) : 0) + sum.heat;
+    if (settings.viscosity == Viscosity::riemann) k.energy = sum.heat;
+    p.energy += dt * k.energy;
+    SymMat<3> trial;
+    for (int c = 0; c < 6; ++c) {
+      k.S[c] = S_rate.c[c];
+      trial.c[c] = p.S[c] + dt * S_rate.c[c];
+    }
+    SolidHistory history = history_of(p, p.S);
+    if (p.alive > 0) law.update(history, trial, h.pressure, h.rho, dt);
+    for (int c = 0; c < 6; ++c) p.S[c] = p.alive > 0 ? history.S.c[c] : 0;
+    p.plastic_strain = history.plastic_strain;
+    p.temperature = history.temperature;
+    p.damage = history.damage;
+    p.plastic_work = history.plastic_work;
+    switch_viscosity(p, k, h, L, trace_L);
+    s.half[i].divergence = trace_L;
+    m[BlockMeasures::contact] += sum.contact;
+    m[BlockMeasures::viscous] += sum.heat;
+    if (rigid_power != nullptr) m[BlockMeasures::rigid] += rigid_power[i];
+    m[BlockMeasures::overlap] = sum.overlap > m[BlockMeasures::overlap] ? sum.overlap : m[BlockMeasures::overlap];
+    double const step = stable_step(i, p, k, h, sum, mass);
+    m[BlockMeasures::dt] = step < m[BlockMeasures::dt] ? step : m[BlockMeasures::dt];
+    s.wish[i] = wish_of(i, p, h, S_half);
+    m[BlockMeasures::wishes] += s.wish[i] != 0 ? 1 : 0;
+    check(i, p);
+  }
+
+  PIOLA_FN void kick(Index i, State& p, Rates& k, Sums const& sum, double mass, double* m) const {
+    for (int c = 0; c < D; ++c) {
+      double a = sum.force[c] / mass;
+      double const before = p.v[c];
+      if (s.load != nullptr) {
+        double const push = s.load[3 * i + c];
+        a += push;
+        m[BlockMeasures::load] += mass * push * (before + 0.5 * dt * a);
+      }
+      if (s.held != nullptr && s.held[3 * i + c] != 0) {
+        double const wanted = (s.held_velocity[3 * i + c] - before) / dt;
+        m[BlockMeasures::held] += mass * (wanted - a) * (before + 0.5 * dt * wanted);
+        a = wanted;
+        p.v[c] = s.held_velocity[3 * i + c];
+      } else {
+        p.v[c] = before + dt * a;
+      }
+      k.a[c] = a;
+      p.x[c] += 0.5 * dt * p.v[c];
+    }
+  }
+
+  /// phi (spatial) + (1 - phi) (material), in three dimensions.
+  PIOLA_FN Mat<3> velocity_gradient(Index i, State const& p, Sums const& sum) const {
+    Mat<3> L = matrix_of(sum.L);
+    if (!(p.phi < 1)) return L;
+    Mat<3> const material = matrix_of(s.deformation[i].rate) * inverse(matrix_of(s.deformation[i].F));
+    for (int c = 0; c < 9; ++c) L.c[c] = p.phi * L.c[c] + (1 - p.phi) * material.c[c];
+    return L;
+  }
+
+  /// V sigma : L, with the volume that carries the stress.
+  PIOLA_FN double stress_power(Half const& h, SymMat<3> const& S, Mat<3> const& L) const {
+    double power = 0;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) power += (S(a, b) - (a == b ? h.pressure : 0)) * L(a, b);
+    return h.volume * h.thickness * power;
+  }
+
+  /// Plane stress: the rate of strain across the plane for which the stress there vanishes at the end of the step, by
+  /// the secant method.
+  PIOLA_FN double across(State const& p, Half const& h, Sums const& sum, Mat<3> L, double mass) const {
+    auto const stress = [&](double rate) {
+      L(2, 2) = rate;
+      SymMat<3> const r = law.deviator_rate(symmetric_of(h.S), L);
+      SymMat<3> trial;
+      for (int c = 0; c < 6; ++c) trial.c[c] = p.S[c] + dt * r.c[c];
+      SymMat<3> const S = law.returned(history_of(p, p.S), trial, dt);
+      double const energy = p.energy + dt * (stress_power(h, symmetric_of(h.S), L) + sum.heat);
+      double const before = p.phi > 0 ? p.rho : h.rho * (1 + 0.5 * dt * trace(L));
+      double const rho = before - dt * h.rho * trace(L);
+      return S.c[2] - law.pressure(rho, energy / mass);
+    };
+    double const bulk = law.kappa, inverse = 1 / (dt * (bulk + 4.0 / 3.0 * law.mu));
+    double a = -(bulk - 2.0 / 3.0 * law.mu) / (bulk + 4.0 / 3.0 * law.mu) * (L(0, 0) + L(1, 1)), f_a = stress(a);
+    double b = a - f_a * inverse;
+    for (int k = 0; k < 12; ++k) {
+      double const f_b = stress(b);
+      if (!(std::fabs(f_b) > 1e-9 * bulk * 1e-3) || f_b == f_a) break;
+      double const next = b - f_b * (b - a) / (f_b - f_a);
+      a = b;
+      f_a = f_b;
+      b = next;
+    }
+    return b;
+  }
+
+  PIOLA_FN void switch_viscosity(State& p, Rates& k, Half const& h, Mat<3> const& L, double divergence) const {
+    if (settings.viscosity == Viscosity::balsara) {
+      double const x = L(2, 1) - L(1, 2), y = L(0, 2) - L(2, 0), z = L(1, 0) - L(0, 1);
+      double const turn = std::sqrt(x * x + y * y + z * z), part = std::fabs(divergence);
+      p.viscosity = part / (part + turn + 1e-4 * h.c / body.h);
+    }
+    if (settings.viscosity == Viscosity::morris_monaghan) {
+      // d alpha/dt = -(alpha - 0.1) / tau + max(-div v, 0), tau = h / (0.2 c); alpha stays at or below its full value.
+      double const least = 0.1 / (body.alpha > 0.1 ? body.alpha : 0.1), tau = body.h / (0.2 * h.c);
+      k.viscosity = -(p.viscosity - least) / tau + (divergence < 0 ? -divergence / body.alpha : 0);
+      double const next = p.viscosity + dt * k.viscosity;
+      p.viscosity = next < least ? least : (next > 1 ? 1 : next);
+    }
+  }
+
+  /// CFL h / c with the current speed of sound, the compressed length of material pairs and the quadratic viscosity;
+  /// 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts.
+  PIOLA_FN double stable_step(Index i, State const& p, Rates const& k, Half const& h, Sums const& sum,
+                              double mass) const {
+    double length = body.h;
+    if (p.phi < 1 && p.alive > 0) {
+      double const square = smallest_stretch_squared(matrix_of(s.deformation[i].F));
+      if (square < 1) length *= std::sqrt(square > 1e-12 ? square : 1e-12);
+    }
+    double step = settings.cfl * length / (h.c + 0.6 * body.beta * sum.compression);
+    double const a = std::sqrt(k.a[0] * k.a[0] + k.a[1] * k.a[1] + k.a[2] * k.a[2]);
+    if (a > 0) {
+      double const limit = 0.25 * std::sqrt(body.h / a);
+      step = limit < step ? limit : step;
+    }
+    if (sum.stiffness > 0) {
+      double const limit = 0.5 * std::sqrt(mass / sum.stiffness);
+      step = limit < step ? limit : step;
+    }
+    return step;
+  }
+
+  /// 1: convert with the neighbours, 2: alone, 0: stay.
+  PIOLA_FN std::int8_t wish_of(Index i, State const& p, Half const& h, SymMat<3> const& S) const {
+    if (!(body.adaptive || body.deletes) || p.phi > 0 || !(p.alive > 0)) return 0;
+    double const J = body.rho0 / h.rho;
+    SymMat<3> stress = S;
+    for (int c = 0; c < 3; ++c) stress.c[c] -= h.pressure;
+    double const* F = s.deformation[i].F;
+    if (law.damages && p.damage >= body.convert_damage) return 1;
+    if (body.convert_strain < 1e300 && equivalent_strain<D>(F, stress, body) >= body.convert_strain) return 1;
+    bool const outside = !(J >= body.jacobian_min && J <= body.jacobian_max);
+    double size = 0, inverse_size = 0;
+    Mat<3> const inverse_F = inverse(matrix_of(F));
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) {
+        size += F[3 * a + b] * F[3 * a + b];
+        inverse_size += inverse_F(a, b) * inverse_F(a, b);
+      }
+    double const most = body.jacobian_max * body.jacobian_max * D;
+    if (outside || !(size <= most) || !(inverse_size <= most)) return 2;
+    if (body.tether > 0 && s.deformation[i].gap > body.tether) return 2;
+    return 0;
+  }
+
+  PIOLA_FN void check(Index i, State const& p) const {
+    double sum = p.energy + p.rho + p.S[0] + p.S[1] + p.S[3];
+    for (int c = 0; c < D; ++c) sum += p.v[c];
+    if (!(std::fabs(sum) < 1e300)) exec::record(s.failure, i, not_a_number);
+    if (!(p.rho > 0)) exec::record(s.failure, i, negative_density);
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of AdapTLE for one machine; compiled once per instruction set (PIOLA_MACHINE).
+#include "piola/formulations/adaptle/step.hpp"
+
+namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace {
+
+template <class F>
+void with_step(System& s, F const& f) {
+  if (s.dimension == 2)
+    f(Step<2>{s});
+  else
+    f(Step<3>{s});
+}
+
+void predict(System& s, double dt) {
+  with_step(s, [&](auto step) { step.predict(dt); });
+}
+void deform(System& s) {
+  with_step(s, [](auto step) { step.deform(); });
+}
+void half_state(System& s) {
+  with_step(s, [&](auto step) {
+    if (s.settings.corrected)
+      step.template half_state<true>();
+    else
+      step.template half_state<false>();
+  });
+}
+void correct(System& s) {
+  with_step(s, [](auto step) { step.correct(); });
+}
+void sweep(System& s) {
+  with_step(s, [](auto step) { step.sweep(); });
+}
+Measures finish(System& s, double dt) {
+  Measures m;
+  with_step(s, [&](auto step) { m = step.finish(dt); });
+  return m;
+}
+void search(MovingSearch const& s) { find_neighbours(s); }
+
+#define PIOLA_NAME_OF(x) #x
+#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
+
+}  // namespace
+
+/// The entry by which the host finds this machine.
+extern Machine const machine;
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,  &predict, &deform, &half_state,
+                      &correct,                  &sweep, &finish,  &search};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

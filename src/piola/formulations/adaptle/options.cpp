@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/options.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola::adaptle {
+namespace {
+
+constexpr std::array<std::string_view, 4> description_words{"adaptive", "total_lagrangian", "eulerian", "patch"};
+constexpr std::array<std::string_view, 2> interface_words{"owner", "printed"};
+constexpr std::array<std::string_view, 2> correction_words{"none", "mixed"};
+constexpr std::array<std::string_view, 4> viscosity_words{"monaghan", "balsara", "morris_monaghan", "riemann"};
+constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
+constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
+constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
+constexpr std::array<std::string_view, 2> failed_words{"keep", "delete"};
+
+constexpr std::array choices{
+    Choice{"description",
+           "adaptive: total-Lagrangian particles turn Eulerian where a criterion says so; patch: those that "
+           "eulerian_where selects are Eulerian from the start",
+           description_words},
+    Choice{"interface",
+           "forces between total-Lagrangian and Eulerian particles; owner: each through its own gradients with the "
+           "reaction on the other, conserves momentum and energy; printed: as published, conserves neither",
+           interface_words},
+    Choice{"correction", "of kernel and gradient, eqs. 3 to 5; mixed: linear fields exactly", correction_words},
+    Choice{"viscosity", "artificial viscosity, its switch, or a flux from Riemann problems (all Eulerian, no correction)",
+           viscosity_words},
+    Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
+    Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
+    Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
+    Choice{"failed", "what becomes of failed particles that may not convert; delete: no stress, no neighbours",
+           failed_words}};
+
+constexpr std::array parameters{
+    Parameter{"smoothing_length", "1", "h in spacings (2D 1.4, 3D 1.2)", Interval{0.6, 3, false, false}, no_default},
+    Parameter{"alpha", "1", "linear part of the viscosity, eq. 6", not_negative, 1},
+    Parameter{"beta", "1", "quadratic part of the viscosity, eq. 6", not_negative, 2},
+    Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
+              Interval{0, 1, false, false}, 0.3},
+    Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},
+    Parameter{"correction_limit", "1",
+              "C_f: a particle drops its correction where it changes a gradient by more (7.5; with artificial stress 90)",
+              Interval{1, unbounded, true, true}, no_default},
+    Parameter{"convert_strain", "1", "equivalent strain (18) at which a particle converts", positive, unbounded},
+    Parameter{"convert_damage", "1", "damage at which a particle converts or fails", Interval{0, 1, true, false}, 1},
+    Parameter{"jacobian_min", "1", "smallest volume ratio of a total-Lagrangian particle", Interval{0, 1, true, true},
+              0.3},
+    Parameter{"jacobian_max", "1", "largest volume ratio of a total-Lagrangian particle", Interval{1, unbounded, true, true},
+              3},
+    Parameter{"tether", "1",
+              "a particle converts when an Eulerian reference neighbour has moved away by this many h from where its "
+              "deformation gradient would put it; 0: never",
+              not_negative, 1},
+    Parameter{"conversion_radius", "1", "reference neighbours within this many h convert, too", Interval{0, 2, false, false},
+              2},
+    Parameter{"blend", "1", "spacings over which descriptions change gradually at a patch; 0: at once", not_negative,
+              4}};
+
+constexpr std::array<std::string_view, 8> variables{"damage",   "plastic_strain", "jacobian",  "pressure",
+                                                    "von_mises", "temperature",    "equivalent_strain", "density"};
+
+constexpr std::array formulas{
+    FormulaInfo{"eulerian_where", "patch: particles that are Eulerian from the start", {}},
+    FormulaInfo{"convert_when",
+                "adaptive: a further condition under which a particle and its neighbours convert (pressure is positive "
+                "in tension)",
+                variables}};
+
+constexpr std::array<std::string_view, 4> usable_laws{"elastic", "perfectly_plastic", "isotropic_hardening",
+                                                      "johnson_cook"};
+
+constexpr std::array diagnostics{
+    DiagnosticInfo{"internal_energy", "J"},     DiagnosticInfo{"contact_energy", "J"},
+    DiagnosticInfo{"plastic_work", "J"},        DiagnosticInfo{"viscous_loss", "J"},
+    DiagnosticInfo{"eulerian_particles", "1"},  DiagnosticInfo{"converted_particles", "1"},
+    DiagnosticInfo{"guard_conversions", "1"},   DiagnosticInfo{"converted_mass", "kg"},
+    DiagnosticInfo{"conversion_energy_change", "J"}, DiagnosticInfo{"conversion_momentum_change", "kg m/s"},
+    DiagnosticInfo{"failed_particles", "1"},    DiagnosticInfo{"deleted_particles", "1"},
+    DiagnosticInfo{"contact_overlap", "1"},     DiagnosticInfo{"temperature_max", "K"}};
+
+std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
+
+double number(FormulationSpec const& spec, std::string_view name) {
+  for (Parameter const& p : parameters)
+    if (p.name == name) return number_of(spec, name, p.default_value);
+  return 0;
+}
+
+template <std::size_t N>
+int place_of_word(FormulationSpec const& spec, std::string_view name, std::array<std::string_view, N> const& words) {
+  for (std::size_t k = 0; k < N; ++k)
+    if (word(spec, name) == words[k]) return static_cast<int>(k);
+  return 0;
+}
+
+BodyOptions read_body(FormulationSpec const& spec, int dimension) {
+  BodyOptions o;
+  o.description = static_cast<Description>(place_of_word(spec, "description", description_words));
+  o.smoothing_length = number_of(spec, "smoothing_length", dimension == 2 ? 1.4 : 1.2);
+  o.alpha = number(spec, "alpha");
+  o.beta = number(spec, "beta");
+  o.bulk_speed = word(spec, "viscosity_speed") == "bulk";
+  o.artificial_stress = number(spec, "artificial_stress");
+  o.convert_strain = number(spec, "convert_strain");
+  o.convert_damage = number(spec, "convert_damage");
+  o.jacobian_min = number(spec, "jacobian_min");
+  o.jacobian_max = number(spec, "jacobian_max");
+  o.tether = number(spec, "tether");
+  o.conversion_radius = number(spec, "conversion_radius");
+  o.blend = number(spec, "blend");
+  o.deletes = word(spec, "failed") == "delete";
+  auto const formula = [&](std::string_view name) -> std::optional<Expression> {
+    auto const found = spec.formulas.find(name);
+    if (found == spec.formulas.end()) return std::nullopt;
+    return found->second;
+  };
+  o.eulerian_where = formula("eulerian_where");
+  o.convert_when = formula("convert_when");
+  return o;
+}
+
+Settings read_settings(FormulationSpec const& spec) {
+  Settings s;
+  s.viscosity = static_cast<Viscosity>(place_of_word(spec, "viscosity", viscosity_words));
+  s.interface_form = word(spec, "interface") == "printed" ? Interface::printed : Interface::owner;
+  s.mixed_stress = static_cast<MixedStress>(place_of_word(spec, "artificial_stress_interface", mixed_words));
+  s.corrected = word(spec, "correction") == "mixed";
+  s.plane_stress = word(spec, "assumption") == "plane_stress";
+  s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
+  s.artificial_stress = number(spec, "artificial_stress") > 0;
+  s.fallback = number_of(spec, "correction_limit", s.artificial_stress ? 90 : 7.5);
+  return s;
+}
+
+/// Words and numbers that pairs of different bodies share.
+void check_alike(Assembly const& assembly, Problems& problems) {
+  constexpr std::array<std::string_view, 5> shared{"interface", "correction", "viscosity",
+                                                   "artificial_stress_interface", "assumption"};
+  auto const& first = assembly.formulations.front();
+  for (std::size_t b = 1; b < assembly.formulations.size(); ++b) {
+    auto const& other = assembly.formulations[b];
+    for (auto const name : shared)
+      if (word(first, name) != word(other, name))
+        problems.add({}, fmt::format("body.formulation.{} is \"{}\" for body \"{}\" and \"{}\" for body \"{}\" (allowed: "
+                                     "the same for all bodies) - make them equal",
+                                     name, word(first, name), assembly.particles.bodies[0].name, word(other, name),
+                                     assembly.particles.bodies[b].name));
+    for (std::string_view const name : {"artificial_stress", "artificial_stress_exponent", "correction_limit"})
+      if (number_of(first, name, -1) != number_of(other, name, -1))
+        problems.add({}, fmt::format("body.formulation.{} differs between the bodies \"{}\" and \"{}\" (allowed: the same "
+                                     "for all bodies) - make them equal",
+                                     name, assembly.particles.bodies[0].name, assembly.particles.bodies[b].name));
+  }
+}
+
+void check_body(BodyOptions const& o, Settings const& s, std::string const& name, Problems& problems) {
+  auto const refuse = [&](std::string const& what) { problems.add({}, "body \"" + name + "\": " + what); };
+  if (o.description == Description::patch && !o.eulerian_where)
+    refuse("description = \"patch\" needs eulerian_where, a formula that selects the Eulerian particles - add it");
+  if (o.description != Description::patch && o.eulerian_where)
+    refuse("eulerian_where belongs to description = \"patch\" - remove it or change the description");
+  if (o.convert_when && o.description != Description::adaptive)
+    refuse("convert_when belongs to description = \"adaptive\" - remove it or change the description");
+  if (o.deletes && o.description != Description::total_lagrangian)
+    refuse("failed = \"delete\" belongs to description = \"total_lagrangian\" - remove it or change the description");
+  if (s.viscosity == Viscosity::riemann && (o.description != Description::eulerian || s.corrected))
+    refuse("viscosity = \"riemann\" needs description = \"eulerian\" and correction = \"none\" - change them");
+}
+
+}  // namespace
+
+std::span<std::string_view const> conversion_variables() { return variables; }
+
+FormulationInfo info() {
+  FormulationInfo info{"adaptle",
+                       "total-Lagrangian SPH whose particles turn Eulerian where the material is torn; plasticity, "
+                       "damage, contact (Young, Teixeira-Dias, Azevedo, Mill 2021)",
+                       parameters,
+                       choices,
+                       usable_laws,
+                       diagnostics};
+  info.mirrors = false;
+  info.contact = true;
+  info.formulas = formulas;
+  return info;
+}
+
+Options read_options(Assembly const& assembly) {
+  Problems problems;
+  Options o;
+  int const dimension = assembly.particles.dimension;
+  if (dimension == 1) problems.add({}, "adaptle: the case is one-dimensional (allowed: 2 or 3 dimensions)");
+  o.settings = read_settings(assembly.formulations.front());
+  if (o.settings.plane_stress && dimension != 2)
+    problems.add({}, "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out");
+  o.settings.cfl = std::isnan(assembly.cfl) ? 0.3 : assembly.cfl;
+  check_alike(assembly, problems);
+  for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
+    o.bodies.push_back(read_body(assembly.formulations[b], dimension));
+    check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
+  }
+  problems.raise_if_any();
+  return o;
+}
+
+}  // namespace piola::adaptle

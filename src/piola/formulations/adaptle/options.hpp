@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/state.hpp"
+#include "piola/formulations/assembly.hpp"
+#include <optional>
+#include <vector>
+
+namespace piola::adaptle {
+
+enum class Description { adaptive, total_lagrangian, eulerian, patch };
+
+/// What a case file says about one body.
+struct BodyOptions {
+  Description description = Description::adaptive;
+  double smoothing_length = 1.2;  ///< h in spacings
+  double alpha = 1, beta = 2;
+  bool bulk_speed = true;         ///< viscosity with the bulk speed of sound, else that of pressure waves
+  double convert_strain = 0, convert_damage = 1, jacobian_min = 0.3, jacobian_max = 3, tether = 1;
+  double conversion_radius = 2;  ///< in h
+  double blend = 4;              ///< width in spacings
+  bool deletes = false;
+  double artificial_stress = 0.3;
+  std::optional<Expression> eulerian_where, convert_when;
+};
+
+struct Options {
+  Settings settings;
+  std::vector<BodyOptions> bodies;
+};
+
+FormulationInfo info();
+
+/// Throws InputError with everything that is wrong.
+Options read_options(Assembly const& assembly);
+
+/// Variables of the formula convert_when, in the order in which their values are given.
+std::span<std::string_view const> conversion_variables();
+
+}  // namespace piola::adaptle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/state.hpp"
+#include "piola/kernels/cubic_spline.hpp"
+#include "piola/math/tensor.hpp"
+#include "piola/neighbours/records.hpp"
+
+/// What neighbours read of a particle: records of doubles, a multiple of eight long, and the kernel between two of them.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+constexpr int whole(int values) { return (values + 7) / 8 * 8; }
+
+/// Of a particle in space at half time. M = phi V sigma (its weight in the stress forces), R the artificial stress of
+/// eq. (10). With the correction folded in (gt_ab = N g - n W, N = K/S, n = K G/S^2) M becomes M N, and m = M n.
+template <int D, bool Corrected>
+struct SpatialRecord {
+  static constexpr int symmetric = D * (D + 1) / 2;
+  static constexpr int x = 0, v = D, volume = 2 * D, rho = 2 * D + 1, c = 2 * D + 2, viscosity = 2 * D + 3,
+                       phi = 2 * D + 4, R = 2 * D + 5, M = R + symmetric;
+  static constexpr int m = M + D * D, N = m + D, n = N + D * D;  ///< corrected only
+  static constexpr int values = Corrected ? n + D : M + symmetric;
+  static constexpr int stride = whole(values);
+};
+
+/// For the sums of the deformation gradient: reference position, displacement, velocity, reference volume.
+template <int D>
+struct MotionRecord {
+  static constexpr int X = 0, u = D, v = 2 * D, volume = 3 * D, values = 3 * D + 1, stride = whole(values);
+};
+
+/// For material forces: A = (1 - phi) V0 P N and a = (1 - phi) V0 P n.
+template <int D>
+struct ForceRecord {
+  static constexpr int X = 0, x = D, v = 2 * D, A = 3 * D, a = A + D * D, volume = a + D, phi = volume + 1,
+                       values = phi + 1, stride = whole(values);
+};
+
+/// For viscosity in the material description: N = F^-T K/S, n = F^-T K G/S^2.
+template <int D>
+struct ViscousRecord {
+  static constexpr int N = 0, n = D * D, J = n + D, rho = J + 1, c = rho + 1, viscosity = c + 1, values = viscosity + 1,
+                       stride = whole(values);
+};
+
+/// A kernel of one smoothing length.
+template <int D>
+struct Kernel {
+  double inverse_h, norm;
+  PIOLA_FN explicit Kernel(double h) : inverse_h(1 / h), norm(CubicSpline::sigma(D)) {
+    for (int c = 0; c < D; ++c) norm *= inverse_h;
+  }
+  PIOLA_FN double operator()(double r) const { return norm * CubicSpline::w(r * inverse_h); }
+  /// s = -W'(r)/r, so that grad_a W_ab = s (x_b - x_a), and W.
+  template <class T>
+  PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
+    T const inverse_r = 1.0 / square_root(maximum(square, T(1e-300)));
+    T const q = square * inverse_r * inverse_h;
+    s = (-norm * inverse_h) * CubicSpline::dw(q) * inverse_r;
+    W = norm * CubicSpline::w(q);
+  }
+};
+
+template <int D>
+PIOLA_FN Vec<D, Lanes> difference(Lanes const* there, int at, double const* here) {
+  Vec<D, Lanes> r;
+  for (int c = 0; c < D; ++c) r[c] = there[at + c] - here[at + c];
+  return r;
+}
+
+PIOLA_FN double sum_of(Lanes const& a) {
+  double sum = 0;
+  for (int l = 0; l < lane_count; ++l) sum += lane(a, l);
+  return sum;
+}
+PIOLA_FN double largest_of(Lanes const& a) {
+  double largest = lane(a, 0);
+  for (int l = 1; l < lane_count; ++l) largest = lane(a, l) > largest ? lane(a, l) : largest;
+  return largest;
+}
+
+/// Sums over lanes and neighbours of N values: out[c] = sum of the lanes of a[c].
+template <int N>
+PIOLA_FN void total(Lanes const (&a)[N], double (&out)[whole(N)]) {
+  add_lanes(a, out);
+}
+
+/// a^n for whole n >= 0.
+template <class T>
+PIOLA_FN T whole_power(T const& a, int n) {
+  T r = T(1.0);
+  for (int k = 0; k < n; ++k) r = r * a;
+  return r;
+}
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

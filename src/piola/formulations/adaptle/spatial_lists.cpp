@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/spatial_lists.hpp"
+#include <algorithm>
+
+namespace piola::adaptle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+constexpr double far_away = 1e20;
+constexpr Index most_neighbours = 4096;
+
+/// Calls f(cell) for the cells around one.
+template <class F>
+void each_cell_around(Index cell, std::array<Index, 3> const& shape, int dimension, F const& f) {
+  Index const row = shape[0], layer = shape[0] * shape[1];
+  for (Index dz = dimension == 3 ? -1 : 0; dz <= (dimension == 3 ? 1 : 0); ++dz)
+    for (Index dy = -1; dy <= 1; ++dy)
+      for (Index dx = -1; dx <= 1; ++dx) f(cell + dz * layer + dy * row + dx);
+}
+
+}  // namespace
+
+/// Which cells hold Eulerian particles, and of which bodies.
+void SpatialLists::mark_cells(System const& s) {
+  auto const cells = static_cast<std::size_t>(grid_.cell_count());
+  cell_has_eulerian_.assign(cells, 0);
+  cell_low_.assign(cells, s.bodies);
+  cell_high_.assign(cells, -1);
+  group_.resize(at(s.particles) + 16);
+  for (Index k = 0; k < s.particles; ++k) {
+    Index const i = grid_.slots()[k];
+    std::size_t const cell = at(grid_.cells()[k]);
+    group_[at(k)] = s.body_of[i];
+    if (s.state[i].phi > 0) cell_has_eulerian_[cell] = 1;
+    cell_low_[cell] = std::min(cell_low_[cell], s.body_of[i]);
+    cell_high_[cell] = std::max(cell_high_[cell], s.body_of[i]);
+  }
+}
+
+void SpatialLists::choose_targets(System const& s) {
+  spatial_.target.clear();
+  contact_.target.clear();
+  near_.assign(at(s.particles), 0);
+  Index last = -1;
+  bool eulerian = false;
+  std::int32_t low = 0, high = 0;
+  for (Index k = 0; k < s.particles; ++k) {
+    Index const cell = grid_.cells()[k];
+    if (cell != last) {
+      last = cell;
+      eulerian = false;
+      low = s.bodies;
+      high = -1;
+      each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) {
+        eulerian = eulerian || cell_has_eulerian_[at(other)] != 0;
+        low = std::min(low, cell_low_[at(other)]);
+        high = std::max(high, cell_high_[at(other)]);
+      });
+    }
+    if (eulerian) {
+      spatial_.target.push_back(k);
+      near_[at(grid_.slots()[k])] = 1;
+    }
+    if (s.contact.law > 0 && high > low) contact_.target.push_back(k);
+  }
+}
+
+void SpatialLists::build(System const& s, Machine const& machine, int stride) {
+  eulerian_ = std::any_of(s.state, s.state + s.particles, [](State const& p) { return p.phi > 0; });
+  spatial_.target.clear();
+  contact_.target.clear();
+  bool const touching = s.contact.law > 0 && s.bodies > 1;
+  if (!eulerian_ && !touching) return;
+  widest_ = 0;
+  for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
+  grid_.sort(s.state->x, sizeof(State) / sizeof(double), s.particles, s.dimension, widest_);
+  mark_cells(s);
+  choose_targets(s);
+  search(s, machine, spatial_, false);
+  if (touching) search(s, machine, contact_, true);
+  if (!eulerian_) return;
+  if (record_room_ < s.particles + 1) {
+    record_room_ = s.particles + 1;
+    records_ = Memory(static_cast<std::size_t>(record_room_) * static_cast<std::size_t>(stride));
+    double* filler = records_.data() + static_cast<std::ptrdiff_t>(s.particles) * stride;
+    for (int c = 0; c < s.dimension; ++c) filler[c] = far_away;
+    filler[2 * s.dimension + 1] = 1;  // density: it divides
+  }
+}
+
+void SpatialLists::search(System const& s, Machine const& machine, List& list, bool across) {
+  auto const targets = static_cast<Index>(list.target.size());
+  list.length.resize(list.target.size());
+  list.found.resize(list.target.size());
+  reach_.assign(static_cast<std::size_t>(s.bodies), 0);
+  for (int b = 0; b < s.bodies; ++b) {
+    double radius = 2 * s.body[b].h;
+    // Smoothing lengths of pairs of bodies are means.
+    for (int other = 0; other < s.bodies && across; ++other)
+      radius = std::max(radius, s.body[b].h + s.body[other].h);
+    double const reach = radius / widest_ + grid_.slack();
+    reach_[static_cast<std::size_t>(b)] = static_cast<float>(reach * reach);
+  }
+  MovingSearch q;
+  q.dimension = s.dimension;
+  q.sources = s.particles;
+  for (int c = 0; c < 3; ++c) q.place[c] = grid_.place(c);
+  q.group = s.contact.law > 0 && s.bodies > 1 ? group_.data() : nullptr;
+  q.across = across;
+  q.cell = grid_.cells();
+  q.begin = grid_.begins();
+  q.cells = grid_.shape();
+  q.reach = reach_.data();
+  q.targets = targets;
+  q.target = list.target.data();
+  for (;;) {
+    list.entry.resize(at(targets) * at(list.capacity));
+    q.capacity = list.capacity;
+    q.list = list.entry.data();
+    q.length = list.length.data();
+    q.found = list.found.data();
+    machine.search(q);
+    Index longest = 0;
+    for (Index const n : list.length) longest = std::max(longest, n);
+    longest_ = longest;
+    overflow_ = overflow_ || longest >= most_neighbours;
+    if (longest <= list.capacity) return;
+    while (list.capacity < longest) list.capacity += 32;
+  }
+}
+
+void SpatialLists::put_into(System& s) {
+  s.spatial.sources = s.particles;
+  s.spatial.slot = grid_.slots();
+  s.spatial.sorted = grid_.sorted();
+  s.spatial.targets = static_cast<Index>(spatial_.target.size());
+  s.spatial.target = spatial_.target.data();
+  s.spatial.capacity = spatial_.capacity;
+  s.spatial.list = spatial_.entry.data();
+  s.spatial.length = spatial_.length.data();
+  s.spatial.near = near_.data();
+  s.spatial.record = eulerian_ ? records_.data() : nullptr;
+  s.contact.targets = static_cast<Index>(contact_.target.size());
+  s.contact.target = contact_.target.data();
+  s.contact.capacity = contact_.capacity;
+  s.contact.list = contact_.entry.data();
+  s.contact.length = contact_.found.data();
+}
+
+double SpatialLists::mean_neighbours() const {
+  double sum = 0;
+  for (Index const n : spatial_.found) sum += n;
+  return spatial_.found.empty() ? 0 : sum / static_cast<double>(spatial_.found.size());
+}
+
+std::size_t SpatialLists::bytes() const {
+  auto const of = [](List const& l) {
+    return sizeof(Index) * (l.target.size() + l.entry.size() + l.length.size() + l.found.size());
+  };
+  return grid_.bytes() + of(spatial_) + of(contact_) + records_.bytes() +
+         cell_has_eulerian_.size() * (1 + 2 * sizeof(std::int32_t));
+}
+
+}  // namespace piola::adaptle

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/memory.hpp"
+#include "piola/formulations/adaptle/state.hpp"
+#include <vector>
+
+namespace piola::adaptle {
+
+/// Cells, spatial neighbours and contacts of the current positions, made anew in every step. Particles that are
+/// total-Lagrangian and far from Eulerian ones and from other bodies get none.
+class SpatialLists {
+ public:
+  /// lanes: of the machine; stride: of spatial records.
+  void build(System const& system, Machine const& machine, int stride);
+  void put_into(System& system);
+  std::size_t bytes() const;
+  Index longest() const { return longest_; }
+  bool overflow() const { return overflow_; }  ///< a particle has more neighbours than can be listed
+  double mean_neighbours() const;
+
+ private:
+  struct List {
+    std::vector<Index> target, entry, length, found;
+    Index capacity = 64;
+  };
+  void mark_cells(System const& system);
+  void choose_targets(System const& system);
+  void search(System const& system, Machine const& machine, List& list, bool across);
+
+  MovingGrid grid_;
+  std::vector<std::uint8_t> cell_has_eulerian_, near_;
+  std::vector<std::int32_t> cell_low_, cell_high_, group_;
+  std::vector<float> reach_;
+  List spatial_, contact_;
+  Memory records_;
+  Index record_room_ = 0, longest_ = 0;
+  double widest_ = 0;
+  bool eulerian_ = false, overflow_ = false;
+};
+
+}  // namespace piola::adaptle

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/viscosity.hpp"
+
+/// Sums over spatial neighbours: set (1) of the paper.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// One target of the spatial table.
+template <class Record>
+struct SpatialTarget {
+  Index slot;
+  double const* own;
+  Index const* list;
+  Index length;
+  PIOLA_FN SpatialTarget(SpatialTable const& t, Index number)
+      : slot(t.slot[t.target[number]]),
+        own(t.record + static_cast<std::ptrdiff_t>(t.target[number]) * Record::stride),
+        list(t.list + static_cast<std::ptrdiff_t>(number) * t.capacity),
+        length(t.length[number]) {}
+};
+
+/// Forces, heat and velocity gradient of one spatial target. With r = x_b - x_a, g = s r:
+///   t_ab = V_b (M_a g - m_a W)        the half force that a owns        (owner form)
+///   F_a  = sum_b t_ab - t_ba
+///        + m_a m_b Pi/2 (gt_ba - gt_ab) - m_a m_b f^n (R_b gt_ba - R_a gt_ab)
+///   L_a  = sum_b V_b (v_b - v_a) (x) gt_ab
+/// Heat is half the power of viscosity and artificial stress on the relative velocity; that of stress follows from L.
+/// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the printed interface only
+/// Eulerian targets keep stress and viscosity.
+template <int D, bool Corrected>
+struct SpatialSweep {
+  using R = SpatialRecord<D, Corrected>;
+  SpatialTable table;
+  Settings settings;
+  BodyConstants const* body;
+  int const* body_of;
+  Sums* sums;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index t = block.first; t < block.last; ++t) visit(t);
+  }
+
+ private:
+  struct Accumulated {
+    static constexpr int G = 0, W = D, Q = D + 1, L = 2 * D + 1, LW = L + D * D, T = LW + D, heat = T + D,
+                         count = heat + 1;
+    Lanes a[count];
+    Lanes mu;
+  };
+
+  PIOLA_FN void visit(Index number) const {
+    SpatialTarget<R> const target(table, number);
+    BodyConstants const& b = body[body_of[target.slot]];
+    Kernel<D> const kernel(b.h);
+    double const inverse_reference = 1 / kernel(b.spacing);
+    Accumulated sum;
+    for (int c = 0; c < Accumulated::count; ++c) sum.a[c] = Lanes(0.0);
+    sum.mu = Lanes(0.0);
+    for (Index k = 0; k < target.length; k += lane_count) {
+      Lanes f[R::values];
+      load_records<R::values>(table.record, R::stride, target.list + k, f);
+      add_pairs(target.own, f, b, kernel, inverse_reference, sum);
+    }
+    store(target, sum);
+  }
+
+  PIOLA_FN void add_pairs(double const* own, Lanes const* f, BodyConstants const& b, Kernel<D> const& kernel,
+                          double inverse_reference, Accumulated& sum) const {
+    Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
+    Lanes const square = dot(r, r);
+    Lanes s, W;
+    kernel.evaluate(square, s, W);
+    Lanes const volume = f[R::volume], Vs = volume * s;
+    for (int i = 0; i < D; ++i) {
+      sum.a[Accumulated::G + i] += Vs * r[i];
+      Lanes const weighted = Vs * w[i];
+      for (int j = 0; j < D; ++j) sum.a[Accumulated::L + i * D + j] += weighted * r[j];
+      sum.a[Accumulated::Q + i] += reaction(f, r, s, W, i);
+    }
+    if constexpr (Corrected) {
+      Lanes const VW = volume * W;
+      sum.a[Accumulated::W] += VW;
+      for (int i = 0; i < D; ++i) sum.a[Accumulated::LW + i] += VW * w[i];
+    }
+    // One description per pair: a total-Lagrangian pair has its viscosity from material sums.
+    Lanes const eulerian = own[R::phi] > 0 ? Lanes(1.0) : select(f[R::phi] > 0.0, Lanes(1.0), Lanes(0.0));
+    Lanes const closing = dot(w, r);
+    Lanes const mu = approach_of(closing, square, b.h);
+    sum.mu = maximum(sum.mu, select(square < 4.0 * b.h * b.h, -1.0 * mu, Lanes(0.0)));
+    Lanes const factor = 0.5 * (f[R::viscosity] + own[R::viscosity]);
+    Lanes pressure = viscous_pressure(b.alpha, b.beta, mu, 0.5 * (f[R::c] + own[R::c]), 0.5 * (f[R::rho] + own[R::rho]));
+    pressure = pressure * factor * (settings.interface_form == Interface::printed ? Lanes(own[R::phi] > 0 ? 1.0 : 0.0)
+                                                                                  : eulerian);
+    Lanes stress_weight = Lanes(0.0);
+    if (settings.artificial_stress) {
+      stress_weight = whole_power(W * inverse_reference, settings.exponent) * mixed_weight(own[R::phi], f[R::phi]);
+    }
+    add_extra(own, f, r, w, s, W, pressure, stress_weight, sum);
+  }
+
+  /// Component i of M_b g + m_b W: minus t_ba over V_a.
+  PIOLA_FN static Lanes reaction(Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s, Lanes const& W, int i) {
+    Lanes sum = Lanes(0.0);
+    for (int j = 0; j < D; ++j) sum += f[R::M + (Corrected ? i * D + j : SymMat<D>::at(i, j))] * r[j];
+    sum = s * sum;
+    if constexpr (Corrected) sum += f[R::m + i] * W;
+    return sum;
+  }
+
+  PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {
+    Lanes const here(own > 0 ? 1.0 : 0.0), there = select(other > 0.0, Lanes(1.0), Lanes(0.0));
+    if (settings.mixed_stress == MixedStress::both) return maximum(here, there);
+    if (settings.mixed_stress == MixedStress::eulerian_only) return here;
+    return here * there;
+  }
+
+  /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity.
+  PIOLA_FN void add_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r, Vec<D, Lanes> const& w,
+                          Lanes const& s, Lanes const& W, Lanes const& pressure, Lanes const& stress_weight,
+                          Accumulated& sum) const {
+    Lanes const mass = f[R::volume] * f[R::rho];
+    Vec<D, Lanes> gt_ab, gt_ba;
+    for (int i = 0; i < D; ++i) {
+      Lanes const g = s * r[i];
+      gt_ab[i] = g;
+      gt_ba[i] = -1.0 * g;
+      if constexpr (Corrected) {
+        Lanes here = Lanes(0.0), there = Lanes(0.0);
+        for (int j = 0; j < D; ++j) {
+          here += own[R::N + i * D + j] * r[j];
+          there += f[R::N + i * D + j] * r[j];
+        }
+        gt_ab[i] = s * here - own[R::n + i] * W;
+        gt_ba[i] = -1.0 * (s * there + f[R::n + i] * W);
+      }
+    }
+    Lanes power = Lanes(0.0);
+    for (int i = 0; i < D; ++i) {
+      Lanes extra = (0.5 * pressure) * (gt_ba[i] - gt_ab[i]);
+      if (settings.artificial_stress) {
+        Lanes bracket = Lanes(0.0);
+        for (int j = 0; j < D; ++j)
+          bracket += f[R::R + SymMat<D>::at(i, j)] * gt_ba[j] - own[R::R + SymMat<D>::at(i, j)] * gt_ab[j];
+        extra -= stress_weight * bracket;
+      }
+      extra = mass * extra;
+      sum.a[Accumulated::T + i] += extra;
+      power += extra * w[i];
+    }
+    sum.a[Accumulated::heat] += 0.5 * power;
+  }
+
+  PIOLA_FN void store(SpatialTarget<R> const& target, Accumulated const& sum) const {
+    double a[whole(Accumulated::count)];
+    total(sum.a, a);
+    double const* own = target.own;
+    Sums& out = sums[target.slot];
+    double const mass = own[R::volume] * own[R::rho];
+    double const stress = settings.interface_form == Interface::printed && !(own[R::phi] > 0) ? 0 : 1;
+    for (int i = 0; i < D; ++i) {
+      double own_force = 0;
+      for (int j = 0; j < D; ++j)
+        own_force += own[R::M + (Corrected ? i * D + j : SymMat<D>::at(i, j))] * a[Accumulated::G + j];
+      if constexpr (Corrected) own_force -= own[R::m + i] * a[Accumulated::W];
+      out.force[i] += stress * (own_force + own[R::volume] * a[Accumulated::Q + i]) + mass * a[Accumulated::T + i];
+      for (int j = 0; j < D; ++j) {
+        double L = a[Accumulated::L + i * D + j];
+        if constexpr (Corrected) {
+          L = -a[Accumulated::LW + i] * own[R::n + j];
+          for (int k = 0; k < D; ++k) L += a[Accumulated::L + i * D + k] * own[R::N + j * D + k];
+        }
+        out.L[3 * i + j] = L;
+      }
+    }
+    out.heat += mass * a[Accumulated::heat];
+    out.compression = largest_of(sum.mu);
+  }
+};
+
+/// Corrections (4), (5) of one spatial target, dropped where they would change a gradient by more than C_f, turn it
+/// round, or cannot be had.
+template <int D>
+struct CorrectSpatial {
+  using R = SpatialRecord<D, true>;
+  SpatialTable table;
+  Settings settings;
+  BodyConstants const* body;
+  int const* body_of;
+  Correction* correction;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index t = block.first; t < block.last; ++t) visit(t);
+  }
+
+ private:
+  static constexpr int width = 1 + 2 * D + D * D;
+
+  PIOLA_FN void visit(Index number) const {
+    SpatialTarget<R> const target(table, number);
+    BodyConstants const& b = body[body_of[target.slot]];
+    Kernel<D> const kernel(b.h);
+    Lanes sum[width];
+    for (auto& a : sum) a = Lanes(0.0);
+    for (Index k = 0; k < target.length; k += lane_count) {
+      Lanes f[R::volume + 1];
+      load_records<R::volume + 1>(table.record, R::stride, target.list + k, f);
+      Vec<D, Lanes> const r = difference<D>(f, R::x, target.own);
+      Lanes s, W;
+      kernel.evaluate(dot(r, r), s, W);
+      Lanes const VW = f[R::volume] * W, Vs = f[R::volume] * s;
+      sum[0] += VW;
+      for (int i = 0; i < D; ++i) {
+        Lanes const g = Vs * r[i];
+        sum[1 + i] += g;
+        sum[1 + D + i] += VW * r[i];
+        for (int j = 0; j < D; ++j) sum[1 + 2 * D + i * D + j] += g * r[j];
+      }
+    }
+    double a[whole(width)];
+    total(sum, a);
+    a[0] += target.own[R::volume] * kernel(0);
+    Correction& out = correction[target.slot];
+    out = {1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    Mat<D> A;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j)
+        A(i, j) = (a[0] * a[1 + 2 * D + i * D + j] - a[1 + i] * a[1 + D + j]) / (a[0] * a[0]);
+    Mat<D> const K = inverse(A);
+    double size = 0;
+    for (double const k : K.c) size += k * k;
+    if (!(size < 1e20)) return;
+    Correction trial = out;
+    trial.S = a[0];
+    for (int i = 0; i < D; ++i) {
+      trial.G[i] = a[1 + i];
+      for (int j = 0; j < D; ++j) trial.K[3 * i + j] = K(i, j);
+    }
+    if (admissible(target, trial, kernel, b.h)) out = trial;
+  }
+
+  PIOLA_FN bool admissible(SpatialTarget<R> const& target, Correction const& k, Kernel<D> const& kernel,
+                           double h) const {
+    int neighbours = 0;
+    for (Index n = 0; n < target.length; ++n) {
+      double const* other = table.record + static_cast<std::ptrdiff_t>(target.list[n]) * R::stride;
+      Vec<D> r, plain, corrected;
+      for (int i = 0; i < D; ++i) r[i] = other[R::x + i] - target.own[R::x + i];
+      double const square = dot(r, r);
+      double s, W;
+      kernel.evaluate(square, s, W);
+      if (!(W > 0)) continue;
+      ++neighbours;
+      for (int i = 0; i < D; ++i) {
+        plain[i] = s * r[i];
+        corrected[i] = 0;
+        for (int j = 0; j < D; ++j) corrected[i] += k.K[3 * i + j] * (s * r[j] * k.S - k.G[j] * W) / (k.S * k.S);
+      }
+      if (square < h * h && dot(plain, corrected) < 0) return false;
+      double const length = std::sqrt(dot(plain, plain));
+      for (int i = 0; i < D; ++i) {
+        double const limit = std::fabs(r[i]) > 0.05 * h ? std::fabs(plain[i]) : length;
+        if (!(std::fabs(corrected[i]) <= settings.fallback * limit)) return false;
+      }
+    }
+    return neighbours >= 2;
+  }
+};
+
+/// Folds the correction of each spatial target into its record.
+template <int D>
+struct FoldCorrection {
+  using R = SpatialRecord<D, true>;
+  SpatialTable table;
+  Correction const* correction;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index t = block.first; t < block.last; ++t) {
+      Index const i = table.target[t];
+      double* own = table.record + static_cast<std::ptrdiff_t>(i) * R::stride;
+      Correction const& k = correction[table.slot[i]];
+      double M[SymMat<D>::size], N[D * D], n[D];
+      for (int c = 0; c < SymMat<D>::size; ++c) M[c] = own[R::M + c];
+      for (int p = 0; p < D; ++p) {
+        n[p] = 0;
+        for (int q = 0; q < D; ++q) {
+          N[p * D + q] = k.K[3 * p + q] / k.S;
+          n[p] += k.K[3 * p + q] * k.G[q] / (k.S * k.S);
+        }
+      }
+      for (int p = 0; p < D; ++p) {
+        own[R::m + p] = 0;
+        own[R::n + p] = n[p];
+        for (int q = 0; q < D; ++q) {
+          own[R::m + p] += M[SymMat<D>::at(p, q)] * n[q];
+          own[R::N + p * D + q] = N[p * D + q];
+          double sum = 0;
+          for (int l = 0; l < D; ++l) sum += M[SymMat<D>::at(p, l)] * N[l * D + q];
+          own[R::M + p * D + q] = sum;
+        }
+      }
+    }
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

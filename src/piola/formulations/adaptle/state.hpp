@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/materials/registry.hpp"
+#include "piola/neighbours/moving_pairs.hpp"
+
+/// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay in the order of their
+/// ids; what spatial sums read is gathered into the order of the cell grid in every step.
+namespace piola::adaptle {
+
+enum class Viscosity { monaghan, balsara, morris_monaghan, riemann };
+enum class Interface {
+  owner,   ///< each particle acts through its own gradients, its neighbours feel the reaction: conserves
+  printed  ///< each particle sums in its own description over all its neighbours, as published
+};
+/// Artificial stress between a total-Lagrangian and an Eulerian particle.
+enum class MixedStress { both, eulerian_only, none };
+
+/// What never changes.
+struct Reference {
+  double X[3];    ///< reference position [m]
+  double volume;  ///< in kernel sums [m^D]
+  double mass;    ///< [kg], per unit depth in two dimensions
+};
+
+/// The evolved state of one particle: what checkpoints hold, together with Rates.
+struct State {
+  double x[3], v[3];       ///< position [m], velocity [m/s]
+  double S[6];             ///< deviator of the Cauchy stress, XX YY ZZ XY YZ XZ [Pa]
+  double rho;              ///< [kg/m3]; total-Lagrangian: rho0 / J of half a step before
+  double energy;           ///< internal energy of the particle [J]
+  double plastic_strain;   ///< equivalent
+  double temperature;      ///< [K]
+  double damage;           ///< 1: failed
+  double plastic_work;     ///< per reference volume [J/m3]
+  double thickness;        ///< in plane stress, over that at the start; else 1
+  double viscosity;        ///< factor on alpha and beta (Morris and Monaghan's switch)
+  double phi;              ///< 0 total-Lagrangian, 1 Eulerian, between: blended
+  double alive;            ///< 0: deleted, bears no stress
+  static constexpr int values = 22;
+};
+
+/// Rates of the last step, from which the next one predicts half time.
+struct Rates {
+  double a[3];  ///< [m/s2]
+  double S[6];  ///< [Pa/s]
+  double rho, energy, thickness, viscosity;
+  static constexpr int values = 13;
+};
+
+/// Half time: predicted, or known from positions.
+struct Half {
+  double v[3], S[6], energy, thickness;
+  double volume;    ///< current volume; in two dimensions area [m^D]
+  double rho;       ///< [kg/m3]
+  double pressure;  ///< positive in compression [Pa]
+  double c;         ///< speed of pressure waves [m/s]
+  double divergence;
+};
+
+/// Material kinematics of half time, in three dimensions.
+struct Deformation {
+  double F[9], rate[9];  ///< deformation gradient and its rate
+  double gap;            ///< largest |x_b - x_a - F_a (X_b - X_a)| / h over Eulerian reference neighbours b
+};
+
+/// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
+struct Correction {
+  double S, G[3], K[9];
+};
+
+/// Results of the sweeps.
+struct Sums {
+  double force[3];     ///< [N]
+  double heat;         ///< of viscosity and artificial stress [W]
+  double L[9];         ///< spatial velocity gradient [1/s]
+  double contact;      ///< power of contact forces on half the relative velocities [W]
+  double stiffness;    ///< of contact [N/m]
+  double overlap;      ///< largest share of the stand-off distance that a contact has used up
+  double compression;  ///< largest |mu_ab| of the viscosity [m/s]
+};
+
+/// What the particles of one body share.
+struct BodyConstants {
+  MaterialParameters material;
+  Index first = 0, last = 0;  ///< slots
+  double h = 1;               ///< smoothing length [m]
+  double spacing = 1;         ///< dp [m]
+  double rho0 = 1;            ///< [kg/m3]
+  double c = 0;               ///< of the viscosity [m/s]
+  double alpha = 1, beta = 2;
+  double artificial_stress = 0;  ///< epsilon
+  double convert_strain = 0, convert_damage = 1, jacobian_min = 0, jacobian_max = 0, tether = 0;
+  double shear_share = 0.5;                      ///< speed of shear waves over that of pressure waves
+  double bulk_modulus = 0;       ///< at rest [Pa]
+  double poisson = 0, young = 0;  ///< of the strain across the plane (eq. 19)
+  bool adaptive = false;          ///< total-Lagrangian particles may convert
+  bool deletes = false;           ///< failed total-Lagrangian particles are deleted
+};
+
+/// Forces between two bodies: U = eps (W(r) / W(dp))^n, or a linear spring of that stiffness.
+struct ContactPair {
+  double eps = 0;  ///< [J]
+  double h = 1, dp = 1;
+};
+
+/// A rigid shape at half time.
+struct RigidPlace {
+  int kind = 0;
+  double centre[3], axis[3], half[3], radius, velocity[3];
+};
+
+struct SpatialTable {
+  Index sources = 0;               ///< sorted particles; the record after the last is a filler, far away
+  Index const* slot = nullptr;     ///< of each sorted particle
+  Index const* sorted = nullptr;   ///< of each slot
+  Index targets = 0;               ///< that have a list
+  Index const* target = nullptr;   ///< sorted numbers
+  Index capacity = 0;              ///< of one list
+  Index const* list = nullptr;     ///< [target][capacity]: sorted numbers, filled up to whole lanes
+  Index const* length = nullptr;   ///< a multiple of the lanes
+  std::uint8_t const* near = nullptr;  ///< per slot: whether it takes part; null: all do
+  double* record = nullptr;
+};
+
+struct MaterialTable {
+  Index const* begin = nullptr;     ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
+  Index const* neighbour = nullptr;
+  double const *s = nullptr, *W = nullptr;  ///< per pair: -W'(r)/r and W(r) in the reference configuration
+  Index const* kinematic = nullptr;         ///< slots whose F is needed
+  Index kinematics = 0;
+  Index const* target = nullptr;  ///< slots that feel material forces
+  Index targets = 0;
+  double *motion = nullptr, *force = nullptr, *viscous = nullptr;  ///< records; a filler after the last
+  Correction const* correction = nullptr;                          ///< per slot
+};
+
+struct ContactTable {
+  Index targets = 0;
+  Index const* target = nullptr;  ///< sorted numbers
+  Index capacity = 0;
+  Index const* list = nullptr;    ///< [target][capacity]: sorted numbers of particles of other bodies
+  Index const* length = nullptr;  ///< per target
+  ContactPair const* pair = nullptr;  ///< [body][body]
+  int law = 0;
+  double exponent = 4, printed = 0;
+  double scale = 1;  ///< of the stiffness of rigid shapes
+};
+
+struct Settings {
+  Viscosity viscosity = Viscosity::monaghan;
+  Interface interface_form = Interface::owner;
+  MixedStress mixed_stress = MixedStress::both;
+  bool corrected = false, plane_stress = false, artificial_stress = false;
+  int exponent = 4;        ///< n of the artificial stress
+  double fallback = 1e300; ///< C_f
+  double cfl = 0.3;
+};
+
+/// What a step says about itself.
+struct Measures {
+  double dt = 0;            ///< stable step from the new state [s]
+  double contact_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0;  ///< [W]
+  double overlap = 0;
+  Index wishes = 0;  ///< particles that want to convert or to be deleted
+};
+
+struct System {
+  int dimension = 3, bodies = 0;
+  Index particles = 0;
+  Settings settings;
+  BodyConstants const* body = nullptr;
+  int const* body_of = nullptr;  ///< per slot
+  Reference const* reference = nullptr;
+  State* state = nullptr;
+  Rates* rates = nullptr;
+  Half* half = nullptr;
+  Deformation* deformation = nullptr;
+  Correction* correction = nullptr;  ///< spatial
+  Sums* sums = nullptr;
+  SpatialTable spatial;
+  MaterialTable material;
+  ContactTable contact;
+  RigidPlace const* rigid = nullptr;
+  int rigids = 0;
+  double* rigid_power = nullptr;  ///< per slot: work of moving shapes [W]
+  double const* load = nullptr;            ///< acceleration of loads at half time, 3 per slot; null: none
+  std::int8_t const* held = nullptr;       ///< directions with a prescribed velocity, 3 per slot; null: none
+  double const* held_velocity = nullptr;   ///< at the end of the step, 3 per slot
+  std::int8_t* wish = nullptr;             ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  double* partial = nullptr;               ///< room for reductions, 16 per block
+  FailureSlot* failure = nullptr;
+};
+
+/// Codes of FailureSlot.
+enum FailureCode { not_a_number = 1, negative_density = 2, inverted = 3 };
+
+/// The loops of one machine (instruction set).
+struct Machine {
+  char const* name;
+  int lanes;
+  void (*predict)(System&, double dt);     ///< to half time; writes motion records
+  void (*deform)(System&);                 ///< F and its rate of half time from reference neighbours
+  void (*half_state)(System&);             ///< densities, pressures, and the records of both descriptions
+  void (*correct)(System&);                ///< kernel and gradient corrections of half time
+  void (*sweep)(System&);                  ///< forces, heat and velocity gradients
+  Measures (*finish)(System&, double dt);  ///< to the end of the step
+  void (*search)(MovingSearch const&);     ///< lists of spatial neighbours
+};
+
+Machine const* find_machine(char const* name);
+char const* const* machine_names();
+
+}  // namespace piola::adaptle

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/contact_sweep.hpp"
+#include "piola/formulations/adaptle/finish_pass.hpp"
+#include "piola/formulations/adaptle/material_sweep.hpp"
+#include "piola/formulations/adaptle/riemann_sweep.hpp"
+#include "piola/formulations/adaptle/spatial_sweep.hpp"
+#include "piola/neighbours/moving_search.hpp"
+
+/// One step, part by part; the host sorts particles and updates tables between the parts.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+struct ClearSums {
+  Sums* sums;
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index i = block.first; i < block.last; ++i) sums[i] = Sums{};
+  }
+};
+
+template <int D>
+struct Step {
+  System& s;
+
+  Range body_range(int b) const { return {s.body[b].first, s.body[b].last}; }
+
+  void predict(double dt) const {
+    for (int b = 0; b < s.bodies; ++b)
+      with_solid(s.body[b].material, [&](auto const& law) {
+        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state,
+                                                                                    s.rates, s.half,
+                                                                                    s.material.motion, s.failure});
+      });
+  }
+
+  void deform() const {
+    exec::for_each_block(Range{0, s.material.kinematics},
+                         DeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of, s.settings.corrected,
+                                        s.deformation});
+  }
+
+  template <bool Corrected>
+  void half_state() const {
+    for (int b = 0; b < s.bodies; ++b)
+      with_solid(s.body[b].material, [&](auto const& law) {
+        exec::for_each_block(body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>{
+                                                law, s.body[b], s.settings, s.reference, s.state, s.half,
+                                                s.deformation, s.spatial, s.material, s.failure});
+      });
+  }
+
+  void correct() const {
+    Range const targets{0, s.spatial.targets};
+    exec::for_each_block(targets, CorrectSpatial<D>{s.spatial, s.settings, s.body, s.body_of, s.correction});
+    exec::for_each_block(targets, FoldCorrection<D>{s.spatial, s.correction});
+  }
+
+  void sweep() const {
+    exec::for_each_block(Range{0, s.particles}, ClearSums{s.sums});
+    Range const targets{0, s.spatial.targets};
+    if (s.settings.viscosity == Viscosity::riemann)
+      exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of, s.sums});
+    else if (s.settings.corrected)
+      exec::for_each_block(targets, SpatialSweep<D, true>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+    else
+      exec::for_each_block(targets, SpatialSweep<D, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+    exec::for_each_block(Range{0, s.material.targets},
+                         MaterialSweep<D>{s.material, s.settings, s.body, s.body_of, s.reference, s.state,
+                                          s.deformation, s.sums});
+    exec::for_each_block(Range{0, s.contact.targets},
+                         ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, s.state, s.half, s.sums});
+    if (s.rigids > 0)
+      exec::for_each_block(Range{0, s.particles},
+                           RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, s.state, s.half,
+                                         s.sums, s.rigid_power});
+  }
+
+  Measures finish(double dt) const {
+    Measures m;
+    m.dt = 1e300;
+    for (int b = 0; b < s.bodies; ++b)
+      with_solid(s.body[b].material, [&](auto const& law) {
+        Range const r = body_range(b);
+        double const* rigid_power = s.rigids > 0 ? s.rigid_power : nullptr;
+        exec::for_each_block(r, Finish<D, std::decay_t<decltype(law)>>{law, s.body[b], s.settings, dt, s, rigid_power,
+                                                                       s.partial});
+        add_blocks(exec::block_count(r), m);
+      });
+    return m;
+  }
+
+ private:
+  /// In the order of blocks: the same bits for any number of threads.
+  void add_blocks(Index blocks, Measures& m) const {
+    using B = BlockMeasures;
+    for (Index k = 0; k < blocks; ++k) {
+      double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;
+      m.contact_power += p[B::contact];
+      m.rigid_power += p[B::rigid];
+      m.held_power += p[B::held];
+      m.load_power += p[B::load];
+      m.viscous_power += p[B::viscous];
+      m.dt = p[B::dt] < m.dt ? p[B::dt] : m.dt;
+      m.overlap = p[B::overlap] > m.overlap ? p[B::overlap] : m.overlap;
+      m.wishes += static_cast<Index>(p[B::wishes]);
+    }
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/case_spec.hpp"
+#include "piola/output/field_cache.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace piola {
+
+/// Where some particles are now [m]. Particles whose position is not finite are left out.
+struct Cloud {
+  std::vector<std::int64_t> id;
+  std::vector<std::array<double, 3>> x;
+};
+Cloud cloud_of(FieldCache& cache, std::span<std::int64_t const> ids);
+
+/// Points that hang together: two points are linked if they are closer than `link` [m].
+struct Clusters {
+  std::vector<std::size_t> of;    ///< cluster of each point, numbered in the order of their first points
+  std::vector<std::size_t> size;  ///< points of each cluster
+};
+Clusters find_clusters(std::vector<std::array<double, 3>> const& points, double link);
+
+/// Distance from each of the points `of` to the nearest other point [m]; infinite if there is none. `near` [m] is where
+/// most of them find it.
+std::vector<double> nearest_distances(std::vector<std::array<double, 3>> const& points, std::span<std::size_t const> of,
+                                      double near);
+
+/// What the probes of kinds spacing, fragment, rim and hole look at, chosen once from reference positions.
+struct Measured {
+  Measured(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, std::vector<std::int64_t> ids);
+  ProbeSpec spec;
+  double spacing;                 ///< smallest lattice spacing of the body [m]
+  std::vector<std::int64_t> ids;  ///< the particles that count
+  std::vector<char> anchor;       ///< of every particle of the run: in the anchor region; empty if there is none
+};
+
+/// Of each cluster whether it contains a particle of the anchor region.
+std::vector<char> anchored(Measured const& measured, Cloud const& cloud, Clusters const& clusters);
+
+}  // namespace piola

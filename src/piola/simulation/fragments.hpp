@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/simulation/clusters.hpp"
+#include <vector>
+
+/// How far particles have clumped and bodies fallen apart. Each function gives the numbers of one moment in the order
+/// of own_quantities, and each costs time in proportion to the number of particles.
+namespace piola {
+
+/// Kind spacing: distances from the measured particles to their nearest neighbours in any body, over the body's initial
+/// spacing: smallest, percentiles 1, 5 and 50 (linear between the sorted values, rank q (n - 1)), standard deviation
+/// over n, and the shares below 0.75 and 0.5. All nan if no particle has a neighbour.
+std::vector<double> spacing_values(Measured const& measured, FieldCache& cache);
+
+/// Kind fragment: the number of clusters, then of the chosen one (of several largest, the one with the first particle)
+/// particles, reference volume [m^Dim], mean velocity weighted by volume [m/s], and extents [m] of its particles nearer
+/// than `near_axis` to the axis. All zero but the count if there is no such cluster; velocities are nan if the
+/// formulation has no field Velocity.
+std::vector<double> fragment_values(Measured const& measured, FieldCache& cache);
+
+}  // namespace piola
