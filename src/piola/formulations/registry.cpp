@@ -2,6 +2,8 @@
 #include "piola/formulations/registry.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/solver.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/solver.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
@@ -21,9 +23,9 @@ struct Entry {
 
 /// Adding a formulation: its folder and one line here.
 std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection::info(), &jst_advection::make},
-                     Entry{taylor_sph::info(), &taylor_sph::make}};
+                     Entry{taylor_sph::info(), &taylor_sph::make}, Entry{adaptle::info(), &adaptle::make}};
 
-std::array const infos{all[0].info, all[1].info, all[2].info};
+std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info};
 
 bool knows(FormulationInfo const& info, std::string_view what) { return what == "cracks" ? info.cracks : info.mirrors; }
 

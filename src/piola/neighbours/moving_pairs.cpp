@@ -57,8 +57,10 @@ void MovingGrid::sort(double const* x, std::ptrdiff_t stride, Index particles, i
   }
   slack_ = 4 * 6e-8 * (extent / cell + 1);
   key_.resize(n);
-  begin_.assign(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                        static_cast<std::size_t>(count_[2]) + 1, 0);
+  begin_.assign(
+      static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]) +
+          1,
+      0);
   for (Index i = 0; i < particles; ++i) {
     std::array<Index, 3> at{};
     for (std::size_t c = 0; c < D; ++c) {

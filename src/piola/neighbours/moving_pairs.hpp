@@ -12,19 +12,19 @@ namespace piola {
 struct MovingSearch {
   int dimension = 3;
   Index sources = 0;
-  float const* place[3] = {};      ///< coordinates in units of a cell, from the corner of the grid
+  float const* place[3] = {};           ///< coordinates in units of a cell, from the corner of the grid
   std::int32_t const* group = nullptr;  ///< of each sorted particle: null: all pairs
-  bool across = false;  ///< pairs of different groups, else of the same group
-  Index const* cell = nullptr;     ///< of each sorted particle: its cell, x fastest
-  Index const* begin = nullptr;    ///< first particle of each cell, one more at the end
-  std::array<Index, 3> cells{};    ///< along each axis, with one empty layer around
-  float const* reach = nullptr;    ///< squared radius of the search of each group (or one), in cells
+  bool across = false;                  ///< pairs of different groups, else of the same group
+  Index const* cell = nullptr;          ///< of each sorted particle: its cell, x fastest
+  Index const* begin = nullptr;         ///< first particle of each cell, one more at the end
+  std::array<Index, 3> cells{};         ///< along each axis, with one empty layer around
+  float const* reach = nullptr;         ///< squared radius of the search of each group (or one), in cells
   Index targets = 0;
-  Index const* target = nullptr;   ///< sorted numbers
+  Index const* target = nullptr;  ///< sorted numbers
   Index capacity = 0;
-  Index* list = nullptr;           ///< [target][capacity]
-  Index* length = nullptr;         ///< found, filled up to whole lanes; more than the capacity: not stored
-  Index* found = nullptr;          ///< without filling
+  Index* list = nullptr;    ///< [target][capacity]
+  Index* length = nullptr;  ///< found, filled up to whole lanes; more than the capacity: not stored
+  Index* found = nullptr;   ///< without filling
 };
 
 /// Particles sorted by cubic cells, cell by cell with x fastest, in order of their numbers within a cell.
@@ -34,9 +34,9 @@ class MovingGrid {
   /// radius. Particles far outside of the others share cells at the border, which costs time but loses no pair.
   void sort(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell);
 
-  Index const* slots() const { return slot_.data(); }      ///< of each sorted particle
-  Index const* sorted() const { return sorted_.data(); }   ///< of each particle
-  Index const* cells() const { return cell_.data(); }      ///< of each sorted particle
+  Index const* slots() const { return slot_.data(); }     ///< of each sorted particle
+  Index const* sorted() const { return sorted_.data(); }  ///< of each particle
+  Index const* cells() const { return cell_.data(); }     ///< of each sorted particle
   Index const* begins() const { return begin_.data(); }
   Index cell_count() const { return static_cast<Index>(begin_.size()) - 1; }
   std::array<Index, 3> shape() const { return count_; }

@@ -24,8 +24,8 @@ PIOLA_FN bool related(MovingSearch const& s, Index i, Index j) {
 /// Appends the sorted particles of [first, last) within the radius of target i, without i itself.
 PIOLA_FN void collect_run(MovingSearch const& s, Index i, float reach, Index first, Index last, FoundList& found) {
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
-  __m512 const x = _mm512_set1_ps(s.place[0][i]), y = _mm512_set1_ps(s.place[1][i]),
-               z = _mm512_set1_ps(s.place[2][i]), limit = _mm512_set1_ps(reach);
+  __m512 const x = _mm512_set1_ps(s.place[0][i]), y = _mm512_set1_ps(s.place[1][i]), z = _mm512_set1_ps(s.place[2][i]),
+               limit = _mm512_set1_ps(reach);
   __m512i const self = _mm512_set1_epi32(i),
                 steps = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   for (Index j = first; j < last && found.count < FoundList::room; j += 16) {
@@ -51,8 +51,8 @@ PIOLA_FN void collect_run(MovingSearch const& s, Index i, float reach, Index fir
     found.count += __builtin_popcount(static_cast<unsigned>(inside));
   }
 #elif PIOLA_HAS_PACKS && defined(__AVX2__)
-  __m256 const x = _mm256_set1_ps(s.place[0][i]), y = _mm256_set1_ps(s.place[1][i]),
-               z = _mm256_set1_ps(s.place[2][i]), limit = _mm256_set1_ps(reach);
+  __m256 const x = _mm256_set1_ps(s.place[0][i]), y = _mm256_set1_ps(s.place[1][i]), z = _mm256_set1_ps(s.place[2][i]),
+               limit = _mm256_set1_ps(reach);
   for (Index j = first; j < last && found.count < FoundList::room; j += 8) {
     Index const rest = last - j;
     unsigned inside = rest >= 8 ? 0xffU : (1U << rest) - 1U;

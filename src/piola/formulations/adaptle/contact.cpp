@@ -51,7 +51,8 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
       for (std::size_t c = 0; c < 3; ++c) square += std::pow(mean_velocity[a][c] - mean_velocity[b][c], 2);
       double const v = std::isnan(rule.closing_speed) ? std::sqrt(square) : rule.closing_speed;
       // dp_a^(d-1) dp_b^(d-1) / dp^(d-2)
-      double const area = std::pow(bodies[a].spacing * bodies[b].spacing, dimension - 1) / std::pow(p.dp, dimension - 2);
+      double const area =
+          std::pow(bodies[a].spacing * bodies[b].spacing, dimension - 1) / std::pow(p.dp, dimension - 2);
       if (rule.law == ContactRule::Law::kernel)
         p.eps = rule.scale * reference_pressure(bodies[a], bodies[b], v) * area /
                 contact_number(dimension, p.h, p.dp, rule.exponent);

@@ -22,8 +22,8 @@ PIOLA_FN ContactForce kernel_contact(ContactPair const& p, double exponent, doub
   double const reference = kernel(p.dp), w = W / reference, slope = s * r / reference;
   double const power = std::pow(w, exponent - 2);
   double const bend = 3 * kernel.norm * kernel.inverse_h * kernel.inverse_h / reference;
-  return {p.eps * exponent * power * w * slope,
-          p.eps * exponent * power * ((exponent - 1) * slope * slope + w * bend), 1 - r / p.dp};
+  return {p.eps * exponent * power * w * slope, p.eps * exponent * power * ((exponent - 1) * slope * slope + w * bend),
+          1 - r / p.dp};
 }
 
 /// F = eps (dp - r) / dp^2 below dp: a linear spring with the stiffness of the material.

@@ -47,7 +47,7 @@ void search(MovingSearch const& s) { find_neighbours(s); }
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,  &predict, &deform, &half_state,
-                      &correct,                  &sweep, &finish,  &search};
+Machine const machine{
+    PIOLA_NAME(PIOLA_MACHINE), lane_count, &predict, &deform, &half_state, &correct, &sweep, &finish, &search};
 
 }  // namespace piola::adaptle::inline PIOLA_MACHINE

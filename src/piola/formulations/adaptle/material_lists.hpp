@@ -27,8 +27,7 @@ class MaterialLists {
       if (b >= particles_) continue;
       double square = 0;
       for (int c = 0; c < 3; ++c) {
-        double const d =
-            reference[static_cast<std::size_t>(b)].X[c] - reference[static_cast<std::size_t>(a)].X[c];
+        double const d = reference[static_cast<std::size_t>(b)].X[c] - reference[static_cast<std::size_t>(a)].X[c];
         square += d * d;
       }
       if (square <= within * within) f(b);

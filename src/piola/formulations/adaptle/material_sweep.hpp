@@ -151,10 +151,9 @@ struct MaterialSweep {
     load_records<N::values>(table.viscous, N::stride, table.neighbour + k, other);
     Lanes const mu = approach_of(closing, dot(x, x), b.h);
     sum.mu = maximum(sum.mu, -1.0 * mu);
-    Lanes const pressure =
-        viscous_pressure(b.alpha, b.beta, mu, 0.5 * (other[N::c] + viscous[N::c]),
-                         0.5 * (other[N::rho] + viscous[N::rho])) *
-        (0.5 * (other[N::viscosity] + viscous[N::viscosity]));
+    Lanes const pressure = viscous_pressure(b.alpha, b.beta, mu, 0.5 * (other[N::c] + viscous[N::c]),
+                                            0.5 * (other[N::rho] + viscous[N::rho])) *
+                           (0.5 * (other[N::viscosity] + viscous[N::viscosity]));
     Lanes const here = 1.0 / viscous[N::J] + Lanes(0.0), there = 1.0 / other[N::J];
     Lanes power = Lanes(0.0);
     for (int p = 0; p < D; ++p) {

@@ -28,7 +28,8 @@ constexpr std::array choices{
            "reaction on the other, conserves momentum and energy; printed: as published, conserves neither",
            interface_words},
     Choice{"correction", "of kernel and gradient, eqs. 3 to 5; mixed: linear fields exactly", correction_words},
-    Choice{"viscosity", "artificial viscosity, its switch, or a flux from Riemann problems (all Eulerian, no correction)",
+    Choice{"viscosity",
+           "artificial viscosity, its switch, or a flux from Riemann problems (all Eulerian, no correction)",
            viscosity_words},
     Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
@@ -43,25 +44,26 @@ constexpr std::array parameters{
     Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
               Interval{0, 1, false, false}, 0.3},
     Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},
-    Parameter{"correction_limit", "1",
-              "C_f: a particle drops its correction where it changes a gradient by more (7.5; with artificial stress 90)",
-              Interval{1, unbounded, true, true}, no_default},
+    Parameter{
+        "correction_limit", "1",
+        "C_f: a particle drops its correction where it changes a gradient by more (7.5; with artificial stress 90)",
+        Interval{1, unbounded, true, true}, no_default},
     Parameter{"convert_strain", "1", "equivalent strain (18) at which a particle converts", positive, unbounded},
     Parameter{"convert_damage", "1", "damage at which a particle converts or fails", Interval{0, 1, true, false}, 1},
     Parameter{"jacobian_min", "1", "smallest volume ratio of a total-Lagrangian particle", Interval{0, 1, true, true},
               0.3},
-    Parameter{"jacobian_max", "1", "largest volume ratio of a total-Lagrangian particle", Interval{1, unbounded, true, true},
-              3},
+    Parameter{"jacobian_max", "1", "largest volume ratio of a total-Lagrangian particle",
+              Interval{1, unbounded, true, true}, 3},
     Parameter{"tether", "1",
               "a particle converts when an Eulerian reference neighbour has moved away by this many h from where its "
               "deformation gradient would put it; 0: never",
               not_negative, 1},
-    Parameter{"conversion_radius", "1", "reference neighbours within this many h convert, too", Interval{0, 2, false, false},
-              2},
+    Parameter{"conversion_radius", "1", "reference neighbours within this many h convert, too",
+              Interval{0, 2, false, false}, 2},
     Parameter{"blend", "1", "spacings over which descriptions change gradually at a patch; 0: at once", not_negative,
               4}};
 
-constexpr std::array<std::string_view, 8> variables{"damage",   "plastic_strain", "jacobian",  "pressure",
+constexpr std::array<std::string_view, 8> variables{"damage",    "plastic_strain", "jacobian",          "pressure",
                                                     "von_mises", "temperature",    "equivalent_strain", "density"};
 
 constexpr std::array formulas{
@@ -74,14 +76,20 @@ constexpr std::array formulas{
 constexpr std::array<std::string_view, 4> usable_laws{"elastic", "perfectly_plastic", "isotropic_hardening",
                                                       "johnson_cook"};
 
-constexpr std::array diagnostics{
-    DiagnosticInfo{"internal_energy", "J"},     DiagnosticInfo{"contact_energy", "J"},
-    DiagnosticInfo{"plastic_work", "J"},        DiagnosticInfo{"viscous_loss", "J"},
-    DiagnosticInfo{"eulerian_particles", "1"},  DiagnosticInfo{"converted_particles", "1"},
-    DiagnosticInfo{"guard_conversions", "1"},   DiagnosticInfo{"converted_mass", "kg"},
-    DiagnosticInfo{"conversion_energy_change", "J"}, DiagnosticInfo{"conversion_momentum_change", "kg m/s"},
-    DiagnosticInfo{"failed_particles", "1"},    DiagnosticInfo{"deleted_particles", "1"},
-    DiagnosticInfo{"contact_overlap", "1"},     DiagnosticInfo{"temperature_max", "K"}};
+constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
+                                 DiagnosticInfo{"contact_energy", "J"},
+                                 DiagnosticInfo{"plastic_work", "J"},
+                                 DiagnosticInfo{"viscous_loss", "J"},
+                                 DiagnosticInfo{"eulerian_particles", "1"},
+                                 DiagnosticInfo{"converted_particles", "1"},
+                                 DiagnosticInfo{"guard_conversions", "1"},
+                                 DiagnosticInfo{"converted_mass", "kg"},
+                                 DiagnosticInfo{"conversion_energy_change", "J"},
+                                 DiagnosticInfo{"conversion_momentum_change", "kg m/s"},
+                                 DiagnosticInfo{"failed_particles", "1"},
+                                 DiagnosticInfo{"deleted_particles", "1"},
+                                 DiagnosticInfo{"contact_overlap", "1"},
+                                 DiagnosticInfo{"temperature_max", "K"}};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
@@ -146,15 +154,17 @@ void check_alike(Assembly const& assembly, Problems& problems) {
     auto const& other = assembly.formulations[b];
     for (auto const name : shared)
       if (word(first, name) != word(other, name))
-        problems.add({}, fmt::format("body.formulation.{} is \"{}\" for body \"{}\" and \"{}\" for body \"{}\" (allowed: "
-                                     "the same for all bodies) - make them equal",
-                                     name, word(first, name), assembly.particles.bodies[0].name, word(other, name),
-                                     assembly.particles.bodies[b].name));
+        problems.add({},
+                     fmt::format("body.formulation.{} is \"{}\" for body \"{}\" and \"{}\" for body \"{}\" (allowed: "
+                                 "the same for all bodies) - make them equal",
+                                 name, word(first, name), assembly.particles.bodies[0].name, word(other, name),
+                                 assembly.particles.bodies[b].name));
     for (std::string_view const name : {"artificial_stress", "artificial_stress_exponent", "correction_limit"})
       if (number_of(first, name, -1) != number_of(other, name, -1))
-        problems.add({}, fmt::format("body.formulation.{} differs between the bodies \"{}\" and \"{}\" (allowed: the same "
-                                     "for all bodies) - make them equal",
-                                     name, assembly.particles.bodies[0].name, assembly.particles.bodies[b].name));
+        problems.add({},
+                     fmt::format("body.formulation.{} differs between the bodies \"{}\" and \"{}\" (allowed: the same "
+                                 "for all bodies) - make them equal",
+                                 name, assembly.particles.bodies[0].name, assembly.particles.bodies[b].name));
   }
 }
 

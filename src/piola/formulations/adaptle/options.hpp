@@ -14,7 +14,7 @@ struct BodyOptions {
   Description description = Description::adaptive;
   double smoothing_length = 1.2;  ///< h in spacings
   double alpha = 1, beta = 2;
-  bool bulk_speed = true;         ///< viscosity with the bulk speed of sound, else that of pressure waves
+  bool bulk_speed = true;  ///< viscosity with the bulk speed of sound, else that of pressure waves
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0.3, jacobian_max = 3, tether = 1;
   double conversion_radius = 2;  ///< in h
   double blend = 4;              ///< width in spacings

@@ -5,7 +5,8 @@
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/records.hpp"
 
-/// What neighbours read of a particle: records of doubles, a multiple of eight long, and the kernel between two of them.
+/// What neighbours read of a particle: records of doubles, a multiple of eight long, and the kernel between two of
+/// them.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 constexpr int whole(int values) { return (values + 7) / 8 * 8; }

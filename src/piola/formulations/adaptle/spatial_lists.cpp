@@ -96,8 +96,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
   for (int b = 0; b < s.bodies; ++b) {
     double radius = 2 * s.body[b].h;
     // Smoothing lengths of pairs of bodies are means.
-    for (int other = 0; other < s.bodies && across; ++other)
-      radius = std::max(radius, s.body[b].h + s.body[other].h);
+    for (int other = 0; other < s.bodies && across; ++other) radius = std::max(radius, s.body[b].h + s.body[other].h);
     double const reach = radius / widest_ + grid_.slack();
     reach_[static_cast<std::size_t>(b)] = static_cast<float>(reach * reach);
   }

@@ -88,9 +88,10 @@ struct SpatialSweep {
     Lanes const mu = approach_of(closing, square, b.h);
     sum.mu = maximum(sum.mu, select(square < 4.0 * b.h * b.h, -1.0 * mu, Lanes(0.0)));
     Lanes const factor = 0.5 * (f[R::viscosity] + own[R::viscosity]);
-    Lanes pressure = viscous_pressure(b.alpha, b.beta, mu, 0.5 * (f[R::c] + own[R::c]), 0.5 * (f[R::rho] + own[R::rho]));
-    pressure = pressure * factor * (settings.interface_form == Interface::printed ? Lanes(own[R::phi] > 0 ? 1.0 : 0.0)
-                                                                                  : eulerian);
+    Lanes pressure =
+        viscous_pressure(b.alpha, b.beta, mu, 0.5 * (f[R::c] + own[R::c]), 0.5 * (f[R::rho] + own[R::rho]));
+    pressure = pressure * factor *
+               (settings.interface_form == Interface::printed ? Lanes(own[R::phi] > 0 ? 1.0 : 0.0) : eulerian);
     Lanes stress_weight = Lanes(0.0);
     if (settings.artificial_stress) {
       stress_weight = whole_power(W * inverse_reference, settings.exponent) * mixed_weight(own[R::phi], f[R::phi]);
@@ -223,8 +224,7 @@ struct CorrectSpatial {
     out = {1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     Mat<D> A;
     for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        A(i, j) = (a[0] * a[1 + 2 * D + i * D + j] - a[1 + i] * a[1 + D + j]) / (a[0] * a[0]);
+      for (int j = 0; j < D; ++j) A(i, j) = (a[0] * a[1 + 2 * D + i * D + j] - a[1 + i] * a[1 + D + j]) / (a[0] * a[0]);
     Mat<D> const K = inverse(A);
     double size = 0;
     for (double const k : K.c) size += k * k;

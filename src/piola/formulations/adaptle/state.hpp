@@ -25,18 +25,18 @@ struct Reference {
 
 /// The evolved state of one particle: what checkpoints hold, together with Rates.
 struct State {
-  double x[3], v[3];       ///< position [m], velocity [m/s]
-  double S[6];             ///< deviator of the Cauchy stress, XX YY ZZ XY YZ XZ [Pa]
-  double rho;              ///< [kg/m3]; total-Lagrangian: rho0 / J of half a step before
-  double energy;           ///< internal energy of the particle [J]
-  double plastic_strain;   ///< equivalent
-  double temperature;      ///< [K]
-  double damage;           ///< 1: failed
-  double plastic_work;     ///< per reference volume [J/m3]
-  double thickness;        ///< in plane stress, over that at the start; else 1
-  double viscosity;        ///< factor on alpha and beta (Morris and Monaghan's switch)
-  double phi;              ///< 0 total-Lagrangian, 1 Eulerian, between: blended
-  double alive;            ///< 0: deleted, bears no stress
+  double x[3], v[3];      ///< position [m], velocity [m/s]
+  double S[6];            ///< deviator of the Cauchy stress, XX YY ZZ XY YZ XZ [Pa]
+  double rho;             ///< [kg/m3]; total-Lagrangian: rho0 / J of half a step before
+  double energy;          ///< internal energy of the particle [J]
+  double plastic_strain;  ///< equivalent
+  double temperature;     ///< [K]
+  double damage;          ///< 1: failed
+  double plastic_work;    ///< per reference volume [J/m3]
+  double thickness;       ///< in plane stress, over that at the start; else 1
+  double viscosity;       ///< factor on alpha and beta (Morris and Monaghan's switch)
+  double phi;             ///< 0 total-Lagrangian, 1 Eulerian, between: blended
+  double alive;           ///< 0: deleted, bears no stress
   static constexpr int values = 22;
 };
 
@@ -61,7 +61,8 @@ struct Half {
 /// Material kinematics of half time, in three dimensions.
 struct Deformation {
   double F[9], rate[9];  ///< deformation gradient and its rate
-  double gap;            ///< largest |x_b - x_a - F_a (X_b - X_a)| / h over Eulerian reference neighbours b
+  double gap = -1;       ///< largest |x_b - x_a - F_a (X_b - X_a)| / h over Eulerian reference neighbours b
+  static constexpr int values = 19;
 };
 
 /// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
@@ -91,8 +92,8 @@ struct BodyConstants {
   double alpha = 1, beta = 2;
   double artificial_stress = 0;  ///< epsilon
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0, jacobian_max = 0, tether = 0;
-  double shear_share = 0.5;                      ///< speed of shear waves over that of pressure waves
-  double bulk_modulus = 0;       ///< at rest [Pa]
+  double shear_share = 0.5;       ///< speed of shear waves over that of pressure waves
+  double bulk_modulus = 0;        ///< at rest [Pa]
   double poisson = 0, young = 0;  ///< of the strain across the plane (eq. 19)
   bool adaptive = false;          ///< total-Lagrangian particles may convert
   bool deletes = false;           ///< failed total-Lagrangian particles are deleted
@@ -111,20 +112,20 @@ struct RigidPlace {
 };
 
 struct SpatialTable {
-  Index sources = 0;               ///< sorted particles; the record after the last is a filler, far away
-  Index const* slot = nullptr;     ///< of each sorted particle
-  Index const* sorted = nullptr;   ///< of each slot
-  Index targets = 0;               ///< that have a list
-  Index const* target = nullptr;   ///< sorted numbers
-  Index capacity = 0;              ///< of one list
-  Index const* list = nullptr;     ///< [target][capacity]: sorted numbers, filled up to whole lanes
-  Index const* length = nullptr;   ///< a multiple of the lanes
+  Index sources = 0;                   ///< sorted particles; the record after the last is a filler, far away
+  Index const* slot = nullptr;         ///< of each sorted particle
+  Index const* sorted = nullptr;       ///< of each slot
+  Index targets = 0;                   ///< that have a list
+  Index const* target = nullptr;       ///< sorted numbers
+  Index capacity = 0;                  ///< of one list
+  Index const* list = nullptr;         ///< [target][capacity]: sorted numbers, filled up to whole lanes
+  Index const* length = nullptr;       ///< a multiple of the lanes
   std::uint8_t const* near = nullptr;  ///< per slot: whether it takes part; null: all do
   double* record = nullptr;
 };
 
 struct MaterialTable {
-  Index const* begin = nullptr;     ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
+  Index const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
   Index const* neighbour = nullptr;
   double const *s = nullptr, *W = nullptr;  ///< per pair: -W'(r)/r and W(r) in the reference configuration
   Index const* kinematic = nullptr;         ///< slots whose F is needed
@@ -139,8 +140,8 @@ struct ContactTable {
   Index targets = 0;
   Index const* target = nullptr;  ///< sorted numbers
   Index capacity = 0;
-  Index const* list = nullptr;    ///< [target][capacity]: sorted numbers of particles of other bodies
-  Index const* length = nullptr;  ///< per target
+  Index const* list = nullptr;        ///< [target][capacity]: sorted numbers of particles of other bodies
+  Index const* length = nullptr;      ///< per target
   ContactPair const* pair = nullptr;  ///< [body][body]
   int law = 0;
   double exponent = 4, printed = 0;
@@ -152,14 +153,14 @@ struct Settings {
   Interface interface_form = Interface::owner;
   MixedStress mixed_stress = MixedStress::both;
   bool corrected = false, plane_stress = false, artificial_stress = false;
-  int exponent = 4;        ///< n of the artificial stress
-  double fallback = 1e300; ///< C_f
+  int exponent = 4;         ///< n of the artificial stress
+  double fallback = 1e300;  ///< C_f
   double cfl = 0.3;
 };
 
 /// What a step says about itself.
 struct Measures {
-  double dt = 0;            ///< stable step from the new state [s]
+  double dt = 0;  ///< stable step from the new state [s]
   double contact_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0;  ///< [W]
   double overlap = 0;
   Index wishes = 0;  ///< particles that want to convert or to be deleted
@@ -183,12 +184,12 @@ struct System {
   ContactTable contact;
   RigidPlace const* rigid = nullptr;
   int rigids = 0;
-  double* rigid_power = nullptr;  ///< per slot: work of moving shapes [W]
-  double const* load = nullptr;            ///< acceleration of loads at half time, 3 per slot; null: none
-  std::int8_t const* held = nullptr;       ///< directions with a prescribed velocity, 3 per slot; null: none
-  double const* held_velocity = nullptr;   ///< at the end of the step, 3 per slot
-  std::int8_t* wish = nullptr;             ///< per slot: 0, 1 converts with its neighbours, 2 alone
-  double* partial = nullptr;               ///< room for reductions, 16 per block
+  double* rigid_power = nullptr;          ///< per slot: work of moving shapes [W]
+  double const* load = nullptr;           ///< acceleration of loads at half time, 3 per slot; null: none
+  std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
+  double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
+  std::int8_t* wish = nullptr;            ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  double* partial = nullptr;              ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
 

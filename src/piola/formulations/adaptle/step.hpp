@@ -26,16 +26,15 @@ struct Step {
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state,
-                                                                                    s.rates, s.half,
-                                                                                    s.material.motion, s.failure});
+        exec::for_each_block(body_range(b),
+                             Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
+                                                                     s.material.motion, s.failure});
       });
   }
 
   void deform() const {
-    exec::for_each_block(Range{0, s.material.kinematics},
-                         DeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of, s.settings.corrected,
-                                        s.deformation});
+    exec::for_each_block(Range{0, s.material.kinematics}, DeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of,
+                                                                         s.settings.corrected, s.deformation});
   }
 
   template <bool Corrected>
@@ -43,8 +42,8 @@ struct Step {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>{
-                                                law, s.body[b], s.settings, s.reference, s.state, s.half,
-                                                s.deformation, s.spatial, s.material, s.failure});
+                                                law, s.body[b], s.settings, s.reference, s.state, s.half, s.deformation,
+                                                s.spatial, s.material, s.failure});
       });
   }
 
@@ -63,15 +62,13 @@ struct Step {
       exec::for_each_block(targets, SpatialSweep<D, true>{s.spatial, s.settings, s.body, s.body_of, s.sums});
     else
       exec::for_each_block(targets, SpatialSweep<D, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
-    exec::for_each_block(Range{0, s.material.targets},
-                         MaterialSweep<D>{s.material, s.settings, s.body, s.body_of, s.reference, s.state,
-                                          s.deformation, s.sums});
-    exec::for_each_block(Range{0, s.contact.targets},
-                         ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, s.state, s.half, s.sums});
+    exec::for_each_block(Range{0, s.material.targets}, MaterialSweep<D>{s.material, s.settings, s.body, s.body_of,
+                                                                        s.reference, s.state, s.deformation, s.sums});
+    exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
+                                                                      s.bodies, s.state, s.half, s.sums});
     if (s.rigids > 0)
-      exec::for_each_block(Range{0, s.particles},
-                           RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, s.state, s.half,
-                                         s.sums, s.rigid_power});
+      exec::for_each_block(Range{0, s.particles}, RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of,
+                                                                s.state, s.half, s.sums, s.rigid_power});
   }
 
   Measures finish(double dt) const {
@@ -81,8 +78,8 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         Range const r = body_range(b);
         double const* rigid_power = s.rigids > 0 ? s.rigid_power : nullptr;
-        exec::for_each_block(r, Finish<D, std::decay_t<decltype(law)>>{law, s.body[b], s.settings, dt, s, rigid_power,
-                                                                       s.partial});
+        exec::for_each_block(
+            r, Finish<D, std::decay_t<decltype(law)>>{law, s.body[b], s.settings, dt, s, rigid_power, s.partial});
         add_blocks(exec::block_count(r), m);
       });
     return m;

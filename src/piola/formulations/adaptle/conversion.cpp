@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Total-Lagrangian particles that become Eulerian, or fail.
+#include "piola/formulations/adaptle/finish_pass.hpp"
+#include "piola/formulations/adaptle/particles.hpp"
+#include <array>
+#include <cmath>
+
+namespace piola::adaptle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+struct Share {
+  double energy = 0, momentum[3]{};
+  void add(State const& s, Reference const& r, double sign) {
+    energy += sign * s.energy;
+    for (int c = 0; c < 3; ++c) {
+      energy += sign * 0.5 * r.mass * s.v[c] * s.v[c];
+      momentum[c] += sign * r.mass * s.v[c];
+    }
+  }
+};
+
+double strain_of(int dimension, Deformation const& d, SymMat<3> const& stress, BodyConstants const& b) {
+  return dimension == 2 ? equivalent_strain<2>(d.F, stress, b) : equivalent_strain<3>(d.F, stress, b);
+}
+
+}  // namespace
+
+/// Evaluates convert_when; true if a particle wants to convert by it.
+bool Particles::wishes_by_formula() {
+  bool any_wish = false;
+  for (std::size_t k = 0; k < body_.size(); ++k) {
+    BodyConstants const& b = body_[k];
+    if (!options_.bodies[k].convert_when) continue;
+    Expression const& formula = *options_.bodies[k].convert_when;
+    with_solid(b.material, [&](auto const& law) {
+      for (Index i = b.first; i < b.last; ++i) {
+        State const& s = state_[at(i)];
+        if (s.phi > 0 || wish_[at(i)] == 1) continue;
+        double const p = law.pressure(s.rho, s.energy / reference_[at(i)].mass);
+        SymMat<3> stress = symmetric_of(s.S);
+        for (int c = 0; c < 3; ++c) stress.c[c] -= p;
+        std::array const values{s.damage,
+                                s.plastic_strain,
+                                b.rho0 / s.rho,
+                                -p,
+                                von_mises(symmetric_of(s.S)),
+                                s.temperature,
+                                strain_of(system_.dimension, deformation_[at(i)], stress, b),
+                                s.rho};
+        if (formula(X_[at(i)], books_.time, values) == 0) continue;
+        wish_[at(i)] = 1;
+        any_wish = true;
+      }
+    });
+  }
+  return any_wish;
+}
+
+/// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not.
+void Particles::convert(double dt) {
+  for (Index i = 0; i < system_.particles; ++i) {
+    if (wish_[at(i)] == 0) continue;
+    std::size_t const body = static_cast<std::size_t>(body_of_[at(i)]);
+    if (body_[body].deletes) {
+      remove(i);
+      continue;
+    }
+    bool const guard = wish_[at(i)] == 2;
+    if (!guard)
+      material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].h, reference_,
+                               [&](Index j) { make_eulerian(j, dt, false); });
+    make_eulerian(i, dt, guard);
+  }
+  choose_material();
+}
+
+/// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
+void Particles::make_eulerian(Index i, double dt, bool by_guard) {
+  State& s = state_[at(i)];
+  if (s.phi > 0) return;
+  Share change;
+  change.add(s, reference_[at(i)], -1);
+  Half const& h = half_[at(i)];
+  s.rho = h.rho * std::exp(-0.5 * dt * h.divergence);
+  s.phi = 1;
+  change.add(s, reference_[at(i)], 1);
+  books_.converted += 1;
+  books_.by_guard += by_guard ? 1 : 0;
+  books_.converted_mass += reference_[at(i)].mass;
+  books_.energy_change += std::abs(change.energy);
+  books_.momentum_change +=
+      std::sqrt(change.momentum[0] * change.momentum[0] + change.momentum[1] * change.momentum[1] +
+                change.momentum[2] * change.momentum[2]);
+}
+
+/// Bears no stress any more and leaves the sums of its neighbours; its deformation stays as it is.
+void Particles::remove(Index i) {
+  State& s = state_[at(i)];
+  if (!(s.alive > 0)) return;
+  s.alive = 0;
+  for (double& c : s.S) c = 0;
+  Rates& k = rates_[at(i)];
+  for (double& c : k.S) c = 0;
+  k.rho = k.energy = k.thickness = 0;
+  for (double& c : deformation_[at(i)].rate) c = 0;
+  books_.deleted += 1;
+}
+
+}  // namespace piola::adaptle

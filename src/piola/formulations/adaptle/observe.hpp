@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/formulation.hpp"
+
+namespace piola::adaptle {
+
+std::vector<FieldInfo> observed_fields();
+void sample(Particles const& particles, std::string_view field, std::span<double> values);
+Diagnostics observe(Particles const& particles, ParticleSet const& set);
+
+}  // namespace piola::adaptle

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/adaptle/contact.hpp"
+#include "piola/formulations/adaptle/records.hpp"
+#include "piola/materials/solids.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace piola::adaptle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+int spatial_stride(int dimension, bool corrected) {
+  if (dimension == 2) return corrected ? SpatialRecord<2, true>::stride : SpatialRecord<2, false>::stride;
+  return corrected ? SpatialRecord<3, true>::stride : SpatialRecord<3, false>::stride;
+}
+
+/// Adds the wall time of its life to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  Stopwatch(Stopwatch const&) = delete;
+  Stopwatch& operator=(Stopwatch const&) = delete;
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Particles::Particles(Assembly const& assembly, Options const& options, Machine const& machine)
+    : options_(options),
+      machine_(&machine),
+      supports_(assembly.supports),
+      loads_(assembly.loads),
+      shapes_(assembly.rigid_shapes),
+      X_(assembly.particles.X) {
+  system_.dimension = assembly.particles.dimension;
+  system_.settings = options_.settings;
+  set_bodies(assembly);
+  set_particles(assembly);
+  set_contact(assembly);
+  allocate(assembly);
+  set_descriptions(assembly);
+  set_boundaries(assembly);
+  choose_material();
+  double dt = std::numeric_limits<double>::infinity();
+  for (auto const& b : body_)
+    with_solid(b.material,
+               [&](auto const& law) { dt = std::min(dt, options_.settings.cfl * b.h / law.p_wave_speed()); });
+  books_.next_dt = dt;
+}
+
+void Particles::set_bodies(Assembly const& assembly) {
+  auto const& set = assembly.particles;
+  for (std::size_t k = 0; k < set.bodies.size(); ++k) {
+    Body const& from = set.bodies[k];
+    BodyOptions const& o = options_.bodies[k];
+    BodyConstants b;
+    b.material = assembly.materials[k];
+    b.first = static_cast<Index>(from.first);
+    b.last = static_cast<Index>(from.last);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c)
+      b.spacing = c == 0 ? from.spacing[c] : std::max(b.spacing, from.spacing[c]);
+    b.h = o.smoothing_length * b.spacing;
+    b.alpha = o.alpha;
+    b.beta = o.beta;
+    b.artificial_stress = o.artificial_stress;
+    b.convert_strain = o.convert_strain;
+    b.convert_damage = o.convert_damage;
+    b.jacobian_min = o.jacobian_min;
+    b.jacobian_max = o.jacobian_max;
+    b.tether = o.tether;
+    b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
+    if (o.description == Description::patch) b.tether = b.adaptive = false;
+    b.deletes = o.deletes;
+    with_solid(b.material, [&](auto const& law) {
+      b.rho0 = law.rho0;
+      b.bulk_modulus = law.kappa;
+      b.c = o.bulk_speed ? law.bulk_sound_speed() : law.p_wave_speed();
+      b.shear_share = std::max(0.01, law.s_wave_speed() / law.p_wave_speed());
+      b.young = 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
+      b.poisson = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu));
+    });
+    body_.push_back(b);
+  }
+}
+
+void Particles::set_particles(Assembly const& assembly) {
+  auto const& set = assembly.particles;
+  for (std::size_t i = 0; i < set.X.size(); ++i) {
+    int const body = set.body[i];
+    BodyConstants const& b = body_[static_cast<std::size_t>(body)];
+    body_of_.push_back(body);
+    Reference r{};
+    State s{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      r.X[c] = set.X[i][c];
+      s.x[c] = r.X[c] + (assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][c]);
+      s.v[c] = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][c];
+    }
+    r.volume = set.volume[i];
+    r.mass = b.rho0 * r.volume;
+    s.rho = b.rho0;
+    s.thickness = s.viscosity = s.alive = 1;
+    with_solid(b.material, [&](auto const& law) { s.temperature = law.initial_temperature(); });
+    reference_.push_back(r);
+    state_.push_back(s);
+  }
+  std::size_t const n = state_.size();
+  rates_.resize(n);
+  half_.resize(n);
+  deformation_.resize(n);
+  for (auto& d : deformation_)
+    for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
+  sums_.resize(n);
+  wish_.resize(n);
+  if (options_.settings.corrected) correction_.resize(n);
+}
+
+void Particles::set_contact(Assembly const& assembly) {
+  std::vector<std::array<double, 3>> mean(body_.size());
+  for (std::size_t b = 0; b < body_.size(); ++b)
+    for (Index i = body_[b].first; i < body_[b].last; ++i)
+      for (std::size_t c = 0; c < 3; ++c) mean[b][c] += state_[at(i)].v[c] / (body_[b].last - body_[b].first);
+  contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
+  system_.contact.pair = contact_pairs_.data();
+  system_.contact.exponent = assembly.contact.exponent;
+  system_.contact.printed = assembly.contact.stiffness;
+  system_.contact.scale = assembly.contact.scale;
+  using Law = ContactRule::Law;
+  system_.contact.law = assembly.contact.law == Law::kernel    ? 1
+                        : assembly.contact.law == Law::linear  ? 2
+                        : assembly.contact.law == Law::printed ? 3
+                                                               : 0;
+}
+
+void Particles::allocate(Assembly const& assembly) {
+  auto const n = static_cast<std::size_t>(assembly.particles.size());
+  System& s = system_;
+  s.bodies = static_cast<int>(body_.size());
+  s.particles = static_cast<Index>(n);
+  s.body = body_.data();
+  s.body_of = body_of_.data();
+  s.reference = reference_.data();
+  s.state = state_.data();
+  s.rates = rates_.data();
+  s.half = half_.data();
+  s.deformation = deformation_.data();
+  s.correction = correction_.data();
+  s.sums = sums_.data();
+  s.wish = wish_.data();
+  partial_.resize(16 * (n / 64 + 2));
+  s.partial = partial_.data();
+  s.failure = &failure_;
+}
+
+/// Who is Eulerian from the start, and how descriptions blend at the border of a patch.
+void Particles::set_descriptions(Assembly const& assembly) {
+  for (std::size_t k = 0; k < body_.size(); ++k) {
+    BodyOptions const& o = options_.bodies[k];
+    std::vector<Index> outside;
+    for (Index i = body_[k].first; i < body_[k].last; ++i) {
+      bool const inside = o.description == Description::patch && (*o.eulerian_where)(X_[at(i)]) != 0;
+      state_[at(i)].phi = o.description == Description::eulerian || inside ? 1 : 0;
+      if (o.description == Description::patch && !inside) outside.push_back(i);
+    }
+    double const width = o.blend * body_[k].spacing;
+    if (o.description != Description::patch || width == 0 || options_.settings.interface_form == Interface::printed)
+      continue;
+    for (Index i = body_[k].first; i < body_[k].last; ++i) {
+      State& s = state_[at(i)];
+      if (s.phi == 0) continue;
+      double nearest = width;
+      for (Index const j : outside) {
+        auto const &p = X_[at(i)], &q = X_[at(j)];
+        nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+      }
+      double const z = nearest / width;
+      s.phi = z * z * (3 - 2 * z);
+    }
+  }
+  lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
+  if (!lagrangian_) return;
+  material_.build(assembly.particles, body_, reference_, options_.settings.corrected, machine_->lanes);
+  auto const records = [&](int stride) { return Memory((state_.size() + 1) * static_cast<std::size_t>(stride)); };
+  bool const flat = system_.dimension == 2;
+  motion_ = records(flat ? MotionRecord<2>::stride : MotionRecord<3>::stride);
+  force_ = records(flat ? ForceRecord<2>::stride : ForceRecord<3>::stride);
+  int const stride = flat ? ViscousRecord<2>::stride : ViscousRecord<3>::stride;
+  viscous_ = records(stride);
+  double* filler = viscous_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
+  filler[flat ? ViscousRecord<2>::J : ViscousRecord<3>::J] = 1;
+  filler[flat ? ViscousRecord<2>::rho : ViscousRecord<3>::rho] = 1;
+  system_.material.motion = motion_.data();
+  system_.material.force = force_.data();
+  system_.material.viscous = viscous_.data();
+}
+
+void Particles::choose_material() {
+  lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
+  if (!material_.built()) return;
+  material_.choose(state_, options_.settings.interface_form == Interface::printed, deformation_);
+  material_.put_into(system_.material);
+  if (lagrangian_) return;
+  system_.material.motion = system_.material.force = nullptr;
+}
+
+void Particles::set_boundaries(Assembly const&) {
+  if (!supports_.empty()) {
+    held_.resize(3 * state_.size());
+    held_velocity_.resize(3 * state_.size());
+    system_.held = held_.data();
+    system_.held_velocity = held_velocity_.data();
+  }
+  if (!loads_.empty()) {
+    load_.resize(3 * state_.size());
+    system_.load = load_.data();
+  }
+  if (shapes_.empty()) return;
+  rigid_power_.resize(state_.size());
+  rigid_.resize(shapes_.size());
+  system_.rigid = rigid_.data();
+  system_.rigids = static_cast<int>(rigid_.size());
+  system_.rigid_power = rigid_power_.data();
+  for (RigidShape const& shape : shapes_)
+    rigid_centre_.insert(rigid_centre_.end(), shape.centre.begin(), shape.centre.end());
+}
+
+void Particles::prepare_supports(double time) {
+  if (supports_.empty()) return;
+  std::fill(held_.begin(), held_.end(), std::int8_t{0});
+  for (Support const& support : supports_) {
+    if (has_ended(support.until, time)) continue;
+    for (auto const id : support.particles)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) {
+        if (!support.fix[c]) continue;
+        std::size_t const k = 3 * static_cast<std::size_t>(id) + c;
+        held_[k] = 1;
+        held_velocity_[k] = support.velocity ? (*support.velocity)[c](X_[static_cast<std::size_t>(id)], time) : 0;
+      }
+  }
+}
+
+void Particles::prepare_loads(double time) {
+  if (loads_.empty()) return;
+  std::fill(load_.begin(), load_.end(), 0);
+  for (Load const& load : loads_) {
+    if (has_ended(load.until, time)) continue;
+    for (std::size_t k = 0; k < load.particles.size(); ++k) {
+      auto const id = static_cast<std::size_t>(load.particles[k]);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
+        load_[3 * id + c] += load.factor[k] * load.value[c](X_[id], time);
+    }
+  }
+}
+
+/// Rigid shapes where they are at half time; `time` is the start of the step.
+void Particles::prepare_rigid(double time, double dt) {
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    RigidShape const& from = shapes_[k];
+    RigidPlace& to = rigid_[k];
+    to.kind = static_cast<int>(from.kind);
+    to.radius = from.radius;
+    for (std::size_t c = 0; c < 3; ++c) {
+      to.velocity[c] = from.velocity[c]({}, time + 0.5 * dt);
+      to.centre[c] = rigid_centre_[3 * k + c] + 0.5 * dt * to.velocity[c];
+      to.axis[c] = from.axis[c];
+      to.half[c] = from.half_lengths[c];
+      rigid_centre_[3 * k + c] += dt * to.velocity[c];
+    }
+  }
+}
+
+double Particles::stable_time_step() const { return books_.next_dt; }
+
+double Particles::next_release() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (Support const& s : supports_)
+    if (!has_ended(s.until, books_.time)) next = std::min(next, s.until);
+  for (Load const& l : loads_)
+    if (!has_ended(l.until, books_.time)) next = std::min(next, l.until);
+  return next;
+}
+
+void Particles::step(double time, double dt) {
+  prepare_supports(time + dt);
+  prepare_loads(time + 0.5 * dt);
+  prepare_rigid(time, dt);
+  evaluate(dt);
+  books_.time = time + dt;
+}
+
+/// Drift, sums of half time, kick, drift.
+void Particles::evaluate(double dt) {
+  System& s = system_;
+  {
+    Stopwatch const watch(seconds_.points);
+    machine_->predict(s, dt);
+  }
+  if (failure_.index != FailureSlot::none) return;
+  {
+    Stopwatch const watch(seconds_.lists);
+    spatial_.build(s, *machine_, spatial_stride(s.dimension, s.settings.corrected));
+    spatial_.put_into(s);
+  }
+  {
+    Stopwatch const watch(seconds_.sweeps);
+    if (lagrangian_) machine_->deform(s);
+    machine_->half_state(s);
+    if (s.settings.corrected && s.spatial.targets > 0) machine_->correct(s);
+    machine_->sweep(s);
+  }
+  Measures m;
+  {
+    Stopwatch const watch(seconds_.points);
+    m = machine_->finish(s, dt);
+  }
+  books_.contact_energy += dt * m.contact_power;
+  books_.viscous_loss += dt * m.viscous_power;
+  books_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
+  books_.overlap = std::max(books_.overlap, m.overlap);
+  books_.next_dt = m.dt;
+  Stopwatch const watch(seconds_.conversion);
+  if (wishes_by_formula() || m.wishes > 0) convert(dt);
+}
+
+std::size_t Particles::bytes() const {
+  return state_.size() * (sizeof(Reference) + sizeof(State) + sizeof(Rates) + sizeof(Half) + sizeof(Deformation) +
+                          sizeof(Sums) + sizeof(int)) +
+         correction_.size() * sizeof(Correction) + motion_.bytes() + force_.bytes() + viscous_.bytes() +
+         material_.bytes() + spatial_.bytes();
+}
+
+void Particles::resumed() { choose_material(); }
+
+}  // namespace piola::adaptle

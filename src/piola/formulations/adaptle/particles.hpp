@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/material_lists.hpp"
+#include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/prescribed.hpp"
+#include <array>
+#include <string>
+#include <vector>
+
+namespace piola::adaptle {
+
+/// Sums since the start of the run [J], and counts.
+struct Books {
+  double contact_energy = 0, viscous_loss = 0, external_work = 0;
+  double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
+  double overlap = 0;
+  double time = 0, next_dt = 0;
+  static constexpr int values = 12;
+};
+
+/// Wall time by part of a step [s].
+struct PartSeconds {
+  double lists = 0, sweeps = 0, points = 0, conversion = 0;
+};
+
+/// All particles of a run: their memory, the order of a step, supports and loads.
+class Particles {
+ public:
+  Particles(Assembly const& assembly, Options const& options, Machine const& machine);
+  Particles(Particles const&) = delete;
+  Particles& operator=(Particles const&) = delete;
+
+  void step(double time, double dt);
+  double stable_time_step() const;
+  double next_release() const;
+
+  System const& system() const { return system_; }
+  Books const& books() const { return books_; }
+  PartSeconds const& seconds() const { return seconds_; }
+  Options const& options() const { return options_; }
+  FailureSlot const& failure() const { return failure_; }
+  SpatialLists const& spatial() const { return spatial_; }
+  int reference_neighbours(Index i) const { return material_.built() ? material_.neighbours(i) : 0; }
+  std::size_t bytes() const;
+
+  /// f(name, first double of particle 0, doubles per particle) for everything that a checkpoint holds.
+  template <class F>
+  void each_array(F const& f) {
+    f("state", reinterpret_cast<double*>(state_.data()), State::values);
+    f("rates", reinterpret_cast<double*>(rates_.data()), Rates::values);
+    f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
+  }
+  double* books_data() { return reinterpret_cast<double*>(&books_); }
+  std::vector<double>& rigid_centres() { return rigid_centre_; }
+  /// After a checkpoint has been read.
+  void resumed();
+
+ private:
+  void set_bodies(Assembly const& assembly);
+  void set_particles(Assembly const& assembly);
+  void set_descriptions(Assembly const& assembly);
+  void set_contact(Assembly const& assembly);
+  void set_boundaries(Assembly const& assembly);
+  void allocate(Assembly const& assembly);
+  void choose_material();
+  void prepare_supports(double time);
+  void prepare_loads(double time);
+  void prepare_rigid(double time, double dt);
+  void evaluate(double dt);
+  void convert(double dt);
+  bool wishes_by_formula();
+  void make_eulerian(Index i, double dt, bool by_guard);
+  void remove(Index i);
+
+  Options options_;
+  Machine const* machine_;
+  System system_;
+  std::vector<BodyConstants> body_;
+  std::vector<int> body_of_;
+  std::vector<Reference> reference_;
+  std::vector<State> state_;
+  std::vector<Rates> rates_;
+  std::vector<Half> half_;
+  std::vector<Deformation> deformation_;
+  std::vector<Correction> correction_;
+  std::vector<Sums> sums_;
+  std::vector<std::int8_t> wish_;
+  MaterialLists material_;
+  SpatialLists spatial_;
+  Memory motion_, force_, viscous_;
+  std::vector<ContactPair> contact_pairs_;
+  std::vector<double> partial_, rigid_power_;
+  FailureSlot failure_;
+  Books books_;
+  PartSeconds seconds_;
+  bool lagrangian_ = false;  ///< some particle is not wholly Eulerian
+  // Boundaries
+  std::vector<Support> supports_;
+  std::vector<Load> loads_;
+  std::vector<std::int8_t> held_;
+  std::vector<double> held_velocity_, load_;
+  std::vector<RigidShape> shapes_;
+  std::vector<RigidPlace> rigid_;
+  std::vector<double> rigid_centre_;
+  std::vector<std::array<double, 3>> X_;
+};
+
+}  // namespace piola::adaptle

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/solver.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/adaptle/observe.hpp"
+#include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/prescribed.hpp"
+#include "piola/materials/solids.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola::adaptle {
+namespace {
+
+void check(Assembly const& assembly) {
+  Problems problems;
+  for (std::size_t b = 0; b < assembly.materials.size(); ++b)
+    if (!is_solid(assembly.materials[b]))
+      problems.add({}, fmt::format("adaptle: the law of body \"{}\" has no rate form (allowed: elastic, "
+                                   "perfectly_plastic, isotropic_hardening, johnson_cook) - choose another law or "
+                                   "formulation",
+                                   assembly.particles.bodies[b].name));
+  if (!assembly.initial_deformation_gradient.empty())
+    problems.add({},
+                 "adaptle: there is an initial deformation gradient (deformation follows from positions here) - "
+                 "give initial_displacement instead");
+  for (Support const& support : assembly.supports)
+    if (support.frame != Support::Frame::axes)
+      problems.add({}, "adaptle: a support has a normal (allowed: fix along axes) - use fix, or a rigid plane");
+  problems.raise_if_any();
+}
+
+Machine const* choose(std::string const& name) {
+  if (Machine const* machine = find_machine(name.c_str())) return machine;
+  std::string known = "auto";
+  for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
+  throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
+}
+
+class Solver final : public Formulation {
+ public:
+  explicit Solver(Assembly const& assembly)
+      : set_(assembly.particles), particles_(assembly, read_options(assembly), *choose(assembly.machine)) {}
+
+  double stable_time_step() const override {
+    return up_to_release(particles_.stable_time_step(), particles_.next_release() - particles_.books().time);
+  }
+  double settled_time_step() const override { return particles_.stable_time_step(); }
+  void step(double time, double dt) override { particles_.step(time, dt); }
+  std::optional<Failure> failure() const override;
+  Diagnostics diagnose() const override { return observe(particles_, set_); }
+  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  void sample(std::string_view field, std::span<double> values) const override {
+    adaptle::sample(particles_, field, values);
+  }
+  void save(StateWriter& writer) const override;
+  void load(StateReader& reader) override;
+  int stages_per_step() const override { return 1; }
+  std::vector<std::pair<std::string, double>> costs() const override {
+    PartSeconds const& s = particles_.seconds();
+    return {{"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
+  }
+  std::size_t memory_bytes() const override { return particles_.bytes(); }
+
+ private:
+  ParticleSet set_;
+  mutable Particles particles_;  // arrays of a checkpoint are listed once, for writing and for reading
+};
+
+std::optional<Failure> Solver::failure() const {
+  FailureSlot const& slot = particles_.failure();
+  System const& s = particles_.system();
+  bool const crowded = particles_.spatial().overflow();
+  if (slot.index == FailureSlot::none && !crowded) return std::nullopt;
+  Index const i = slot.index == FailureSlot::none ? 0 : slot.index;
+  State const& p = s.state[i];
+  Failure f;
+  f.what = crowded                         ? "is in a crowd of more than 4096 neighbours"
+           : slot.code == not_a_number     ? "has a position, velocity or stress that is not a number"
+           : slot.code == negative_density ? "has no positive density"
+                                           : "is inverted";
+  f.particle = i;
+  f.body = set_.bodies[static_cast<std::size_t>(s.body_of[i])].name;
+  for (std::size_t c = 0; c < 3; ++c) {
+    f.X[c] = s.reference[i].X[c];
+    f.x[c] = p.x[c];
+  }
+  f.values = {{"rho / rho0", p.rho / s.body[s.body_of[i]].rho0},
+              {"KernelType", p.phi},
+              {"speed [m/s]", std::hypot(p.v[0], p.v[1], p.v[2])},
+              {"damage", p.damage},
+              {"plastic strain", p.plastic_strain},
+              {"contact overlap", particles_.books().overlap}};
+  return f;
+}
+
+void Solver::save(StateWriter& writer) const {
+  auto const n = static_cast<std::size_t>(set_.size());
+  particles_.each_array([&](char const* name, double* values, int width) {
+    writer.put(name, std::span<double const>(values, n * static_cast<std::size_t>(width)));
+  });
+  writer.put("books", std::span<double const>(particles_.books_data(), Books::values));
+  writer.put("rigid_centres", particles_.rigid_centres());
+}
+
+void Solver::load(StateReader& reader) {
+  auto const n = static_cast<std::size_t>(set_.size());
+  particles_.each_array([&](char const* name, double* values, int width) {
+    reader.get(name, std::span<double>(values, n * static_cast<std::size_t>(width)));
+  });
+  reader.get("books", std::span<double>(particles_.books_data(), Books::values));
+  reader.get("rigid_centres", particles_.rigid_centres());
+  particles_.resumed();
+}
+
+}  // namespace
+
+std::unique_ptr<Formulation> make(Assembly const& assembly) {
+  check(assembly);
+  return std::make_unique<Solver>(assembly);
+}
+
+}  // namespace piola::adaptle

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include <memory>
+
+namespace piola::adaptle {
+
+/// Throws InputError if the case asks for what the formulation cannot do.
+std::unique_ptr<Formulation> make(Assembly const& assembly);
+
+}  // namespace piola::adaptle
