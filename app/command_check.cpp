@@ -48,7 +48,15 @@ std::string settings_text(FormulationSpec const& spec) {
   std::vector<std::string> given;
   for (auto const& [name, value] : spec.words) given.push_back(name + " = " + value);
   for (auto const& [name, value] : spec.numbers) given.push_back(name + " = " + number_text(value));
+  for (auto const& [name, formula] : spec.formulas) given.push_back(name + " where " + formula.text());
   return given.empty() ? "" : " (" + joined(given) + ")";
+}
+
+std::string arrangement_text(ShapeSpec const& shape, BodyFacts const& facts) {
+  using enum ShapeSpec::Arrangement;
+  if (shape.arrangement == lattice_with_rings) return "a lattice within two circles";
+  if (shape.arrangement == lattice) return times(facts.lattice, shape.dimension) + " lattice";
+  return shape.inner_radius > 0 ? times(facts.lattice, 2) + " polar grid" : "on circles";
 }
 
 std::string material_text(BodySpec const& body) {
@@ -72,9 +80,9 @@ void print_body(BodySpec const& body, BodyFacts const& facts) {
   constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};
   int const dimension = body.shape.dimension;
   std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
-  fmt::print("body \"{}\": {} of {} particles ({} lattice, spacing {})\n", body.name,
-             kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
-             times(facts.lattice, dimension), spacing_text(facts.spacing, dimension));
+  fmt::print("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name,
+             body.shape.inner_radius > 0 ? "hollow " : "", kinds[static_cast<std::size_t>(body.shape.kind)],
+             count_text(facts.particles), arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
   fmt::print("  {}\n", material_text(body));
   fmt::print("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
   if (facts.s_wave > 0) fmt::print(", shear waves {:.4g} m/s", facts.s_wave);
@@ -144,6 +152,46 @@ void print_cracks(ParticleSet const& particles) {
     fmt::print("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
                point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
   }
+}
+
+std::string shape_text(RigidShape const& shape, int dimension) {
+  auto const point = [&](std::array<double, 3> const& x, char const* unit) {
+    std::string text;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+      text += (d > 0 ? ", " : "") + number_text(x[d], 4);
+    return "(" + text + ")" + unit;
+  };
+  std::string const centre = point(shape.centre, " m"), radius = "radius " + quantity_text(shape.radius, "m");
+  switch (shape.kind) {
+    case RigidShape::Kind::plane: return "plane through " + centre + ", normal " + point(shape.axis, "");
+    case RigidShape::Kind::sphere: return "sphere about " + centre + ", " + radius;
+    case RigidShape::Kind::cylinder:
+      return "cylinder about " + centre + ", axis " + point(shape.axis, "") + ", " + radius + ", length " +
+             quantity_text(2 * shape.half_lengths[0], "m");
+    case RigidShape::Kind::box: break;
+  }
+  std::array<double, 3> lengths = shape.half_lengths;
+  for (double& length : lengths) length *= 2;
+  return "box about " + centre + ", edges " + point(lengths, " m");
+}
+
+void print_contact(CaseSpec const& spec, int dimension) {
+  for (RigidSpec const& rigid : spec.rigids) {
+    bool const moves = std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
+                                   [](Expression const& component) { return component.text() != "0"; });
+    fmt::print("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension),
+               moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
+  }
+  auto const info = find_formulation(spec.bodies.front().formulation.name);
+  if (!info || !info->contact) return;
+  constexpr std::array<std::string_view, 4> laws{"none", "kernel", "linear", "printed"};
+  ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
+  std::string text;
+  if (rule.scale != 1) text += ", scale " + number_text(rule.scale);
+  if (rule.law == ContactRule::Law::printed)
+    text += ", stiffness " + quantity_text(rule.stiffness, "Pa/m^" + std::to_string(dimension));
+  if (std::isfinite(rule.closing_speed)) text += ", closing speed " + quantity_text(rule.closing_speed, "m/s");
+  fmt::print("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
 }
 
 void print_output(CaseSpec const& spec) {
@@ -216,6 +264,7 @@ int check(CaseOptions const& options) {
   print_supports(spec, particles);
   print_loads(spec, particles);
   print_cracks(particles);
+  print_contact(spec, particles.dimension);
   fmt::print("step: about {}, about {} steps\n", quantity_text(cost.step, "s", 3),
              count_text(static_cast<std::int64_t>(std::min(std::ceil(spec.run.end / cost.step), 1e18))));
   fmt::print("needs: about {} of memory and {} with {} {} ({})\n", size_text(cost.bytes), duration_text(cost.seconds),

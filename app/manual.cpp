@@ -81,6 +81,12 @@ Row row_of(Choice const& choice, Layout layout) {
           in_column("default: \"" + std::string(choice.allowed.front()) + "\"", layout), std::string(choice.meaning)};
 }
 
+Row row_of(FormulaInfo const& formula, Layout layout) {
+  std::string const more = formula.variables.empty() ? "" : ", " + joined(formula.variables);
+  return {std::string(formula.name), "a formula in X, Y, Z, t" + more, in_column("default: none", layout),
+          std::string(formula.meaning)};
+}
+
 Row row_of(KeyInfo const& info, Layout layout) {
   std::string const standard = in_column(standard_text(info.standard), layout);
   return {std::string(info.key), value_with_range(value_text(info), info.allowed), standard, std::string(info.meaning)};
@@ -133,6 +139,7 @@ std::string describe_formulation(FormulationInfo const& info, Layout layout) {
   std::vector<Row> rows;
   for (Choice const& choice : info.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : info.parameters) rows.push_back(row_of(parameter, true, layout));
+  for (FormulaInfo const& formula : info.formulas) rows.push_back(row_of(formula, layout));
   std::vector<std::string> columns;
   for (DiagnosticInfo const& column : info.diagnostics) columns.emplace_back(column.name);
   std::string const indent = layout == Layout::markdown ? "" : "  ";

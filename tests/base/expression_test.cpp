@@ -78,6 +78,36 @@ TEST(Expression, CopiesAreIndependent) {
   EXPECT_EQ(moved.text(), "7");
 }
 
+TEST(Expression, FurtherVariablesTakeTheValuesOfEachEvaluation) {
+  Names const names{{{"limit", 0.5}}, {{"far", "X > 10"}, {"both", "far && damage > limit"}}, {"damage", "jacobian"}};
+  Expression const e("damage + 10*jacobian + 100*X + 1000*t", names);
+  Expression const copy = e;
+  EXPECT_EQ(e({2, 0, 0}, 3, std::array{0.5, 0.25}), 0.5 + 2.5 + 200 + 3000);
+  EXPECT_EQ(copy({0, 0, 0}, 0, std::array{1.0, 0.0}), 1);
+  EXPECT_EQ(e({0, 0, 0}, 0, std::array{0.0, 1.0}), 10);
+  Expression const through_definition("both", names);
+  EXPECT_EQ(through_definition({11, 0, 0}, 0, std::array{0.6, 1.0}), 1);
+  EXPECT_EQ(through_definition({11, 0, 0}, 0, std::array{0.4, 1.0}), 0);
+  EXPECT_EQ(through_definition({9, 0, 0}, 0, std::array{0.6, 1.0}), 0);
+}
+
+TEST(Expression, AFormulaWithoutFurtherVariablesNeedsNoValues) {
+  Names const names{{}, {}, {"damage"}};
+  EXPECT_EQ(Expression("2*X", names)({3, 0, 0}, 0), 6);
+  EXPECT_EQ(Expression("7", names)({3, 0, 0}, 0), 7);
+}
+
+TEST(Expression, FurtherVariablesAreSuggestedAndHaveOneMeaning) {
+  EXPECT_NE(error_of("damge > 1", {{}, {}, {"damage"}}).text.find("did you mean \"damage\"?"), std::string::npos);
+  ExpressionError const error = error_of("1 + damage", {{{"damage", 1}}, {}, {"damage"}});
+  EXPECT_EQ(error.text,
+            "\"damage\" is a variable of this formula and a name in define or constants, too - choose "
+            "another name there");
+  EXPECT_EQ(error.column, 5);
+  EXPECT_NE(error_of("damage", {{}, {{"damage", "X"}}, {"damage"}}).column, -1);
+  EXPECT_EQ(error_of("X", {{{"damage", 1}}, {}, {"damage"}}).text, "no error");
+}
+
 TEST(Expression, InfiniteAndUndefinedValuesAreReturned) {
   EXPECT_TRUE(std::isinf(value_of("1/X")));
   EXPECT_TRUE(std::isnan(value_of("sqrt(X-1)")));

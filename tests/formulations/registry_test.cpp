@@ -31,6 +31,11 @@ TEST(Formulations, DeclareKeysThatCanBeReadAndChecked) {
         EXPECT_TRUE(p.allowed.contains(p.default_value)) << p.name;
       }
     }
+    for (FormulaInfo const& f : info.formulas) {
+      EXPECT_TRUE(keys.insert(f.name).second) << f.name << " is declared twice";
+      EXPECT_FALSE(f.meaning.empty()) << f.name;
+      for (auto const variable : f.variables) EXPECT_FALSE(is_reserved_name(variable)) << variable;
+    }
     for (Choice const& c : info.choices) {
       EXPECT_TRUE(keys.insert(c.name).second) << c.name << " is declared twice";
       EXPECT_FALSE(c.allowed.empty()) << c.name;
@@ -53,8 +58,11 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
     assembly.formulations.push_back({std::string(info.name), {}, {}});
     assembly.particles.cracks.resize(1);
     assembly.mirrors.resize(1);
+    assembly.particles.bodies.resize(1);
+    assembly.particles.bodies[0].rings = true;
+    assembly.rigid_shapes.resize(1);
     std::string message;
-    if (info.cracks && info.mirrors) continue;
+    if (info.cracks && info.mirrors && info.rings && info.contact) continue;
     try {
       make_formulation(assembly);
     } catch (InputError const& error) {
@@ -62,10 +70,27 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
     }
     EXPECT_EQ(message.find(refusal(info, "cracks")) != std::string::npos, !info.cracks) << message;
     EXPECT_EQ(message.find(refusal(info, "mirrors")) != std::string::npos, !info.mirrors) << message;
+    EXPECT_EQ(message.find(refusal(info, "rings")) != std::string::npos, !info.rings) << message;
+    EXPECT_EQ(message.find(refusal(info, "rigid shapes")) != std::string::npos, !info.contact) << message;
   }
   EXPECT_FALSE(find_formulation("jst_sph")->cracks);
   EXPECT_TRUE(find_formulation("jst_sph")->mirrors);
   EXPECT_FALSE(find_formulation("jst_advection")->cracks);
+  EXPECT_TRUE(find_formulation("jst_sph")->rings);
+  EXPECT_FALSE(find_formulation("taylor_sph")->rings);
+  EXPECT_FALSE(find_formulation("jst_sph")->contact);
+}
+
+TEST(Formulations, SayWhatToRemove) {
+  FormulationInfo const info = *find_formulation("jst_sph");
+  auto const ending = [&](std::string_view what) {
+    std::string const text = refusal(info, what);
+    return text.substr(text.find(") - "));
+  };
+  EXPECT_EQ(ending("contact"), ") - remove the contact or change body.formulation");
+  EXPECT_EQ(ending("rigid shapes"), ") - remove the rigid shape or change body.formulation");
+  EXPECT_EQ(ending("cracks"), ") - remove the crack or change body.formulation");
+  EXPECT_EQ(refusal(info, "contact").find("the formulation \"jst_sph\" knows no contact (allowed: "), 0U);
 }
 
 }  // namespace

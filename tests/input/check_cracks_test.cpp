@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/check_case.hpp"
+#include "piola/input/region_checks.hpp"
 #include "piola/input/sections.hpp"
 #include <gtest/gtest.h>
 
@@ -69,6 +70,20 @@ TEST(MakeParticles, ReportsAllCracksThatCannotBeAndOpensTheOthers) {
   EXPECT_TRUE(problems.lines()[1].starts_with("case.toml:16:1: the crack in body \"lower\" meets the crack from"));
   EXPECT_EQ(set.cracks.size(), 1u);
   EXPECT_THROW(make_particles(spec), InputError);
+}
+
+TEST(CheckAbilities, RingsAreRefusedByFormulationsThatNeedALattice) {
+  CaseSpec spec = plates();
+  spec.bodies[1].shape.arrangement = ShapeSpec::Arrangement::rings;
+  spec.bodies[1].places = {{"shape", {"case.toml", 8, 1}}};
+  Problems problems;
+  for (BodySpec& body : spec.bodies) body.formulation.name = "jst_sph";
+  check_abilities(spec, problems);
+  EXPECT_TRUE(problems.empty());
+  for (BodySpec& body : spec.bodies) body.formulation.name = "taylor_sph";
+  check_abilities(spec, problems);
+  ASSERT_EQ(problems.count(), 1u);
+  EXPECT_EQ(problems.lines()[0], "case.toml:8:1: " + refusal(*find_formulation("taylor_sph"), "rings"));
 }
 
 TEST(ParticlesAhead, AreOnARayWithinTheDistances) {

@@ -168,6 +168,147 @@ TEST(Shapes, JitterMovesOnlyInnerParticlesAndIsTheSameForASeed) {
               1.0 / 3 + 0.3 * (2.0 / 3) * ((3499211612.0 + 0.5) / 2147483648.0 - 1), 1e-15);
 }
 
+ShapeSpec disc(double radius, double spacing) {
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::sphere;
+  shape.dimension = 2;
+  shape.radius = radius;
+  shape.spacing = spacing;
+  return shape;
+}
+
+TEST(Shapes, ABoxOfCellsHasExactlyAsManyAsItsEdgesAskFor) {
+  auto const cells = [](double length, double spacing) {
+    return particles_over(length, spacing, ShapeSpec::Placement::cell_centred);
+  };
+  double const d = 1e-4;  // adaptle: plate of 20 columns of 501 rows, one row on the axis
+  ShapeSpec plate = box({0, -250.5 * d, 0}, {20 * d, 250.5 * d, 0}, {cells(20 * d, d), cells(501 * d, d), 1}, 2);
+  plate.placement = ShapeSpec::Placement::cell_centred;
+  ParticleSet const set = filled(plate);
+  ASSERT_EQ(set.size(), 20 * 501);
+  for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(set.bodies[0].spacing[c], d, 1e-15 * d * 501);
+  EXPECT_NEAR(set.X[250 * 20][1], 0, 1e-12 * d);
+  ShapeSpec slab = box({-0.05, -0.05, 0}, {0.05, 0.05, 0.003}, {cells(0.1, 1e-3), cells(0.1, 1e-3), cells(3e-3, 1e-3)});
+  slab.placement = ShapeSpec::Placement::cell_centred;
+  EXPECT_EQ(filled(slab).size(), 30000);
+}
+
+TEST(Shapes, ASphereOfSixSpacingsHas912Particles) {
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::sphere;
+  shape.radius = 6e-3;
+  shape.spacing = 1e-3;
+  shape.centre = {0.1, 0.2, 0.3};
+  ParticleSet const set = filled(shape);
+  EXPECT_EQ(set.size(), 912);
+  double const from_centre = (set.X[0][0] - 0.1) / 1e-3;
+  EXPECT_NEAR(from_centre - std::floor(from_centre), 0.5, 1e-9);
+}
+
+TEST(Shapes, HollowBodiesLeaveOutWhatIsNearerThanTheInnerRadius) {
+  for (int dimension = 2; dimension <= 3; ++dimension) {
+    // An odd number of cells: points lie on whole spacings, some of them exactly on the inner surface.
+    ShapeSpec shape = disc(0.45, 0.1);
+    shape.dimension = dimension;
+    ParticleSet const solid = filled(shape);
+    shape.inner_radius = 0.3;
+    ParticleSet const set = filled(shape);
+    std::int64_t expected = 0;
+    for (auto const& index : solid.lattice_index) {
+      int const x = index[0] - 4, y = index[1] - 4, z = dimension == 3 ? index[2] - 4 : 0;
+      expected += x * x + y * y + z * z >= 9 ? 1 : 0;
+    }
+    EXPECT_EQ(set.size(), expected);
+    EXPECT_EQ(count_particles(shape), expected);
+    EXPECT_TRUE(set.bodies[0].regular);
+    EXPECT_FALSE(set.bodies[0].rings);
+  }
+}
+
+TEST(Shapes, ATubeIsHollowAllAlong) {
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::cylinder;
+  shape.radius = 1;
+  shape.length = 2;
+  shape.axis = 0;
+  shape.spacing = 0.1;
+  std::int64_t expected = 0;
+  for (auto const& X : filled(shape).X) expected += std::hypot(X[1], X[2]) > 0.55 ? 1 : 0;
+  shape.inner_radius = 0.55;
+  ParticleSet const set = filled(shape);
+  EXPECT_EQ(set.size(), expected);
+  EXPECT_EQ(count_particles(shape), expected);
+  EXPECT_EQ(set.size() % 20, 0);
+  for (auto const& X : set.X) EXPECT_GT(std::hypot(X[1], X[2]), 0.55);
+}
+
+// adaptle, 8.2: counts of the published layouts of a disc of radius 50 spacings.
+TEST(Shapes, DiscsOfRingsHaveThePublishedCounts) {
+  ShapeSpec shape = disc(5e-3, 1e-4);
+  shape.centre = {-0.01, 0.02, 0};
+  shape.arrangement = ShapeSpec::Arrangement::rings;
+  ParticleSet const set = filled(shape);
+  EXPECT_EQ(set.size(), 8012);
+  EXPECT_EQ(count_particles(shape), 8012);
+  EXPECT_EQ(set.X[0], (std::array<double, 3>{-0.01, 0.02, 0}));
+  EXPECT_NEAR(set.X[1][0], -0.01 + 1e-4, 1e-16);  // six around the first, beginning on the axis
+  EXPECT_NEAR(set.X[3][0], -0.01 - 0.5e-4, 1e-16);
+  double outermost = 0;
+  for (auto const& X : set.X) outermost = std::max(outermost, std::hypot(X[0] + 0.01, X[1] - 0.02));
+  EXPECT_NEAR(outermost, 5e-3, 1e-15);
+  for (double const volume : set.volume) EXPECT_DOUBLE_EQ(volume, 1e-8);
+  EXPECT_FALSE(set.bodies[0].regular);
+  EXPECT_TRUE(set.bodies[0].rings);
+}
+
+TEST(Shapes, ALatticeWithRingsHasThePublishedCounts) {
+  ShapeSpec shape = disc(5e-3, 1e-4);
+  shape.arrangement = ShapeSpec::Arrangement::lattice_with_rings;
+  ParticleSet const set = filled(shape);
+  EXPECT_EQ(set.size(), 7830);
+  EXPECT_EQ(count_particles(shape), 7830);
+  std::array<int, 3> counts{};
+  for (auto const& X : set.X) {
+    double const r = std::hypot(X[0], X[1]) / 1e-4;
+    ++counts[r < 48 - 1e-6 ? 0 : std::abs(r - 49) < 1e-9 ? 1 : 2];
+  }
+  EXPECT_EQ(counts, (std::array<int, 3>{7209, 307, 314}));
+  for (double const volume : set.volume) EXPECT_DOUBLE_EQ(volume, 1e-8);
+}
+
+TEST(Shapes, ARingIsAPolarGridWithItsExactArea) {
+  ShapeSpec shape = disc(2, 0.24);
+  shape.inner_radius = 1;
+  shape.arrangement = ShapeSpec::Arrangement::rings;
+  ParticleSet const set = filled(shape);
+  // Four circles 0.25 apart; 2 pi 1.5 / 0.25 = 37.7.
+  ASSERT_EQ(set.size(), 4 * 38);
+  EXPECT_EQ(count_particles(shape), 4 * 38);
+  EXPECT_EQ(spacing_of(shape), (std::array<double, 3>{0.25, 0.25, 1}));
+  EXPECT_EQ(set.bodies[0].spacing, spacing_of(shape));
+  EXPECT_NEAR(sum(set.volume), 3 * std::numbers::pi, 1e-13);
+  for (std::size_t i = 0; i < 38; ++i) {
+    EXPECT_NEAR(std::hypot(set.X[i][0], set.X[i][1]), 1.125, 1e-14);
+    EXPECT_NEAR(std::atan2(set.X[i][1], set.X[i][0]), std::atan2(set.X[114 + i][1], set.X[114 + i][0]), 1e-13);
+  }
+  EXPECT_NEAR(set.X[0][1], 0, 1e-15);
+}
+
+TEST(Shapes, LatticeIndicesOfRingsStayInTheirRange) {
+  for (auto const arrangement : {ShapeSpec::Arrangement::rings, ShapeSpec::Arrangement::lattice_with_rings}) {
+    for (double const radius : {0.05, 0.1, 0.2, 0.33, 1.04}) {
+      ShapeSpec shape = disc(radius, 0.1);
+      shape.arrangement = arrangement;
+      ParticleSet const set = filled(shape);
+      EXPECT_GT(set.size(), 0);
+      EXPECT_EQ(set.size(), count_particles(shape));
+      for (auto const& index : set.lattice_index) {
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_TRUE(index[c] >= 0 && index[c] < set.bodies[0].lattice[c]);
+      }
+    }
+  }
+}
+
 TEST(Shapes, SeveralBodiesShareOneSet) {
   ParticleSet set;
   fill(box({0, 0, 0}, {1, 1, 0}, {3, 3, 1}, 2), "a", set);
@@ -185,6 +326,10 @@ TEST(Shapes, AbsurdNumbersAreCountedWithoutMakingThem) {
   shape.kind = ShapeSpec::Kind::sphere;
   shape.radius = 1;
   shape.spacing = 1e-12;
+  EXPECT_GT(count_particles(shape), 1LL << 60);
+  shape.dimension = 2;
+  shape.spacing = 1e-15;
+  shape.arrangement = ShapeSpec::Arrangement::rings;
   EXPECT_GT(count_particles(shape), 1LL << 60);
   EXPECT_EQ(particles_over(1, 1e-30, ShapeSpec::Placement::on_boundary), 2147483647);
   EXPECT_EQ(particles_over(6, 0.25, ShapeSpec::Placement::on_boundary), 25);

@@ -139,5 +139,28 @@ TEST(Build, ProbesAskForFieldsThatThereAre) {
   EXPECT_TRUE(message.ends_with(") - remove it")) << message;
 }
 
+// Bodies that are not on a lattice: a uniform rotation keeps its angular momentum, nothing is lost or blows up.
+TEST(Build, BodiesOfRingsAreMovedByJst) {
+  std::string const material =
+      "material = { law = \"neo_hookean\", density = 1000, youngs_modulus = \"1 MPa\", poissons_ratio = 0.3 }\n"
+      "formulation = { name = \"jst_sph\" }\ninitial_velocity = [\"-Y\", \"X\"]\n";
+  for (std::string const shape :
+       {"radius = 1, arrangement = \"rings\"", "radius = 1, arrangement = \"lattice_with_rings\"",
+        "radius = 1, inner_radius = 0.5, arrangement = \"rings\"", "radius = 1, inner_radius = 0.5"}) {
+    CaseSpec const spec = read_case_text(
+        "title = \"disc\"\n[run]\nend = 1\n[[body]]\nname = \"disc\"\nshape = { sphere "
+        "= { centre = [0, 0], " +
+            shape + " }, spacing = 0.1 }\n" + material,
+        "case.toml");
+    Simulation simulation = build(spec);
+    double const step = simulation.formulation->settled_time_step();
+    Diagnostics const before = simulation.formulation->diagnose();
+    for (int i = 0; i < 10; ++i) simulation.formulation->step(i * step, step);
+    Diagnostics const after = simulation.formulation->diagnose();
+    EXPECT_GT(after.kinetic_energy, 0) << shape;
+    EXPECT_NEAR(after.angular_momentum[2], before.angular_momentum[2], 1e-3 * before.angular_momentum[2]) << shape;
+  }
+}
+
 }  // namespace
 }  // namespace piola

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/expression.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,7 @@ std::vector<Word> words_of(std::string const& text) {
 
 std::vector<std::string> known_names(Names const& names) {
   std::vector<std::string> known = to_strings(variables);
+  known.insert(known.end(), names.variables.begin(), names.variables.end());
   for (auto const& [name, value] : names.constants) known.push_back(name);
   for (Definition const& definition : names.definitions) known.push_back(definition.name);
   for (Function const& function : functions) known.emplace_back(function.name);
@@ -116,6 +118,18 @@ std::vector<std::string> known_names(Names const& names) {
   std::string const advice =
       near ? "did you mean " + in_quotes(*near) + "?" : "use one of these or add it to define or constants";
   fail(in_quotes(word.text) + " is not known (known: " + joined(known) + ") - " + advice, word.position);
+}
+
+// Which of the two is meant cannot be told.
+void refuse_two_meanings(Word const& word, Names const& names) {
+  auto const& given = names.variables;
+  if (std::find(given.begin(), given.end(), word.text) == given.end()) return;
+  bool const defined = std::any_of(names.definitions.begin(), names.definitions.end(),
+                                   [&](Definition const& d) { return d.name == word.text; });
+  if (!defined && !names.constants.contains(word.text)) return;
+  fail(in_quotes(word.text) + " is a variable of this formula and a name in define or constants, too - choose " +
+           "another name there",
+       word.position);
 }
 
 // Assignments would let one formula change the variables of another; muParser allows them.
@@ -150,6 +164,7 @@ void check_text(std::string const& text, Names const& names) {
   std::vector<std::string> const known = known_names(names);
   for (Word const& word : words_of(text)) {
     if (std::find(known.begin(), known.end(), word.text) == known.end()) fail_unknown(word, names);
+    refuse_two_meanings(word, names);
   }
 }
 
@@ -182,6 +197,8 @@ struct Expression::Compiled {
   std::string text = "0";
   Names names;
   double X = 0, Y = 0, Z = 0, t = 0;
+  std::vector<double> values;  ///< of the variables in `names`; never resized once parsers point to them
+  bool needs_values = false;
   bool constant = true;
   double constant_value = 0;
   struct Part {
@@ -202,7 +219,7 @@ struct Expression::Compiled {
     }
     compile(parser);
     auto const used = words_of(text);
-    constant = definitions.empty() && std::none_of(used.begin(), used.end(), [](Word const& word) {
+    constant = definitions.empty() && !needs_values && std::none_of(used.begin(), used.end(), [](Word const& word) {
                  return word.text == "X" || word.text == "Y" || word.text == "Z" || word.text == "t";
                });
     if (constant) constant_value = parser.Eval();
@@ -220,6 +237,10 @@ struct Expression::Compiled {
     for (auto const& [name, value] : known.constants) {
       if (needed.contains(name)) names.constants.emplace(name, value);
     }
+    names.variables = known.variables;
+    values.resize(known.variables.size());
+    needs_values = std::any_of(known.variables.begin(), known.variables.end(),
+                               [&](std::string const& name) { return needed.contains(name); });
   }
 
   void add_definition(Definition const& definition) {
@@ -240,6 +261,7 @@ struct Expression::Compiled {
     target.DefineVar("Y", &Y);
     target.DefineVar("Z", &Z);
     target.DefineVar("t", &t);
+    for (std::size_t i = 0; i < values.size(); ++i) target.DefineVar(names.variables[i], &values[i]);
     target.SetExpr(formula);
   }
 
@@ -279,9 +301,13 @@ Expression::Expression(Expression&&) noexcept = default;
 Expression& Expression::operator=(Expression&&) noexcept = default;
 Expression::~Expression() = default;
 
-double Expression::operator()(std::array<double, 3> const& X, double t) const {
+double Expression::operator()(std::array<double, 3> const& X, double t) const { return (*this)(X, t, {}); }
+
+double Expression::operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const {
   Compiled& c = *compiled_;
   if (c.constant) return c.constant_value;
+  PIOLA_EXPECTS(!c.needs_values || variables.size() == c.values.size());
+  if (c.needs_values) std::copy(variables.begin(), variables.end(), c.values.begin());
   c.X = X[0];
   c.Y = X[1];
   c.Z = X[2];

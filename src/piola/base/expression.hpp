@@ -20,7 +20,7 @@ struct Definition {
 struct Names {
   std::map<std::string, double> constants;  ///< SI values
   std::vector<Definition> definitions;      ///< in order; each may use those before it
-  std::vector<std::string> variables{};     ///< further variables, whose values are given at each evaluation
+  std::vector<std::string> variables = {};  ///< further variables, whose values are given at each evaluation
 };
 
 /// A formula in X, Y, Z, t, compiled once (muParser). Copies are independent and share nothing mutable; one object must
@@ -40,7 +40,7 @@ class Expression {
 
   /// Value at reference position X [m] and time t [s]; may be inf or nan, the caller checks.
   double operator()(std::array<double, 3> const& X, double t = 0) const;
-  /// The same with the values of `Names::variables`, in their order.
+  /// The same with the values of `Names::variables`, in their order; formulas that use none of them need no values.
   double operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const;
   std::string const& text() const;
   bool depends_on_time() const;  ///< t occurs in it, or in a definition that it uses

@@ -19,7 +19,8 @@ struct Observation {
   void add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass);
   /// One particle: volume ratio, pressure [Pa], tributary volume.
   void add_state(double jacobian, double pressure, double tributary);
-  /// Squares of second differences of p along the lattice lines of a body; `p` from the body's first particle on.
+  /// Squares of second differences of p along the lattice lines of a body; `p` from the body's first particle on. Of
+  /// discs of circles it is a rough measure, because the particles of neighbouring cells are not in line.
   void add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p);
   /// The totals with the pressure oscillation: rms over all lattice lines of (p[i+1] - 2 p[i] + p[i-1]) / 4, divided by
   /// the volume-weighted rms of p.

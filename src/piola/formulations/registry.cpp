@@ -11,6 +11,7 @@
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/solver.hpp"
+#include <algorithm>
 #include <array>
 
 namespace piola {
@@ -27,13 +28,23 @@ std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection
 
 std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info};
 
-bool knows(FormulationInfo const& info, std::string_view what) { return what == "cracks" ? info.cracks : info.mirrors; }
+bool knows(FormulationInfo const& info, std::string_view what) {
+  if (what == "cracks") return info.cracks;
+  if (what == "mirrors") return info.mirrors;
+  return what == "rings" ? info.rings : info.contact;
+}
+
+bool has_rings(ParticleSet const& particles) {
+  return std::any_of(particles.bodies.begin(), particles.bodies.end(), [](Body const& body) { return body.rings; });
+}
 
 /// What a case asks for that not every formulation knows.
 void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   Problems problems;
   if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));
   if (!info.mirrors && !assembly.mirrors.empty()) problems.add({}, refusal(info, "mirrors"));
+  if (!info.rings && has_rings(assembly.particles)) problems.add({}, refusal(info, "rings"));
+  if (!info.contact && !assembly.rigid_shapes.empty()) problems.add({}, refusal(info, "rigid shapes"));
   problems.raise_if_any();
 }
 
@@ -51,10 +62,10 @@ std::string refusal(FormulationInfo const& info, std::string_view what) {
   std::vector<std::string_view> able;
   for (FormulationInfo const& other : infos)
     if (knows(other, what)) able.push_back(other.name);
-  std::string const text(what);
+  std::string const text(what), one = text.back() == 's' ? text.substr(0, text.size() - 1) : text;
   return "the formulation " + in_quotes(info.name) + " knows no " + text +
          " (allowed: " + (able.empty() ? "no " + text + " at all" : text + " in " + joined(able)) + ") - remove the " +
-         text.substr(0, text.size() - 1) + " or change body.formulation";
+         one + " or change body.formulation";
 }
 
 std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name) {

@@ -34,12 +34,16 @@ struct FormulationInfo {
   std::span<DiagnosticInfo const> diagnostics = {};  ///< all that it may put into Diagnostics::more
   bool cracks = false;                               ///< whether bodies may have cracks
   bool mirrors = true;                               ///< whether bodies may go on across a face as their mirror image
+  bool rings = true;                                 ///< whether bodies may be arranged in rings instead of a lattice
+  bool contact = false;                              ///< whether it keeps bodies apart: contact rules and rigid shapes
+  std::span<FormulaInfo const> formulas = {};        ///< optional formulas
 };
 
 std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
 
-/// What a formulation says to a case that asks for what it does not know; `what` is "cracks" or "mirrors".
+/// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors",
+/// "rings", "contact" or "rigid shapes".
 std::string refusal(FormulationInfo const& info, std::string_view what);
 
 /// What a case file says about a formulation: only the keys that were given (checked against FormulationInfo).
@@ -47,7 +51,7 @@ struct FormulationSpec {
   std::string name;
   std::map<std::string, double, std::less<>> numbers;
   std::map<std::string, std::string, std::less<>> words;
-  std::map<std::string, Expression, std::less<>> formulas{};
+  std::map<std::string, Expression, std::less<>> formulas = {};
 };
 
 /// The word given for a choice, else the first that is allowed.

@@ -73,6 +73,10 @@ void check_fineness(BodyFacts const& body, int dimension, std::vector<std::strin
 void check_motion(CaseSpec const& spec, std::vector<BodyFacts> const& facts, std::vector<std::string>& found) {
   bool moves = !spec.loads.empty() || std::any_of(spec.supports.begin(), spec.supports.end(),
                                                   [](SupportSpec const& support) { return support.velocity; });
+  // The formula that is left out is the constant 0.
+  for (RigidSpec const& rigid : spec.rigids)
+    moves = moves || std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
+                                 [](Expression const& component) { return component.text() != "0"; });
   for (std::size_t b = 0; b < facts.size(); ++b) {
     BodyFacts const& body = facts[b];
     if (body.largest_speed > body.p_wave) {

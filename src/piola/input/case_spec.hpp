@@ -78,6 +78,16 @@ struct CrackSpec {
   Places places;
 };
 
+/// [[rigid]]: an obstacle that no body enters.
+struct RigidSpec : RigidShape {
+  Places places;
+};
+
+/// [contact]: what keeps bodies apart.
+struct ContactSpec : ContactRule {
+  Places places;
+};
+
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
   enum class Kind {
@@ -177,6 +187,8 @@ struct CaseSpec {
   std::vector<LoadSpec> loads;
   std::vector<MirrorSpec> mirrors;
   std::vector<CrackSpec> cracks;
+  std::vector<RigidSpec> rigids;
+  std::optional<ContactSpec> contact;  ///< nothing: the formulation's rule
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;

@@ -137,6 +137,7 @@ void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems&
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);
   check_boundaries(spec, particles, problems);
+  check_rigid(spec, particles, problems);
   check_abilities(spec, problems);
   for (ProbeSpec const& probe : spec.probes) {
     Body const* const body = body_named(particles, probe.body);

@@ -12,8 +12,9 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems);
 
 /// What can be found out only with the particles: bodies without any, regions of supports, loads and probes that select
 /// none, points of probes outside their body, formulas whose value is not a finite number at a particle, initial
-/// deformation gradients that turn a particle inside out, supports and mirrors that contradict each other. Also cracks
-/// and mirrors that the formulation does not know.
+/// deformation gradients that turn a particle inside out, supports and mirrors that contradict each other, rigid
+/// shapes that hold particles. Also cracks, mirrors, rings, rigid shapes and contact that the formulation does not
+/// know.
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// Ids of a body's particles that a condition selects; all of them without a condition.

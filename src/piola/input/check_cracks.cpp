@@ -13,6 +13,15 @@ std::optional<FormulationInfo> formulation_of(CaseSpec const& spec, std::string 
   return body == spec.bodies.end() ? std::nullopt : find_formulation(body->formulation.name);
 }
 
+// Contact concerns all bodies, which have one formulation.
+void check_contact_ability(CaseSpec const& spec, Problems& problems) {
+  if (spec.bodies.empty()) return;
+  auto const info = find_formulation(spec.bodies.front().formulation.name);
+  if (!info || info->contact) return;
+  for (RigidSpec const& rigid : spec.rigids) problems.add(place_of(rigid.places, ""), refusal(*info, "rigid shapes"));
+  if (spec.contact) problems.add(place_of(spec.contact->places, ""), refusal(*info, "contact"));
+}
+
 }  // namespace
 
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems) {
@@ -28,9 +37,15 @@ void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problem
 }
 
 void check_abilities(CaseSpec const& spec, Problems& problems) {
+  check_contact_ability(spec, problems);
   for (CrackSpec const& crack : spec.cracks) {
     auto const info = formulation_of(spec, crack.body);
     if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));
+  }
+  for (BodySpec const& body : spec.bodies) {
+    auto const info = find_formulation(body.formulation.name);
+    bool const rings = body.shape.arrangement != ShapeSpec::Arrangement::lattice;
+    if (info && rings && !info->rings) problems.add(place_of(body.places, "shape"), refusal(*info, "rings"));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const info = formulation_of(spec, mirror.body);

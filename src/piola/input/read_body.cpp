@@ -132,8 +132,6 @@ BodySpec read_body(Section const& section, std::map<std::string, double> const& 
   section.read("name", body.name);
   if (auto const shape = section.table("shape")) body.shape = read_shape(*shape);
   if (auto const material = section.table("material")) read_material(*material, body);
-  if (auto const formulation = section.table("formulation")) body.formulation = read_formulation(*formulation);
-  check_law(section, body);
   names.name = body.name;
   names.dimension = body.shape.dimension;
   names.shape = body.shape;
@@ -141,6 +139,9 @@ BodySpec read_body(Section const& section, std::map<std::string, double> const& 
   if (auto const define = section.find("define")) {
     names.names.definitions = read_definitions(*define, names.names, section.problems());
   }
+  if (auto const formulation = section.table("formulation"))
+    body.formulation = read_formulation(*formulation, names.names);
+  check_law(section, body);
   if (auto velocity = read_vector(section, "initial_velocity", names)) body.initial_velocity = std::move(*velocity);
   body.initial_displacement = read_vector(section, "initial_displacement", names);
   body.initial_deformation_gradient = read_gradient(section, names);

@@ -115,6 +115,11 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   for (Section const& section : tables_of(top, "load")) spec.loads.push_back(read_load(section, names));
   for (Section const& section : tables_of(top, "mirror")) spec.mirrors.push_back(read_mirror(section, names));
   for (Section const& section : tables_of(top, "crack")) spec.cracks.push_back(read_crack(section, names));
+  int const dimension = names.empty() ? 3 : names.front().dimension;
+  std::vector<Section> const rigids = tables_of(top, "rigid");
+  for (Section const& section : rigids) spec.rigids.push_back(read_rigid(section, dimension, constants));
+  refuse_twins(rigids, spec.rigids, "rigid shape");
+  if (auto const contact = top.table("contact")) spec.contact = read_contact(*contact, dimension);
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   refuse_twins(probes, spec.probes, "probe");

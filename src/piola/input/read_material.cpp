@@ -126,7 +126,20 @@ void read_material(Section const& section, BodySpec& body) {
   body.material = MaterialReader(section, *find_law(*name), base).read();
 }
 
-FormulationSpec read_formulation(Section const& section) {
+void read_formulation_formulas(Section const& section, std::span<FormulaInfo const> formulas, Names const& names,
+                               FormulationSpec& spec) {
+  for (FormulaInfo const& info : formulas) {
+    Node const* const node = section.node().find(info.name);
+    if (node == nullptr) continue;
+    Names known = names;
+    known.variables = to_strings(info.variables);
+    Value const value{*node, "body.formulation." + std::string(info.name)};
+    if (auto formula = read_formula(value, "", known, section.problems()))
+      spec.formulas.emplace(info.name, std::move(*formula));
+  }
+}
+
+FormulationSpec read_formulation(Section const& section, Names const& names) {
   FormulationSpec spec;
   auto const value = section.find("name");
   if (!value) return spec;
@@ -149,6 +162,8 @@ FormulationSpec read_formulation(Section const& section) {
       spec.words.emplace(choice.name, *text);
     }
   }
+  read_formulation_formulas(section, info.formulas, names, spec);
+  for (FormulaInfo const& formula : info.formulas) keys.emplace_back(formula.name);
   section.refuse_unknown(keys);
   return spec;
 }

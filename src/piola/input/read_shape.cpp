@@ -36,12 +36,38 @@ void read_box(Section const& section, ShapeSpec& shape) {
   }
 }
 
+void read_inner_radius(Section const& section, ShapeSpec& shape) {
+  if (!section.read("inner_radius", shape.inner_radius) || !(shape.radius > 0) || shape.inner_radius < shape.radius)
+    return;
+  section.problems().add(section.place_of("inner_radius"),
+                         section.name_of("inner_radius") + " is " + number_text(shape.inner_radius) +
+                             " m (allowed: below radius, which is " + number_text(shape.radius) + " m)");
+}
+
+void read_arrangement(Section const& section, ShapeSpec& shape) {
+  int const word = section.word_index("arrangement");
+  if (word <= 0 || word >= static_cast<int>(section.info_of("arrangement").words.size())) return;
+  std::string const is = section.name_of("arrangement") + " is " +
+                         in_quotes(section.info_of("arrangement").words[static_cast<std::size_t>(word)]);
+  shape.arrangement = static_cast<ShapeSpec::Arrangement>(word);
+  if (shape.dimension != 2 && section.has("centre")) {
+    section.problems().add(section.place_of("arrangement"), is + " (allowed in " + std::to_string(shape.dimension) +
+                                                                "D: lattice) - circles are for discs");
+  } else if (shape.inner_radius > 0 && shape.arrangement == ShapeSpec::Arrangement::lattice_with_rings) {
+    section.problems().add(section.place_of("arrangement"),
+                           is + " (allowed with inner_radius: lattice, rings) - choose one of these");
+  }
+}
+
 void read_sphere(Section const& section, ShapeSpec& shape) {
   if (auto const centre = section.point("centre")) {
     shape.dimension = static_cast<int>(centre->size());
     set_point(*centre, shape.centre);
   }
   section.read("radius", shape.radius);
+  read_inner_radius(section, shape);
+  read_arrangement(section, shape);
+  if (shape.dimension == 1) section.refuse("inner_radius", "is used only in 2D and 3D");
   section.refuse_unknown();
 }
 
@@ -55,6 +81,7 @@ void read_cylinder(Section const& section, ShapeSpec& shape) {
     }
   }
   section.read("radius", shape.radius);
+  read_inner_radius(section, shape);
   section.read("length", shape.length);
   std::string axis = "z";
   section.read("axis", axis);
@@ -132,6 +159,10 @@ ShapeSpec read_shape(Section const& section) {
     shape.placement = ShapeSpec::Placement::cell_centred;
     refuse_box_key(section, "placement");
     refuse_box_key(section, "particles");
+  }
+  if (shape.arrangement != ShapeSpec::Arrangement::lattice) {
+    section.refuse("jitter", "is used only by particles on a lattice");
+    section.refuse("seed", "is used only by particles on a lattice");
   }
   section.read("jitter", shape.jitter);
   if (auto const seed = section.whole("seed")) shape.seed = static_cast<std::uint32_t>(*seed);

@@ -45,8 +45,11 @@ bool check_where(Expression const& where, std::string const& name, Place const& 
 
 /// Opens the cracks of the last body of the set; those that cannot be are problems.
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems);
-/// Reports the cracks and mirrors that the formulation of their body does not know.
+/// Reports the cracks, mirrors, rings, rigid shapes and contact that the formulation of the bodies does not know.
 void check_abilities(CaseSpec const& spec, Problems& problems);
+
+/// Reports rigid shapes that hold particles at the start, and velocities of theirs that are not finite then.
+void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// The parts of check_regions that look at supports, loads and mirrors.
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);

@@ -40,7 +40,11 @@ std::map<std::string, double> read_constants(Value const& value, Problems& probl
 ShapeSpec read_shape(Section const& section);
 BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names);
 void read_material(Section const& section, BodySpec& body);
-FormulationSpec read_formulation(Section const& section);
+/// `names` may be used in its formulas.
+FormulationSpec read_formulation(Section const& section, Names const& names);
+/// The part of read_formulation that reads the formulas of a formulation.
+void read_formulation_formulas(Section const& section, std::span<FormulaInfo const> formulas, Names const& names,
+                               FormulationSpec& spec);
 std::vector<Definition> read_definitions(Value const& value, Names const& names, Problems& problems);
 
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies);
@@ -52,6 +56,9 @@ bool measures_debris(ProbeSpec::Kind kind);
 /// The keys that only those kinds have, and those that they share with others; of other kinds refuses the former.
 /// Without a body only what does not depend on it is read.
 void read_debris(Section const& section, BodyNames const* body, ProbeSpec& probe);
+/// `dimension` is that of the bodies; `constants` may be used in the velocity.
+RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
+ContactSpec read_contact(Section const& section, int dimension);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,

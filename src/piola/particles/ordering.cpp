@@ -14,7 +14,8 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   auto const key = [&](std::int64_t id) {
     auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
     int const x = at[axis[0]], y = at[axis[1]], z = at[axis[2]];
-    return std::array{z / rows, y / rows, z, y, x};
+    // Particles on rings may share a lattice index.
+    return std::array{z / rows, y / rows, z, y, x, static_cast<int>(id - body.first)};
   };
   SlotOrder order;
   order.particles = static_cast<Index>(body.last - body.first);

@@ -8,13 +8,14 @@
 
 namespace piola {
 
-/// A body: a contiguous range of particles of one material, born on a lattice.
+/// A body: a contiguous range of particles of one material, born on a lattice or on rings about a centre.
 struct Body {
   std::string name;
   std::int64_t first = 0, last = 0;  ///< particle ids [first, last)
   std::array<double, 3> spacing{};   ///< lattice spacing [m]; 1 for dimensions that do not exist
   std::array<int, 3> lattice{};      ///< lattice points per direction
   bool regular = true;               ///< positions are exactly on the lattice (no jitter)
+  bool rings = false;  ///< not born on a lattice: `lattice` and the lattice indices only say who is near whom
 };
 
 /// A straight crack through a two-dimensional body. The particles on it exist twice, once for each face, but for those

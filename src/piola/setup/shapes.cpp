@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/setup/rings.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,6 +40,8 @@ Lattice box_lattice(ShapeSpec const& shape) {
   return lattice;
 }
 
+bool in_rings(ShapeSpec const& shape) { return shape.arrangement != ShapeSpec::Arrangement::lattice; }
+
 // Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
 int cells_over(double length, double spacing) {
   double const cells = std::round(length / spacing);
@@ -73,12 +76,10 @@ double round_part(ShapeSpec const& shape, Lattice const& lattice, int d, std::in
   return offset * offset;
 }
 
-// The lattice points of row (j, k) that are inside the body: a contiguous range, because bodies are convex.
-Rows inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
+// The lattice points of row (j, k) within a radius: a contiguous range.
+Rows row_within(ShapeSpec const& shape, Lattice const& lattice, double radius2, int j, int k) {
   std::int64_t const n = lattice.count[0];
-  if (shape.kind == ShapeSpec::Kind::box) return {0, n};
   double const others = round_part(shape, lattice, 1, j) + round_part(shape, lattice, 2, k);
-  double const radius2 = shape.radius * shape.radius;
   auto const inside = [&](std::int64_t i) { return round_part(shape, lattice, 0, i) + others <= radius2; };
   std::int64_t const middle = (n - 1) / 2;
   if (!inside(middle)) return {0, 0};
@@ -91,6 +92,23 @@ Rows inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
       low = half + 1;
   }
   return {low, n - low};
+}
+
+/// The lattice points of a row that are in the body, [begin, end) without those in the hole.
+struct BodyRow {
+  Rows all, hole;
+  std::int64_t count() const { return all.end - all.begin - (hole.end - hole.begin); }
+  bool contains(std::int64_t i) const { return i < hole.begin || i >= hole.end; }
+};
+
+BodyRow inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
+  // Points on the inner surface belong to the body in spite of rounding.
+  constexpr double rounding = 1e-12;
+  if (shape.kind == ShapeSpec::Kind::box) return {{0, lattice.count[0]}, {}};
+  BodyRow row{row_within(shape, lattice, shape.radius * shape.radius, j, k), {}};
+  double const inner2 = shape.inner_radius * shape.inner_radius;
+  if (inner2 > 0) row.hole = row_within(shape, lattice, inner2 * (1 - rounding), j, k);
+  return row;
 }
 
 double share_of_cell(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
@@ -146,6 +164,7 @@ double row_count_estimate(ShapeSpec const& shape, Lattice const& lattice) {
 
 std::int64_t count_particles(ShapeSpec const& shape) {
   constexpr double countable = 1e8;
+  if (in_rings(shape)) return static_cast<std::int64_t>(std::min(count_ring_particles(shape), 9e18));
   Lattice const lattice = lattice_of(shape);
   double const estimate = row_count_estimate(shape, lattice);
   if (shape.kind == ShapeSpec::Kind::box || estimate > countable) {
@@ -156,14 +175,18 @@ std::int64_t count_particles(ShapeSpec const& shape) {
   std::int64_t count = 0;
   for (int k = 0; k < (along_z ? 1 : lattice.count[2]); ++k) {
     for (int j = 0; j < (along_y ? 1 : lattice.count[1]); ++j) {
-      Rows const row = inside_row(shape, lattice, j, k);
-      count += row.end - row.begin;
+      count += inside_row(shape, lattice, j, k).count();
     }
   }
   return count * (along_z ? lattice.count[2] : 1) * (along_y ? lattice.count[1] : 1);
 }
 
-std::array<double, 3> spacing_of(ShapeSpec const& shape) { return lattice_of(shape).spacing; }
+std::array<double, 3> spacing_of(ShapeSpec const& shape) {
+  if (!in_rings(shape)) return lattice_of(shape).spacing;
+  double const width = shape.radius - shape.inner_radius;
+  double const d = shape.inner_radius > 0 ? width / cells_over(width, shape.spacing) : shape.spacing;
+  return {d, d, 1};
+}
 
 int particles_over(double length, double spacing, ShapeSpec::Placement placement) {
   double const cells = std::round(length / spacing);
@@ -173,12 +196,23 @@ int particles_over(double length, double spacing, ShapeSpec::Placement placement
   return std::max(1, n);
 }
 
-void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
-  PIOLA_EXPECTS(shape.dimension >= 1 && shape.dimension <= 3);
+namespace {
+
+void fill_rings(ShapeSpec const& shape, ParticleSet& set, Body& body) {
+  RingParticles const rings = ring_particles(shape);
+  body.spacing = rings.spacing;
+  body.lattice = rings.lattice;
+  body.regular = false;
+  body.rings = true;
+  set.X.insert(set.X.end(), rings.X.begin(), rings.X.end());
+  set.lattice_index.insert(set.lattice_index.end(), rings.lattice_index.begin(), rings.lattice_index.end());
+  set.volume.insert(set.volume.end(), rings.volume.begin(), rings.volume.end());
+  set.kernel_volume.insert(set.kernel_volume.end(), rings.volume.begin(), rings.volume.end());
+  set.body.resize(set.X.size(), static_cast<int>(set.bodies.size()));
+}
+
+void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   Lattice const lattice = lattice_of(shape);
-  Body body;
-  body.name = name;
-  body.first = set.size();
   body.spacing = lattice.spacing;
   body.lattice = lattice.count;
   body.regular = !(shape.jitter > 0);
@@ -188,8 +222,9 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   Shaker shaker(shape.seed);
   for (int k = 0; k < lattice.count[2]; ++k) {
     for (int j = 0; j < lattice.count[1]; ++j) {
-      Rows const row = inside_row(shape, lattice, j, k);
-      for (std::int64_t i = row.begin; i < row.end; ++i) {
+      BodyRow const row = inside_row(shape, lattice, j, k);
+      for (std::int64_t i = row.all.begin; i < row.all.end; ++i) {
+        if (!row.contains(i)) continue;
         Index3 const index{static_cast<int>(i), j, k};
         double const share = share_of_cell(shape, lattice, index);
         Vec3 X = position(shape, lattice, index);
@@ -202,6 +237,19 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
       }
     }
   }
+}
+
+}  // namespace
+
+void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
+  PIOLA_EXPECTS(shape.dimension >= 1 && shape.dimension <= 3);
+  Body body;
+  body.name = name;
+  body.first = set.size();
+  if (in_rings(shape))
+    fill_rings(shape, set, body);
+  else
+    fill_lattice(shape, set, body);
   body.last = set.size();
   if (!set.crack_side.empty()) set.crack_side.resize(set.X.size());
   set.dimension = shape.dimension;

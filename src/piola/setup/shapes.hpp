@@ -12,13 +12,16 @@ namespace piola {
 struct ShapeSpec {
   enum class Kind { box, sphere, cylinder };
   enum class Placement { on_boundary, cell_centred };
+  enum class Arrangement { lattice, rings, lattice_with_rings };
   Kind kind = Kind::box;
   int dimension = 3;
-  std::array<double, 3> min{}, max{};  ///< box
-  std::array<double, 3> centre{};      ///< sphere (2D: disc); cylinder: centre of the lower end
-  double radius = 0;                   ///< sphere, cylinder
-  double length = 0;                   ///< cylinder
-  int axis = 2;                        ///< cylinder: 0 x, 1 y, 2 z
+  std::array<double, 3> min{}, max{};              ///< box
+  std::array<double, 3> centre{};                  ///< sphere (2D: disc); cylinder: centre of the lower end
+  double radius = 0;                               ///< sphere, cylinder
+  double inner_radius = 0;                         ///< sphere, cylinder: of the hole; 0: none
+  Arrangement arrangement = Arrangement::lattice;  ///< sphere in 2D
+  double length = 0;                               ///< cylinder
+  int axis = 2;                                    ///< cylinder: 0 x, 1 y, 2 z
   std::array<int, 3> particles{1, 1,
                                1};  ///< box: particles per direction (already derived from spacing if that was given)
   double spacing = 0;               ///< sphere, cylinder
@@ -45,7 +48,16 @@ int particles_over(double length, double spacing, ShapeSpec::Placement placement
 ///  - Box, cell_centred: spacing l/n, every particle a full cell.
 ///  - Sphere (2D: disc, 1D: interval) and cylinder: the cells of a lattice, symmetric about the centre, whose middle
 ///    lies inside. Every particle is a full cell, so the body's volume is that of its staircase, not the exact one;
-///    along the axis of a cylinder the spacing is fitted to the length.
+///    along the axis of a cylinder the spacing is fitted to the length. With an inner radius, cells whose middle is
+///    nearer to the centre (or the axis) than that are left out.
+///  - Disc (2D), rings: a particle in the centre and n = radius/spacing circles of radius i * spacing, i = 1..n, with
+///    round(2 pi i) particles each, all of the volume spacing^2; the last circle is at the radius.
+///  - Disc, lattice_with_rings: the square lattice points i^2 + j^2 < (n-2)^2 about the centre, and circles n-1 and n
+///    with floor(2 pi i) particles each, all of the volume spacing^2.
+///  - Disc with an inner radius, rings: a polar grid of n = (radius - inner_radius)/spacing circles in the middle of
+///    equal widths d, each of round(2 pi r/d) particles, r the mean radius; volumes are those of the sectors.
+///    Circles start at the angle 0, the x axis. Ids run along the circles, from the innermost one outwards; such bodies
+///    are not regular, and their kernel volumes are their volumes.
 /// Tributary volumes of a box sum to its exact volume; kernel volumes are the product of the spacings.
 /// Jitter moves particles that are not on a face of the body by up to jitter * spacing in each direction; the same seed
 /// gives the same particles on every machine.

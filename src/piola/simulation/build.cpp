@@ -160,6 +160,8 @@ Assembly assemble(CaseSpec const& spec) {
   for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
   for (MirrorSpec const& mirror : spec.mirrors)
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
+  a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
+  if (spec.contact) a.contact = *spec.contact;
   return a;
 }
 

@@ -106,7 +106,7 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.energy_initial = energy.front();
   summary.energy_final = energy.back();
   summary.energy_max_increase = energy_increase(history);
-  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty();
+  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() && s.spec.rigids.empty();
   if (!free) return;
   // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
   double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));

@@ -26,6 +26,7 @@ FormulationInfo info() {
       {},
       usable_laws,
       diagnostics};
+  info.rings = false;
   info.mirrors = false;  // a periodic row has no faces
   return info;
 }

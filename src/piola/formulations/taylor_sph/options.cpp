@@ -81,6 +81,7 @@ FormulationInfo info() {
       diagnostics};
   info.cracks = true;
   info.mirrors = false;
+  info.rings = false;  // its hourglass control needs boxes of a lattice
   return info;
 }
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/input/region_checks.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace piola {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+using Kind = RigidShape::Kind;
+
+double dot(Vec3 const& a, Vec3 const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// How far inside the shape a point is [m]; negative outside, where it need not be the distance.
+double depth(RigidShape const& shape, Vec3 const& x, int dimension) {
+  Vec3 const r{x[0] - shape.centre[0], x[1] - shape.centre[1], x[2] - shape.centre[2]};
+  double const along = dot(r, shape.axis);
+  switch (shape.kind) {
+    case Kind::plane: return -along;
+    case Kind::sphere: return shape.radius - std::sqrt(dot(r, r));
+    case Kind::cylinder:
+      return std::min(shape.radius - std::sqrt(std::max(0.0, dot(r, r) - along * along)),
+                      shape.half_lengths[0] - std::abs(along));
+    case Kind::box: break;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    least = std::min(least, shape.half_lengths[d] - std::abs(r[d]));
+  return least;
+}
+
+Vec3 start_of(BodySpec const& body, Vec3 const& X) {
+  Vec3 x = X;
+  for (std::size_t d = 0; body.initial_displacement && d < 3; ++d) x[d] += (*body.initial_displacement)[d](X);
+  return x;
+}
+
+// Where the shape itself stands in the file.
+Place place_of_shape(RigidSpec const& rigid) {
+  constexpr std::array<std::string_view, 4> keys{"plane", "sphere", "cylinder", "box"};
+  return place_of(rigid.places, keys[static_cast<std::size_t>(rigid.kind)]);
+}
+
+void check_overlap(RigidSpec const& rigid, BodySpec const& spec, ParticleSet const& particles, Body const& body,
+                   Problems& problems) {
+  constexpr double rounding = 1e-9;  // of the spacing: particles on the surface are not inside
+  double const allowed = rounding * body.spacing[0];
+  std::int64_t inside = 0;
+  Vec3 first{};
+  for (std::int64_t id = body.first; id < body.last; ++id) {
+    Vec3 const x = start_of(spec, particles.X[static_cast<std::size_t>(id)]);
+    if (!(depth(rigid, x, particles.dimension) > allowed)) continue;
+    if (inside++ == 0) first = x;
+  }
+  if (inside == 0) return;
+  problems.add(place_of_shape(rigid), "the rigid shape " + in_quotes(rigid.name) + " holds " + count_text(inside) +
+                                          (inside == 1 ? " particle" : " particles") + " of body " +
+                                          in_quotes(spec.name) + " at the start, the first at " +
+                                          point_text(first, particles.dimension) +
+                                          " (allowed: none) - move the shape or the body");
+}
+
+void check_velocity(RigidSpec const& rigid, int dimension, Problems& problems) {
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    double const value = rigid.velocity[d]({});
+    if (std::isfinite(value)) continue;
+    problems.add(place_of(rigid.places, "velocity"), "rigid.velocity[" + std::to_string(d) + "], formula " +
+                                                         in_quotes(rigid.velocity[d].text()) + " is " +
+                                                         number_text(value) + " at t = 0 (allowed: a finite number)");
+  }
+}
+
+}  // namespace
+
+void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  for (RigidSpec const& rigid : spec.rigids) {
+    check_velocity(rigid, particles.dimension, problems);
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+      check_overlap(rigid, spec.bodies[b], particles, particles.bodies[b], problems);
+  }
+}
+
+}  // namespace piola

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/input/sections.hpp"
+#include <algorithm>
+#include <array>
+
+namespace piola {
+namespace {
+
+using Kind = RigidShape::Kind;
+using Law = ContactRule::Law;
+
+void read_point(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
+  if (auto const point = read_components(section, key, dimension)) target = *point;
+}
+
+void read_plane(Section const& section, int dimension, RigidShape& shape) {
+  read_point(section, "point", dimension, shape.centre);
+  if (auto const normal = read_direction(section, "normal", dimension)) shape.axis = *normal;
+}
+
+void read_sphere(Section const& section, int dimension, RigidShape& shape) {
+  read_point(section, "centre", dimension, shape.centre);
+  section.read("radius", shape.radius);
+}
+
+void read_cylinder(Section const& section, int dimension, RigidShape& shape) {
+  if (dimension != 3) {
+    section.problems().add(section.place(), "rigid.cylinder is given in " + std::to_string(dimension) +
+                                                "D (allowed: 3D) - a cylinder in 2D is a sphere or a box");
+    return;
+  }
+  read_sphere(section, dimension, shape);
+  if (auto const axis = read_direction(section, "axis", dimension)) shape.axis = *axis;
+  double length = 0;
+  if (section.read("length", length)) shape.half_lengths[0] = length / 2;
+}
+
+void read_corners(Section const& section, int dimension, RigidShape& shape) {
+  auto const min = read_components(section, "min", dimension), max = read_components(section, "max", dimension);
+  if (!min || !max) return;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    shape.centre[d] = ((*min)[d] + (*max)[d]) / 2;
+    shape.half_lengths[d] = ((*max)[d] - (*min)[d]) / 2;
+    if (shape.half_lengths[d] > 0) continue;
+    section.problems().add(section.place_of("max"), "rigid.box.max[" + std::to_string(d) + "] is " +
+                                                        number_text((*max)[d]) + " m (allowed: above min, which is " +
+                                                        number_text((*min)[d]) + " m)");
+  }
+}
+
+void read_edges(Section const& section, int dimension, RigidShape& shape) {
+  read_point(section, "centre", dimension, shape.centre);
+  auto const lengths = read_components(section, "lengths", dimension);
+  for (std::size_t d = 0; lengths && d < static_cast<std::size_t>(dimension); ++d)
+    shape.half_lengths[d] = (*lengths)[d] / 2;
+}
+
+// A box is given by its corners, or by its middle and its edges.
+void read_box(Section const& section, int dimension, RigidShape& shape) {
+  bool const corners = section.has("min") && section.has("max");
+  bool const edges = section.has("centre") && section.has("lengths");
+  auto const given = section.has("min") + section.has("max") + section.has("centre") + section.has("lengths");
+  if (given != 2 || corners == edges) {
+    section.problems().add(section.place(),
+                           "rigid.box needs min and max, or centre and lengths (allowed: one of the two pairs) - write "
+                           "box = { min = [...], max = [...] }");
+  } else if (corners) {
+    read_corners(section, dimension, shape);
+  } else {
+    read_edges(section, dimension, shape);
+  }
+}
+
+void read_kind(Section const& section, int dimension, RigidShape& shape) {
+  constexpr std::array<std::string_view, 4> kinds{"plane", "sphere", "cylinder", "box"};
+  constexpr std::array readers{&read_plane, &read_sphere, &read_cylinder, &read_box};
+  int given = 0;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (!section.has(kinds[k])) continue;
+    ++given;
+    shape.kind = static_cast<Kind>(k);
+    auto const part = section.table(kinds[k]);
+    if (!part) continue;
+    readers[k](*part, dimension, shape);
+    part->refuse_unknown();
+  }
+  if (given == 1) return;
+  section.problems().add(section.place(), "rigid has " + (given == 0 ? std::string("no") : std::to_string(given)) +
+                                              " of plane, sphere, cylinder, box (allowed: one) - add or remove one");
+}
+
+// A rigid shape has one velocity at a time, so that no place can be meant.
+void refuse_places(Section const& section, std::array<Expression, 3> const& velocity) {
+  for (std::size_t d = 0; d < velocity.size(); ++d) {
+    for (std::string const& word : expression_words(velocity[d].text())) {
+      if (word != "X" && word != "Y" && word != "Z") continue;
+      section.problems().add(section.place_of("velocity"),
+                             "rigid.velocity[" + std::to_string(d) + "], formula " + in_quotes(velocity[d].text()) +
+                                 " uses " + word + " (allowed: t and the constants) - a rigid shape moves as one");
+      break;
+    }
+  }
+}
+
+void refuse_for(Section const& section, std::string_view key, bool refused, std::string const& laws) {
+  if (refused) section.refuse(key, "is used only by the law " + laws);
+}
+
+void read_stiffness(Section const& section, int dimension, ContactRule& contact) {
+  if (contact.law != Law::printed) return;
+  std::string const unit = dimension == 1 ? "Pa/m" : "Pa/m^" + std::to_string(dimension);
+  if (auto const value = section.find("stiffness")) {
+    if (auto const number = read_number(*value, unit, positive, section.problems())) contact.stiffness = *number;
+  } else {
+    section.report_missing("stiffness", "the constant of the law \"printed\", in " + unit,
+                           "stiffness = \"1e16 " + unit + "\"");
+  }
+}
+
+}  // namespace
+
+RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants) {
+  RigidSpec rigid;
+  section.read("name", rigid.name);
+  read_kind(section, dimension, rigid);
+  BodyNames names;
+  names.dimension = dimension;
+  names.names.constants = constants;
+  if (auto velocity = read_vector(section, "velocity", names)) {
+    refuse_places(section, *velocity);
+    rigid.velocity = std::move(*velocity);
+  }
+  section.refuse_unknown();
+  rigid.places = places_of(section, {"name", "plane", "sphere", "cylinder", "box", "velocity"});
+  return rigid;
+}
+
+ContactSpec read_contact(Section const& section, int dimension) {
+  ContactSpec contact;
+  // The words stand in the order of the manual, not of the enumerators.
+  constexpr std::array laws{Law::kernel, Law::linear, Law::printed, Law::none};
+  if (int const word = section.word_index("law"); word >= 0 && word < static_cast<int>(laws.size()))
+    contact.law = laws[static_cast<std::size_t>(word)];
+  Law const law = contact.law;
+  refuse_for(section, "scale", law == Law::none, "\"kernel\", \"linear\" or \"printed\"");
+  refuse_for(section, "stiffness", law != Law::printed, "\"printed\"");
+  refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
+  refuse_for(section, "exponent", law != Law::kernel && law != Law::printed, "\"kernel\" or \"printed\"");
+  section.read("scale", contact.scale);
+  read_stiffness(section, dimension, contact);
+  section.read("closing_speed", contact.closing_speed);
+  section.read("exponent", contact.exponent);
+  section.refuse_unknown();
+  contact.places = places_of(section, {"law"});
+  return contact;
+}
+
+}  // namespace piola

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user is told about bad rigid shapes, contact rules and round bodies, word for word.
+#include "piola/formulations/registry.hpp"
+#include "support/sample_case.hpp"
+#include <gtest/gtest.h>
+
+namespace piola {
+namespace {
+
+using test::message_of;
+using test::sample_case;
+using test::sample_with;
+
+// The sample has 22 lines, so that what is added starts in line 23.
+std::string with(std::string const& more) { return message_of(sample_case() + more); }
+std::string rigid(std::string const& more) { return with("[[rigid]]\nname = \"wall\"\n" + more + "\n"); }
+std::string contact(std::string const& more) { return with("[contact]\n" + more + "\n"); }
+
+/// The sample with another shape, which starts in column 9 of line 9.
+std::string shaped(std::string const& shape, std::string const& formulation = "jst_sph") {
+  std::string text =
+      sample_with(R"(box = { min = ["-0.5 m", 0, "-50 cm"], max = [0.5, "6 m", 0.5] }, particles = [5, 25, 5])", shape);
+  if (formulation != "jst_sph")
+    text = test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)",
+                          "name = \"" + formulation + "\"");
+  return text;
+}
+
+TEST(ContactMessages, FormulationsWithoutContactRefuseIt) {
+  FormulationInfo const jst = *find_formulation("jst_sph");
+  EXPECT_EQ(rigid("plane = { point = [0, -1, 0], normal = [0, 1, 0] }"),
+            "case.toml:23:1: " + refusal(jst, "rigid shapes"));
+  EXPECT_EQ(contact("law = \"linear\""), "case.toml:23:1: " + refusal(jst, "contact"));
+}
+
+TEST(ContactMessages, RigidShapesAreOfOneKind) {
+  EXPECT_EQ(rigid(""),
+            "case.toml:23:1: rigid has no of plane, sphere, cylinder, box (allowed: one) - add or remove one");
+  EXPECT_EQ(rigid("sphere = { centre = [0, 0, 0], radius = 1 }\nplane = { point = [0, 0, 0], normal = [0, 1, 0] }"),
+            "case.toml:23:1: rigid has 2 of plane, sphere, cylinder, box (allowed: one) - add or remove one");
+  EXPECT_EQ(rigid("cone = 1\nsphere = { centre = [0, 0, 0], radius = 1 }"),
+            "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity) - "
+            "choose one of these");
+  EXPECT_EQ(with("[[rigid]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
+            "case.toml:23:1: rigid needs \"name\" (name in messages and tables) - add name = \"column\"");
+}
+
+TEST(ContactMessages, RigidShapesHaveSoundNumbers) {
+  EXPECT_EQ(rigid("plane = { point = [0, -1], normal = [0, 0, 0] }"),
+            "case.toml:25:19: rigid.plane.point has 2 components (allowed: 3, the dimension of the body)\n"
+            "case.toml:25:37: rigid.plane.normal is zero (allowed: any other length) - give a direction");
+  EXPECT_EQ(rigid("sphere = { centre = [0, 0, 0], radius = \"-1 mm\" }"),
+            "case.toml:25:41: rigid.sphere.radius is -0.001 m (allowed: from 1e-15 to 1e+15)");
+  EXPECT_EQ(
+      rigid("cylinder = { centre = [0, 0, 0], radius = 1 }"),
+      "case.toml:25:12: rigid.cylinder needs \"axis\" (direction of the axis, of any length) - add axis = [\"0 1\", "
+      "...]\n"
+      "case.toml:25:12: rigid.cylinder needs \"length\" (from end to end) - add length = \"1 m\"");
+  EXPECT_EQ(rigid("box = { min = [0, 0, 0], max = [1, 0, 1] }"),
+            "case.toml:25:32: rigid.box.max[1] is 0 m (allowed: above min, which is 0 m)");
+  EXPECT_EQ(
+      rigid("box = { min = [0, 0, 0], centre = [1, 0, 1] }"),
+      "case.toml:25:7: rigid.box needs min and max, or centre and lengths (allowed: one of the two pairs) - write "
+      "box = { min = [...], max = [...] }");
+  EXPECT_EQ(rigid("box = { lengths = [1, 0, 1], centre = [1, 0, 1] }"),
+            "case.toml:25:23: rigid.box.lengths[1] is 0 m (allowed: from 1e-15 to 1e+15)");
+}
+
+TEST(ContactMessages, RigidShapesMoveAsOne) {
+  EXPECT_EQ(
+      rigid("plane = { point = [0, -1, 0], normal = [0, 1, 0] }\nvelocity = [\"X\", \"Omega*L*t\", 0]"),
+      "case.toml:26:12: rigid.velocity[0], formula \"X\" uses X (allowed: t and the constants) - a rigid shape moves "
+      "as one");
+}
+
+TEST(ContactMessages, EachLawHasItsNumbers) {
+  EXPECT_EQ(contact("law = \"lineer\""),
+            "case.toml:24:7: contact.law is \"lineer\" (allowed: kernel, linear, printed, "
+            "none) - did you mean \"linear\"?");
+  EXPECT_EQ(contact("stiffness = 1"),
+            "case.toml:24:13: contact.stiffness is used only by the law \"printed\" - remove it");
+  EXPECT_EQ(
+      contact("law = \"printed\""),
+      "case.toml:23:1: contact needs \"stiffness\" (the constant of the law \"printed\", in Pa/m^3) - add stiffness "
+      "= \"1e16 Pa/m^3\"");
+  EXPECT_EQ(contact("law = \"printed\"\nstiffness = -1\nclosing_speed = 5"),
+            "case.toml:25:13: contact.stiffness is -1 Pa/m^3 (allowed: above 0)\n"
+            "case.toml:26:17: contact.closing_speed is used only by the law \"kernel\" - remove it");
+  EXPECT_EQ(contact("law = \"linear\"\nexponent = 4"),
+            "case.toml:25:12: contact.exponent is used only by the law \"kernel\" or \"printed\" - remove it");
+  EXPECT_EQ(contact("law = \"none\"\nscale = 2"),
+            "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\" or \"printed\" - remove it");
+}
+
+TEST(RoundBodyMessages, ArrangementsAreForDiscs) {
+  EXPECT_EQ(
+      message_of(shaped("sphere = { centre = [0, 0, 0], radius = 1, arrangement = \"rings\" }, spacing = 0.2")),
+      "case.toml:9:68: body.shape.sphere.arrangement is \"rings\" (allowed in 3D: lattice) - circles are for discs");
+  EXPECT_EQ(message_of(shaped("sphere = { centre = [0, 0, 0], radius = 1, inner_radius = 1 }, spacing = 0.2")),
+            "case.toml:9:69: body.shape.sphere.inner_radius is 1 m (allowed: below radius, which is 1 m)");
+}
+
+}  // namespace
+}  // namespace piola
