@@ -191,8 +191,10 @@ std::string describe_section(SectionInfo const& section, Layout layout) {
 
 template <class Items>
 std::string short_list(std::string_view heading, Items const& items) {
+  std::size_t width = 0;
+  for (auto const& item : items) width = std::max(width, item.name.size());
   std::string text = fmt::format("{}\n", heading);
-  for (auto const& item : items) text += fmt::format("  {:<16} {}\n", item.name, item.about);
+  for (auto const& item : items) text += fmt::format("  {:<{}} {}\n", item.name, width, item.about);
   return text;
 }
 

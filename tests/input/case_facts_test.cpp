@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/case_facts.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/materials/library.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -33,6 +34,16 @@ TEST(CaseFacts, MassWavesAndStepFollowFromTheCase) {
   EXPECT_NEAR(body.largest_speed, 105 * std::sqrt(0.5), 1e-9);
   EXPECT_NEAR(step_estimate(column.spec, column.facts), 0.3 * 0.25 / body.p_wave, 1e-12);
   EXPECT_TRUE(column.warnings.empty());
+}
+
+TEST(CaseFacts, SolidsInRateFormHaveMassAndWavesToo) {
+  CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
+  spec.bodies[0].law = "isotropic_hardening";
+  spec.bodies[0].material = parameters_of(*find_material("steel_adaptle_3_3"));
+  BodyFacts const body = body_facts(spec, make_particles(spec)).at(0);
+  EXPECT_NEAR(body.mass, 6 * 7870, 1e-8);
+  EXPECT_NEAR(body.p_wave, std::sqrt(200e9 * 0.7 / (1.3 * 0.4 * 7870)), 1e-8);
+  EXPECT_NEAR(body.s_wave, std::sqrt(200e9 / (2.6 * 7870)), 1e-8);
 }
 
 TEST(CaseFacts, SlipsOfUnitsAreNoticed) {

@@ -35,5 +35,12 @@ TEST(CaseKeys, IntervalsAreSaidInWords) {
   EXPECT_EQ(interval_text({-unbounded, 1, false, false}), "at most 1");
 }
 
+TEST(CaseKeys, ConditionsAreSaidAsTheyAreWritten) {
+  EXPECT_EQ(condition_text({}), "");
+  EXPECT_EQ(condition_text({"eos", "polynomial"}), "eos = \"polynomial\"");
+  EXPECT_EQ(condition_text({"eos", "stiffened_gas", "mie_grueneisen"}),
+            "eos = \"stiffened_gas\" or \"mie_grueneisen\"");
+}
+
 }  // namespace
 }  // namespace piola

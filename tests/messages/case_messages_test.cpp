@@ -37,7 +37,7 @@ fix = "xyw"
       "case.toml:7:68: body.shape.particles is a list of 2 (allowed: a list of 3)\n"
       "case.toml:8:12: body.material needs \"density\" (mass density in the reference configuration, in kg/m^3, above "
       "0) - add density = \"... kg/m^3\"\n"
-      "case.toml:8:35: \"densty\" is not a key of body.material (allowed: law, density, youngs_modulus, "
+      "case.toml:8:35: \"densty\" is not a key of body.material (allowed: law, name, density, youngs_modulus, "
       "poissons_ratio) - did you mean \"density\"?\n"
       "case.toml:8:67: body.material.youngs_modulus cannot be read: \"17 m\" is not a pressure or modulus (expected a "
       "unit such as Pa)\n"
@@ -56,8 +56,8 @@ fix = "xyw"
 TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
   EXPECT_EQ(message_of(sample_with("neo_hookean", "neo_hooke")),
             "case.toml:10:20: body.material.law is \"neo_hooke\" (allowed: linear_elastic, neo_hookean, mooney_rivlin, "
-            "saint_venant_kirchhoff, compressible_neo_hookean) - did you mean "
-            "\"neo_hookean\"?");
+            "saint_venant_kirchhoff, compressible_neo_hookean, elastic, perfectly_plastic, isotropic_hardening, "
+            "johnson_cook) - did you mean \"neo_hookean\"?");
   EXPECT_EQ(message_of(sample_with("jst_sph", "mpm")),
             "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph) - choose "
             "one of these");

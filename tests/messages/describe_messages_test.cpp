@@ -78,8 +78,29 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
   Answer const unknown = ask("describe material neo_hooken");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.text,
-            "piola: no law is named \"neo_hooken\" (known: linear_elastic, neo_hookean, mooney_rivlin, "
-            "saint_venant_kirchhoff, compressible_neo_hookean) - did you mean \"neo_hookean\"?\n");
+            "piola: no law or material is named \"neo_hooken\" (known: linear_elastic, neo_hookean, mooney_rivlin, "
+            "saint_venant_kirchhoff, compressible_neo_hookean, elastic, perfectly_plastic, isotropic_hardening, "
+            "johnson_cook, aluminium_adaptle_3_2, steel_adaptle_3_3, aluminium_adaptle_3_3, copper_taylor_bar, "
+            "copper_ofhc, iron_armco, steel_4340, aluminium_2024_t351, aluminium_6061_t6, tungsten_alloy, beryllium) - "
+            "did you mean \"neo_hookean\"?\n");
+}
+
+TEST(DescribeCommand, TellsOfSolidsAndOfTheLibrary) {
+  std::string const all = ask("describe material").text, law = ask("describe material johnson_cook").text;
+  EXPECT_TRUE(contains(all, "steel_4340             johnson_cook: 4340 steel (hardness Rockwell C 30), with damage\n"));
+  EXPECT_TRUE(contains(all, "compressible_neo_hookean\n"));
+  EXPECT_TRUE(contains(law, "one of elastic, stiffened_gas, mie_grueneisen, polynomial; default: \"elastic\"")) << law;
+  EXPECT_TRUE(contains(law, "D1 of the fracture strain; only with damage = \"johnson_cook\"\n")) << law;
+  EXPECT_TRUE(contains(law, "above 0; default: no limit\n")) << law;
+  Answer const steel = ask("describe material steel_4340");
+  EXPECT_EQ(steel.code, 0);
+  for (std::string_view const part :
+       {"steel_4340\n  4340 steel", "  law = \"johnson_cook\"\n  damage = \"johnson_cook\"\n  density = 7830 kg/m^3\n",
+        "  yield_stress = 792 MPa\n", "  melting_temperature = 1793 K\n", "  d3 = -2.12\n",
+        "  source: flow stress, density, heat capacity, melting: G. R. Johnson, W. H. Cook"}) {
+    EXPECT_TRUE(contains(steel.text, part)) << part << "\nis not in\n" << steel.text;
+  }
+  EXPECT_TRUE(contains(ask("describe material steel_4304").text, "did you mean \"steel_4340\"?"));
 }
 
 TEST(DescribeCommand, WritesTheManualPageThatIsInTheManual) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every registered law and kernel in whole steps of JST-SPH. The lists follow the registries.
+// Every registered hyperelastic law and every kernel in whole steps of JST-SPH. The lists follow the registries.
 #include "piola/kernels/registry.hpp"
+#include "piola/materials/laws.hpp"
 #include "formulations/small_bodies.hpp"
 
 namespace piola {
@@ -62,7 +63,7 @@ TEST_P(EveryLaw, KeepsTheEnergyThatItStores) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryLaw, ::testing::ValuesIn(laws().begin(), laws().end()),
+INSTANTIATE_TEST_SUITE_P(All, EveryLaw, ::testing::ValuesIn(laws().first(Laws::size)),
                          [](auto const& p) { return name_of(p.param.name); });
 
 class EveryKernel : public ::testing::TestWithParam<Kernel> {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/plastic/heat.hpp"
-#include <limits>
 #include <string_view>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -15,7 +14,7 @@ struct NoPlasticity {
 
   PIOLA_FN NoPlasticity(double const*, Heat const&) {}
   /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
-  PIOLA_FN double yield_stress(double, double, double) const { return std::numeric_limits<double>::infinity(); }
+  PIOLA_FN double yield_stress(double, double, double) const { return unbounded; }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
   PIOLA_FN double increment(double, double, double, double, double) const { return 0; }
 };

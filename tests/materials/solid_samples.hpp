@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/materials/solids.hpp"
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+/// Solids in rate form as types of a typed test, and metals made of them.
+namespace piola::inline PIOLA_MACHINE {
+
+template <class Strength, class Eos>
+struct SolidCase {
+  using strength = Strength;
+  using eos = Eos;
+};
+
+template <class List, class... Done>
+struct SolidCases;
+template <class... Strength>
+struct SolidCases<StrengthList<Strength...>> {
+  using type = ::testing::Types<SolidCase<Strength, ElasticEos>..., SolidCase<Strength, StiffenedGas>...,
+                                SolidCase<Strength, MieGrueneisen>..., SolidCase<Strength, PolynomialEos>...>;
+};
+
+/// Parameters of a law by name; what is not given has its default, or zero.
+inline MaterialParameters parameters_by_name(std::string_view law_name, std::string_view eos, std::string_view damage,
+                                             std::initializer_list<std::pair<std::string_view, double>> given) {
+  LawInfo const law = *find_law(law_name);
+  MaterialParameters material;
+  material.law = law.index;
+  if (!law.choices.empty()) material.word[0] = index_of(law.choices[0], eos);
+  if (law.choices.size() > 1) material.word[1] = index_of(law.choices[1], damage);
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    Parameter const& p = law.parameters[i];
+    material.value[i] = p.required() ? 0 : p.default_value;
+    for (auto const& [name, value] : given)
+      if (name == p.name) material.value[i] = value;
+  }
+  return material;
+}
+
+/// The aluminium plate of section 3.3 of the paper on AdapTLE, as any law with any equation of state.
+inline MaterialParameters sample_metal(std::string_view law, std::string_view eos, std::string_view damage = "none",
+                                       double spall = unbounded) {
+  return parameters_by_name(law, eos, damage,
+                            {{"density", 2870},
+                             {"youngs_modulus", 70e9},
+                             {"poissons_ratio", 0.33},
+                             {"yield_stress", 479e6},
+                             {"hardening_modulus", 2e9},
+                             {"hardening_coefficient", 323e6},
+                             {"hardening_exponent", .41},
+                             {"rate_coefficient", 0.101},
+                             {"thermal_exponent", 1.8},
+                             {"specific_heat", 875},
+                             {"heat_fraction", 0.9},
+                             {"reference_temperature", 300},
+                             {"melting_temperature", 850},
+                             {"bulk_sound_speed", 5328},
+                             {"adiabatic_exponent", 2},
+                             {"grueneisen_gamma", 2},
+                             {"grueneisen_slope", 0.48},
+                             {"hugoniot_s1", 1.338},
+                             {"c1", 79e9},
+                             {"c2", 1e11},
+                             {"c3", 5e10},
+                             {"c4", 1.5},
+                             {"c5", 0.7},
+                             {"c6", 0.3},
+                             {"d1", 0.45},
+                             {"d4", 0.0138},
+                             {"spall_pressure", spall}});
+}
+
+/// A deviator of a given von Mises stress, not aligned with the axes.
+inline SymMat<3> deviator_of(double mises) {
+  SymMat<3> S{{0.7, -0.2, -0.5, 0.3, -0.4, 0.6}};
+  double const scale = mises / von_mises(S);
+  for (double& s : S.c) s *= scale;
+  return S;
+}
+
+}  // namespace piola::inline PIOLA_MACHINE
