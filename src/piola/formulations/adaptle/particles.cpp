@@ -304,8 +304,8 @@ void Particles::step(double time, double dt) {
   prepare_supports(time + dt);
   prepare_loads(time + 0.5 * dt);
   prepare_rigid(time, dt);
-  evaluate(dt);
   books_.time = time + dt;
+  evaluate(dt);
   // What acts for one step only is gone now.
   for (std::size_t k = 0; k < body_.size() && !initial_pressure_.empty(); ++k)
     if (!options_.bodies[k].initial_pressure_lasts)
