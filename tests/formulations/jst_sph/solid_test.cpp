@@ -163,7 +163,7 @@ TEST(Solids, KeepTheSumOfKineticAndInternalEnergy) {
         if (name == "plastic_work") plastic = value;
         if (name == "internal_energy") internal = value;
       }
-      EXPECT_GT(d.strain_energy, 0.02 * before) << "nothing was exchanged";
+      EXPECT_GT(d.strain_energy, 0.01 * before) << "nothing was exchanged";
       EXPECT_EQ(internal, d.strain_energy);
       EXPECT_EQ(plastic > 0, law != "elastic");
       EXPECT_LT(plastic, internal);
@@ -196,8 +196,10 @@ TEST(Solids, GiveTheSameBitsForOneAndTwoThreads) {
   for (auto const* scheme : {"filtered", "robust"}) {
     auto const run = [&](int threads) {
       Threads const keep(threads);
-      auto const f = make_formulation(yielding(3, 13, scheme));
-      advance(*f, dt, 30);
+      Assembly a = yielding(3, 13, scheme);
+      a.cfl = 0.3;
+      auto const f = make_formulation(a);
+      advance(*f, dt, 20);
       return saved(*f).values;
     };
     EXPECT_EQ(run(1), run(2)) << scheme;
