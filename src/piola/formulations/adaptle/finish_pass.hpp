@@ -55,7 +55,8 @@ struct Finish {
     Sums const& sum = s.sums[i];
     double const mass = s.reference[i].mass;
     kick(i, p, k, sum, mass, m);
-    Mat<3> L = velocity_gradient(i, p, sum);
+    Mat<3> const F_inverse = p.phi < 1 ? inverse(matrix_of(s.deformation[i].F)) : identity<3>();
+    Mat<3> L = velocity_gradient(i, p, sum, F_inverse);
     if (settings.plane_stress) L(2, 2) = across(p, h, sum, L, mass);
     SymMat<3> const S_half = symmetric_of(h.S);
     SymMat<3> const S_rate = p.alive > 0 ? law.deviator_rate(S_half, L) : SymMat<3>{};
@@ -85,9 +86,9 @@ struct Finish {
     m[BlockMeasures::viscous] += sum.heat;
     if (rigid_power != nullptr) m[BlockMeasures::rigid] += rigid_power[i];
     m[BlockMeasures::overlap] = sum.overlap > m[BlockMeasures::overlap] ? sum.overlap : m[BlockMeasures::overlap];
-    double const step = stable_step(i, p, k, h, sum, mass);
+    double const step = stable_step(p, k, h, sum, mass, F_inverse);
     m[BlockMeasures::dt] = step < m[BlockMeasures::dt] ? step : m[BlockMeasures::dt];
-    s.wish[i] = wish_of(i, p, h, S_half);
+    s.wish[i] = wish_of(i, p, h, S_half, F_inverse);
     m[BlockMeasures::wishes] += s.wish[i] != 0 ? 1 : 0;
     check(i, p);
   }
@@ -115,10 +116,10 @@ struct Finish {
   }
 
   /// phi (spatial) + (1 - phi) (material), in three dimensions.
-  PIOLA_FN Mat<3> velocity_gradient(Index i, State const& p, Sums const& sum) const {
+  PIOLA_FN Mat<3> velocity_gradient(Index i, State const& p, Sums const& sum, Mat<3> const& F_inverse) const {
     Mat<3> L = matrix_of(sum.L);
     if (!(p.phi < 1)) return L;
-    Mat<3> const material = matrix_of(s.deformation[i].rate) * inverse(matrix_of(s.deformation[i].F));
+    Mat<3> const material = matrix_of(s.deformation[i].rate) * F_inverse;
     for (int c = 0; c < 9; ++c) L.c[c] = p.phi * L.c[c] + (1 - p.phi) * material.c[c];
     return L;
   }
@@ -176,12 +177,12 @@ struct Finish {
 
   /// CFL h / c with the current speed of sound, the compressed length of material pairs and the quadratic viscosity;
   /// 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts.
-  PIOLA_FN double stable_step(Index i, State const& p, Rates const& k, Half const& h, Sums const& sum,
-                              double mass) const {
+  PIOLA_FN double stable_step(State const& p, Rates const& k, Half const& h, Sums const& sum, double mass,
+                              Mat<3> const& F_inverse) const {
     double length = body.h;
     if (p.phi < 1 && p.alive > 0) {
-      double const square = smallest_stretch_squared(matrix_of(s.deformation[i].F));
-      if (square < 1) length *= std::sqrt(square > 1e-12 ? square : 1e-12);
+      double const square = largest_square(F_inverse);
+      if (square > 1) length /= std::sqrt(square);
     }
     double step = settings.cfl * length / (h.c + 0.6 * body.beta * sum.compression);
     double const a = std::sqrt(k.a[0] * k.a[0] + k.a[1] * k.a[1] + k.a[2] * k.a[2]);
@@ -196,8 +197,22 @@ struct Finish {
     return step;
   }
 
+  /// The largest eigenvalue of A A^T, or a little more: with q = tr/3 and p^2 = B:B/6 of the rest, q + 2 p.
+  PIOLA_FN static double largest_square(Mat<3> const& A) {
+    double q = 0, B = 0;
+    for (double const a : A.c) q += a * a / 3;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        double sum = a == b ? -q : 0;
+        for (int k = 0; k < 3; ++k) sum += A(a, k) * A(b, k);
+        B += sum * sum;
+      }
+    return q + 2 * std::sqrt(B / 6);
+  }
+
   /// 1: convert with the neighbours, 2: alone, 0: stay.
-  PIOLA_FN std::int8_t wish_of(Index i, State const& p, Half const& h, SymMat<3> const& S) const {
+  PIOLA_FN std::int8_t wish_of(Index i, State const& p, Half const& h, SymMat<3> const& S,
+                               Mat<3> const& inverse_F) const {
     if (!(body.adaptive || body.deletes) || p.phi > 0 || !(p.alive > 0)) return 0;
     double const J = body.rho0 / h.rho;
     SymMat<3> stress = S;
@@ -207,7 +222,6 @@ struct Finish {
     if (body.convert_strain < 1e300 && equivalent_strain<D>(F, stress, body) >= body.convert_strain) return 1;
     bool const outside = !(J >= body.jacobian_min && J <= body.jacobian_max);
     double size = 0, inverse_size = 0;
-    Mat<3> const inverse_F = inverse(matrix_of(F));
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) {
         size += F[3 * a + b] * F[3 * a + b];

@@ -124,6 +124,7 @@ struct MaterialSweep {
         sum.a[Accumulated::Q + p] += s * reaction + f[R::a + p] * W;
       }
       if (tethers && any(f[R::phi] > 0.0)) sum.gap = maximum(sum.gap, gap_of(f, r, own, deformation[i]));
+      if (lagrangian && b.hourglass > 0) add_damping(i, k, own, f, r, s, b, sum);
       if (lagrangian) add_viscosity(i, k, own, viscous, f, r, s, W, b, printed, sum);
     }
     store(i, own, b, sum);
@@ -138,6 +139,27 @@ struct MaterialSweep {
       square += gap * gap;
     }
     return select(f[R::phi] > 0.0 && f[R::volume] > 0.0, square, Lanes(0.0));
+  }
+
+  /// Damping of what the velocity gradients of both ends do not explain, e = v_b - v_a - (dF_a/dt + dF_b/dt)/2 r:
+  /// force on a  zeta rho0 c h V0_a V0_b s e, opposite on b, and half its power as heat on each. Linear motions have
+  /// none.
+  PIOLA_FN void add_damping(Index i, Index k, double const* own, Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s,
+                            BodyConstants const& b, Accumulated& sum) const {
+    constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 rate, rows of three
+    Lanes rate[used];
+    load_records<used>(deformation->rate, sizeof(Deformation) / sizeof(double), table.neighbour + k, rate);
+    double const* own_rate = deformation[i].rate;
+    Lanes const weight = (b.hourglass * b.c * b.h) * s * select(f[R::phi] > 0.0, Lanes(0.0), f[R::volume]);
+    Lanes power = Lanes(0.0);
+    for (int p = 0; p < D; ++p) {
+      Lanes e = f[R::v + p] - own[R::v + p];
+      for (int q = 0; q < D; ++q) e -= 0.5 * (rate[3 * p + q] + own_rate[3 * p + q]) * r[q];
+      Lanes const extra = weight * e;
+      sum.a[Accumulated::T + p] += extra;
+      power += extra * (f[R::v + p] - own[R::v + p]);
+    }
+    sum.a[Accumulated::heat] += 0.5 * power;
   }
 
   PIOLA_FN void add_viscosity(Index, Index k, double const* own, double const* viscous, Lanes const* f,

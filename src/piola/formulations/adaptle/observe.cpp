@@ -62,7 +62,8 @@ void each_particle(System const& s, F const& f) {
     with_solid(s.body[b].material, [&](auto const& law) {
       for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
         State const& p = s.state[i];
-        f(i, p.alive > 0 ? -law.pressure(p.rho, p.energy / s.reference[i].mass) : 0.0);
+        double const added = s.initial_pressure != nullptr ? s.initial_pressure[i] : 0;
+        f(i, p.alive > 0 ? added - law.pressure(p.rho, p.energy / s.reference[i].mass) : 0.0);
       }
     });
 }

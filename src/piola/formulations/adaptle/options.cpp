@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
 constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
 constexpr std::array<std::string_view, 2> failed_words{"keep", "delete"};
+constexpr std::array<std::string_view, 2> lasting_words{"always", "one_step"};
 
 constexpr std::array choices{
     Choice{"description",
@@ -35,12 +36,19 @@ constexpr std::array choices{
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
     Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
     Choice{"failed", "what becomes of failed particles that may not convert; delete: no stress, no neighbours",
-           failed_words}};
+           failed_words},
+    Choice{"initial_pressure_lasts", "how long initial_pressure acts: a residual stress, or an impulse",
+           lasting_words}};
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1", "h in spacings (2D 1.4, 3D 1.2)", Interval{0.6, 3, false, false}, no_default},
     Parameter{"alpha", "1", "linear part of the viscosity, eq. 6", not_negative, 1},
     Parameter{"beta", "1", "quadratic part of the viscosity, eq. 6", not_negative, 2},
+    Parameter{
+        "hourglass", "1",
+        "damping of relative velocities of total-Lagrangian neighbours that their velocity gradients do not explain; "
+        "0: none",
+        Interval{0, 2, false, false}, 0.2},
     Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
               Interval{0, 1, false, false}, 0.3},
     Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},
@@ -71,7 +79,8 @@ constexpr std::array formulas{
     FormulaInfo{"convert_when",
                 "adaptive: a further condition under which a particle and its neighbours convert (pressure is positive "
                 "in tension)",
-                variables}};
+                variables},
+    FormulaInfo{"initial_pressure", "pressure added to that of the equation of state, positive in tension, in Pa", {}}};
 
 constexpr std::array<std::string_view, 4> usable_laws{"elastic", "perfectly_plastic", "isotropic_hardening",
                                                       "johnson_cook"};
@@ -114,6 +123,7 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension) {
   o.beta = number(spec, "beta");
   o.bulk_speed = word(spec, "viscosity_speed") == "bulk";
   o.artificial_stress = number(spec, "artificial_stress");
+  o.hourglass = number(spec, "hourglass");
   o.convert_strain = number(spec, "convert_strain");
   o.convert_damage = number(spec, "convert_damage");
   o.jacobian_min = number(spec, "jacobian_min");
@@ -129,6 +139,8 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension) {
   };
   o.eulerian_where = formula("eulerian_where");
   o.convert_when = formula("convert_when");
+  o.initial_pressure = formula("initial_pressure");
+  o.initial_pressure_lasts = word(spec, "initial_pressure_lasts") == "always";
   return o;
 }
 

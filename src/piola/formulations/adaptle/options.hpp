@@ -20,7 +20,10 @@ struct BodyOptions {
   double blend = 4;              ///< width in spacings
   bool deletes = false;
   double artificial_stress = 0.3;
+  double hourglass = 0;
   std::optional<Expression> eulerian_where, convert_when;
+  std::optional<Expression> initial_pressure;  ///< positive in tension [Pa]
+  bool initial_pressure_lasts = true;
 };
 
 struct Options {

@@ -48,6 +48,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
   allocate(assembly);
   set_descriptions(assembly);
   set_boundaries(assembly);
+  set_initial_pressure();
   choose_material();
   double dt = std::numeric_limits<double>::infinity();
   for (auto const& b : body_)
@@ -71,6 +72,7 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.alpha = o.alpha;
     b.beta = o.beta;
     b.artificial_stress = o.artificial_stress;
+    b.hourglass = o.hourglass;
     b.convert_strain = o.convert_strain;
     b.convert_damage = o.convert_damage;
     b.jacobian_min = o.jacobian_min;
@@ -115,7 +117,7 @@ void Particles::set_particles(Assembly const& assembly) {
   std::size_t const n = state_.size();
   rates_.resize(n);
   half_.resize(n);
-  deformation_.resize(n);
+  deformation_.resize(n + 2);  // loops read whole lanes of a filler after the last
   for (auto& d : deformation_)
     for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
   sums_.resize(n);
@@ -211,6 +213,16 @@ void Particles::choose_material() {
   system_.material.motion = system_.material.force = nullptr;
 }
 
+void Particles::set_initial_pressure() {
+  for (std::size_t k = 0; k < body_.size(); ++k) {
+    BodyOptions const& o = options_.bodies[k];
+    if (!o.initial_pressure || (!o.initial_pressure_lasts && books_.time > 0)) continue;
+    initial_pressure_.resize(state_.size());
+    for (Index i = body_[k].first; i < body_[k].last; ++i) initial_pressure_[at(i)] = (*o.initial_pressure)(X_[at(i)]);
+  }
+  system_.initial_pressure = initial_pressure_.empty() ? nullptr : initial_pressure_.data();
+}
+
 void Particles::set_boundaries(Assembly const&) {
   if (!supports_.empty()) {
     held_.resize(3 * state_.size());
@@ -294,6 +306,10 @@ void Particles::step(double time, double dt) {
   prepare_rigid(time, dt);
   evaluate(dt);
   books_.time = time + dt;
+  // What acts for one step only is gone now.
+  for (std::size_t k = 0; k < body_.size() && !initial_pressure_.empty(); ++k)
+    if (!options_.bodies[k].initial_pressure_lasts)
+      std::fill(initial_pressure_.begin() + body_[k].first, initial_pressure_.begin() + body_[k].last, 0);
 }
 
 /// Drift, sums of half time, kick, drift.
@@ -337,6 +353,10 @@ std::size_t Particles::bytes() const {
          material_.bytes() + spatial_.bytes();
 }
 
-void Particles::resumed() { choose_material(); }
+void Particles::resumed() {
+  initial_pressure_.clear();
+  set_initial_pressure();
+  choose_material();
+}
 
 }  // namespace piola::adaptle

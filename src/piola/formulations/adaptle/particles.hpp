@@ -61,6 +61,7 @@ class Particles {
   void set_particles(Assembly const& assembly);
   void set_descriptions(Assembly const& assembly);
   void set_contact(Assembly const& assembly);
+  void set_initial_pressure();
   void set_boundaries(Assembly const& assembly);
   void allocate(Assembly const& assembly);
   void choose_material();
@@ -90,7 +91,7 @@ class Particles {
   SpatialLists spatial_;
   Memory motion_, force_, viscous_;
   std::vector<ContactPair> contact_pairs_;
-  std::vector<double> partial_, rigid_power_;
+  std::vector<double> partial_, rigid_power_, initial_pressure_;
   FailureSlot failure_;
   Books books_;
   PartSeconds seconds_;

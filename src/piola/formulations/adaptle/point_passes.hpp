@@ -2,7 +2,6 @@
 #pragma once
 #include "piola/formulations/adaptle/viscosity.hpp"
 #include "piola/materials/solids.hpp"
-#include "piola/math/stretch.hpp"
 
 /// What happens at one particle between the sweeps. The scheme drifts half a step, evaluates everything once at half
 /// time with predicted rates, kicks, and drifts the other half.
@@ -77,6 +76,7 @@ struct HalfState {
   State const* state;
   Half* half;
   Deformation* deformation;
+  double const* initial_pressure;
   SpatialTable spatial;    ///< records null: none are needed
   MaterialTable material;  ///< records null: none are needed
   FailureSlot* failure;
@@ -99,6 +99,7 @@ struct HalfState {
     h.volume = reference[i].mass / (h.rho * h.thickness);
     double const specific = h.energy / reference[i].mass;
     h.pressure = s.alive > 0 ? law.pressure(h.rho, specific) : 0;
+    if (initial_pressure != nullptr) h.pressure -= initial_pressure[i];
     h.c = law.sound_speed(h.rho, specific);
     SymMat<3> stress = symmetric_of(h.S);
     for (int c = 0; c < 3; ++c) stress.c[c] -= h.pressure;

@@ -57,8 +57,7 @@ void SpatialLists::choose_targets(System const& s) {
         high = std::max(high, cell_high_[at(other)]);
       });
       // Targets read the records of all particles around them.
-      if (eulerian)
-        each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) { cell_near_[at(other)] = 1; });
+      if (eulerian) each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) { cell_near_[at(other)] = 1; });
     }
     if (eulerian) spatial_.target.push_back(k);
     if (s.contact.law > 0 && high > low) contact_.target.push_back(k);

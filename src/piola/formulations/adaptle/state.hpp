@@ -91,6 +91,7 @@ struct BodyConstants {
   double c = 0;               ///< of the viscosity [m/s]
   double alpha = 1, beta = 2;
   double artificial_stress = 0;  ///< epsilon
+  double hourglass = 0;          ///< damping of velocities that no gradient sees
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0, jacobian_max = 0, tether = 0;
   double shear_share = 0.5;       ///< speed of shear waves over that of pressure waves
   double bulk_modulus = 0;        ///< at rest [Pa]
@@ -184,12 +185,13 @@ struct System {
   ContactTable contact;
   RigidPlace const* rigid = nullptr;
   int rigids = 0;
-  double* rigid_power = nullptr;          ///< per slot: work of moving shapes [W]
-  double const* load = nullptr;           ///< acceleration of loads at half time, 3 per slot; null: none
-  std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
-  double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
-  std::int8_t* wish = nullptr;            ///< per slot: 0, 1 converts with its neighbours, 2 alone
-  double* partial = nullptr;              ///< room for reductions, 16 per block
+  double* rigid_power = nullptr;             ///< per slot: work of moving shapes [W]
+  double const* initial_pressure = nullptr;  ///< per slot, positive in tension [Pa]; null: none
+  double const* load = nullptr;              ///< acceleration of loads at half time, 3 per slot; null: none
+  std::int8_t const* held = nullptr;         ///< directions with a prescribed velocity, 3 per slot; null: none
+  double const* held_velocity = nullptr;     ///< at the end of the step, 3 per slot
+  std::int8_t* wish = nullptr;               ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  double* partial = nullptr;                 ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
 

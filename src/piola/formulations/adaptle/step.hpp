@@ -43,7 +43,7 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>{
                                                 law, s.body[b], s.settings, s.reference, s.state, s.half, s.deformation,
-                                                s.spatial, s.material, s.failure});
+                                                s.initial_pressure, s.spatial, s.material, s.failure});
       });
   }
 
