@@ -63,7 +63,9 @@ void each_particle(System const& s, F const& f) {
       for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
         State const& p = s.state[i];
         double const added = s.initial_pressure != nullptr ? s.initial_pressure[i] : 0;
-        f(i, p.alive > 0 ? added - law.pressure(p.rho, p.energy / s.reference[i].mass) : 0.0);
+        double pressure = p.alive > 0 ? added - law.pressure(p.rho, p.energy / s.reference[i].mass) : 0.0;
+        if (s.body[b].releases && p.damage >= 1 && pressure > 0) pressure = 0;
+        f(i, pressure);
       }
     });
 }
@@ -80,6 +82,7 @@ void sample(Particles const& particles, std::string_view field, std::span<double
   auto const found = std::find_if(table.begin(), table.end(), [&](auto const& f) { return field == f.name; });
   if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
   System const& s = particles.system();
+  std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
   each_particle(s, [&](Index i, double pressure) {
     int const body = s.body_of[i];
     Point const p{s.state[i],
@@ -88,7 +91,7 @@ void sample(Particles const& particles, std::string_view field, std::span<double
                   pressure,
                   s.body[body].rho0,
                   static_cast<double>(body),
-                  static_cast<double>(particles.reference_neighbours(i)),
+                  static_cast<double>(s.state[i].phi > 0 ? spatial[at(i)] : particles.reference_neighbours(i)),
                   static_cast<double>(i)};
     found->put(p, &values[at(i) * static_cast<std::size_t>(found->components)]);
   });

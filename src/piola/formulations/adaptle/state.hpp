@@ -97,6 +97,7 @@ struct BodyConstants {
   double bulk_modulus = 0;        ///< at rest [Pa]
   double poisson = 0, young = 0;  ///< of the strain across the plane (eq. 19)
   bool adaptive = false;          ///< total-Lagrangian particles may convert
+  bool releases = false;          ///< failed particles bear neither shear nor tension
   bool deletes = false;           ///< failed total-Lagrangian particles are deleted
 };
 
@@ -153,7 +154,9 @@ struct Settings {
   Viscosity viscosity = Viscosity::monaghan;
   Interface interface_form = Interface::owner;
   MixedStress mixed_stress = MixedStress::both;
-  bool corrected = false, plane_stress = false, artificial_stress = false;
+  bool corrected = false;           ///< spatial sums
+  bool corrected_material = false;  ///< material sums
+  bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f
   double cfl = 0.3;

@@ -28,13 +28,13 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b),
                              Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
-                                                                     s.material.motion, s.failure});
+                                                                     s.body[b].releases, s.material.motion, s.failure});
       });
   }
 
   void deform() const {
     exec::for_each_block(Range{0, s.material.kinematics}, DeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of,
-                                                                         s.settings.corrected, s.deformation});
+                                                                         s.settings.corrected_material, s.deformation});
   }
 
   template <bool Corrected>
