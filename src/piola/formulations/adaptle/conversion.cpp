@@ -12,11 +12,10 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Share {
   double energy = 0, momentum[3]{};
-  void add(State const& s, Reference const& r, double sign) {
-    energy += sign * s.energy;
+  Share(State const& s, Reference const& r) : energy(s.energy) {
     for (int c = 0; c < 3; ++c) {
-      energy += sign * 0.5 * r.mass * s.v[c] * s.v[c];
-      momentum[c] += sign * r.mass * s.v[c];
+      energy += 0.5 * r.mass * s.v[c] * s.v[c];
+      momentum[c] = r.mass * s.v[c];
     }
   }
 };
@@ -81,19 +80,17 @@ void Particles::convert(double dt) {
 void Particles::make_eulerian(Index i, double dt, bool by_guard) {
   State& s = state_[at(i)];
   if (s.phi == 1) return;
-  Share change;
-  change.add(s, reference_[at(i)], -1);
+  Share const before(s, reference_[at(i)]);
   Half const& h = half_[at(i)];
   if (s.phi == 0) s.rho = h.rho * std::exp(-0.5 * dt * h.divergence);
   s.phi = 1;
-  change.add(s, reference_[at(i)], 1);
+  Share const after(s, reference_[at(i)]);
   books_.converted += 1;
   books_.by_guard += by_guard ? 1 : 0;
   books_.converted_mass += reference_[at(i)].mass;
-  books_.energy_change += std::abs(change.energy);
-  books_.momentum_change +=
-      std::sqrt(change.momentum[0] * change.momentum[0] + change.momentum[1] * change.momentum[1] +
-                change.momentum[2] * change.momentum[2]);
+  books_.energy_change += std::abs(after.energy - before.energy);
+  books_.momentum_change += std::hypot(after.momentum[0] - before.momentum[0], after.momentum[1] - before.momentum[1],
+                                       after.momentum[2] - before.momentum[2]);
 }
 
 /// Bears no stress any more and leaves the sums of its neighbours; its deformation stays as it is.

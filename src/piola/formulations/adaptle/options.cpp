@@ -58,11 +58,10 @@ constexpr std::array parameters{
     Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
               Interval{0, 1, false, false}, 0.3},
     Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},
-    Parameter{
-        "correction_limit", "1",
-        "C_f: a particle drops its correction where it changes a gradient by more (7.5; with artificial stress 90)",
-        Interval{1, unbounded, true, true}, no_default},
-    Parameter{"convert_strain", "1", "equivalent strain (18) at which a particle converts", positive, unbounded},
+    Parameter{"correction_limit", "1", "C_f: a particle drops its correction where it changes a gradient by more",
+              Interval{1, unbounded, true, true}, 7.5},
+    Parameter{"convert_strain", "1", "equivalent strain (18) at which a particle converts", positive, unbounded,
+              "never"},
     Parameter{"convert_damage", "1", "damage at which a particle converts or fails", Interval{0, 1, true, false}, 1},
     Parameter{"jacobian_min", "1", "smallest volume ratio of a total-Lagrangian particle", Interval{0, 1, true, true},
               0.3},
@@ -161,7 +160,7 @@ Settings read_settings(FormulationSpec const& spec) {
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
   s.artificial_stress = number(spec, "artificial_stress") > 0;
-  s.fallback = number_of(spec, "correction_limit", s.artificial_stress ? 90 : 7.5);
+  s.fallback = number(spec, "correction_limit");
   return s;
 }
 

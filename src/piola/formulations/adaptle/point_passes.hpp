@@ -142,7 +142,7 @@ struct HalfState {
       for (int c = 0; c < SymMat<D>::size; ++c) r[R::R + c] = R_a.c[c] / h.thickness;
     }
     if constexpr (Corrected)
-      for (int c = R::m; c < R::values; ++c) r[c] = 0;
+      for (int c = R::M + SymMat<D>::size; c < R::values; ++c) r[c] = 0;
   }
 
   PIOLA_FN void write_material(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
