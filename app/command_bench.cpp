@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/simulation/bench.hpp"
+#include "piola/simulation/bench_adaptle.hpp"
 #include "piola/simulation/bench_taylor.hpp"
 #include "commands.hpp"
 #include <algorithm>
@@ -44,9 +45,14 @@ int bench_jst(Options const& options) {
   return print(bench_jst_sph(bench), options.json);
 }
 
+void refuse_parts(Options const& options) {
+  if (options.parts.empty()) return;
+  throw InputError(fmt::format("--only: the benchmark of {} has one part (only jst_sph has several) - leave it out",
+                               options.formulation));
+}
+
 int bench_taylor(Options const& options) {
-  if (!options.parts.empty())
-    throw InputError("--only: the benchmark of taylor_sph has one part (only jst_sph has several) - leave it out");
+  refuse_parts(options);
   TaylorBenchOptions bench;
   bench.machine = options.machine;
   bench.threads = options.threads;
@@ -61,11 +67,23 @@ int bench_taylor(Options const& options) {
   return print(bench_taylor_sph(bench), options.json);
 }
 
+int bench_impact(Options const& options) {
+  refuse_parts(options);
+  AdaptleBenchOptions bench;
+  bench.machine = options.machine;
+  bench.threads = options.threads;
+  bench.repeats = options.quick ? 3 : options.repeats;
+  if (options.quick) bench.cube_side = 20;
+  if (options.side > 0) bench.cube_side = options.side;
+  return print(bench_adaptle(bench), options.json);
+}
+
 int bench(Options const& options) {
   if (options.formulation == "jst_sph") return bench_jst(options);
   if (options.formulation == "taylor_sph") return bench_taylor(options);
-  throw InputError(
-      fmt::format("no benchmark is named '{}' (known: jst_sph, taylor_sph) - give one of these", options.formulation));
+  if (options.formulation == "adaptle") return bench_impact(options);
+  throw InputError(fmt::format("no benchmark is named '{}' (known: jst_sph, taylor_sph, adaptle) - give one of these",
+                               options.formulation));
 }
 
 }  // namespace
@@ -73,7 +91,7 @@ int bench(Options const& options) {
 void add_bench(CLI::App& program, Action& action) {
   auto const options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("bench", "Measure the speed of the solver on this computer");
-  command->add_option("formulation", options->formulation, "What to measure: jst_sph (default) or taylor_sph");
+  command->add_option("formulation", options->formulation, "What to measure: jst_sph (default), taylor_sph or adaptle");
   command
       ->add_option(
           "--only", options->parts,

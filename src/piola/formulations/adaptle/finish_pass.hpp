@@ -142,8 +142,10 @@ struct Finish {
       for (int c = 0; c < 6; ++c) trial.c[c] = p.S[c] + dt * r.c[c];
       SymMat<3> const S = law.returned(history_of(p, p.S), trial, dt);
       double const energy = p.energy + dt * (stress_power(h, symmetric_of(h.S), L) + sum.heat);
-      double const before = p.phi > 0 ? p.rho : h.rho * (1 + 0.5 * dt * trace(L));
-      double const rho = before - dt * h.rho * trace(L);
+      // A total-Lagrangian density follows from the thickness that the step will end with.
+      double const end = p.thickness + dt * h.thickness * rate;
+      double const rho =
+          p.phi > 0 ? p.rho - dt * h.rho * trace(L) : h.rho * (1 - 0.5 * dt * (L(0, 0) + L(1, 1))) * h.thickness / end;
       return S.c[2] - law.pressure(rho, energy / mass);
     };
     double const bulk = law.kappa, inverse = 1 / (dt * (bulk + 4.0 / 3.0 * law.mu));

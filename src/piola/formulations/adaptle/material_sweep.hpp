@@ -206,7 +206,7 @@ struct MaterialSweep {
     out.heat += mass * a[Accumulated::heat];
     double const mu = largest_of(sum.mu);
     out.compression = mu > out.compression ? mu : out.compression;
-    deformation[i].gap = std::sqrt(largest_of(sum.gap)) / b.h;
+    if (!(own[R::phi] > 0)) deformation[i].gap = std::sqrt(largest_of(sum.gap)) / b.h;
   }
 };
 

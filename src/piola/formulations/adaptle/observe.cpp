@@ -80,6 +80,7 @@ void sample(Particles const& particles, std::string_view field, std::span<double
   auto const found = std::find_if(table.begin(), table.end(), [&](auto const& f) { return field == f.name; });
   if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
   System const& s = particles.system();
+  std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
   each_particle(s, [&](Index i, double pressure) {
     int const body = s.body_of[i];
     Point const p{s.state[i],
@@ -88,7 +89,7 @@ void sample(Particles const& particles, std::string_view field, std::span<double
                   pressure,
                   s.body[body].rho0,
                   static_cast<double>(body),
-                  static_cast<double>(particles.reference_neighbours(i)),
+                  static_cast<double>(s.state[i].phi > 0 ? spatial[at(i)] : particles.reference_neighbours(i)),
                   static_cast<double>(i)};
     found->put(p, &values[at(i) * static_cast<std::size_t>(found->components)]);
   });

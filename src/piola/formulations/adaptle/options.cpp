@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> description_words{"adaptive", "total_lagrangian", "eulerian", "patch"};
 constexpr std::array<std::string_view, 2> interface_words{"owner", "printed"};
-constexpr std::array<std::string_view, 2> correction_words{"none", "mixed"};
+constexpr std::array<std::string_view, 3> correction_words{"material", "none", "mixed"};
 constexpr std::array<std::string_view, 4> viscosity_words{"monaghan", "balsara", "morris_monaghan", "riemann"};
 constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
@@ -28,7 +28,11 @@ constexpr std::array choices{
            "forces between total-Lagrangian and Eulerian particles; owner: each through its own gradients with the "
            "reaction on the other, conserves momentum and energy; printed: as published, conserves neither",
            interface_words},
-    Choice{"correction", "of kernel and gradient, eqs. 3 to 5; mixed: linear fields exactly", correction_words},
+    Choice{"correction",
+           "of kernel and gradient, eqs. 3 to 5, by which linear fields are exact; material: of total-Lagrangian sums; "
+           "mixed: "
+           "of spatial sums, too",
+           correction_words},
     Choice{"viscosity",
            "artificial viscosity, its switch, or a flux from Riemann problems (all Eulerian, no correction)",
            viscosity_words},
@@ -150,6 +154,7 @@ Settings read_settings(FormulationSpec const& spec) {
   s.interface_form = word(spec, "interface") == "printed" ? Interface::printed : Interface::owner;
   s.mixed_stress = static_cast<MixedStress>(place_of_word(spec, "artificial_stress_interface", mixed_words));
   s.corrected = word(spec, "correction") == "mixed";
+  s.corrected_material = word(spec, "correction") != "none";
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
   s.artificial_stress = number(spec, "artificial_stress") > 0;
@@ -191,7 +196,7 @@ void check_body(BodyOptions const& o, Settings const& s, std::string const& name
   if (o.deletes && o.description != Description::total_lagrangian)
     refuse("failed = \"delete\" belongs to description = \"total_lagrangian\" - remove it or change the description");
   if (s.viscosity == Viscosity::riemann && (o.description != Description::eulerian || s.corrected))
-    refuse("viscosity = \"riemann\" needs description = \"eulerian\" and correction = \"none\" - change them");
+    refuse("viscosity = \"riemann\" needs description = \"eulerian\" and no correction = \"mixed\" - change them");
 }
 
 }  // namespace

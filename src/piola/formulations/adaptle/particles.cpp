@@ -189,7 +189,7 @@ void Particles::set_descriptions(Assembly const& assembly) {
   }
   lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
   if (!lagrangian_) return;
-  material_.build(assembly.particles, body_, reference_, options_.settings.corrected, machine_->lanes);
+  material_.build(assembly.particles, body_, reference_, options_.settings.corrected_material, machine_->lanes);
   auto const records = [&](int stride) { return Memory((state_.size() + 1) * static_cast<std::size_t>(stride)); };
   bool const flat = system_.dimension == 2;
   motion_ = records(flat ? MotionRecord<2>::stride : MotionRecord<3>::stride);
@@ -304,8 +304,8 @@ void Particles::step(double time, double dt) {
   prepare_supports(time + dt);
   prepare_loads(time + 0.5 * dt);
   prepare_rigid(time, dt);
-  evaluate(dt);
   books_.time = time + dt;
+  evaluate(dt);
   // What acts for one step only is gone now.
   for (std::size_t k = 0; k < body_.size() && !initial_pressure_.empty(); ++k)
     if (!options_.bodies[k].initial_pressure_lasts)

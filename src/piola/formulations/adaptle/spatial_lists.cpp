@@ -147,10 +147,11 @@ void SpatialLists::put_into(System& s) {
   s.contact.length = contact_.found.data();
 }
 
-double SpatialLists::mean_neighbours() const {
-  double sum = 0;
-  for (Index const n : spatial_.found) sum += n;
-  return spatial_.found.empty() ? 0 : sum / static_cast<double>(spatial_.found.size());
+std::vector<int> SpatialLists::neighbours_by_slot(System const& s) const {
+  std::vector<int> count(at(s.particles), 0);
+  for (std::size_t t = 0; t < spatial_.found.size() && t < spatial_.target.size(); ++t)
+    count[at(grid_.slots()[spatial_.target[t]])] = spatial_.found[t];
+  return count;
 }
 
 std::size_t SpatialLists::bytes() const {

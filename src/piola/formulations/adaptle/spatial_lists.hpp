@@ -16,7 +16,8 @@ class SpatialLists {
   std::size_t bytes() const;
   Index longest() const { return longest_; }
   bool overflow() const { return overflow_; }  ///< a particle has more neighbours than can be listed
-  double mean_neighbours() const;
+  /// Of the last step, per slot; 0 where there is no list.
+  std::vector<int> neighbours_by_slot(System const& system) const;
 
  private:
   struct List {

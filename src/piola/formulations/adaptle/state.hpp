@@ -153,7 +153,9 @@ struct Settings {
   Viscosity viscosity = Viscosity::monaghan;
   Interface interface_form = Interface::owner;
   MixedStress mixed_stress = MixedStress::both;
-  bool corrected = false, plane_stress = false, artificial_stress = false;
+  bool corrected = false;           ///< spatial sums
+  bool corrected_material = false;  ///< material sums
+  bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f
   double cfl = 0.3;

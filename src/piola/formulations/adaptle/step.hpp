@@ -34,7 +34,7 @@ struct Step {
 
   void deform() const {
     exec::for_each_block(Range{0, s.material.kinematics}, DeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of,
-                                                                         s.settings.corrected, s.deformation});
+                                                                         s.settings.corrected_material, s.deformation});
   }
 
   template <bool Corrected>

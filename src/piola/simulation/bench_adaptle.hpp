@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace piola {
+
+struct AdaptleBenchOptions {
+  int cube_side = 48;  ///< particles per side; plates have as many particles
+  int repeats = 8;     ///< time steps per measurement; the fastest counts
+  std::vector<int> threads{1, 2};
+  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+};
+
+/// Whole time steps of one body.
+struct AdaptleBenchRow {
+  std::string name;     ///< what was measured
+  std::string machine;  ///< instruction set
+  int threads = 1;
+  long particles = 0;
+  double neighbours = 0;  ///< mean
+  double bytes_per_particle = 0;
+  double per_second = 0;                              ///< particle-steps per second of wall time, threads pinned
+  double per_cpu_second = 0;                          ///< per second of processor time of all threads
+  std::vector<std::pair<std::string, double>> parts;  ///< share of the wall time of a step
+};
+
+struct AdaptleBenchReport {
+  std::string machine;  ///< instruction set that "auto" found
+  int lanes = 1;
+  std::vector<AdaptleBenchRow> rows;
+};
+
+/// Measures inside the real solver, one force evaluation per step, double precision, perfectly plastic, viscosity,
+/// lists anew in every step: cubes and plates with random places of particles that are Eulerian, total-Lagrangian, and
+/// half and half; the Eulerian cube also with the mixed correction and with artificial stress. Each beside its scalar
+/// path. Throws InputError if the machine is unknown or not usable here.
+AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options);
+
+std::string to_json(AdaptleBenchReport const& report);
+std::string to_text(AdaptleBenchReport const& report);
+
+}  // namespace piola
