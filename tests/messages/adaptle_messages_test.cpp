@@ -45,7 +45,7 @@ TEST(AdaptleMessages, PlaneStressIsForTwoDimensions) {
 
 TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
   for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "printed"},
-                                           {"correction", "none", "mixed"},
+                                           {"correction", "material", "mixed"},
                                            {"viscosity", "monaghan", "balsara"},
                                            {"artificial_stress_interface", "both", "none"},
                                            {"assumption", "plane_strain", "plane_stress"}}) {
@@ -89,8 +89,8 @@ TEST(AdaptleMessages, SettingsOfADescriptionNeedThatDescription) {
   choose(a, "viscosity", "riemann");
   a.formulations[0].words["description"] = "eulerian";
   EXPECT_EQ(refusal(a),
-            "body \"second\": viscosity = \"riemann\" needs description = \"eulerian\" and correction = "
-            "\"none\" - change them");
+            "body \"second\": viscosity = \"riemann\" needs description = \"eulerian\" and no "
+            "correction = \"mixed\" - change them");
 }
 
 TEST(AdaptleMessages, AllProblemsAreReportedTogether) {

@@ -95,7 +95,8 @@ Course vibrate(std::string const& convert_when, std::string const& correction, s
   c.momentum = std::hypot(after.linear_momentum[0], after.linear_momentum[1]) / (mass * 300);
   for (auto const& [name, value] : after.more) {
     if (name == "eulerian_particles") c.eulerian = value;
-    if (name == "conversion_energy_change" || name == "conversion_momentum_change") c.jump += value / before.kinetic_energy;  // the momentum scale is smaller still
+    if (name == "conversion_energy_change" || name == "conversion_momentum_change")
+      c.jump += value / before.kinetic_energy;  // the momentum scale is smaller still
   }
   return c;
 }
