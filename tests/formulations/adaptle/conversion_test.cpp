@@ -154,6 +154,44 @@ TEST(AdaptleConversion, KeepsTheStateAndFindsTheDensityOfTheEndOfTheStep) {
   EXPECT_LT(turns.particles->books().momentum_change, 1e-14 * kinetic / rate);
 }
 
+/// A particle that is stretched or compressed along x, sheared, and failed.
+TEST(AdaptleRelease, LeavesNeitherShearNorTensionButCompression) {
+  for (std::string const description : {"eulerian", "adaptive", "total_lagrangian"})
+    for (double const stretch : {1.01, 0.99}) {
+      Assembly a = adaptle_assembly(unit_box(2, 7), damaging());
+      choose(a, "description", description);
+      choose(a, "failed", "release");
+      choose(a, "correction", "mixed");
+      choose(a, "correction_limit", 1e30);
+      Cloud cloud(a);
+      for (Index i = 0; i < cloud.size(); ++i) {
+        State& s = cloud.state[i];
+        s.x[0] *= stretch;
+        s.rho /= stretch;
+        s.S[0] = 1e6;
+        s.S[1] = s.S[2] = -0.5e6;
+      }
+      cloud.state[24].damage = 1;
+      cloud.changed();
+      cloud.evaluate();
+      cloud.evaluate();
+      for (double const S : cloud.state[24].S) EXPECT_EQ(S, 0) << description;
+      EXPECT_EQ(cloud.state[23].S[0], 1e6) << "sound material keeps its stress";
+      EXPECT_EQ(cloud.state[24].alive, 1);
+      if (stretch > 1) {
+        EXPECT_EQ(cloud.half(24).pressure, 0);
+        EXPECT_LT(cloud.half(23).pressure, 0);
+      } else {
+        EXPECT_GT(cloud.half(24).pressure, 0.99 * cloud.half(23).pressure);
+      }
+      std::set<Index> const neighbours = within(cloud, 24, 2 * 1.4 / 6 * (1 + 1e-12));
+      if (description == "adaptive")
+        EXPECT_EQ(eulerian(cloud), neighbours) << "it converts all the same";
+      else
+        EXPECT_EQ(eulerian(cloud).size(), description == "eulerian" ? 49u : 0u);
+    }
+}
+
 TEST(AdaptleDeletion, LeavesParticlesWithoutStressAndWithTheirDeformation) {
   Assembly a = adaptle_assembly(unit_box(2, 9), damaging());
   choose(a, "description", "total_lagrangian");
