@@ -79,11 +79,11 @@ void Particles::convert(double dt) {
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
 void Particles::make_eulerian(Index i, double dt, bool by_guard) {
   State& s = state_[at(i)];
-  if (s.phi > 0) return;
+  if (s.phi == 1) return;
   Share change;
   change.add(s, reference_[at(i)], -1);
   Half const& h = half_[at(i)];
-  s.rho = h.rho * std::exp(-0.5 * dt * h.divergence);
+  if (s.phi == 0) s.rho = h.rho * std::exp(-0.5 * dt * h.divergence);
   s.phi = 1;
   change.add(s, reference_[at(i)], 1);
   books_.converted += 1;

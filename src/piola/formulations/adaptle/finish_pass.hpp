@@ -59,7 +59,8 @@ struct Finish {
     Mat<3> L = velocity_gradient(i, p, sum, F_inverse);
     if (settings.plane_stress) L(2, 2) = across(p, h, sum, L, mass);
     SymMat<3> const S_half = symmetric_of(h.S);
-    SymMat<3> const S_rate = p.alive > 0 ? law.deviator_rate(S_half, L) : SymMat<3>{};
+    bool const bears = p.alive > 0 && !(body.releases && p.damage >= 1);
+    SymMat<3> const S_rate = bears ? law.deviator_rate(S_half, L) : SymMat<3>{};
     double const trace_L = trace(L);
     k.rho = -h.rho * trace_L;
     p.rho = p.phi > 0 ? p.rho + dt * k.rho : h.rho;
@@ -74,8 +75,8 @@ struct Finish {
       trial.c[c] = p.S[c] + dt * S_rate.c[c];
     }
     SolidHistory history = history_of(p, p.S);
-    if (p.alive > 0) law.update(history, trial, h.pressure, h.rho, dt);
-    for (int c = 0; c < 6; ++c) p.S[c] = p.alive > 0 ? history.S.c[c] : 0;
+    if (bears) law.update(history, trial, h.pressure, h.rho, dt);
+    for (int c = 0; c < 6; ++c) p.S[c] = bears ? history.S.c[c] : 0;
     p.plastic_strain = history.plastic_strain;
     p.temperature = history.temperature;
     p.damage = history.damage;
@@ -215,6 +216,11 @@ struct Finish {
   /// 1: convert with the neighbours, 2: alone, 0: stay.
   PIOLA_FN std::int8_t wish_of(Index i, State const& p, Half const& h, SymMat<3> const& S,
                                Mat<3> const& inverse_F) const {
+    if (p.phi > 0 && p.phi < 1) {
+      // Blended: wholly Eulerian once the deformation gradient is of no use.
+      double const J = determinant(matrix_of(s.deformation[i].F));
+      return J >= body.jacobian_min && J <= body.jacobian_max ? 0 : 2;
+    }
     if (!(body.adaptive || body.deletes) || p.phi > 0 || !(p.alive > 0)) return 0;
     double const J = body.rho0 / h.rho;
     SymMat<3> stress = S;

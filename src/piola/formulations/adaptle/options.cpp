@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 4> viscosity_words{"monaghan", "balsara",
 constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
 constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
-constexpr std::array<std::string_view, 2> failed_words{"keep", "delete"};
+constexpr std::array<std::string_view, 3> failed_words{"keep", "release", "delete"};
 constexpr std::array<std::string_view, 2> lasting_words{"always", "one_step"};
 
 constexpr std::array choices{
@@ -39,7 +39,9 @@ constexpr std::array choices{
     Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
     Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
-    Choice{"failed", "what becomes of failed particles that may not convert; delete: no stress, no neighbours",
+    Choice{"failed",
+           "what failed particles bear; keep: their stress, as published; release: neither shear nor tension; delete "
+           "(total_lagrangian only): nothing, and they leave the sums of their neighbours",
            failed_words},
     Choice{"initial_pressure_lasts", "how long initial_pressure acts: a residual stress, or an impulse",
            lasting_words}};
@@ -51,8 +53,8 @@ constexpr std::array parameters{
     Parameter{
         "hourglass", "1",
         "damping of relative velocities of total-Lagrangian neighbours that their velocity gradients do not explain; "
-        "0: none",
-        Interval{0, 2, false, false}, 0.2},
+        "0: none (0.2; with correction = \"none\", where gradients miss even linear motion at free surfaces, 0)",
+        Interval{0, 2, false, false}, no_default},
     Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
               Interval{0, 1, false, false}, 0.3},
     Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},
@@ -127,7 +129,7 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension) {
   o.beta = number(spec, "beta");
   o.bulk_speed = word(spec, "viscosity_speed") == "bulk";
   o.artificial_stress = number(spec, "artificial_stress");
-  o.hourglass = number(spec, "hourglass");
+  o.hourglass = number_of(spec, "hourglass", word(spec, "correction") == "none" ? 0 : 0.2);
   o.convert_strain = number(spec, "convert_strain");
   o.convert_damage = number(spec, "convert_damage");
   o.jacobian_min = number(spec, "jacobian_min");
@@ -136,6 +138,7 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension) {
   o.conversion_radius = number(spec, "conversion_radius");
   o.blend = number(spec, "blend");
   o.deletes = word(spec, "failed") == "delete";
+  o.releases = word(spec, "failed") == "release";
   auto const formula = [&](std::string_view name) -> std::optional<Expression> {
     auto const found = spec.formulas.find(name);
     if (found == spec.formulas.end()) return std::nullopt;

@@ -18,7 +18,7 @@ struct BodyOptions {
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0.3, jacobian_max = 3, tether = 1;
   double conversion_radius = 2;  ///< in h
   double blend = 4;              ///< width in spacings
-  bool deletes = false;
+  bool deletes = false, releases = false;
   double artificial_stress = 0.3;
   double hourglass = 0;
   std::optional<Expression> eulerian_where, convert_when;

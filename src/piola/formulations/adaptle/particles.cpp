@@ -81,6 +81,7 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
     if (o.description == Description::patch) b.tether = b.adaptive = false;
     b.deletes = o.deletes;
+    b.releases = o.releases;
     with_solid(b.material, [&](auto const& law) {
       b.rho0 = law.rho0;
       b.bulk_modulus = law.kappa;

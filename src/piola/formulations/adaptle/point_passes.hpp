@@ -27,6 +27,7 @@ struct Predict {
   State* state;
   Rates const* rates;
   Half* half;
+  bool releases;   ///< failed particles bear no shear
   double* motion;  ///< records; null: nobody is total-Lagrangian
   FailureSlot* failure;
 
@@ -49,7 +50,8 @@ struct Predict {
     if (!finite) exec::record(failure, i, not_a_number);
     SymMat<3> trial;
     for (int c = 0; c < 6; ++c) trial.c[c] = s.S[c] + step * k.S[c];
-    SymMat<3> const S = s.alive > 0 ? law.returned(history_of(s, s.S), trial, step) : SymMat<3>{};
+    bool const bears = s.alive > 0 && !(releases && s.damage >= 1);
+    SymMat<3> const S = bears ? law.returned(history_of(s, s.S), trial, step) : SymMat<3>{};
     for (int c = 0; c < 6; ++c) out.S[c] = S.c[c];
     out.energy = s.energy + step * k.energy;
     out.thickness = s.thickness + step * k.thickness;
@@ -99,6 +101,7 @@ struct HalfState {
     h.volume = reference[i].mass / (h.rho * h.thickness);
     double const specific = h.energy / reference[i].mass;
     h.pressure = s.alive > 0 ? law.pressure(h.rho, specific) : 0;
+    if (body.releases && s.damage >= 1 && h.pressure < 0) h.pressure = 0;
     if (initial_pressure != nullptr) h.pressure -= initial_pressure[i];
     h.c = law.sound_speed(h.rho, specific);
     SymMat<3> stress = symmetric_of(h.S);

@@ -97,6 +97,7 @@ struct BodyConstants {
   double bulk_modulus = 0;        ///< at rest [Pa]
   double poisson = 0, young = 0;  ///< of the strain across the plane (eq. 19)
   bool adaptive = false;          ///< total-Lagrangian particles may convert
+  bool releases = false;          ///< failed particles bear neither shear nor tension
   bool deletes = false;           ///< failed total-Lagrangian particles are deleted
 };
 

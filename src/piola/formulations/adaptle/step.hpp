@@ -28,7 +28,7 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b),
                              Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
-                                                                     s.material.motion, s.failure});
+                                                                     s.body[b].releases, s.material.motion, s.failure});
       });
   }
 
