@@ -22,7 +22,8 @@ Assembly collision(int dimension, std::string const& correction, std::string con
   Assembly a = adaptle_assembly(std::move(set), sample_metal("johnson_cook", "mie_grueneisen", "johnson_cook"));
   a.machine = machine;
   choose(a, "correction", correction);
-  choose_formula(a, "convert_when", dimension == 2 ? "X + 0.2*Y > 1.1 - 1.2e4*t" : "X + 0.2*Y > 1.3 - 2e3*t");
+  choose(a, "conversion_radius", 1.0);
+  choose_formula(a, "convert_when", dimension == 2 ? "X + 0.2*Y > 1.1 - 1.2e4*t" : "X + 0.2*Y + 0.1*Z > 1.3 - 5e3*t");
   give_velocity(a, [](Point const& X) { return Point{X[0] < 1.01 ? 400 + 100 * X[1] : 0.0, 60 * X[0] * X[1], 0}; });
   Load l;
   l.particles = select(a, everywhere);
