@@ -57,7 +57,7 @@ struct Finish {
     kick(i, p, k, sum, mass, m);
     Mat<3> const F_inverse = p.phi < 1 ? inverse(matrix_of(s.deformation[i].F)) : identity<3>();
     Mat<3> L = velocity_gradient(i, p, sum, F_inverse);
-    if (settings.plane_stress) L(2, 2) = across(p, h, sum, L, mass);
+    if (settings.plane_stress) L(2, 2) = across(i, p, h, sum, L, mass);
     SymMat<3> const S_half = symmetric_of(h.S);
     bool const bears = p.alive > 0 && !(body.releases && p.damage >= 1);
     SymMat<3> const S_rate = bears ? law.deviator_rate(S_half, L) : SymMat<3>{};
@@ -135,7 +135,7 @@ struct Finish {
 
   /// Plane stress: the rate of strain across the plane for which the stress there vanishes at the end of the step, by
   /// the secant method.
-  PIOLA_FN double across(State const& p, Half const& h, Sums const& sum, Mat<3> L, double mass) const {
+  PIOLA_FN double across(Index i, State const& p, Half const& h, Sums const& sum, Mat<3> L, double mass) const {
     auto const stress = [&](double rate) {
       L(2, 2) = rate;
       SymMat<3> const r = law.deviator_rate(symmetric_of(h.S), L);
@@ -147,7 +147,7 @@ struct Finish {
       double const end = p.thickness + dt * h.thickness * rate;
       double const rho =
           p.phi > 0 ? p.rho - dt * h.rho * trace(L) : h.rho * (1 - 0.5 * dt * (L(0, 0) + L(1, 1))) * h.thickness / end;
-      return S.c[2] - law.pressure(rho, energy / mass);
+      return S.c[2] - acting_pressure(law, body, p, s.initial_pressure, i, rho, energy / mass);
     };
     double const bulk = law.kappa, inverse = 1 / (dt * (bulk + 4.0 / 3.0 * law.mu));
     double a = -(bulk - 2.0 / 3.0 * law.mu) / (bulk + 4.0 / 3.0 * law.mu) * (L(0, 0) + L(1, 1)), f_a = stress(a);

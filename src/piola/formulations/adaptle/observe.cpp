@@ -62,10 +62,8 @@ void each_particle(System const& s, F const& f) {
     with_solid(s.body[b].material, [&](auto const& law) {
       for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
         State const& p = s.state[i];
-        double const added = s.initial_pressure != nullptr ? s.initial_pressure[i] : 0;
-        double pressure = p.alive > 0 ? added - law.pressure(p.rho, p.energy / s.reference[i].mass) : 0.0;
-        if (s.body[b].releases && p.damage >= 1 && pressure > 0) pressure = 0;
-        f(i, pressure);
+        double const specific = p.energy / s.reference[i].mass;
+        f(i, -acting_pressure(law, s.body[b], p, s.initial_pressure, i, p.rho, specific));
       }
     });
 }

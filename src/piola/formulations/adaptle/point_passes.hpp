@@ -17,6 +17,17 @@ PIOLA_FN SolidHistory history_of(State const& s, double const* S) {
   return {symmetric_of(S), s.plastic_strain, s.temperature, s.damage, s.plastic_work};
 }
 
+/// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without tension where a
+/// failed particle has released its stress, with what the case adds. e: specific energy [J/kg].
+template <class Law>
+PIOLA_FN double acting_pressure(Law const& law, BodyConstants const& body, State const& s, double const* initial,
+                                Index i, double rho, double e) {
+  if (!(s.alive > 0)) return 0;
+  double p = law.pressure(rho, e);
+  if (body.releases && s.damage >= 1 && p < 0) p = 0;
+  return initial != nullptr ? p - initial[i] : p;
+}
+
 /// Drifts to half time and predicts there with the rates of the step before. S is brought back to the yield surface
 /// without a change of history.
 template <int D, class Law>
@@ -100,9 +111,7 @@ struct HalfState {
     if (!(h.rho > 0)) exec::record(failure, i, negative_density);
     h.volume = reference[i].mass / (h.rho * h.thickness);
     double const specific = h.energy / reference[i].mass;
-    h.pressure = s.alive > 0 ? law.pressure(h.rho, specific) : 0;
-    if (body.releases && s.damage >= 1 && h.pressure < 0) h.pressure = 0;
-    if (initial_pressure != nullptr) h.pressure -= initial_pressure[i];
+    h.pressure = acting_pressure(law, body, s, initial_pressure, i, h.rho, specific);
     h.c = law.sound_speed(h.rho, specific);
     SymMat<3> stress = symmetric_of(h.S);
     for (int c = 0; c < 3; ++c) stress.c[c] -= h.pressure;
