@@ -118,6 +118,7 @@ TEST(Shapes, ACylinderFillsItsLengthAlongAnyAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     ShapeSpec shape;
     shape.kind = ShapeSpec::Kind::cylinder;
+    shape.placement = ShapeSpec::Placement::cell_centred;
     shape.centre = {1, 2, 3};
     shape.radius = 0.5;
     shape.length = 2;
@@ -225,9 +226,36 @@ TEST(Shapes, HollowBodiesLeaveOutWhatIsNearerThanTheInnerRadius) {
   }
 }
 
+TEST(Shapes, ACylinderMayHaveHalfCellsOnItsEnds) {
+  for (int axis = 0; axis < 3; ++axis) {
+    ShapeSpec shape;
+    shape.kind = ShapeSpec::Kind::cylinder;
+    shape.centre = {1, 2, 3};
+    shape.radius = 0.5;
+    shape.length = 2;
+    shape.axis = axis;
+    shape.spacing = 0.1;
+    auto const a = static_cast<std::size_t>(axis);
+    shape.placement = ShapeSpec::Placement::cell_centred;
+    double const volume = sum(filled(shape).volume);
+    shape.placement = ShapeSpec::Placement::on_boundary;
+    ParticleSet const set = filled(shape);
+    EXPECT_EQ(set.size(), count_particles(shape));
+    EXPECT_NEAR(sum(set.volume), volume, 1e-12);
+    int ends = 0;
+    for (std::size_t i = 0; i < set.X.size(); ++i) {
+      bool const end = set.X[i][a] == shape.centre[a] || set.X[i][a] == shape.centre[a] + 2;
+      ends += end ? 1 : 0;
+      EXPECT_NEAR(set.volume[i], end ? 0.0005 : 0.001, 1e-12);
+    }
+    EXPECT_EQ(ends * 21, 2 * set.size());
+  }
+}
+
 TEST(Shapes, ATubeIsHollowAllAlong) {
   ShapeSpec shape;
   shape.kind = ShapeSpec::Kind::cylinder;
+  shape.placement = ShapeSpec::Placement::cell_centred;
   shape.radius = 1;
   shape.length = 2;
   shape.axis = 0;

@@ -107,8 +107,7 @@ std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& parti
       facts.p_wave = law.p_wave_speed();
       if constexpr (requires { law.s_wave_speed(); }) facts.s_wave = law.s_wave_speed();
     };
-    with_law(spec.bodies[b].material, read);
-    with_solid(spec.bodies[b].material, read);
+    with_any_law(spec.bodies[b].material, read);
     all.push_back(facts);
   }
   return all;

@@ -152,12 +152,12 @@ ShapeSpec read_shape(Section const& section) {
                                                 " of box, sphere, cylinder (allowed: one) - add or remove one");
     return shape;
   }
-  if (std::string word; shape.kind == Kind::box && section.read("placement", word)) {
-    if (word == "cell_centred") shape.placement = ShapeSpec::Placement::cell_centred;
-  }
+  using Placement = ShapeSpec::Placement;
+  if (shape.kind != Kind::box) shape.placement = Placement::cell_centred;
+  if (std::string word; shape.kind != Kind::sphere && section.read("placement", word))
+    shape.placement = word == "cell_centred" ? Placement::cell_centred : Placement::on_boundary;
   if (shape.kind != Kind::box) {
-    shape.placement = ShapeSpec::Placement::cell_centred;
-    refuse_box_key(section, "placement");
+    if (shape.kind == Kind::sphere) refuse_box_key(section, "placement");
     refuse_box_key(section, "particles");
   }
   if (shape.arrangement != ShapeSpec::Arrangement::lattice) {

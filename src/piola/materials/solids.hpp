@@ -82,4 +82,11 @@ void with_solid(MaterialParameters const& material, F const& f) {
   with_solid(material, f, Strengths{});
 }
 
+/// Calls f(law) with the law that `material` names, a hyperelastic one or a solid in rate form: for what both answer.
+template <class F>
+void with_any_law(MaterialParameters const& material, F const& f) {
+  with_law(material, f);
+  with_solid(material, f);
+}
+
 }  // namespace piola::inline PIOLA_MACHINE

@@ -23,7 +23,8 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
     auto const i = static_cast<std::size_t>(d);
     if (d == face.axis) continue;
     int const index = particles.lattice_index[particle][i], last = body.lattice[i] - 1;
-    bool const at_end = last > 0 && (index == 0 || index == last);
+    bool const flat = shape.kind == ShapeSpec::Kind::box || d == shape.axis;
+    bool const at_end = flat && last > 0 && (index == 0 || index == last);
     area *= body.spacing[i];
     if (at_end && shape.placement == ShapeSpec::Placement::on_boundary) area /= 2;
   }

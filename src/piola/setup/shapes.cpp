@@ -49,17 +49,26 @@ int cells_over(double length, double spacing) {
   return std::max(1, static_cast<int>(cells));
 }
 
+bool along_axis(ShapeSpec const& shape, int d) { return shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis; }
+
+/// Whether the outermost particles in direction d lie on the faces.
+bool on_faces(ShapeSpec const& shape, int d) {
+  bool const flat = shape.kind == ShapeSpec::Kind::box || along_axis(shape, d);
+  return flat && shape.placement == ShapeSpec::Placement::on_boundary;
+}
+
 Lattice round_lattice(ShapeSpec const& shape) {
   Lattice lattice;
   for (int d = 0; d < shape.dimension; ++d) {
     auto const i = static_cast<std::size_t>(d);
-    bool const along = shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis;
+    bool const along = along_axis(shape, d), faces = on_faces(shape, d);
     double const length = along ? shape.length : 2 * shape.radius;
     int const n = cells_over(length, shape.spacing);
-    lattice.count[i] = n;
+    lattice.count[i] = faces ? n + 1 : n;
     lattice.spacing[i] = along ? length / n : shape.spacing;
-    lattice.first[i] =
-        along ? shape.centre[i] + lattice.spacing[i] / 2 : shape.centre[i] - 0.5 * (n - 1) * lattice.spacing[i];
+    lattice.first[i] = !along  ? shape.centre[i] - 0.5 * (n - 1) * lattice.spacing[i]
+                       : faces ? shape.centre[i]
+                               : shape.centre[i] + lattice.spacing[i] / 2;
   }
   return lattice;
 }
@@ -70,7 +79,7 @@ Lattice lattice_of(ShapeSpec const& shape) {
 
 // Squared distance from the centre, or from the axis of a cylinder, that a lattice index adds in direction d.
 double round_part(ShapeSpec const& shape, Lattice const& lattice, int d, std::int64_t index) {
-  if (d >= shape.dimension || (shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis)) return 0;
+  if (d >= shape.dimension || along_axis(shape, d)) return 0;
   auto const i = static_cast<std::size_t>(d);
   double const offset = (static_cast<double>(index) - 0.5 * (lattice.count[i] - 1)) * lattice.spacing[i];
   return offset * offset;
@@ -113,10 +122,9 @@ BodyRow inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k)
 
 double share_of_cell(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
   double share = 1;
-  if (shape.kind != ShapeSpec::Kind::box || shape.placement != ShapeSpec::Placement::on_boundary) return share;
   for (int d = 0; d < shape.dimension; ++d) {
     auto const i = static_cast<std::size_t>(d);
-    if (single(shape, d)) continue;
+    if (!on_faces(shape, d) || lattice.count[i] == 1) continue;
     if (index[i] == 0 || index[i] == lattice.count[i] - 1) share /= 2;
   }
   return share;
@@ -138,8 +146,8 @@ Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& inde
     auto const i = static_cast<std::size_t>(d);
     X[i] = lattice.first[i] + index[i] * lattice.spacing[i];
     // The far face exactly, so that a region such as "Y >= L" selects it in spite of rounding.
-    bool const on_face = shape.kind == ShapeSpec::Kind::box && shape.placement == ShapeSpec::Placement::on_boundary;
-    if (on_face && !single(shape, d) && index[i] == lattice.count[i] - 1) X[i] = shape.max[i];
+    if (!on_faces(shape, d) || lattice.count[i] == 1 || index[i] < lattice.count[i] - 1) continue;
+    X[i] = along_axis(shape, d) ? shape.centre[i] + shape.length : shape.max[i];
   }
   return X;
 }
@@ -170,8 +178,7 @@ std::int64_t count_particles(ShapeSpec const& shape) {
   if (shape.kind == ShapeSpec::Kind::box || estimate > countable) {
     return static_cast<std::int64_t>(std::min(estimate, 9e18));
   }
-  bool const along_z = shape.kind == ShapeSpec::Kind::cylinder && shape.axis == 2;
-  bool const along_y = shape.kind == ShapeSpec::Kind::cylinder && shape.axis == 1;
+  bool const along_z = along_axis(shape, 2), along_y = along_axis(shape, 1);
   std::int64_t count = 0;
   for (int k = 0; k < (along_z ? 1 : lattice.count[2]); ++k) {
     for (int j = 0; j < (along_y ? 1 : lattice.count[1]); ++j) {

@@ -25,7 +25,7 @@ struct ShapeSpec {
   std::array<int, 3> particles{1, 1,
                                1};  ///< box: particles per direction (already derived from spacing if that was given)
   double spacing = 0;               ///< sphere, cylinder
-  Placement placement = Placement::on_boundary;  ///< box; sphere and cylinder are cell centred
+  Placement placement = Placement::on_boundary;  ///< box, and cylinder along its axis; the rest is cell centred
   double jitter = 0;                             ///< random shift of each inner particle, as a fraction of the spacing
   std::uint32_t seed = 1;                        ///< of the jitter
 };
@@ -48,8 +48,9 @@ int particles_over(double length, double spacing, ShapeSpec::Placement placement
 ///  - Box, cell_centred: spacing l/n, every particle a full cell.
 ///  - Sphere (2D: disc, 1D: interval) and cylinder: the cells of a lattice, symmetric about the centre, whose middle
 ///    lies inside. Every particle is a full cell, so the body's volume is that of its staircase, not the exact one;
-///    along the axis of a cylinder the spacing is fitted to the length. With an inner radius, cells whose middle is
-///    nearer to the centre (or the axis) than that are left out.
+///    along the axis of a cylinder the spacing is fitted to the length, and on_boundary puts particles of half a cell
+///    on its ends. With an inner radius, cells whose middle is nearer to the centre (or the axis) than that are left
+///    out.
 ///  - Disc (2D), rings: a particle in the centre and n = radius/spacing circles of radius i * spacing, i = 1..n, with
 ///    round(2 pi i) particles each, all of the volume spacing^2; the last circle is at the radius.
 ///  - Disc, lattice_with_rings: the square lattice points i^2 + j^2 < (n-2)^2 about the centre, and circles n-1 and n

@@ -2,7 +2,7 @@
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -35,6 +35,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   if (options_.filter) fill_filter();
   if (options_.corrected_kernel()) fill_corrected_kernel(machine.lanes);
   fill_initial(assembly, machine);
+  fill_solid(machine);
   boundary_.attach(state_);
   fill_evolved_geometry();
   machine.update_wave_speed(state_);
@@ -66,7 +67,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   state_.slots = {0, order_.slots()};
   state_.material = material;
   double mu = 0, kappa = 0;
-  with_law(material, [&](auto const& law) {
+  with_any_law(material, [&](auto const& law) {
     mu = law.mu;
     kappa = law.kappa;
     k.rho0 = law.rho0;
@@ -115,6 +116,7 @@ bool JstBody::wanted(Field const& f) const {
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
+  if (among({&fields_.last_F, &fields_.history})) return is_solid(state_.material);
   if (among({&fields_.stage_position})) return displacement;
   if (among({&fields_.v_n, &fields_.F_star, &fields_.wave_speed_next})) return !verlet;
   if (among({&fields_.volume_ratio})) return verlet || options_.filter;
@@ -164,6 +166,7 @@ void JstBody::allocate() {
   std::tie(s.full_correction, s.gamma, s.kernel_difference, s.kernel_force, s.kernel_force_sum) =
       std::tuple(f.full_correction.ref(), f.gamma.ref(), f.kernel_difference.ref(), f.kernel_force.ref(),
                  f.kernel_force_sum.ref());
+  std::tie(s.last_F, s.history) = std::tuple(f.last_F.ref(), f.history.ref());
   s.filter_source[0] = f.filter_source_a.ref();
   s.filter_source[1] = f.filter_source_b.ref();
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
@@ -325,6 +328,17 @@ void JstBody::fill_evolved_geometry() {
   }
 }
 
+/// Solids in rate form start free of stress where they are not deformed.
+void JstBody::fill_solid(Machine const& machine) {
+  with_solid(state_.material, [&](auto const& law) {
+    for (Index i = 0; i < order_.slots(); ++i) {
+      for (int c = 0; c < 9; ++c) fields_.last_F.at(i, c) = c % 4 == 0 ? 1 : 0;
+      fields_.history.at(i, SolidFields::temperature) = law.initial_temperature();
+    }
+    machine.commit_solid(state_, 0);
+  });
+}
+
 void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
   for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = continued_volume(i);
@@ -439,7 +453,7 @@ Mat<3> JstBody::H(Index slot) const {
 
 double JstBody::J(Index slot) const {
   if (wanted(fields_.J)) return value(state_.J, slot);
-  double J = 0;
+  double J = determinant(F(slot));  // of solids
   with_law(state_.material, [&](auto const& law) { J = volume_ratio_of(law.small_strain, F(slot)); });
   return J;
 }

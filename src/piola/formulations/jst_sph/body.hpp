@@ -71,6 +71,7 @@ class JstBody {
   void place_gathered();
   bool wanted(Field const& f) const;
   void fill_filter();
+  void fill_solid(Machine const& machine);
   void fill_corrected_kernel(int lanes);
   void fill_evolved_geometry();
   /// f(place, slot) for every stored place of a reference field that holds a particle.

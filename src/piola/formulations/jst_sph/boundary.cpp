@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/formulations/prescribed.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -27,7 +27,7 @@ int axis_of(Point const& d) {
 Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order,
                    std::vector<Support> const& mirrors, std::optional<Cloud> cloud)
     : body_(assembly.particles.bodies[body]), D_(assembly.particles.dimension), cloud_(std::move(cloud)) {
-  with_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
+  with_any_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < order.particles; ++i)
     slot_of[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)] - body_.first)] = i;

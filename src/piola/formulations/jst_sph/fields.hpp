@@ -40,6 +40,8 @@ struct Fields {
         J_rate("VolumeRatioStabilisation", "1/s", 1, Role::derived),
         w_J("VolumeStabilisationArgument", "1", 1, Role::derived),
         ratio_increment("VolumeRatioIncrement", "1", 1, Role::derived),
+        last_F("DeformationGradientOfLastStep", "1", 9, Role::evolved),
+        history("SolidHistory", "1", 12, Role::evolved),
         full_correction("FullGradientCorrection", "1", D * D, Role::reference),
         gamma("KernelGradientMean", "1/m", D, Role::reference),
         kernel_difference("KernelDifference", "m/s", D, Role::derived),
@@ -51,6 +53,7 @@ struct Fields {
   Field filter_scale, filter_sum, volume_ratio, filtered_ratio, filtered_pressure, filter_source_a, filter_source_b;
   Field w, A, stage_position, v_n, F_star, wave_speed_next, rate;
   Field H, J, H_star, J_n, J_next, J_rate, w_J, ratio_increment;
+  Field last_F, history;
   Field full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
 
   template <class Visit>
@@ -87,6 +90,8 @@ struct Fields {
                      &J_rate,
                      &w_J,
                      &ratio_increment,
+                     &last_F,
+                     &history,
                      &full_correction,
                      &gamma,
                      &kernel_difference,

@@ -36,6 +36,14 @@ void update_deformation(BodyState& body) {
   with_step<Step>(body, [](auto one_step) { one_step.update_deformation(); });
 }
 
+void commit(BodyState& body, double dt) {
+  switch (body.dimension) {
+    case 1: return commit_solid<1>(body, dt);
+    case 2: return commit_solid<2>(body, dt);
+    default: return commit_solid<3>(body, dt);
+  }
+}
+
 void update_wave_speed(BodyState& body) {
   switch (body.dimension) {
     case 1: return compute_wave_speed<1>(body);
@@ -58,8 +66,8 @@ double largest_wave_speed(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count,          &step,
-                      &update_wave_speed,        &largest_wave_speed, &update_deformation,
-                      &exec::run_fma_chains,     &exec::copy};
+Machine const machine{
+    PIOLA_NAME(PIOLA_MACHINE), lane_count, &step,      &update_wave_speed, &largest_wave_speed, &update_deformation,
+    &exec::run_fma_chains,     &commit,    &exec::copy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE

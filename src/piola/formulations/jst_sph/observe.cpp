@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/observe.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,6 +53,36 @@ double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index
   return evolves_volume(body) ? law.energy(F, body.H(i), body.J(i)) : law.energy(F);
 }
 
+double history(JstBody const& body, Index i, int c) { return JstBody::value(body.state().history, i, c); }
+
+/// A solid in rate form, whose state the last step has left.
+struct SolidState {
+  double rho0;
+};
+
+double observed_pressure(JstBody const& body, SolidState const&, Mat<3> const&, Index i) {
+  return -history(body, i, SolidFields::pressure);
+}
+
+Mat<3> acting_stress(JstBody const& body, SolidState const&, Mat<3> const& F, Index i) {
+  SymMat<3> S;
+  for (int c = 0; c < 6; ++c) S.c[c] = history(body, i, SolidFields::S + c);
+  Mat<3> const pressed = history(body, i, SolidFields::pressure) * identity<3>();
+  return (identity<3>() * S - pressed) * cofactor(F);
+}
+
+/// Internal energy, with that of plastic work.
+double stored_energy(JstBody const& body, SolidState const& law, Mat<3> const&, Index i) {
+  return law.rho0 * history(body, i, SolidFields::energy);
+}
+
+/// f(law) for hyperelastic laws, f(SolidState) for solids in rate form.
+template <class F>
+void with_observed_law(MaterialParameters const& material, F const& f) {
+  with_law(material, f);
+  if (is_solid(material)) with_any_law(material, [&](auto const& law) { f(SolidState{law.rho0}); });
+}
+
 /// det F minus the volume ratio that the volumetric energy sees, where that is another one.
 double volume_mismatch(JstBody const& body, double J, Index i) {
   if (body.state().constants.kappa_filtered > 0) return J - JstBody::value(body.state().filtered_ratio, i);
@@ -64,12 +94,14 @@ double volume_mismatch(JstBody const& body, double J, Index i) {
 void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
   std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
+  bool const solid = is_solid(body.state().material);
   double strain = 0;
-  with_law(body.state().material, [&](auto const& law) {
+  with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
       double const V = body.volume(i), J = determinant(F), p = observed_pressure(body, law, F, i);
       strain += V * stored_energy(body, law, F, i);
+      if (solid) o.plastic_work += V * history(body, i, SolidFields::plastic_work);
       double const mismatch = volume_mismatch(body, J, i);
       o.mismatch_square += V * mismatch * mismatch;
       o.mismatch_max = std::max(o.mismatch_max, std::abs(mismatch));
@@ -87,7 +119,10 @@ void observe(JstBody const& body, JstObservation& o) {
 
 Diagnostics finish(JstObservation const& o) {
   Diagnostics d = o.finish();
-  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square / o.volume)}, {"volume_mismatch_max", o.mismatch_max}};
+  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square / o.volume)},
+            {"volume_mismatch_max", o.mismatch_max},
+            {"plastic_work", o.plastic_work},
+            {"internal_energy", d.strain_energy}};
   return d;
 }
 
@@ -99,6 +134,7 @@ struct Particle {
   Mat<3> F, P;
   double J, pressure, rho0, body, neighbours;
   double id;
+  std::array<double, SolidFields::size> history;  ///< of solids in rate form; zeros else
 };
 
 Mat<3> cauchy(Particle const& p) { return (1.0 / p.J) * (p.P * transpose(p.F)); }
@@ -148,18 +184,42 @@ constexpr std::array table{
     Observed{"Body", "1", 1, [](Particle const& p, double* out) { *out = p.body; }},
     Observed{"Id", "1", 1, [](Particle const& p, double* out) { *out = p.id; }}};
 
+constexpr std::array solid_table{
+    Observed{"EquivalentPlasticStrain", "1", 1,
+             [](Particle const& p, double* out) { *out = p.history[SolidFields::plastic_strain]; }},
+    Observed{"Damage", "1", 1, [](Particle const& p, double* out) { *out = p.history[SolidFields::damage]; }},
+    Observed{"Temperature", "K", 1, [](Particle const& p, double* out) { *out = p.history[SolidFields::temperature]; }},
+    Observed{"InternalEnergy", "J/kg", 1,
+             [](Particle const& p, double* out) { *out = p.history[SolidFields::energy]; }}};
+
+Observed find_observed(std::string_view field) {
+  for (auto const& f : table)
+    if (field == f.name) return f;
+  for (auto const& f : solid_table)
+    if (field == f.name) return f;
+  throw std::invalid_argument("no field is named '" + std::string(field) + "'");
+}
+
+std::array<double, SolidFields::size> all_history(JstBody const& body, Index i) {
+  std::array<double, SolidFields::size> r{};
+  for (int c = 0; is_solid(body.state().material) && c < SolidFields::size; ++c)
+    r[static_cast<std::size_t>(c)] = history(body, i, c);
+  return r;
+}
+
 }  // namespace
 
-std::vector<FieldInfo> observed_fields() {
+std::vector<FieldInfo> observed_fields(bool solids) {
   std::vector<FieldInfo> r;
   for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
+  for (auto const& f : solid_table)
+    if (solids) r.push_back({f.name, f.unit, f.components});
   return r;
 }
 
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  auto const found = std::find_if(table.begin(), table.end(), [&](auto const& f) { return field == f.name; });
-  if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
-  with_law(body.state().material, [&](auto const& law) {
+  Observed const found = find_observed(field);
+  with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
       Particle const p{body.X(i),
@@ -172,8 +232,9 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
                        law.rho0,
                        static_cast<double>(body_number),
                        static_cast<double>(body.pairs().corrections().neighbours[static_cast<std::size_t>(i)]),
-                       static_cast<double>(body.id(i))};
-      found->put(p, &values[static_cast<std::size_t>(body.id(i) * found->components)]);
+                       static_cast<double>(body.id(i)),
+                       all_history(body, i)};
+      found.put(p, &values[static_cast<std::size_t>(body.id(i) * found.components)]);
     }
   });
 }

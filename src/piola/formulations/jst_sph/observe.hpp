@@ -10,6 +10,7 @@ namespace piola::jst_sph {
 struct JstObservation : Observation {
   double mismatch_square = 0;  ///< sum V (det F - volume ratio of the volumetric energy)^2
   double mismatch_max = 0;
+  double plastic_work = 0;  ///< [J]
 };
 
 void observe(JstBody const& body, JstObservation& observation);
@@ -17,8 +18,8 @@ void observe(JstBody const& body, JstObservation& observation);
 /// Energies, momenta, extrema and the volume mismatch over all bodies.
 Diagnostics finish(JstObservation const& observation);
 
-/// The fields that JST-SPH offers to frames and probes.
-std::vector<FieldInfo> observed_fields();
+/// The fields that JST-SPH offers to frames and probes; `solids`: with those of solids in rate form.
+std::vector<FieldInfo> observed_fields(bool solids);
 
 /// values[id * components + c] of one field for the particles of one body. Throws std::invalid_argument for an unknown
 /// field.

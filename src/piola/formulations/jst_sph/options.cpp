@@ -2,7 +2,7 @@
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -75,12 +75,20 @@ constexpr std::array parameters{
     Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings (1.2)",
               Interval{0.5, 3, true, false}, no_default}};
 
-/// What Diagnostics::more holds (observe.cpp): det F minus the volume ratio that the volumetric energy sees.
-constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"},
-                                 DiagnosticInfo{"volume_mismatch_max", "1"}};
+/// What Diagnostics::more holds (observe.cpp): det F minus the volume ratio that the volumetric energy sees; the books
+/// of solids in rate form, whose internal energy is the strain energy.
+constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"}, DiagnosticInfo{"volume_mismatch_max", "1"},
+                                 DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"}};
 
-constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
-                                                      "saint_venant_kirchhoff", "compressible_neo_hookean"};
+constexpr std::array<std::string_view, 9> usable_laws{"linear_elastic",
+                                                      "neo_hookean",
+                                                      "mooney_rivlin",
+                                                      "saint_venant_kirchhoff",
+                                                      "compressible_neo_hookean",
+                                                      "elastic",
+                                                      "perfectly_plastic",
+                                                      "isotropic_hardening",
+                                                      "johnson_cook"};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
@@ -168,6 +176,15 @@ void check_filter(Options const& o, MaterialParameters const& material) {
       law->name, joined(able)));
 }
 
+/// Solids in rate form carry their stress from the last step's deformation gradient on: {p,F} alone.
+void check_solid(Options const& o, MaterialParameters const& material) {
+  if (!is_solid(material) || o.variables == Variables::pF) return;
+  throw InputError(fmt::format(
+      "formulation: variables other than \"pF\" need a hyperelastic law, and {} is a solid in rate form - leave "
+      "variables out or take a hyperelastic law",
+      laws()[static_cast<std::size_t>(material.law)].name));
+}
+
 }  // namespace
 
 Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl) {
@@ -198,10 +215,8 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   constexpr double nearly_incompressible = 9.666;
   double ratio = 0;
   bool split = false;
-  with_law(material, [&](auto const& law) {
-    ratio = law.kappa / law.mu;
-    split = law.volumetric_split;
-  });
+  with_any_law(material, [&](auto const& law) { ratio = law.kappa / law.mu; });
+  with_law(material, [&](auto const& law) { split = law.volumetric_split; });
   bool const by_scheme = filtered && !displacement && split && ratio > nearly_incompressible;
   // The estimate c_p0 / lambda_min is a bound for nearly incompressible solids, not for laws that stiffen in tension.
   o.exact_speed = word(spec, "wave_speed") == "exact" || !split;
@@ -210,6 +225,7 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.cfl = !std::isnan(cfl) ? cfl : verlet ? 0 : 0.3;
   check(o);
   check_filter(o, material);
+  check_solid(o, material);
   return o;
 }
 

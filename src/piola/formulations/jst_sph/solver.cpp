@@ -65,7 +65,10 @@ class Solver final : public Formulation {
     return finish(all);
   }
 
-  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  std::vector<FieldInfo> fields() const override {
+    return observed_fields(std::any_of(bodies_.begin(), bodies_.end(),
+                                       [](auto const& body) { return body->state().history.data != nullptr; }));
+  }
   void sample(std::string_view field, std::span<double> values) const override {
     int number = 0;
     for (auto const& body : bodies_) {
@@ -156,6 +159,10 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
   bool const area = s.constants.variables == Variables::pFHJ, volume = evolves_volume(s.constants.variables);
   if (area) f(fmt::format("body{}_area_map", number), s.H, 9);
   if (volume && !(s.constants.kappa_filtered > 0)) f(fmt::format("body{}_volume_ratio", number), s.J, 1);
+  if (s.history.data != nullptr) {
+    f(fmt::format("body{}_last_deformation_gradient", number), s.last_F, 9);
+    f(fmt::format("body{}_solid_history", number), s.history, SolidFields::size);
+  }
   if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
   if (s.constants.kappa_filtered > 0) {
     f(fmt::format("body{}_filtered_ratio", number), s.filtered_ratio, 1);

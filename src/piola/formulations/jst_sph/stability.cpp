@@ -151,6 +151,7 @@ BodyState trial_of(JstBody& body, FailureSlot& failure) {
   trial.failure = &failure;
   trial.held_count = trial.loaded_count = 0;
   trial.multipliers = nullptr;
+  trial.trial = true;
   trial.constants.project = false;
   trial.constants.variables = Variables::pF;
   return trial;

@@ -78,6 +78,18 @@ struct LoadedParticle {
   double work;                 ///< in this step [J]
 };
 
+/// Where values lie in the field `history` of solids in rate form.
+struct SolidFields {
+  static constexpr int S = 0;               ///< deviatoric Cauchy stress [Pa], 6 values
+  static constexpr int plastic_strain = 6;  ///< equivalent plastic strain
+  static constexpr int temperature = 7;     ///< [K]
+  static constexpr int damage = 8;          ///< 0 to 1
+  static constexpr int plastic_work = 9;    ///< per reference volume [J/m^3]
+  static constexpr int pressure = 10;       ///< positive in compression [Pa]
+  static constexpr int energy = 11;         ///< specific internal energy [J/kg]
+  static constexpr int size = 12;
+};
+
 /// How a step is taken.
 enum class Integrator {
   tvd_rk2,  ///< two stages, eq. (43)
@@ -146,6 +158,8 @@ struct BodyState {
   // Within a step.
   FieldRef v_n, F_star, wave_speed_next, rate;
   FieldRef H_star, J_n, J_next, J_rate;
+  // Solids in rate form, at the end of the last step: deformation gradient (3 x 3), and the rest as in SolidFields.
+  FieldRef last_F, history;
 
   SupportComponent const* supports = nullptr;
   Index support_count = 0;
@@ -159,17 +173,19 @@ struct BodyState {
   FailureSlot* failure = nullptr;
   StepTotals totals;
   bool starting = false;  ///< the step makes the state of time 0 consistent
+  bool trial = false;     ///< a step that asks for the stiffness: solids do not yield and keep no state
 };
 
 /// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
 struct Machine {
   char const* name;
   int lanes;
-  void (*step)(BodyState& body, double dt);       ///< Algorithm 1, one step of one body
-  void (*update_wave_speed)(BodyState& body);     ///< from the current F
-  double (*largest_wave_speed)(BodyState& body);  ///< m/s
-  void (*update_deformation)(BodyState& body);    ///< displacement variables: F from x
-  double (*run_fma_chains)(long rounds);          ///< for benchmarks, see exec/peak.hpp
+  void (*step)(BodyState& body, double dt);          ///< Algorithm 1, one step of one body
+  void (*update_wave_speed)(BodyState& body);        ///< from the current F
+  double (*largest_wave_speed)(BodyState& body);     ///< m/s
+  void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
+  double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak.hpp
+  void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: keeps the state at the F of the body
   void (*copy)(double const* from, double* to, Index n);
 };
 

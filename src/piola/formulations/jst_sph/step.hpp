@@ -19,6 +19,7 @@ class Step {
   void operator()(double dt) {
     stage({dt, false});                        // U* = U^n + dt U_dot(U^n)           (43)
     stage({dt, true});                         // U^(n+1) = (U^n + U* + dt U_dot*)/2 (43)
+    commit_solid<D>(b_, dt);                   // solids: their state at n + 1
     FieldRef const next = b_.wave_speed_next;  // c_p of the next step          step 2
     b_.wave_speed_next = b_.wave_speed;
     b_.wave_speed = next;
@@ -82,7 +83,8 @@ class Step {
     EvolvedGeometry const evolved{
         read(b_.H),   read(b_.H_star), read(b_.J), read(b_.J_n), write(stage.second ? b_.H : b_.H_star),
         write(J_out), write(b_.J_n)};
-    with_law(b_.material, [&](auto const& law) {
+    StressAt const when = stage.second ? StressAt::stage : StressAt::start;
+    with_stress_law(b_, stage.dt, when, [&](auto const& law) {
       UpdateStress<D, Smoothed, std::decay_t<decltype(law)>> const update{law,
                                                                           b_.constants,
                                                                           stage,

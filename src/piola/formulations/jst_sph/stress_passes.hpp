@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/jst_sph/passes.hpp"
+#include "piola/formulations/jst_sph/solid_stress.hpp"
 #include "piola/materials/laws.hpp"
 
 /// From the first sums of a Runge-Kutta stage to what the second sweep needs: geometry, stress, stabilisation.
@@ -65,13 +66,18 @@ PIOLA_FN Lanes estimated_wave_speed(Constants const& k, Mat<3, Lanes> const& F) 
 /// Algorithm 1). Never below the speed of shear waves at rest: laws that soften under compression lose their modulus
 /// there.
 template <int D, class Law>
-PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F) {
-  if (k.exact_speed) {
-    Vec<3, Lanes> const l = principal_stretches_squared(F);
-    Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
-    return square_root((1.0 / k.rho0) * modulus);
+PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F, Index i) {
+  if constexpr (std::is_same_v<Law, SolidStress>) {
+    // Of the current state, in reference lengths along the most compressed direction.
+    return law.sound_speed(i, determinant(F)) / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
+  } else {
+    if (k.exact_speed) {
+      Vec<3, Lanes> const l = principal_stretches_squared(F);
+      Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
+      return square_root((1.0 / k.rho0) * modulus);
+    }
+    return estimated_wave_speed<D>(k, F);
   }
-  return estimated_wave_speed<D>(k, F);
 }
 
 /// p = kappa_local (J - 1) + q, where the volumetric energy is filtered.
@@ -127,17 +133,21 @@ struct UpdateStress {
     F_out.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
     record_inverted(failure, i, determinant(full));
-    if (stage.second) wave_speed_next.scalar(i, wave_speed_of<D>(law, k, full));
+    if (stage.second) wave_speed_next.scalar(i, wave_speed_of<D>(law, k, full, i));
     return F;
   }
 
   PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
-    if (evolves_volume(k.variables)) return stress_of_evolved(i, F, gradient);
-    if constexpr (Law::volumetric_split) {
-      if (k.kappa_filtered > 0)
-        return law.stress_with_pressure(F, acting_pressure(k, volume_ratio, filtered_pressure, i));
+    if constexpr (std::is_same_v<Law, SolidStress>) {
+      return law.first_piola(i, F);
+    } else {
+      if (evolves_volume(k.variables)) return stress_of_evolved(i, F, gradient);
+      if constexpr (Law::volumetric_split) {
+        if (k.kappa_filtered > 0)
+          return law.stress_with_pressure(F, acting_pressure(k, volume_ratio, filtered_pressure, i));
+      }
+      return law.first_piola(F);
     }
-    return law.first_piola(F);
   }
 
   /// P of F, H and J as unknowns, which the stage carries on.
@@ -199,14 +209,14 @@ struct ComputeWaveSpeed {
   View F;
   WriteView wave_speed;
   PIOLA_FN void operator()(Index i) const {
-    wave_speed.scalar(i, wave_speed_of<D>(law, k, embed<D>(F.matrix<D, Lanes>(i))));
+    wave_speed.scalar(i, wave_speed_of<D>(law, k, embed<D>(F.matrix<D, Lanes>(i)), i));
   }
 };
 
 /// The wave speed of every particle of a body.
 template <int D>
 void compute_wave_speed(BodyState const& body) {
-  with_law(body.material, [&](auto const& law) {
+  with_stress_law(body, 0, StressAt::start, [&](auto const& law) {
     exec::for_each(body.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, body.constants, read(body.F),
                                                                                 write(body.wave_speed)});
   });

@@ -125,6 +125,13 @@ struct WeightStress {
 
  private:
   PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
+    if constexpr (std::is_same_v<Law, SolidStress>)
+      return law.first_piola(i, full);
+    else
+      return stress_of_geometry(i, full);
+  }
+
+  PIOLA_FN Mat<3, Lanes> stress_of_geometry(Index i, Mat<3, Lanes> const& full) const {
     bool const area = k.variables == Variables::pFHJ;
     if constexpr (Law::volumetric_split) {
       if (k.kappa_filtered > 0) {

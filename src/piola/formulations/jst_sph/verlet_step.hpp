@@ -66,7 +66,9 @@ class VerletStep {
         loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
     CarriedGeometry const carried{read(b_.H), read(b_.J), write(b_.H), write(b_.J), write(b_.ratio_increment),
                                   b_.starting};
-    with_law(b_.material, [&](auto const& law) {
+    // The accelerations of the start, dt = 0, are those of the state as it is.
+    StressAt const when = dt > 0 ? StressAt::end : StressAt::start;
+    with_stress_law(b_, dt, when, [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
       Deform<D, Stabilised> const shape{dt,
                                         b_.constants,

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/exec/view.hpp"
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/materials/solids.hpp"
+#include "piola/math/embedding.hpp"
+
+/// Solids in rate form under a total-Lagrangian scheme: stress is a function of the state that the last step left and
+/// of the deformation gradient now. Theory: docs/theory/jst-sph.md, "Solids in rate form".
+namespace piola::jst_sph::inline PIOLA_MACHINE {
+
+/// What a particle of a solid remembers of the end of the last step. `pressure` [Pa] is the one that acted, positive in
+/// compression, `energy` the specific internal energy [J/kg].
+struct SolidPoint {
+  Mat<3> F;
+  SolidHistory history;
+  double pressure, energy;
+};
+
+/// An increment from the last step's end. `elastic`: without yield, for trial steps that ask for the stiffness.
+struct SolidIncrement {
+  double dt = 0;  ///< [s]
+  bool elastic = false;
+};
+
+/// J sigma F^-T [Pa].
+PIOLA_FN Mat<3> first_piola_of(SymMat<3> const& S, double pressure, Mat<3> const& F) {
+  Mat<3> sigma;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sigma(i, j) = S(i, j) - (i == j ? pressure : 0);
+  return sigma * cofactor(F);
+}
+
+/// The trial deviator of a step: R S R^T + 2 mu dev d with l = (dF - I) ((dF + I)/2)^-1, dF = F F_n^-1, d and w its
+/// parts and R = (I - w/2)^-1 (I + w/2) (Hughes, Winget, Int. J. Numer. Meth. Engng 15, 1980). Exact for rotations.
+PIOLA_FN SymMat<3> trial_deviator(SymMat<3> const& S, double mu, Mat<3> const& F_n, Mat<3> const& F) {
+  Mat<3> const I = identity<3>(), change = (F - F_n) * inverse(F_n), l = change * inverse(I + 0.5 * change);
+  Mat<3> const half_spin = 0.25 * (l - transpose(l)), R = inverse(I - half_spin) * (I + half_spin);
+  Mat<3> const turned = R * S * transpose(R);
+  double const mean = trace(l) / 3;
+  SymMat<3> trial;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+      trial(i, j) = 0.5 * (turned(i, j) + turned(j, i)) + mu * (l(i, j) + l(j, i)) - (i == j ? 2 * mu * mean : 0);
+  return trial;
+}
+
+/// Takes a particle from the end of the last step to the deformation gradient F; returns P there [Pa]. The energy grows
+/// by the mean of the stresses before and after, e += (P_n + P) : (F - F_n) / (2 rho0), which is the work that the
+/// kinetic energy loses in a Verlet step; the pressure sees that energy.
+template <class Law>
+PIOLA_FN Mat<3> advance_solid(Law const& law, SolidPoint& point, Mat<3> const& F, SolidIncrement const& step) {
+  Mat<3> const dF = F - point.F, H = cofactor(F);
+  double const rho = law.rho0 / determinant(F), before = point.energy;
+  double const old_work = 0.5 * contract(first_piola_of(point.history.S, point.pressure, point.F), dF) / law.rho0;
+  SymMat<3> const trial = trial_deviator(point.history.S, law.mu, point.F, F);
+  if (step.elastic)
+    point.history.S = trial;
+  else
+    law.update(point.history, trial, law.pressure(rho, before), rho, step.dt);
+  double const shear_work = 0.5 * contract(first_piola_of(point.history.S, 0, F), dF) / law.rho0;
+  double const volume = 0.5 * contract(H, dF) / law.rho0;
+  auto const energy = [&](double pressure) { return before + old_work + shear_work - pressure * volume; };
+  for (int k = 0; k < 3; ++k) point.pressure = law.pressure(rho, energy(point.pressure));
+  point.energy = energy(point.pressure);
+  point.F = F;
+  return first_piola_of(point.history.S, point.pressure, F);
+}
+
+/// A solid as passes ask for its stress, where hyperelastic laws would answer from F alone: the law behind it is hidden
+/// in two functions, so that passes are compiled once for all solids. Lanes are worked on one by one.
+class SolidStress {
+ public:
+  static constexpr bool small_strain = false, volumetric_split = false;
+
+  /// `law` must outlive this. `as_left`: the stress at the end of the last step. `commit`: F is that of the end of a
+  /// step, whose state is kept.
+  template <class Law>
+  SolidStress(Law const& law, BodyState const& body, SolidIncrement const& step, bool as_left, bool commit)
+      : law_(&law),
+        advance_(&advance<Law>),
+        sound_speed_(&sound_speed<Law>),
+        rho0_(law.rho0),
+        step_(step),
+        as_left_(as_left),
+        commit_(commit),
+        last_F_(read(body.last_F)),
+        history_(read(body.history)),
+        last_F_out_(write(body.last_F)),
+        history_out_(write(body.history)) {}
+
+  PIOLA_FN Mat<3, Lanes> first_piola(Index i, Mat<3, Lanes> const& F) const {
+    double P[9][lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+      Mat<3> const at_lane = of_lane(i + l, F, l);
+      for (int c = 0; c < 9; ++c) P[c][l] = at_lane.c[c];
+    }
+    Mat<3, Lanes> r;
+    for (int c = 0; c < 9; ++c) r.c[c] = load<Lanes>(P[c]);
+    return r;
+  }
+
+  /// Speed of pressure waves in the current state with the energy of the end of the last step [m/s].
+  PIOLA_FN Lanes sound_speed(Index i, Lanes const& J) const {
+    double c[lane_count];
+    for (int l = 0; l < lane_count; ++l)
+      c[l] = sound_speed_(law_, rho0_ / lane(J, l), history_.scalar<double>(i + l, SolidFields::energy));
+    return load<Lanes>(c);
+  }
+
+ private:
+  template <class Law>
+  static PIOLA_FN Mat<3> advance(void const* law, SolidPoint& point, Mat<3> const& F, SolidIncrement const& step) {
+    return advance_solid(*static_cast<Law const*>(law), point, F, step);
+  }
+  template <class Law>
+  static PIOLA_FN double sound_speed(void const* law, double rho, double e) {
+    return static_cast<Law const*>(law)->sound_speed(rho, e);
+  }
+
+  PIOLA_FN Mat<3> of_lane(Index i, Mat<3, Lanes> const& F_lanes, int l) const {
+    SolidPoint point = at(i);
+    if (as_left_) return first_piola_of(point.history.S, point.pressure, point.F);
+    Mat<3> F;
+    for (int c = 0; c < 9; ++c) F.c[c] = lane(F_lanes.c[c], l);
+    Mat<3> const P = advance_(law_, point, F, step_);
+    if (commit_) keep(i, point);
+    return P;
+  }
+  PIOLA_FN SolidPoint at(Index i) const {
+    using At = SolidFields;
+    auto const value = [&](int c) { return history_.scalar<double>(i, c); };
+    return {last_F_.matrix<3, double>(i),
+            {history_.symmetric<3, double>(i), value(At::plastic_strain), value(At::temperature), value(At::damage),
+             value(At::plastic_work)},
+            value(At::pressure),
+            value(At::energy)};
+  }
+  PIOLA_FN void keep(Index i, SolidPoint const& point) const {
+    using At = SolidFields;
+    auto const& h = point.history;
+    last_F_out_.matrix<3>(i, point.F);
+    for (int c = 0; c < 6; ++c) history_out_.scalar(i, h.S.c[c], c);
+    history_out_.scalar(i, h.plastic_strain, At::plastic_strain);
+    history_out_.scalar(i, h.temperature, At::temperature);
+    history_out_.scalar(i, h.damage, At::damage);
+    history_out_.scalar(i, h.plastic_work, At::plastic_work);
+    history_out_.scalar(i, point.pressure, At::pressure);
+    history_out_.scalar(i, point.energy, At::energy);
+  }
+
+  void const* law_;
+  Mat<3> (*advance_)(void const*, SolidPoint&, Mat<3> const&, SolidIncrement const&);
+  double (*sound_speed_)(void const*, double, double);
+  double rho0_;
+  SolidIncrement step_;
+  bool as_left_, commit_;
+  View last_F_, history_;
+  WriteView last_F_out_, history_out_;
+};
+
+/// When in a step stress is asked for.
+enum class StressAt {
+  start,  ///< at the end of the last step
+  stage,  ///< within a step
+  end     ///< at the end of a step, whose state is kept
+};
+
+/// Calls f(law) with the law of a body, hyperelastic or SolidStress, for an increment of dt [s] since the last step.
+/// Trial steps keep no state and know no yield.
+template <class F>
+void with_stress_law(BodyState const& body, double dt, StressAt when, F const& f) {
+  with_law(body.material, f);
+  with_solid(body.material, [&](auto const& law) {
+    f(SolidStress(law, body, {dt, body.trial}, when == StressAt::start, when == StressAt::end && !body.trial));
+  });
+}
+
+/// Keeps the state of a solid at the end of a step.
+template <int D>
+struct CommitSolid {
+  SolidStress law;
+  View F;
+  PIOLA_FN void operator()(Index i) const { (void)law.first_piola(i, embed<D>(F.matrix<D, Lanes>(i))); }
+};
+
+/// Keeps the state of the solid at the F that the body has, dt [s] after the last; does nothing for other laws.
+template <int D>
+void commit_solid(BodyState const& body, double dt) {
+  with_solid(body.material, [&](auto const& law) {
+    exec::for_each(body.slots, CommitSolid<D>{SolidStress(law, body, {dt, false}, false, true), read(body.F)});
+  });
+}
+
+}  // namespace piola::jst_sph::inline PIOLA_MACHINE
