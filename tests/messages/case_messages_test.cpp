@@ -59,7 +59,8 @@ TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
             "saint_venant_kirchhoff, compressible_neo_hookean, elastic, perfectly_plastic, isotropic_hardening, "
             "johnson_cook) - did you mean \"neo_hookean\"?");
   EXPECT_EQ(message_of(sample_with("jst_sph", "mpm")),
-            "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph) - choose "
+            "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph, adaptle) "
+            "- choose "
             "one of these");
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/case_keys.hpp"
+
+/// The keys of a case file, topic by topic, in the order of the manual.
+namespace piola {
+
+// Lengths outside these bounds are slips, and their volumes would leave the range of numbers.
+inline constexpr Interval place_range{-1e15, 1e15, false, false};
+inline constexpr Interval length_range{1e-15, 1e15, false, false};
+
+std::span<KeyInfo const> keys_of_run_and_bodies();  ///< top of the file, run, body
+std::span<KeyInfo const> keys_of_boundaries();      ///< support, load, mirror, crack, rigid, contact
+std::span<KeyInfo const> keys_of_observers();       ///< probe, quantity, output
+
+}  // namespace piola

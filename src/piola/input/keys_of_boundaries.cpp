@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/key_tables.hpp"
+#include <array>
+
+namespace piola {
+namespace {
+
+using enum KeyInfo::Kind;
+
+constexpr std::array<std::string_view, 4> contact_words{"kernel", "linear", "printed", "none"};
+constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
+
+constexpr std::array keys{
+    KeyInfo{"support", "body", name, "", {}, "", "name of the body", {}},
+    KeyInfo{"support", "where", formula, "", {}, "", "condition in X, Y, Z that selects particles", {}},
+    KeyInfo{
+        "support",
+        "fix",
+        text,
+        "",
+        {},
+        "",
+        "directions held: letters of \"xyz\"; with normal: \"normal\" (a roller) or \"tangent\" (across the normal)",
+        {}},
+    KeyInfo{"support", "normal", point, "1", place_range, "none", "direction that fix refers to, of any length", {}},
+    KeyInfo{"support",
+            "velocity",
+            formulas,
+            "m/s",
+            {},
+            "at rest",
+            "prescribed velocity, one formula in X, Y, Z, t per direction; only the held directions count",
+            {}},
+    KeyInfo{"support", "until", quantity, "s", positive, "the end of the run", "released at this time", {}},
+
+    KeyInfo{"load", "body", name, "", {}, "", "name of the body", {}},
+    KeyInfo{"load", "where", formula, "", {}, "all particles", "condition in X, Y, Z that selects particles", {}},
+    KeyInfo{"load",
+            "traction",
+            formulas,
+            "Pa",
+            {},
+            "none",
+            "force per reference area of a face, one formula in X, Y, Z, t per direction",
+            {}},
+    KeyInfo{"load", "face", word, "", {}, "none", "traction (required there): the loaded face of a box", face_words},
+    KeyInfo{"load",
+            "body_force",
+            formulas,
+            "N/m^3",
+            {},
+            "none",
+            "force per reference volume, one formula in X, Y, Z, t per direction",
+            {}},
+    KeyInfo{"load",
+            "acceleration",
+            formulas,
+            "m/s^2",
+            {},
+            "none",
+            "force per mass, for example gravity, one formula in X, Y, Z, t per direction",
+            {}},
+    KeyInfo{"load", "until", quantity, "s", positive, "the end of the run", "gone from this time on", {}},
+
+    KeyInfo{"mirror", "body", name, "", {}, "", "name of the body, a box with particles on its faces", {}},
+    KeyInfo{"mirror", "face", word, "", {}, "", "the face that is the plane of symmetry", face_words},
+    KeyInfo{"mirror",
+            "skew",
+            flag,
+            "",
+            {},
+            "false",
+            "the image moves the opposite way: held along the plane instead of across it; for small strains",
+            {}},
+
+    KeyInfo{"crack", "body", name, "", {}, "", "name of the body, a two-dimensional box", {}},
+    KeyInfo{"crack", "from", point, "m", place_range, "", "one end, at a particle; inside the body it is a tip", {}},
+    KeyInfo{"crack", "to", point, "m", place_range, "", "the other end, at a particle", {}},
+
+    KeyInfo{"rigid", "name", name, "", {}, "", "name in messages and tables", {}},
+    KeyInfo{"rigid", "plane", table, "", {}, "none", "a plane", {}},
+    KeyInfo{"rigid", "sphere", table, "", {}, "none", "a sphere or disc", {}},
+    KeyInfo{"rigid", "cylinder", table, "", {}, "none", "a cylinder", {}},
+    KeyInfo{"rigid", "box", table, "", {}, "none", "a box", {}},
+    KeyInfo{"rigid",
+            "velocity",
+            formulas,
+            "m/s",
+            {},
+            "at rest",
+            "prescribed velocity, one formula in t and the constants per direction",
+            {}},
+    KeyInfo{"rigid.plane", "point", point, "m", place_range, "", "a point of the plane", {}},
+    KeyInfo{"rigid.plane", "normal", point, "1", place_range, "", "direction towards the bodies, of any length", {}},
+    KeyInfo{"rigid.sphere", "centre", point, "m", place_range, "", "centre", {}},
+    KeyInfo{"rigid.sphere", "radius", quantity, "m", length_range, "", "radius", {}},
+    KeyInfo{"rigid.cylinder", "centre", point, "m", place_range, "", "middle of the axis", {}},
+    KeyInfo{"rigid.cylinder", "axis", point, "1", place_range, "", "direction of the axis, of any length", {}},
+    KeyInfo{"rigid.cylinder", "radius", quantity, "m", length_range, "", "radius", {}},
+    KeyInfo{"rigid.cylinder", "length", quantity, "m", length_range, "", "from end to end", {}},
+    KeyInfo{"rigid.box", "min", point, "m", place_range, "none", "lowest corner", {}},
+    KeyInfo{"rigid.box", "max", point, "m", place_range, "none", "highest corner", {}},
+    KeyInfo{"rigid.box", "centre", point, "m", place_range, "none", "middle", {}},
+    KeyInfo{"rigid.box", "lengths", point, "m", length_range, "none", "edges", {}},
+
+    KeyInfo{
+        "contact",
+        "law",
+        word,
+        "",
+        {},
+        "\"kernel\"",
+        "kernel: repulsion by the kernel, stiffness from the impedances; linear: a spring with the stiffness of the "
+        "material, for slow impacts; printed: as published, with a constant that you give; none: bodies merge",
+        contact_words},
+    KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},
+    KeyInfo{"contact",
+            "stiffness",
+            quantity,
+            "",
+            positive,
+            "none",
+            "printed (required there): constant K, in Pa/m^2 in 2D, in Pa/m^3 in 3D",
+            {}},
+    KeyInfo{"contact",
+            "closing_speed",
+            quantity,
+            "m/s",
+            positive,
+            "from the initial velocities",
+            "kernel: speed of the impact that the stiffness is made for",
+            {}},
+    KeyInfo{"contact",
+            "exponent",
+            quantity,
+            "1",
+            {1, 100, false, false},
+            "4",
+            "kernel, printed: exponent of the ratio of kernels",
+            {}},
+};
+
+}  // namespace
+
+std::span<KeyInfo const> keys_of_boundaries() { return keys; }
+
+}  // namespace piola

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user is told about settings of AdapTLE that cannot be, word for word.
+#include "formulations/small_bodies.hpp"
+#include "materials/solid_samples.hpp"
+#include "support/sample_case.hpp"
+
+namespace piola {
+namespace {
+
+using namespace testing;
+using test::message_of;
+
+/// Two boxes of aluminium under AdapTLE.
+Assembly two_boxes(int dimension = 2) {
+  ParticleSet set = unit_box(dimension, 4);
+  ShapeSpec shape;
+  shape.dimension = dimension;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) {
+    shape.min[c] = 2;
+    shape.max[c] = 3;
+    shape.particles[c] = 4;
+  }
+  fill(shape, "second", set);
+  Assembly a;
+  a.materials.assign(2, sample_metal("elastic", "elastic"));
+  a.formulations.assign(2, FormulationSpec{"adaptle", {}, {}});
+  a.particles = std::move(set);
+  return a;
+}
+
+TEST(AdaptleMessages, GoodBodiesAreTaken) {
+  EXPECT_EQ(refusal(two_boxes()), "");
+  EXPECT_EQ(refusal(two_boxes(3)), "");
+}
+
+TEST(AdaptleMessages, BarsAreRefused) {
+  EXPECT_EQ(refusal(two_boxes(1)), "adaptle: the case is one-dimensional (allowed: 2 or 3 dimensions)");
+}
+
+TEST(AdaptleMessages, PlaneStressIsForTwoDimensions) {
+  Assembly a = two_boxes(3);
+  choose(a, "assumption", "plane_stress");
+  EXPECT_EQ(refusal(a), "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out");
+}
+
+TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
+  for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "printed"},
+                                           {"correction", "material", "mixed"},
+                                           {"viscosity", "monaghan", "balsara"},
+                                           {"artificial_stress_interface", "both", "none"},
+                                           {"assumption", "plane_strain", "plane_stress"}}) {
+    Assembly a = two_boxes();
+    a.formulations[1].words[name] = other;
+    EXPECT_EQ(refusal(a), "body.formulation." + name + " is \"" + first + "\" for body \"box\" and \"" + other +
+                              "\" for body \"second\" (allowed: the same for all bodies) - make them equal");
+    a.formulations[0].words[name] = other;
+    EXPECT_EQ(refusal(a), "");
+  }
+  for (std::string const name : {"artificial_stress", "artificial_stress_exponent", "correction_limit"}) {
+    Assembly a = two_boxes();
+    a.formulations[0].numbers[name] = 1;
+    a.formulations[1].numbers[name] = 2;
+    EXPECT_EQ(refusal(a), "body.formulation." + name +
+                              " differs between the bodies \"box\" and \"second\" (allowed: the same for all bodies) "
+                              "- make them equal");
+  }
+}
+
+TEST(AdaptleMessages, SettingsOfADescriptionNeedThatDescription) {
+  auto const said = [](std::string const& what) { return "body \"box\": " + what; };
+  Assembly a = two_boxes();
+  a.formulations[0].words["description"] = "patch";
+  EXPECT_EQ(refusal(a), said("description = \"patch\" needs eulerian_where, a formula that selects the Eulerian "
+                             "particles - add it"));
+  a = two_boxes();
+  a.formulations[0].formulas.insert_or_assign("eulerian_where", Expression("X < 1"));
+  EXPECT_EQ(refusal(a), said("eulerian_where belongs to description = \"patch\" - remove it or change the "
+                             "description"));
+  a = two_boxes();
+  a.formulations[0].words["description"] = "eulerian";
+  a.formulations[0].formulas.insert_or_assign("convert_when", Expression("t > 1"));
+  EXPECT_EQ(refusal(a), said("convert_when belongs to description = \"adaptive\" - remove it or change the "
+                             "description"));
+  a = two_boxes();
+  a.formulations[0].words["failed"] = "delete";
+  EXPECT_EQ(refusal(a), said("failed = \"delete\" belongs to description = \"total_lagrangian\" - remove it or change "
+                             "the description"));
+  a = two_boxes();
+  choose(a, "viscosity", "riemann");
+  a.formulations[0].words["description"] = "eulerian";
+  EXPECT_EQ(refusal(a),
+            "body \"second\": viscosity = \"riemann\" needs description = \"eulerian\" and no "
+            "correction = \"mixed\" - change them");
+}
+
+TEST(AdaptleMessages, AllProblemsAreReportedTogether) {
+  Assembly a = two_boxes(3);
+  choose(a, "assumption", "plane_stress");
+  choose(a, "description", "patch");
+  EXPECT_EQ(refusal(a),
+            "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out\n"
+            "body \"box\": description = \"patch\" needs eulerian_where, a formula that selects the Eulerian particles "
+            "- add it\n"
+            "body \"second\": description = \"patch\" needs eulerian_where, a formula that selects the Eulerian "
+            "particles - add it");
+}
+
+TEST(AdaptleMessages, LawsMustBeInRateForm) {
+  Assembly a = two_boxes();
+  a.materials[1] = rubber();
+  EXPECT_EQ(refusal(a),
+            "adaptle: the law of body \"second\" has no rate form (allowed: elastic, perfectly_plastic, "
+            "isotropic_hardening, johnson_cook) - choose another law or formulation");
+}
+
+TEST(AdaptleMessages, DeformationGradientsAtTheStartAreRefused) {
+  Assembly a = two_boxes();
+  a.initial_deformation_gradient.assign(a.particles.X.size(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  EXPECT_EQ(refusal(a),
+            "adaptle: there is an initial deformation gradient (deformation follows from positions here) - give "
+            "initial_displacement instead");
+}
+
+TEST(AdaptleMessages, SupportsAreAlongAxes) {
+  Assembly a = two_boxes();
+  support(a, {true, true, false}, everywhere).frame = Support::Frame::normal;
+  EXPECT_EQ(refusal(a), "adaptle: a support has a normal (allowed: fix along axes) - use fix, or a rigid plane");
+}
+
+TEST(AdaptleMessages, UnknownMachinesListThoseThatThereAre) {
+  Assembly a = two_boxes();
+  a.machine = "v9";
+  EXPECT_TRUE(refusal(a).starts_with("machine 'v9' is unknown or not usable on this processor (usable: auto, "));
+}
+
+/// A case file with one box; line 7 is its formulation.
+std::string with_formulation(std::string const& more) {
+  return message_of(R"toml(title = "plate"
+run = { end = 1 }
+[[body]]
+name = "plate"
+shape = { box = { min = [0, 0], max = [2, 1] }, particles = [9, 5] }
+material = { law = "elastic", density = 1000, youngs_modulus = 1e6, poissons_ratio = 0.3 }
+formulation = { name = "adaptle")toml" +
+                    more + " }\n");
+}
+
+TEST(AdaptleMessages, WordsNumbersAndFormulasOfACaseAreChecked) {
+  EXPECT_EQ(with_formulation(""), "");
+  EXPECT_EQ(with_formulation(R"(, description = "langrangian")"),
+            "case.toml:7:49: body.formulation.description is \"langrangian\" (allowed: adaptive, total_lagrangian, "
+            "eulerian, patch) - choose one of these");
+  EXPECT_EQ(with_formulation(", smoothing_length = 0.5"),
+            "case.toml:7:54: body.formulation.smoothing_length is 0.5 (allowed: from 0.6 to 3)");
+  EXPECT_EQ(with_formulation(", conversion_radius = 2.5"),
+            "case.toml:7:55: body.formulation.conversion_radius is 2.5 (allowed: from 0 to 2)");
+  EXPECT_NE(with_formulation(R"(, convert_when = "damag > 1")").find("\"damag\" is not known"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piola
