@@ -66,6 +66,16 @@ TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
   }
 }
 
+TEST(AdaptleMessages, BodiesSeenAsOneNeedOneKernel) {
+  Assembly a = two_boxes();
+  a.contact.law = ContactRule::Law::none;
+  EXPECT_EQ(refusal(a), "");
+  a.formulations[1].numbers["smoothing_length"] = 1.2;
+  EXPECT_EQ(refusal(a),
+            "contact.law = \"none\" makes one of the bodies \"body\" and \"second\", but their smoothing length in m, "
+            "alpha or beta differ (allowed: equal ones) - make them equal or choose another law of contact");
+}
+
 TEST(AdaptleMessages, SettingsOfADescriptionNeedThatDescription) {
   auto const said = [](std::string const& what) { return "body \"box\": " + what; };
   Assembly a = two_boxes();

@@ -11,14 +11,15 @@ using piola::testing::Random;
 TEST(AdaptleViscosity, OfOnePairIsAsEquationsSixAndSevenSay) {
   double const h = 1.4e-4;
   // Particles 0.1 mm apart approach at 10 m/s: v.r = -1e-3 m2/s.
-  double const mu = approach_of(-1e-3, 1e-8, h);
+  auto const [mu, pressure] = viscous_pair(1.0, 2.0, h, -1e-3, 1e-8, 2 * 5328.0, 2 * 2785.0);
   EXPECT_NEAR(mu, -1.4e-7 / 1.0196e-8, 1e-12);
-  EXPECT_EQ(approach_of(1e-3, 1e-8, h), 0);  // they part
   // (alpha c |mu| + beta mu^2) / rho
-  EXPECT_NEAR(viscous_pressure(1.0, 2.0, mu, 5328.0, 2785.0),
-              (5328 * 13.730874852883484 + 2 * 188.53692423619834) / 2785, 1e-11);
-  EXPECT_NEAR(viscous_pressure(0.2, 0.4, -2.0, 1.16, 1.0), 0.2 * 1.16 * 2 + 0.4 * 4, 1e-15);
-  EXPECT_EQ(viscous_pressure(1.0, 2.0, 0.0, 5328.0, 2785.0), 0);
+  EXPECT_NEAR(pressure, (5328 * 13.730874852883484 + 2 * 188.53692423619834) / 2785, 1e-11);
+  // mu = 1 * -2.02 / 1.01 = -2 with h = 1, r = 1
+  EXPECT_NEAR(viscous_pair(0.2, 0.4, 1.0, -2.02, 1.0, 1.16 + 1.16, 2.0).pressure, 0.2 * 1.16 * 2 + 0.4 * 4, 1e-14);
+  auto const parting = viscous_pair(1.0, 2.0, h, 1e-3, 1e-8, 2 * 5328.0, 2 * 2785.0);
+  EXPECT_EQ(parting.mu, 0);
+  EXPECT_EQ(parting.pressure, 0);
 }
 
 template <int D>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/contact.hpp"
-#include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/contact_sweep.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +25,38 @@ double number_of(double h, double dp, double n) {
   return dp * sum;
 }
 
+/// U of one pair.
+template <int D>
+double potential(System const& s, Index i, Index j, double r) {
+  ContactPair const& pair = s.contact.pair[s.body_of[i] * s.bodies + s.body_of[j]];
+  if (s.contact.law == 2) return r < pair.dp ? 0.5 * pair.eps * std::pow(1 - r / pair.dp, 2) : 0;
+  Kernel<D> const kernel(pair.h);
+  double const eps = s.contact.law == 1 ? pair.eps : s.contact.printed * s.reference[i].volume * s.reference[j].volume;
+  return eps * std::pow(kernel(r) / kernel(pair.dp), s.contact.exponent);
+}
+
+template <int D>
+double energy_of_contacts(System const& s) {
+  double energy = 0;
+  for (Index t = 0; t < s.contact.targets; ++t) {
+    Index const i = s.spatial.slot[s.contact.target[t]];
+    for (Index k = 0; k < s.contact.length[t]; ++k) {
+      Index const j = s.spatial.slot[s.contact.list[static_cast<std::ptrdiff_t>(t) * s.contact.capacity + k]];
+      double square = 0;
+      for (int c = 0; c < D; ++c) square += std::pow(s.state[i].x[c] - s.state[j].x[c], 2);
+      energy += 0.5 * potential<D>(s, i, j, std::sqrt(square));
+    }
+  }
+  for (Index i = 0; i < s.particles; ++i)
+    for (int k = 0; k < s.rigids; ++k) {
+      double normal[3];
+      BodyConstants const& b = s.body[s.body_of[i]];
+      double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], s.state[i].x, normal);
+      if (depth > 0) energy += s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
+    }
+  return energy;
+}
+
 }  // namespace
 
 double contact_number(int dimension, double h, double dp, double exponent) {
@@ -36,6 +68,10 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
   double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;
   double const shock = Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
   return std::max(shock, 0.01 * std::min(a.bulk_modulus, b.bulk_modulus));
+}
+
+double contact_energy(System const& system) {
+  return system.dimension == 2 ? energy_of_contacts<2>(system) : energy_of_contacts<3>(system);
 }
 
 std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,

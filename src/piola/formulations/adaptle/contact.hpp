@@ -19,4 +19,8 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
 std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
                                        std::vector<std::array<double, 3>> const& mean_velocity);
 
+/// Potential energy of all contacts where particles are now [J]: bodies may start within reach of each other or of a
+/// rigid shape. The lists must be those of the present positions.
+double contact_energy(System const& system);
+
 }  // namespace piola::adaptle

@@ -171,12 +171,11 @@ struct MaterialSweep {
     if (!any(closing < 0.0)) return;
     Lanes other[N::values];
     load_records<N::values>(table.viscous, N::stride, table.neighbour + k, other);
-    Lanes const mu = approach_of(closing, dot(x, x), b.h);
+    auto const [mu, plain] = viscous_pair(b.alpha, b.beta, b.h, closing, dot(x, x), other[N::c] + viscous[N::c],
+                                          other[N::rho] + viscous[N::rho]);
     sum.mu = maximum(sum.mu, -1.0 * mu);
-    Lanes const pressure = viscous_pressure(b.alpha, b.beta, mu, 0.5 * (other[N::c] + viscous[N::c]),
-                                            0.5 * (other[N::rho] + viscous[N::rho])) *
-                           (0.5 * (other[N::viscosity] + viscous[N::viscosity]));
-    Lanes const here = 1.0 / viscous[N::J] + Lanes(0.0), there = 1.0 / other[N::J];
+    Lanes const pressure = plain * (0.5 * (other[N::viscosity] + viscous[N::viscosity]));
+    Lanes const here = Lanes(viscous[N::inverse_J]), there = other[N::inverse_J];
     Lanes power = Lanes(0.0);
     for (int p = 0; p < D; ++p) {
       Lanes own_part = Lanes(0.0), other_part = Lanes(0.0);

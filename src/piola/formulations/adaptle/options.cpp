@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -159,7 +160,7 @@ Settings read_settings(FormulationSpec const& spec) {
   s.corrected_material = word(spec, "correction") != "none";
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
-  s.artificial_stress = number(spec, "artificial_stress") > 0;
+  s.artificial_stress = number(spec, "artificial_stress") > 0 && s.viscosity != Viscosity::riemann;
   s.fallback = number(spec, "correction_limit");
   return s;
 }
@@ -184,6 +185,26 @@ void check_alike(Assembly const& assembly, Problems& problems) {
                      fmt::format("body.formulation.{} differs between the bodies \"{}\" and \"{}\" (allowed: the same "
                                  "for all bodies) - make them equal",
                                  name, assembly.particles.bodies[0].name, assembly.particles.bodies[b].name));
+  }
+}
+
+/// Bodies that are seen as one need one kernel and one viscosity: the forces of a pair would else not be opposite.
+void check_one_kernel(Assembly const& assembly, std::vector<BodyOptions> const& bodies, Problems& problems) {
+  if (assembly.contact.law != ContactRule::Law::none) return;
+  auto const& set = assembly.particles.bodies;
+  auto const width = [&](std::size_t b) {
+    auto const& s = set[b].spacing;
+    return bodies[b].smoothing_length * std::max({s[0], s[1], assembly.particles.dimension == 3 ? s[2] : 0.0});
+  };
+  for (std::size_t b = 1; b < bodies.size(); ++b) {
+    bool const alike = std::abs(width(b) - width(0)) < 1e-6 * width(0) && bodies[b].alpha == bodies[0].alpha &&
+                       bodies[b].beta == bodies[0].beta;
+    if (alike) continue;
+    problems.add({},
+                 fmt::format("contact.law = \"none\" makes one of the bodies \"{}\" and \"{}\", but their smoothing "
+                             "length in m, alpha or beta differ (allowed: equal ones) - make them equal or choose "
+                             "another law of contact",
+                             set[0].name, set[b].name));
   }
 }
 
@@ -233,6 +254,7 @@ Options read_options(Assembly const& assembly) {
     o.bodies.push_back(read_body(assembly.formulations[b], dimension));
     check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
   }
+  check_one_kernel(assembly, o.bodies, problems);
   problems.raise_if_any();
   return o;
 }

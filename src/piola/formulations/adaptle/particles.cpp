@@ -13,9 +13,10 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-int spatial_stride(int dimension, bool corrected) {
-  if (dimension == 2) return corrected ? SpatialRecord<2, true>::stride : SpatialRecord<2, false>::stride;
-  return corrected ? SpatialRecord<3, true>::stride : SpatialRecord<3, false>::stride;
+template <int D>
+int spatial_stride(Settings const& s) {
+  return s.corrected ? SpatialRecord<D, true>::stride(s.artificial_stress)
+                     : SpatialRecord<D, false>::stride(s.artificial_stress);
 }
 
 /// Adds the wall time of its life to a sum.
@@ -55,6 +56,10 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
     with_solid(b.material,
                [&](auto const& law) { dt = std::min(dt, options_.settings.cfl * b.h / law.p_wave_speed()); });
   books_.next_dt = dt;
+  spatial_.build(system_, *machine_);
+  spatial_.put_into(system_);
+  prepare_rigid(0, 0);
+  books_.contact_energy = contact_energy(system_);
 }
 
 void Particles::set_bodies(Assembly const& assembly) {
@@ -158,6 +163,10 @@ void Particles::allocate(Assembly const& assembly) {
   s.correction = correction_.data();
   s.sums = sums_.data();
   s.wish = wish_.data();
+  position_.resize(3 * n);
+  for (std::size_t i = 0; i < n; ++i) std::copy_n(state_[i].x, 3, &position_[3 * i]);
+  s.position = position_.data();
+  s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
   s.partial = partial_.data();
   s.failure = &failure_;
@@ -198,7 +207,7 @@ void Particles::set_descriptions(Assembly const& assembly) {
   int const stride = flat ? ViscousRecord<2>::stride : ViscousRecord<3>::stride;
   viscous_ = records(stride);
   double* filler = viscous_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
-  filler[flat ? ViscousRecord<2>::J : ViscousRecord<3>::J] = 1;
+  filler[flat ? ViscousRecord<2>::inverse_J : ViscousRecord<3>::inverse_J] = 1;
   filler[flat ? ViscousRecord<2>::rho : ViscousRecord<3>::rho] = 1;
   system_.material.motion = motion_.data();
   system_.material.force = force_.data();
@@ -206,6 +215,10 @@ void Particles::set_descriptions(Assembly const& assembly) {
 }
 
 void Particles::choose_material() {
+  eulerian_.resize(state_.size());
+  for (std::size_t i = 0; i < state_.size(); ++i) eulerian_[i] = state_[i].phi > 0 ? 1 : 0;
+  system_.eulerian = eulerian_.data();
+  system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
   lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
   if (!material_.built()) return;
   material_.choose(state_, options_.settings.interface_form == Interface::printed, deformation_);
@@ -323,7 +336,7 @@ void Particles::evaluate(double dt) {
   if (failure_.index != FailureSlot::none) return;
   {
     Stopwatch const watch(seconds_.lists);
-    spatial_.build(s, *machine_, spatial_stride(s.dimension, s.settings.corrected));
+    spatial_.build(s, *machine_);
     spatial_.put_into(s);
   }
   {

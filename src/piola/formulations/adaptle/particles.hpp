@@ -87,6 +87,8 @@ class Particles {
   std::vector<Correction> correction_;
   std::vector<Sums> sums_;
   std::vector<std::int8_t> wish_;
+  std::vector<double> position_;
+  std::vector<std::uint8_t> eulerian_;
   MaterialLists material_;
   SpatialLists spatial_;
   Memory motion_, force_, viscous_;

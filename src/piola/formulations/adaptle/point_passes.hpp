@@ -38,6 +38,7 @@ struct Predict {
   State* state;
   Rates const* rates;
   Half* half;
+  double* position;
   bool releases;   ///< failed particles bear no shear
   double* motion;  ///< records; null: nobody is total-Lagrangian
   FailureSlot* failure;
@@ -56,6 +57,7 @@ struct Predict {
     for (int c = 0; c < 3; ++c) {
       out.v[c] = s.v[c] + step * k.a[c];
       s.x[c] += step * s.v[c];
+      position[3 * i + c] = s.x[c];
       finite = finite && std::fabs(s.x[c]) < 1e30 && std::fabs(out.v[c]) < 1e30;
     }
     if (!finite) exec::record(failure, i, not_a_number);
@@ -124,7 +126,7 @@ struct HalfState {
 
   PIOLA_FN void write_spatial(Index i, State const& s, Half const& h, SymMat<D> const& stress) const {
     using R = SpatialRecord<D, Corrected>;
-    double* r = spatial.record + static_cast<std::ptrdiff_t>(spatial.sorted[i]) * R::stride;
+    double* r = spatial.record + static_cast<std::ptrdiff_t>(spatial.sorted[i]) * spatial.stride;
     for (int c = 0; c < D; ++c) {
       r[R::x + c] = s.x[c];
       r[R::v + c] = h.v[c];
@@ -133,8 +135,8 @@ struct HalfState {
     r[R::volume] = h.volume;
     r[R::rho] = rho;
     r[R::c] = body.c;
-    r[R::viscosity] = s.viscosity;
-    r[R::phi] = s.phi;
+    double const factor = s.viscosity > 1e-300 ? s.viscosity : 1e-300;
+    r[R::viscosity] = s.phi > 0 ? factor : -factor;
     double const weight = settings.interface_form == Interface::printed ? 1 : s.phi;
     for (int c = 0; c < SymMat<D>::size; ++c) r[R::M + c] = weight * h.volume * h.thickness * stress.c[c];
     if (settings.artificial_stress) {
@@ -142,7 +144,7 @@ struct HalfState {
       for (int c = 0; c < SymMat<D>::size; ++c) r[R::R + c] = R_a.c[c] / h.thickness;
     }
     if constexpr (Corrected)
-      for (int c = R::M + SymMat<D>::size; c < R::values; ++c) r[c] = 0;
+      for (int c = R::M + SymMat<D>::size; c < R::R; ++c) r[c] = 0;
   }
 
   PIOLA_FN void write_material(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
@@ -163,8 +165,8 @@ struct HalfState {
     // Eulerian particles of the printed interface have a deformation gradient only near total-Lagrangian ones.
     if (weight == 0 || (s.phi == 1 && !(deformation[i].gap >= 0))) {
       for (int c = R::A; c < R::volume; ++c) r[c] = 0;
-      for (int c = 0; c < V::J; ++c) v[c] = 0;
-      v[V::J] = v[V::rho] = 1;
+      for (int c = 0; c < V::inverse_J; ++c) v[c] = 0;
+      v[V::inverse_J] = v[V::rho] = 1;
       v[V::c] = body.c;
       v[V::viscosity] = s.viscosity;
       return;
@@ -191,7 +193,7 @@ struct HalfState {
         v[V::n + p] += FN(p, q) * k.G[q] / k.S;
       }
     }
-    v[V::J] = J / h.thickness;
+    v[V::inverse_J] = h.thickness / J;
     v[V::rho] = h.rho * h.thickness;
     v[V::c] = body.c;
     v[V::viscosity] = s.viscosity;

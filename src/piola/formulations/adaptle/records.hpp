@@ -11,16 +11,19 @@ namespace piola::adaptle::inline PIOLA_MACHINE {
 
 constexpr int whole(int values) { return (values + 7) / 8 * 8; }
 
-/// Of a particle in space at half time. M = phi V sigma (its weight in the stress forces), R the artificial stress of
-/// eq. (10). With the correction folded in (gt_ab = N g - n W, N = K/S, n = K G/S^2) M becomes M N, and m = M n.
+/// Of a particle in space at half time. M = phi V sigma (its weight in the stress forces). With the correction folded
+/// in (gt_ab = N g - n W, N = K/S, n = K G/S^2) M becomes M N, and m = M n. The viscosity is its factor, with a
+/// negative sign for total-Lagrangian particles. R, the artificial stress of eq. (10), comes last and only where there
+/// is one: in three dimensions the rest is just two cache lines.
 template <int D, bool Corrected>
 struct SpatialRecord {
   static constexpr int symmetric = D * (D + 1) / 2;
   static constexpr int x = 0, v = D, volume = 2 * D, rho = 2 * D + 1, c = 2 * D + 2, viscosity = 2 * D + 3,
-                       phi = 2 * D + 4, R = 2 * D + 5, M = R + symmetric;
+                       M = 2 * D + 4;
   static constexpr int m = M + D * D, N = m + D, n = N + D * D;  ///< corrected only
-  static constexpr int values = Corrected ? n + D : M + symmetric;
-  static constexpr int stride = whole(values);
+  static constexpr int R = Corrected ? n + D : M + symmetric, full = R + symmetric;
+  static constexpr int values(bool stressed) { return stressed ? full : R; }
+  static constexpr int stride(bool stressed) { return whole(values(stressed)); }
 };
 
 /// For the sums of the deformation gradient: reference position, displacement, velocity, reference volume.
@@ -39,8 +42,8 @@ struct ForceRecord {
 /// For viscosity in the material description: N = F^-T K/S, n = F^-T K G/S^2.
 template <int D>
 struct ViscousRecord {
-  static constexpr int N = 0, n = D * D, J = n + D, rho = J + 1, c = rho + 1, viscosity = c + 1, values = viscosity + 1,
-                       stride = whole(values);
+  static constexpr int N = 0, n = D * D, inverse_J = n + D, rho = inverse_J + 1, c = rho + 1, viscosity = c + 1,
+                       values = viscosity + 1, stride = whole(values);
 };
 
 /// A kernel of one smoothing length.
@@ -54,7 +57,7 @@ struct Kernel {
   /// s = -W'(r)/r, so that grad_a W_ab = s (x_b - x_a), and W.
   template <class T>
   PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
-    T const inverse_r = 1.0 / square_root(maximum(square, T(1e-300)));
+    T const inverse_r = inverse_square_root(maximum(square, T(1e-300)));
     T const q = square * inverse_r * inverse_h;
     s = (-norm * inverse_h) * CubicSpline::dw(q) * inverse_r;
     W = norm * CubicSpline::w(q);

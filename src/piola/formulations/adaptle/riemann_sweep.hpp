@@ -26,15 +26,16 @@ struct RiemannSweep {
   static constexpr int F = 0, L = D, heat = D + D * D, count = heat + 1;
 
   PIOLA_FN void visit(Index number) const {
-    SpatialTarget<R> const target(table, number);
+    SpatialTarget const target(table, number);
     double const* own = target.own;
     BodyConstants const& b = body[body_of[target.slot]];
     Kernel<D> const kernel(b.h);
     Lanes sum[count], mu = Lanes(0.0);
     for (auto& a : sum) a = Lanes(0.0);
     for (Index k = 0; k < target.length; k += lane_count) {
-      Lanes f[R::values];
-      load_records<R::values>(table.record, R::stride, target.list + k, f);
+      constexpr int values = R::values(false);
+      Lanes f[values];
+      load_records<values>(table.record, table.stride, target.list + k, f);
       add(own, f, kernel, b, sum, mu);
     }
     double a[whole(count)];
@@ -51,7 +52,7 @@ struct RiemannSweep {
   PIOLA_FN void add(double const* own, Lanes const* f, Kernel<D> const& kernel, BodyConstants const& b, Lanes* sum,
                     Lanes& mu) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
-    Lanes const square = dot(r, r), inverse_r = 1.0 / square_root(maximum(square, Lanes(1e-300)));
+    Lanes const square = dot(r, r), inverse_r = inverse_square_root(maximum(square, Lanes(1e-300)));
     Lanes s, W;
     kernel.evaluate(square, s, W);
     Lanes const volume = maximum(f[R::volume], Lanes(1e-300));

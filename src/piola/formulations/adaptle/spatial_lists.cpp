@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include <algorithm>
+#include <numeric>
 
 namespace piola::adaptle {
 namespace {
@@ -31,7 +32,7 @@ void SpatialLists::mark_cells(System const& s) {
     Index const i = grid_.slots()[k];
     std::size_t const cell = at(grid_.cells()[k]);
     group_[at(k)] = s.body_of[i];
-    if (s.state[i].phi > 0) cell_has_eulerian_[cell] = 1;
+    if (s.eulerian[i] != 0) cell_has_eulerian_[cell] = 1;
     cell_low_[cell] = std::min(cell_low_[cell], s.body_of[i]);
     cell_high_[cell] = std::max(cell_high_[cell], s.body_of[i]);
   }
@@ -66,24 +67,30 @@ void SpatialLists::choose_targets(System const& s) {
   for (Index k = 0; k < s.particles; ++k) near_[at(grid_.slots()[k])] = cell_near_[at(grid_.cells()[k])];
 }
 
-void SpatialLists::build(System const& s, Machine const& machine, int stride) {
-  eulerian_ = std::any_of(s.state, s.state + s.particles, [](State const& p) { return p.phi > 0; });
+void SpatialLists::build(System const& s, Machine const& machine) {
+  eulerian_ = s.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
   bool const touching = s.contact.law > 0 && s.bodies > 1;
   if (!eulerian_ && !touching) return;
   widest_ = 0;
   for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
-  grid_.sort(s.state->x, sizeof(State) / sizeof(double), s.particles, s.dimension, widest_);
-  mark_cells(s);
-  choose_targets(s);
+  grid_.sort(s.position, 3, s.particles, s.dimension, widest_);
+  everyone_ = s.eulerians == s.particles && !touching;
+  if (everyone_) {
+    spatial_.target.resize(at(s.particles));
+    std::iota(spatial_.target.begin(), spatial_.target.end(), 0);
+  } else {
+    mark_cells(s);
+    choose_targets(s);
+  }
   search(s, machine, spatial_, false);
   if (touching) search(s, machine, contact_, true);
   if (!eulerian_) return;
   if (record_room_ < s.particles + 1) {
     record_room_ = s.particles + 1;
-    records_ = Memory(static_cast<std::size_t>(record_room_) * static_cast<std::size_t>(stride));
-    double* filler = records_.data() + static_cast<std::ptrdiff_t>(s.particles) * stride;
+    records_ = Memory(static_cast<std::size_t>(record_room_) * static_cast<std::size_t>(s.spatial.stride));
+    double* filler = records_.data() + static_cast<std::ptrdiff_t>(s.particles) * s.spatial.stride;
     for (int c = 0; c < s.dimension; ++c) filler[c] = far_away;
     filler[2 * s.dimension + 1] = 1;  // density: it divides
   }
@@ -138,7 +145,7 @@ void SpatialLists::put_into(System& s) {
   s.spatial.capacity = spatial_.capacity;
   s.spatial.list = spatial_.entry.data();
   s.spatial.length = spatial_.length.data();
-  s.spatial.near = near_.data();
+  s.spatial.near = everyone_ ? nullptr : near_.data();
   s.spatial.record = eulerian_ ? records_.data() : nullptr;
   s.contact.targets = static_cast<Index>(contact_.target.size());
   s.contact.target = contact_.target.data();

@@ -10,8 +10,7 @@ namespace piola::adaptle {
 /// total-Lagrangian and far from Eulerian ones and from other bodies get none.
 class SpatialLists {
  public:
-  /// lanes: of the machine; stride: of spatial records.
-  void build(System const& system, Machine const& machine, int stride);
+  void build(System const& system, Machine const& machine);
   void put_into(System& system);
   std::size_t bytes() const;
   Index longest() const { return longest_; }
@@ -37,6 +36,7 @@ class SpatialLists {
   Index record_room_ = 0, longest_ = 0;
   double widest_ = 0;
   bool eulerian_ = false, overflow_ = false;
+  bool everyone_ = false;  ///< every particle is a target
 };
 
 }  // namespace piola::adaptle

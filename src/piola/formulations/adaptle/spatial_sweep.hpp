@@ -6,7 +6,6 @@
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// One target of the spatial table.
-template <class Record>
 struct SpatialTarget {
   Index slot;
   double const* own;
@@ -14,7 +13,7 @@ struct SpatialTarget {
   Index length;
   PIOLA_FN SpatialTarget(SpatialTable const& t, Index number)
       : slot(t.slot[t.target[number]]),
-        own(t.record + static_cast<std::ptrdiff_t>(t.target[number]) * Record::stride),
+        own(t.record + static_cast<std::ptrdiff_t>(t.target[number]) * t.stride),
         list(t.list + static_cast<std::ptrdiff_t>(number) * t.capacity),
         length(t.length[number]) {}
 };
@@ -27,7 +26,7 @@ struct SpatialTarget {
 /// Heat is half the power of viscosity and artificial stress on the relative velocity; that of stress follows from L.
 /// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the printed interface only
 /// Eulerian targets keep stress and viscosity.
-template <int D, bool Corrected>
+template <int D, bool Corrected, bool Stressed>
 struct SpatialSweep {
   using R = SpatialRecord<D, Corrected>;
   SpatialTable table;
@@ -49,7 +48,7 @@ struct SpatialSweep {
   };
 
   PIOLA_FN void visit(Index number) const {
-    SpatialTarget<R> const target(table, number);
+    SpatialTarget const target(table, number);
     BodyConstants const& b = body[body_of[target.slot]];
     Kernel<D> const kernel(b.h);
     double const inverse_reference = 1 / kernel(b.spacing);
@@ -57,8 +56,9 @@ struct SpatialSweep {
     for (int c = 0; c < Accumulated::count; ++c) sum.a[c] = Lanes(0.0);
     sum.mu = Lanes(0.0);
     for (Index k = 0; k < target.length; k += lane_count) {
-      Lanes f[R::values];
-      load_records<R::values>(table.record, R::stride, target.list + k, f);
+      constexpr int values = R::values(Stressed);
+      Lanes f[values];
+      load_records<values>(table.record, table.stride, target.list + k, f);
       add_pairs(target.own, f, b, kernel, inverse_reference, sum);
     }
     store(target, sum);
@@ -82,19 +82,19 @@ struct SpatialSweep {
       sum.a[Accumulated::W] += VW;
       for (int i = 0; i < D; ++i) sum.a[Accumulated::LW + i] += VW * w[i];
     }
-    // One description per pair: a total-Lagrangian pair has its viscosity from material sums.
-    Lanes const eulerian = own[R::phi] > 0 ? Lanes(1.0) : select(f[R::phi] > 0.0, Lanes(1.0), Lanes(0.0));
-    Lanes const closing = dot(w, r);
-    Lanes const mu = approach_of(closing, square, b.h);
+    auto const [mu, plain] =
+        viscous_pair(b.alpha, b.beta, b.h, dot(w, r), square, f[R::c] + own[R::c], f[R::rho] + own[R::rho]);
     sum.mu = maximum(sum.mu, select(square < 4.0 * b.h * b.h, -1.0 * mu, Lanes(0.0)));
-    Lanes const factor = 0.5 * (f[R::viscosity] + own[R::viscosity]);
-    Lanes pressure =
-        viscous_pressure(b.alpha, b.beta, mu, 0.5 * (f[R::c] + own[R::c]), 0.5 * (f[R::rho] + own[R::rho]));
-    pressure = pressure * factor *
-               (settings.interface_form == Interface::printed ? Lanes(own[R::phi] > 0 ? 1.0 : 0.0) : eulerian);
+    // One description per pair: a total-Lagrangian pair has its viscosity from material sums.
+    bool const here = own[R::viscosity] > 0;
+    Lanes factor = 0.5 * (maximum(f[R::viscosity], -1.0 * f[R::viscosity]) + std::fabs(own[R::viscosity]));
+    if (!here) factor = select(f[R::viscosity] > 0.0, factor, Lanes(0.0));
+    if (!here && settings.interface_form == Interface::printed) factor = Lanes(0.0);
+    Lanes const pressure = plain * factor;
     Lanes stress_weight = Lanes(0.0);
-    if (settings.artificial_stress) {
-      stress_weight = whole_power(W * inverse_reference, settings.exponent) * mixed_weight(own[R::phi], f[R::phi]);
+    if constexpr (Stressed) {
+      stress_weight =
+          whole_power(W * inverse_reference, settings.exponent) * mixed_weight(own[R::viscosity], f[R::viscosity]);
     }
     add_extra(own, f, r, w, s, W, pressure, stress_weight, sum);
   }
@@ -138,7 +138,7 @@ struct SpatialSweep {
     Lanes power = Lanes(0.0);
     for (int i = 0; i < D; ++i) {
       Lanes extra = (0.5 * pressure) * (gt_ba[i] - gt_ab[i]);
-      if (settings.artificial_stress) {
+      if constexpr (Stressed) {
         Lanes bracket = Lanes(0.0);
         for (int j = 0; j < D; ++j)
           bracket += f[R::R + SymMat<D>::at(i, j)] * gt_ba[j] - own[R::R + SymMat<D>::at(i, j)] * gt_ab[j];
@@ -151,13 +151,13 @@ struct SpatialSweep {
     sum.a[Accumulated::heat] += 0.5 * power;
   }
 
-  PIOLA_FN void store(SpatialTarget<R> const& target, Accumulated const& sum) const {
+  PIOLA_FN void store(SpatialTarget const& target, Accumulated const& sum) const {
     double a[whole(Accumulated::count)];
     total(sum.a, a);
     double const* own = target.own;
     Sums& out = sums[target.slot];
     double const mass = own[R::volume] * own[R::rho];
-    double const stress = settings.interface_form == Interface::printed && !(own[R::phi] > 0) ? 0 : 1;
+    double const stress = settings.interface_form == Interface::printed && !(own[R::viscosity] > 0) ? 0 : 1;
     for (int i = 0; i < D; ++i) {
       double own_force = 0;
       for (int j = 0; j < D; ++j)
@@ -197,14 +197,14 @@ struct CorrectSpatial {
   static constexpr int width = 1 + 2 * D + D * D;
 
   PIOLA_FN void visit(Index number) const {
-    SpatialTarget<R> const target(table, number);
+    SpatialTarget const target(table, number);
     BodyConstants const& b = body[body_of[target.slot]];
     Kernel<D> const kernel(b.h);
     Lanes sum[width];
     for (auto& a : sum) a = Lanes(0.0);
     for (Index k = 0; k < target.length; k += lane_count) {
       Lanes f[R::volume + 1];
-      load_records<R::volume + 1>(table.record, R::stride, target.list + k, f);
+      load_records<R::volume + 1>(table.record, table.stride, target.list + k, f);
       Vec<D, Lanes> const r = difference<D>(f, R::x, target.own);
       Lanes s, W;
       kernel.evaluate(dot(r, r), s, W);
@@ -238,11 +238,10 @@ struct CorrectSpatial {
     if (admissible(target, trial, kernel, b.h)) out = trial;
   }
 
-  PIOLA_FN bool admissible(SpatialTarget<R> const& target, Correction const& k, Kernel<D> const& kernel,
-                           double h) const {
+  PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D> const& kernel, double h) const {
     int neighbours = 0;
     for (Index n = 0; n < target.length; ++n) {
-      double const* other = table.record + static_cast<std::ptrdiff_t>(target.list[n]) * R::stride;
+      double const* other = table.record + static_cast<std::ptrdiff_t>(target.list[n]) * table.stride;
       Vec<D> r, plain, corrected;
       for (int i = 0; i < D; ++i) r[i] = other[R::x + i] - target.own[R::x + i];
       double const square = dot(r, r);
@@ -276,7 +275,7 @@ struct FoldCorrection {
   PIOLA_FN void operator()(Range block, Index) const {
     for (Index t = block.first; t < block.last; ++t) {
       Index const i = table.target[t];
-      double* own = table.record + static_cast<std::ptrdiff_t>(i) * R::stride;
+      double* own = table.record + static_cast<std::ptrdiff_t>(i) * table.stride;
       Correction const& k = correction[table.slot[i]];
       double M[SymMat<D>::size], N[D * D], n[D];
       for (int c = 0; c < SymMat<D>::size; ++c) M[c] = own[R::M + c];

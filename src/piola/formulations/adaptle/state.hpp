@@ -124,6 +124,7 @@ struct SpatialTable {
   Index const* length = nullptr;       ///< a multiple of the lanes
   std::uint8_t const* near = nullptr;  ///< per slot: whether it takes part; null: all do
   double* record = nullptr;
+  int stride = 0;  ///< of records
 };
 
 struct MaterialTable {
@@ -183,6 +184,9 @@ struct System {
   Deformation* deformation = nullptr;
   Correction* correction = nullptr;  ///< spatial
   Sums* sums = nullptr;
+  double* position = nullptr;              ///< of half time, 3 per slot: what the cell grid sorts
+  std::uint8_t const* eulerian = nullptr;  ///< per slot: phi > 0
+  Index eulerians = 0;                     ///< how many are
   SpatialTable spatial;
   MaterialTable material;
   ContactTable contact;

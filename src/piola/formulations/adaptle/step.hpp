@@ -26,9 +26,9 @@ struct Step {
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b),
-                             Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
-                                                                     s.body[b].releases, s.material.motion, s.failure});
+        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{
+                                                law, dt, s.reference, s.state, s.rates, s.half, s.position,
+                                                s.body[b].releases, s.material.motion, s.failure});
       });
   }
 
@@ -59,9 +59,9 @@ struct Step {
     if (s.settings.viscosity == Viscosity::riemann)
       exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of, s.sums});
     else if (s.settings.corrected)
-      exec::for_each_block(targets, SpatialSweep<D, true>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+      sweep_space<true>(targets);
     else
-      exec::for_each_block(targets, SpatialSweep<D, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+      sweep_space<false>(targets);
     exec::for_each_block(Range{0, s.material.targets}, MaterialSweep<D>{s.material, s.settings, s.body, s.body_of,
                                                                         s.reference, s.state, s.deformation, s.sums});
     exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
@@ -86,6 +86,15 @@ struct Step {
   }
 
  private:
+  template <bool Corrected>
+  void sweep_space(Range targets) const {
+    if (s.settings.artificial_stress)
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, true>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+    else
+      exec::for_each_block(targets,
+                           SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+  }
+
   /// In the order of blocks: the same bits for any number of threads.
   void add_blocks(Index blocks, Measures& m) const {
     using B = BlockMeasures;

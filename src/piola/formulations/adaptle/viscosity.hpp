@@ -6,16 +6,20 @@
 /// Artificial viscosity and artificial stress of one pair.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// mu_ab of a pair, zero where it does not approach: h v_ba.r / (r.r + 0.01 h^2)   (7)
+/// What the viscosity of a pair needs.
 template <class T>
-PIOLA_FN T approach_of(T const& closing, T const& square, double h) {
-  return h * minimum(closing, T(0.0)) / (square + 0.01 * h * h);
-}
+struct ViscousPair {
+  T mu;        ///< (7): h v_ba.r / (r.r + 0.01 h^2) where the pair approaches, else zero [m/s]
+  T pressure;  ///< (6): Pi = (-alpha c mu + beta mu^2) / rho with means of the pair, in p/rho^2 [m5/(kg s2)]
+};
 
-/// Pi_ab = (-alpha c mu + beta mu^2) / rho with means of the pair, in p/rho^2 [m5/(kg s2)]   (6)
+/// closing: (v_b - v_a).r; c: sum of both speeds of sound, rho: sum of both densities. One division for both quotients.
 template <class T>
-PIOLA_FN T viscous_pressure(double alpha, double beta, T const& mu, T const& c, T const& rho) {
-  return (beta * mu - alpha * c) * mu / rho;
+PIOLA_FN ViscousPair<T> viscous_pair(double alpha, double beta, double h, T const& closing, T const& square, T const& c,
+                                     T const& rho) {
+  T const distance = square + 0.01 * h * h, share = 1.0 / (distance * rho);
+  T const mu = h * minimum(closing, T(0.0)) * (rho * share);
+  return {mu, (beta * mu - (0.5 * alpha) * c) * mu * (2.0 * (distance * share))};
 }
 
 /// R of Gray, Monaghan and Swift: -epsilon s_k / rho^2 along each principal direction in tension, rotated back. In two
