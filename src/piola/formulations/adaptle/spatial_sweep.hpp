@@ -58,7 +58,7 @@ struct SpatialSweep {
     for (Index k = 0; k < target.length; k += lane_count) {
       constexpr int values = R::values(Stressed);
       Lanes f[values];
-      load_records<values>(table.record, table.stride, target.list + k, f);
+      load_records<values>(table.record, R::stride(Stressed), target.list + k, f);
       add_pairs(target.own, f, b, kernel, inverse_reference, sum);
     }
     store(target, sum);
@@ -71,11 +71,12 @@ struct SpatialSweep {
     Lanes s, W;
     kernel.evaluate(square, s, W);
     Lanes const volume = f[R::volume], Vs = volume * s;
+    bool const bears = bears_stress(own);
     for (int i = 0; i < D; ++i) {
       sum.a[Accumulated::G + i] += Vs * r[i];
       Lanes const weighted = Vs * w[i];
       for (int j = 0; j < D; ++j) sum.a[Accumulated::L + i * D + j] += weighted * r[j];
-      sum.a[Accumulated::Q + i] += reaction(f, r, s, W, i);
+      if (bears) sum.a[Accumulated::Q + i] += reaction(f, r, s, W, i);
     }
     if constexpr (Corrected) {
       Lanes const VW = volume * W;
@@ -84,7 +85,7 @@ struct SpatialSweep {
     }
     auto const [mu, plain] =
         viscous_pair(b.alpha, b.beta, b.h, dot(w, r), square, f[R::c] + own[R::c], f[R::rho] + own[R::rho]);
-    sum.mu = maximum(sum.mu, select(square < 4.0 * b.h * b.h, -1.0 * mu, Lanes(0.0)));
+    sum.mu = minimum(sum.mu, mu);
     // One description per pair: a total-Lagrangian pair has its viscosity from material sums.
     bool const here = own[R::viscosity] > 0;
     Lanes factor = 0.5 * (maximum(f[R::viscosity], -1.0 * f[R::viscosity]) + std::fabs(own[R::viscosity]));
@@ -96,7 +97,10 @@ struct SpatialSweep {
       stress_weight =
           whole_power(W * inverse_reference, settings.exponent) * mixed_weight(own[R::viscosity], f[R::viscosity]);
     }
-    add_extra(own, f, r, w, s, W, pressure, stress_weight, sum);
+    if constexpr (Corrected)
+      add_extra(own, f, r, w, s, W, pressure, stress_weight, sum);
+    else
+      add_plain_extra(own, f, r, w, s, pressure, stress_weight, sum);
   }
 
   /// Component i of M_b g + m_b W: minus t_ba over V_a.
@@ -108,11 +112,40 @@ struct SpatialSweep {
     return sum;
   }
 
+  /// In the printed interface total-Lagrangian particles have their stress forces from material sums alone.
+  PIOLA_FN bool bears_stress(double const* own) const {
+    return settings.interface_form == Interface::owner || own[R::viscosity] > 0;
+  }
+
   PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {
     Lanes const here(own > 0 ? 1.0 : 0.0), there = select(other > 0.0, Lanes(1.0), Lanes(0.0));
     if (settings.mixed_stress == MixedStress::both) return maximum(here, there);
     if (settings.mixed_stress == MixedStress::eulerian_only) return here;
     return here * there;
+  }
+
+  /// The same with plain gradients, gt_ab = -gt_ba = g.
+  PIOLA_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r, Vec<D, Lanes> const& w,
+                                Lanes const& s, Lanes const& pressure, Lanes const& stress_weight,
+                                Accumulated& sum) const {
+    // Over V_a, as the sum Q: it shares its place.
+    Lanes const weight = own[R::rho] * (f[R::volume] * f[R::rho] * s);
+    Lanes power = Lanes(0.0);
+    for (int i = 0; i < D; ++i) {
+      Lanes extra = -1.0 * pressure * r[i];
+      if constexpr (Stressed) {
+        Lanes bracket = Lanes(0.0);
+        for (int j = 0; j < D; ++j) {
+          int const c = R::R + SymMat<D>::at(i, j);
+          bracket += (f[c] + own[c]) * r[j];
+        }
+        extra += stress_weight * bracket;
+      }
+      extra = weight * extra;
+      sum.a[Accumulated::Q + i] += extra;
+      power += extra * w[i];
+    }
+    sum.a[Accumulated::heat] += power;
   }
 
   /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity.
@@ -148,7 +181,7 @@ struct SpatialSweep {
       sum.a[Accumulated::T + i] += extra;
       power += extra * w[i];
     }
-    sum.a[Accumulated::heat] += 0.5 * power;
+    sum.a[Accumulated::heat] += power;
   }
 
   PIOLA_FN void store(SpatialTarget const& target, Accumulated const& sum) const {
@@ -157,13 +190,14 @@ struct SpatialSweep {
     double const* own = target.own;
     Sums& out = sums[target.slot];
     double const mass = own[R::volume] * own[R::rho];
-    double const stress = settings.interface_form == Interface::printed && !(own[R::viscosity] > 0) ? 0 : 1;
+    double const stress = bears_stress(own) ? 1 : 0;
     for (int i = 0; i < D; ++i) {
       double own_force = 0;
       for (int j = 0; j < D; ++j)
         own_force += own[R::M + (Corrected ? i * D + j : SymMat<D>::at(i, j))] * a[Accumulated::G + j];
       if constexpr (Corrected) own_force -= own[R::m + i] * a[Accumulated::W];
-      out.force[i] += stress * (own_force + own[R::volume] * a[Accumulated::Q + i]) + mass * a[Accumulated::T + i];
+      out.force[i] += stress * own_force + own[R::volume] * a[Accumulated::Q + i];
+      if constexpr (Corrected) out.force[i] += mass * a[Accumulated::T + i];
       for (int j = 0; j < D; ++j) {
         double L = a[Accumulated::L + i * D + j];
         if constexpr (Corrected) {
@@ -173,8 +207,8 @@ struct SpatialSweep {
         out.L[3 * i + j] = L;
       }
     }
-    out.heat += mass * a[Accumulated::heat];
-    out.compression = largest_of(sum.mu);
+    out.heat += 0.5 * (Corrected ? mass : own[R::volume]) * a[Accumulated::heat];
+    out.compression = largest_of(-1.0 * sum.mu);
   }
 };
 
