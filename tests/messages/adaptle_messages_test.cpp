@@ -72,7 +72,7 @@ TEST(AdaptleMessages, BodiesSeenAsOneNeedOneKernel) {
   EXPECT_EQ(refusal(a), "");
   a.formulations[1].numbers["smoothing_length"] = 1.2;
   EXPECT_EQ(refusal(a),
-            "contact.law = \"none\" makes one of the bodies \"body\" and \"second\", but their smoothing length in m, "
+            "contact.law = \"none\" makes one of the bodies \"box\" and \"second\", but their smoothing length in m, "
             "alpha or beta differ (allowed: equal ones) - make them equal or choose another law of contact");
 }
 

@@ -136,12 +136,8 @@ TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
             "density, momentum_x, momentum_y, momentum_z, jacobian and 42 more) - did you mean \"pressure\"?");
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
-      "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: time, step, dt, kinetic_energy, strain_energy, "
-      "total_energy, stabilisation_loss, external_work, linear_momentum_x, linear_momentum_y, linear_momentum_z, "
-      "angular_momentum_x, angular_momentum_y, angular_momentum_z, jacobian_min, jacobian_max, pressure_min, "
-      "pressure_max, pressure_oscillation, projection_loss, volume_mismatch_rms, volume_mismatch_max, "
-      "tip.displacement_x, tip.pressure) - did you mean "
-      "\"tip.pressure\"?");
+      "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "
+      "pressure_max, step, strain_energy, dt and 18 more) - did you mean \"tip.pressure\"?");
   EXPECT_EQ(message_of(sample_case() +
                        "[[quantity]]\nname = \"q\"\ncolumn = \"tip.pressure\"\nunit = \"m\"\nthreshold = 3\n"),
             "case.toml:26:8: quantity.unit is \"m\" (allowed: a unit of a pressure or modulus such as Pa)\n"

@@ -12,45 +12,49 @@ using test::sample_with;
 constexpr std::string_view rubber =
     R"(material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 })";
 
-/// The sample case with another material; its formulation uses none of the solids.
+/// The sample case with another material.
 std::string message_with(std::string const& keys) {
   return message_of(sample_with(rubber, "material = { " + keys + " }"));
 }
-std::string not_for_jst(std::string const& law) {
-  return "case.toml:10:12: the formulation \"jst_sph\" cannot use the law \"" + law +
-         "\" (allowed: linear_elastic, neo_hookean, mooney_rivlin, saint_venant_kirchhoff, compressible_neo_hookean) - "
-         "change body.material.law";
+/// The same under Taylor-SPH, which takes none of the solids.
+std::string taylor_message_with(std::string const& keys) {
+  std::string const text = sample_with(rubber, "material = { " + keys + " }");
+  return message_of(
+      test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", R"(name = "taylor_sph")"));
+}
+std::string not_for_taylor(std::string const& law) {
+  return "case.toml:10:12: the formulation \"taylor_sph\" cannot use the law \"" + law +
+         "\" (allowed: linear_elastic) - change body.material.law";
 }
 
 TEST(MaterialMessages, NumbersOfAnotherWordSayWhichWordTheyNeed) {
   EXPECT_EQ(
       message_with("law = \"elastic\", eos = \"polynomial\", density = 1, youngs_modulus = 1, poissons_ratio = 0, "
                    "hugoniot_s1 = 1, bulk_sound_speed = 2, damage = \"none\""),
-      not_for_jst("elastic") +
-          "\ncase.toml:10:118: body.material.hugoniot_s1 does not count here (it needs eos = \"mie_grueneisen\") - "
-          "remove it or set eos = \"mie_grueneisen\"\n"
-          "case.toml:10:140: body.material.bulk_sound_speed does not count here (it needs eos = \"stiffened_gas\" or "
-          "\"mie_grueneisen\") - remove it or set eos = \"stiffened_gas\" or \"mie_grueneisen\"\n"
-          "case.toml:10:143: \"damage\" is not a key of body.material (allowed: law, name, eos, density, "
-          "youngs_modulus, poissons_ratio, bulk_sound_speed, hugoniot_s1, c1, c2, c3, c4, c5, c6, spall_pressure) - "
-          "choose one of these");
+      "case.toml:10:118: body.material.hugoniot_s1 does not count here (it needs eos = \"mie_grueneisen\") - "
+      "remove it or set eos = \"mie_grueneisen\"\n"
+      "case.toml:10:140: body.material.bulk_sound_speed does not count here (it needs eos = \"stiffened_gas\" or "
+      "\"mie_grueneisen\") - remove it or set eos = \"stiffened_gas\" or \"mie_grueneisen\"\n"
+      "case.toml:10:143: \"damage\" is not a key of body.material (allowed: law, name, eos, density, "
+      "youngs_modulus, poissons_ratio, bulk_sound_speed, hugoniot_s1, c1, c2, c3, c4, c5, c6, spall_pressure) - "
+      "choose one of these");
 }
 
 TEST(MaterialMessages, AWordBringsTheNumbersThatItNeeds) {
-  EXPECT_EQ(
-      message_with("law = \"perfectly_plastic\", eos = \"mie_grueneisen\", damage = \"jonson_cook\", density = 1, "
-                   "youngs_modulus = 1, poissons_ratio = 0, spall_pressure = -1, d1 = 1"),
-      "case.toml:10:12: body.material needs \"yield_stress\" (von Mises stress at yield, in Pa, above 0) - add "
-      "yield_stress = \"... Pa\"\n"
-      "case.toml:10:12: body.material needs \"grueneisen_gamma\" (Grueneisen's gamma0 at rest, at least 0) - add "
-      "grueneisen_gamma = ...\n"
-      "case.toml:10:12: body.material needs \"hugoniot_s1\" (s1, slope of shock speed over particle speed, at "
-      "least 0) - add hugoniot_s1 = ...\n" +
-          not_for_jst("perfectly_plastic") +
-          "\n"
-          "case.toml:10:74: body.material.damage is \"jonson_cook\" (allowed: none, johnson_cook) - did you mean "
-          "\"johnson_cook\"?\n"
-          "case.toml:10:159: body.material.spall_pressure is -1 Pa (allowed: above 0)");
+  EXPECT_EQ(taylor_message_with(
+                "law = \"perfectly_plastic\", eos = \"mie_grueneisen\", damage = \"jonson_cook\", density = 1, "
+                "youngs_modulus = 1, poissons_ratio = 0, spall_pressure = -1, d1 = 1"),
+            "case.toml:10:12: body.material needs \"yield_stress\" (von Mises stress at yield, in Pa, above 0) - add "
+            "yield_stress = \"... Pa\"\n"
+            "case.toml:10:12: body.material needs \"grueneisen_gamma\" (Grueneisen's gamma0 at rest, at least 0) - add "
+            "grueneisen_gamma = ...\n"
+            "case.toml:10:12: body.material needs \"hugoniot_s1\" (s1, slope of shock speed over particle speed, at "
+            "least 0) - add hugoniot_s1 = ...\n" +
+                not_for_taylor("perfectly_plastic") +
+                "\n"
+                "case.toml:10:74: body.material.damage is \"jonson_cook\" (allowed: none, johnson_cook) - did you mean "
+                "\"johnson_cook\"?\n"
+                "case.toml:10:159: body.material.spall_pressure is -1 Pa (allowed: above 0)");
 }
 
 TEST(MaterialMessages, NamesOfTheLibraryAreKnown) {
@@ -59,8 +63,8 @@ TEST(MaterialMessages, NamesOfTheLibraryAreKnown) {
             "aluminium_adaptle_3_3, copper_taylor_bar, copper_ofhc, iron_armco, steel_4340, aluminium_2024_t351, "
             "aluminium_6061_t6, tungsten_alloy, beryllium) - did you mean \"steel_4340\"?");
   EXPECT_EQ(
-      message_with("name = \"steel_4340\", law = \"elastic\", c1 = 4000, density = 7800"),
-      not_for_jst("johnson_cook") +
+      taylor_message_with("name = \"steel_4340\", law = \"elastic\", c1 = 4000, density = 7800"),
+      not_for_taylor("johnson_cook") +
           "\ncase.toml:10:41: body.material.law is that of the material of the library when \"name\" is given - remove "
           "it\n"
           "case.toml:10:57: body.material.c1 does not count here (it needs eos = \"polynomial\") - remove it or set "

@@ -30,11 +30,13 @@ Memory::Memory(std::size_t doubles) {
   bool const large = payload >= huge_page;
   std::size_t const offset = next_offset();
   std::size_t const alignment = large ? huge_page : cache_line;
-  bytes_ = (payload + offset + alignment - 1) / alignment * alignment;
-  base_ = std::aligned_alloc(alignment, bytes_ == 0 ? alignment : bytes_);
+  std::size_t const size = (payload + offset + alignment - 1) / alignment * alignment;
+  // Nothing touches the small pages before the data, so that they take no memory; a huge page is taken as a whole.
+  bytes_ = large ? size : payload;
+  base_ = std::aligned_alloc(alignment, size == 0 ? alignment : size);
   if (base_ == nullptr) throw std::bad_alloc{};
 #if defined(__linux__)
-  if (large) (void)madvise(base_, bytes_, MADV_HUGEPAGE);
+  if (large) (void)madvise(base_, size, MADV_HUGEPAGE);
 #endif
   data_ = reinterpret_cast<double*>(static_cast<char*>(base_) + offset);
   std::memset(data_, 0, payload);

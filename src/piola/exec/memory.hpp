@@ -21,7 +21,7 @@ class Memory {
 
   double* data() { return data_; }
   double const* data() const { return data_; }
-  std::size_t bytes() const { return bytes_; }
+  std::size_t bytes() const { return bytes_; }  ///< taken; huge pages as a whole
 
  private:
   void* base_ = nullptr;

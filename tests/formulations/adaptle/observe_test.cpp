@@ -154,7 +154,8 @@ TEST(AdaptleOptions, HaveTheDefaultsOfTheManual) {
   EXPECT_EQ(o.settings.interface_form, adaptle::Interface::owner);
   EXPECT_EQ(o.settings.mixed_stress, adaptle::MixedStress::both);
   EXPECT_FALSE(o.settings.corrected);
-  EXPECT_EQ(o.settings.fallback, 90);
+  EXPECT_EQ(o.settings.fallback, 7.5);
+  EXPECT_TRUE(o.settings.artificial_stress);
   EXPECT_EQ(o.settings.cfl, 0.3);
   choose(a, "artificial_stress", 0.0);
   EXPECT_EQ(adaptle::read_options(a).settings.fallback, 7.5);
