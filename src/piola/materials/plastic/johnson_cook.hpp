@@ -29,18 +29,19 @@ class JohnsonCook {
   /// Plastic strain of a step of `dt` [s] whose trial stress has the von Mises stress `mises` [Pa]: Newton's method,
   /// halving where it leaves the interval that is known to hold the root. dt = 0: no effect of rate.
   PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double temperature, double dt) const {
-    double const start = yield_stress(plastic_strain, 0, temperature);
+    double const soft = softening(temperature);
+    if (!(mises > a_ * soft)) return 0;  // most particles: no power is needed to see that they stay elastic
+    double const start = static_stress(plastic_strain) * soft;
     if (!(mises > start)) return 0;
     // The yield stress grows with strain and rate, so the increment without both is an upper bound.
     double low = 0, high = (mises - start) / three_mu, x = high;
-    double const soft = softening(temperature);
     for (int k = 0; k < 100; ++k) {
       double const rate = dt > 0 ? x / dt : 0, fast = 1 + c_ * heat_.log_rate(rate);
-      double const hard = static_stress(plastic_strain + x);
+      double const strain = plastic_strain + x, hard = static_stress(strain);
       double const miss = mises - three_mu * x - hard * fast * soft;
-      if (std::abs(miss) <= 4e-16 * mises) break;
+      if (std::abs(miss) <= 1e-15 * mises) break;
       (miss > 0 ? low : high) = x;
-      double slope = three_mu + hardening(plastic_strain + x) * fast * soft;
+      double slope = three_mu + n_ * (hard - a_) / strain * fast * soft;
       if (rate > heat_.reference_rate) slope += hard * c_ / x * soft;
       double next = x + miss / slope;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -52,7 +53,6 @@ class JohnsonCook {
 
  private:
   PIOLA_FN double static_stress(double strain) const { return a_ + b_ * std::pow(strain > 0 ? strain : 0, n_); }
-  PIOLA_FN double hardening(double strain) const { return strain > 0 ? b_ * n_ * std::pow(strain, n_ - 1) : 0; }
   PIOLA_FN double softening(double temperature) const {
     double const part = heat_.homologous(temperature);
     return part <= 0 ? 1 : part >= 1 ? 0 : 1 - std::pow(part, m_);
