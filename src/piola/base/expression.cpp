@@ -303,11 +303,11 @@ Expression::~Expression() = default;
 
 double Expression::operator()(std::array<double, 3> const& X, double t) const { return (*this)(X, t, {}); }
 
-double Expression::operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const {
+double Expression::operator()(std::array<double, 3> const& X, double t, std::span<double const> further) const {
   Compiled& c = *compiled_;
   if (c.constant) return c.constant_value;
-  PIOLA_EXPECTS(!c.needs_values || variables.size() == c.values.size());
-  if (c.needs_values) std::copy(variables.begin(), variables.end(), c.values.begin());
+  PIOLA_EXPECTS(!c.needs_values || further.size() == c.values.size());
+  if (c.needs_values) std::copy(further.begin(), further.end(), c.values.begin());
   c.X = X[0];
   c.Y = X[1];
   c.Z = X[2];
