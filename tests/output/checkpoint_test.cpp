@@ -17,6 +17,7 @@ Checkpoint sample(std::int64_t step) {
   c.first_dt = 0.25;
   c.wall_seconds = 7;
   c.version = "0.1.0";
+  c.machine = "v3 of a processor with v4";
   c.source = "title = \"a\"\n";
   c.state.put("u", std::array{1.0, -0.0, 1e-310, 1.0 / 7});
   c.state.put("body0/F", std::array{2.0});
@@ -25,13 +26,14 @@ Checkpoint sample(std::int64_t step) {
   return c;
 }
 
-/// Changes one byte of a stored number.
-void damage(std::filesystem::path const& path) {
-  std::string text = testing::text_of(path);
-  double const number = 1.0 / 7;
-  auto const at = text.find(std::string(reinterpret_cast<char const*>(&number), sizeof number));
-  ASSERT_NE(at, std::string::npos);
-  text[at] = static_cast<char>(text[at] ^ 1);
+/// Step of the checkpoint that a resumed run would start from.
+std::int64_t newest_usable(std::filesystem::path const& folder, std::vector<std::string>& warnings) {
+  std::int64_t step = -1;
+  use_newest_checkpoint(folder, warnings, [&](Checkpoint const& c) { step = c.step; });
+  return step;
+}
+
+void write_text(std::filesystem::path const& path, std::string const& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
@@ -46,6 +48,7 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_EQ(back.first_dt, c.first_dt);
   EXPECT_EQ(back.source, c.source);
   EXPECT_EQ(back.version, c.version);
+  EXPECT_EQ(back.machine, c.machine);
   EXPECT_EQ(back.state.arrays(), c.state.arrays());
   EXPECT_TRUE(std::signbit(back.state.all("u")[1]));
   EXPECT_EQ(back.observers.arrays(), c.observers.arrays());
@@ -60,31 +63,77 @@ TEST(Checkpoint, KeepsTheLastTwo) {
   EXPECT_EQ(list[1].filename(), "000000090.h5");
 }
 
-TEST(Checkpoint, FallsBackToTheOneBeforeADamagedOne) {
+TEST(Checkpoint, NoFlippedBitPassesWhereverItIs) {
   testing::TemporaryFolder const folder;
   keep_checkpoint(folder.path(), sample(5));
   keep_checkpoint(folder.path(), sample(6));
-  damage(checkpoint_path(folder.path(), 6));
+  auto const path = checkpoint_path(folder.path(), 6);
+  std::string const whole = testing::text_of(path);
+  std::size_t const positions = 400;
+  for (std::size_t k = 0; k < positions; ++k) {
+    // Evenly spread over the file, and every byte of the seal at its end.
+    std::size_t const at = k < 100 ? whole.size() - 1 - k : (k - 100) * whole.size() / (positions - 100);
+    std::string bad = whole;
+    bad[at] = static_cast<char>(bad[at] ^ (1 << (k % 8)));
+    write_text(path, bad);
+    std::vector<std::string> warnings;
+    EXPECT_EQ(newest_usable(folder.path(), warnings), 5) << "byte " << at;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("check sum"), std::string::npos) << warnings[0];
+  }
+  write_text(path, whole);
   std::vector<std::string> warnings;
-  EXPECT_EQ(read_newest_checkpoint(folder.path(), warnings).step, 5);
+  EXPECT_EQ(newest_usable(folder.path(), warnings), 6);
+}
+
+TEST(Checkpoint, FallsBackFromATruncatedOrEmptyOrLongerFile) {
+  testing::TemporaryFolder const folder;
+  keep_checkpoint(folder.path(), sample(5));
+  keep_checkpoint(folder.path(), sample(6));
+  auto const path = checkpoint_path(folder.path(), 6);
+  std::string const whole = testing::text_of(path);
+  for (std::string const& bad :
+       {std::string(), whole.substr(0, 20), whole.substr(0, 900), whole.substr(0, whole.size() - 1), whole + "\n",
+        whole + whole, std::string(whole.size(), '\0')}) {
+    write_text(path, bad);
+    std::vector<std::string> warnings;
+    EXPECT_EQ(newest_usable(folder.path(), warnings), 5) << bad.size();
+    EXPECT_EQ(warnings.size(), 1U);
+  }
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  std::vector<std::string> warnings;
+  EXPECT_EQ(newest_usable(folder.path(), warnings), 5);
+}
+
+TEST(Checkpoint, FallsBackWhenItsUserCannotUseIt) {
+  testing::TemporaryFolder const folder;
+  keep_checkpoint(folder.path(), sample(5));
+  keep_checkpoint(folder.path(), sample(6));
+  std::vector<std::string> warnings;
+  std::int64_t used = 0;
+  use_newest_checkpoint(folder.path(), warnings, [&](Checkpoint& c) {
+    if (c.step == 6) c.state.all("something else");
+    used = c.step;
+  });
+  EXPECT_EQ(used, 5);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("check sum"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("000000006.h5: checkpoint: has no 'something else'"), std::string::npos) << warnings[0];
 }
 
-TEST(Checkpoint, FallsBackFromATruncatedFile) {
+TEST(Checkpoint, SaysWhyNoneCanBeUsed) {
   testing::TemporaryFolder const folder;
-  keep_checkpoint(folder.path(), sample(5));
+  std::vector<std::string> warnings;
+  EXPECT_THROW(newest_usable(folder.path(), warnings), InputError);
   keep_checkpoint(folder.path(), sample(6));
-  std::filesystem::resize_file(checkpoint_path(folder.path(), 6), 900);
-  std::vector<std::string> warnings;
-  EXPECT_EQ(read_newest_checkpoint(folder.path(), warnings).step, 5);
-  EXPECT_EQ(warnings.size(), 1U);
-}
-
-TEST(Checkpoint, SaysSoWhenThereIsNone) {
-  testing::TemporaryFolder const folder;
-  std::vector<std::string> warnings;
-  EXPECT_THROW(read_newest_checkpoint(folder.path(), warnings), InputError);
+  write_text(checkpoint_path(folder.path(), 6), "no checkpoint at all");
+  try {
+    newest_usable(folder.path(), warnings);
+    FAIL();
+  } catch (InputError const& error) {
+    EXPECT_NE(std::string(error.what()).find("000000006.h5: does not end with its check sum"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Checkpoint, RefusesAStateOfAnotherSize) {

@@ -67,6 +67,43 @@ TEST(History, DropsALineThatWasNotFinished) {
   EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n0,1\n");
 }
 
+/// Four rows, of which a checkpoint counts on the first three.
+HistoryMark written(std::filesystem::path const& path) {
+  HistoryFile file(path, columns);
+  for (double t : {0.0, 0.1, 0.2}) file.append({t, 2 * t});
+  HistoryMark const mark = file.mark();
+  file.append({0.3, 0.6});
+  return mark;
+}
+
+TEST(History, IsContinuedWithoutComplaintWhereTheCheckpointLeftIt) {
+  testing::TemporaryFolder const folder;
+  HistoryMark const mark = written(folder / "history.csv");
+  HistoryFile file(folder / "history.csv", columns, 0.2, mark);
+  EXPECT_EQ(file.complaint(), "");
+  EXPECT_EQ(file.mark().bytes, mark.bytes);
+  EXPECT_EQ(file.mark().check_sum, mark.check_sum);
+  EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n0,0\n0.1,0.2\n0.2,0.4\n");
+  file.append({0.3, 0.6});
+  EXPECT_EQ(file.mark().rows, 4U);
+}
+
+TEST(History, TellsOfRowsThatAreMissingOrWereChanged) {
+  testing::TemporaryFolder const folder;
+  HistoryMark const mark = written(folder / "history.csv");
+  std::ofstream(folder / "history.csv") << "time,energy\n0,0\n0.2,0.4\n";
+  EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark)
+                .complaint()
+                .find("history.csv: 2 rows up to t = 0.2 s where the checkpoint counts on 3; rows are missing"),
+            std::string::npos);
+  std::ofstream(folder / "history.csv") << "time,energy\n0,0\n0.1,0.2\n0.2,0.5\n";
+  EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark).complaint(), "");
+  std::filesystem::remove(folder / "history.csv");
+  HistoryFile const anew(folder / "history.csv", columns, 0.2, mark);
+  EXPECT_NE(anew.complaint().find("the file was missing and begins anew"), std::string::npos) << anew.complaint();
+  EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n");
+}
+
 TEST(History, RefusesAFileWithOtherColumns) {
   testing::TemporaryFolder const folder;
   std::ofstream(folder / "history.csv") << "time,mass\n0,1\n";

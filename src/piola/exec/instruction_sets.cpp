@@ -19,6 +19,17 @@ bool has_v3() { return false; }
 bool has_v4() { return false; }
 #endif
 
+/// The first machine of this program that the processor can run and that was asked for.
+std::string_view find_machine(std::string_view asked) {
+#define PIOLA_NAME(machine) \
+  if (processor_can_run(#machine) && (asked == "auto" || asked == #machine)) return #machine;
+  PIOLA_EACH_MACHINE(PIOLA_NAME)
+#undef PIOLA_NAME
+  return asked;
+}
+
+std::string_view best_of_processor() { return has_v4() ? "v4" : has_v3() ? "v3" : has_v2() ? "v2" : "scalar"; }
+
 }  // namespace
 
 bool processor_can_run(std::string_view machine) {
@@ -26,6 +37,10 @@ bool processor_can_run(std::string_view machine) {
   if (machine == "v3") return has_v3();
   if (machine == "v4") return has_v4();
   return machine == "scalar" || machine == "native";
+}
+
+std::string machine_text(std::string_view asked) {
+  return std::string(find_machine(asked)) + " of a processor with " + std::string(best_of_processor());
 }
 
 }  // namespace piola::exec_host

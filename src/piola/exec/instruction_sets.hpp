@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -7,6 +8,11 @@ namespace piola::exec_host {
 
 /// Whether this processor can run a machine of that name (see base/machine.hpp).
 bool processor_can_run(std::string_view machine);
+
+/// The instruction sets of a run with that machine ("auto" too), for comparing two runs: "v3 of a processor with v4".
+/// Bits are the same only where this text is the same: the second half counts too, because mathematical functions of
+/// the system choose by processor.
+std::string machine_text(std::string_view asked);
 
 /// The machines of one formulation that are in this program, and how one is chosen. `Machine` has a member `name`.
 template <class Machine>

@@ -4,20 +4,13 @@
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
-#include <bit>
 #include <fmt/format.h>
+#include <new>
 
 namespace piola {
 namespace {
 
-constexpr std::int64_t layout_version = 1;
-
-/// FNV-1a over whole doubles: notices a flipped bit that HDF5 itself would not.
-std::int64_t check_sum(std::span<double const> values) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (double v : values) hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 1099511628211ULL;
-  return std::bit_cast<std::int64_t>(hash);
-}
+constexpr std::int64_t layout_version = 2;
 
 void put_state(hdf5::Image& file, std::string const& group, NamedState const& state) {
   file.group(group);
@@ -26,7 +19,6 @@ void put_state(hdf5::Image& file, std::string const& group, NamedState const& st
     std::replace(path.begin() + static_cast<std::ptrdiff_t>(group.size()) + 1, path.end(), '/', '.');
     file.dataset<double>(path, values);
     file.attribute(path, "name", name);
-    file.attribute(path, "check_sum", std::array{check_sum(values)});
   }
 }
 
@@ -34,12 +26,7 @@ NamedState get_state(hdf5::Reader const& file, std::string const& group) {
   NamedState state;
   for (std::string const& name : file.names(group)) {
     std::string const path = group + "/" + name;
-    auto const values = file.dataset<double>(path);
-    if (check_sum(values) != file.integer(path, "check_sum")) {
-      throw FileError(fmt::format("{}: '{}' does not have the check sum it was written with - the file is damaged",
-                                  file.path().string(), path));
-    }
-    state.put(file.text(path, "name"), values);
+    state.put(file.text(path, "name"), file.dataset<double>(path));
   }
   return state;
 }
@@ -73,6 +60,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c) {
   hdf5::Image file;
   file.attribute("/", "piola_checkpoint", std::array{layout_version});
   file.attribute("/", "version", c.version);
+  file.attribute("/", "machine", c.machine);
   file.attribute("/", "time", c.time);
   file.attribute("/", "step", std::array{c.step});
   file.attribute("/", "dt", c.dt);
@@ -93,6 +81,7 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
   }
   Checkpoint c;
   c.version = file.text("/", "version");
+  c.machine = file.text("/", "machine");
   c.time = file.number("/", "time");
   c.step = file.integer("/", "step");
   c.dt = file.number("/", "dt");
@@ -126,20 +115,33 @@ std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const&
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint) {
   write_checkpoint(checkpoint_path(results, checkpoint.step), checkpoint);
   auto const all = list_checkpoints(results);
-  for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k]);
+  std::error_code kept_all_the_same;
+  for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k], kept_all_the_same);
 }
 
-Checkpoint read_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings) {
+void use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
+                           std::function<void(Checkpoint&)> const& use) {
   for (auto const& path : list_checkpoints(results)) {
     try {
-      return read_checkpoint(path);
-    } catch (FileError const& error) {
-      warnings.push_back(fmt::format("{}; the checkpoint before it is used", error.what()));
+      Checkpoint checkpoint = read_checkpoint(path);
+      use(checkpoint);
+      return;
+    } catch (InputError const&) {
+      throw;
+    } catch (std::bad_alloc const&) {
+      throw;
+    } catch (std::exception const& error) {
+      std::string const what = error.what();
+      bool const named = what.starts_with(path.string());
+      warnings.push_back(
+          fmt::format("{}{}; the checkpoint before it is used", named ? "" : path.string() + ": ", what));
     }
   }
+  std::string reasons;
+  for (std::string const& warning : warnings) reasons += "\n" + warning.substr(0, warning.rfind(';'));
   throw InputError(
-      fmt::format("{}: holds no checkpoint that can be read (a run writes checkpoints/*.h5) - run the case again",
-                  results.string()));
+      fmt::format("{}: holds no checkpoint that can be used (a run writes checkpoints/*.h5) - run the case again{}",
+                  results.string(), reasons));
 }
 
 }  // namespace piola

@@ -3,6 +3,7 @@
 #include "piola/formulations/formulation.hpp"
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct Checkpoint {
   double first_dt = 0;                            ///< s, the first stable step: the measure of a collapsed one
   double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far
   std::string version;                            ///< of the program that wrote it
+  std::string machine;                            ///< instruction sets used and available when it was written
   std::string source;                             ///< the case as run
   NamedState state;                               ///< of the formulation
   NamedState observers;                           ///< next output times, twist angles, times of frames
@@ -39,7 +41,7 @@ struct Checkpoint {
 
 /// Writes one file (whole, synced, renamed). Throws FileError.
 void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint);
-/// Reads and verifies one file: layout and the check sum of every array. Throws FileError.
+/// Reads one file after its seal has been verified. Throws FileError.
 Checkpoint read_checkpoint(std::filesystem::path const& path);
 
 /// checkpoints/000001234.h5 in a results folder, for this step.
@@ -48,9 +50,11 @@ std::filesystem::path checkpoint_path(std::filesystem::path const& results, std:
 std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results);
 /// Writes the checkpoint of its step and removes all but the last two.
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint);
-/// The newest checkpoint that is whole. Damaged ones are skipped, each with a line in `warnings`. Throws InputError if
-/// none is left.
-Checkpoint read_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings);
+/// Hands the newest checkpoint to `use`. One that is damaged, or that `use` throws at, is passed over for the one
+/// before it, with a line in `warnings`. InputError and std::bad_alloc come through; throws InputError with the reasons
+/// if no checkpoint could be used.
+void use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
+                           std::function<void(Checkpoint&)> const& use);
 
 /// The name of the last state of a run that failed; it is kept for study, never resumed from.
 inline constexpr char const* failed_checkpoint = "checkpoints/failed.h5";

@@ -108,10 +108,16 @@ void FrameWriter::write(double time, FieldCache& cache) {
   write_xdmf(fields, cache.particles().size());
 }
 
-void FrameWriter::continue_after(std::vector<double> times) {
+std::vector<std::string> FrameWriter::continue_after(std::vector<double> times) {
   times_ = std::move(times);
-  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k)); ++k) {
+  std::error_code ignored;
+  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k), ignored); ++k) {
   }
+  std::vector<std::string> missing;
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    if (!std::filesystem::exists(folder_ / frame_name(k), ignored)) missing.push_back(frame_name(k));
+  }
+  return missing;
 }
 
 void FrameWriter::write_series() const {
@@ -147,31 +153,43 @@ void FrameWriter::write_xdmf(std::vector<FieldInfo> const& fields, std::int64_t 
   write_whole_file(folder_ / "frames.xmf", text + "</Grid>\n</Domain>\n</Xdmf>\n");
 }
 
+namespace {
+
+/// One field of a frame, its shape checked against what the formulations write.
+void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame) {
+  std::string const data = "/VTKHDF/PointData/" + field;
+  std::uint64_t const columns = file.columns(data);
+  if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
+    file.fail(data, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
+  frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"), static_cast<int>(columns)};
+  frame.values = file.dataset<double>(data, columns);
+  if (frame.values.size() != frame.points.size() * columns) file.fail(data, "has not one value per point");
+}
+
+}  // namespace
+
 Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   hdf5::Reader const file(path);
   Frame frame;
-  frame.time = file.dataset<double>("/VTKHDF/FieldData/TimeValue").at(0);
-  auto const points = file.dataset<float>("/VTKHDF/Points");
+  auto const time = file.dataset<double>("/VTKHDF/FieldData/TimeValue");
+  if (time.size() != 1) file.fail("TimeValue", "is not a single time");
+  frame.time = time.front();
+  auto const points = file.dataset<float>("/VTKHDF/Points", 3);
   frame.points.resize(points.size() / 3);
-  for (std::size_t i = 0; i < frame.points.size() * 3; ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
   frame.field_names = file.names("/VTKHDF/PointData");
-  std::string const data = "/VTKHDF/PointData/" + field;
-  if (!file.has(data)) {
+  if (std::find(frame.field_names.begin(), frame.field_names.end(), field) == frame.field_names.end()) {
     throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field",
                                  path.string(), field, fmt::join(frame.field_names, ", ")));
   }
-  auto const shape = file.shape(data);
-  frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"),
-                shape.size() > 1 ? static_cast<int>(shape[1]) : 1};
-  frame.values = file.dataset<double>(data);
+  read_field(file, field, frame);
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
   frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
-  frame.dimension = static_cast<int>(file.integer("/", "dimension"));
-  bool const fits = frame.values.size() == frame.points.size() * static_cast<std::size_t>(frame.info.components) &&
-                    frame.volume.size() == frame.points.size() && frame.body.size() == frame.points.size();
-  if (!fits)
-    throw FileError(
-        fmt::format("{}: the field '{}' has not one value per point - the frame is damaged", path.string(), field));
+  if (frame.volume.size() != frame.points.size()) file.fail("Volume", "has not one value per point");
+  if (frame.body.size() != frame.points.size()) file.fail("Body", "has not one value per point");
+  std::int64_t const dimension = file.integer("/", "dimension");
+  if (dimension < 1 || dimension > 3) file.fail("dimension", fmt::format("is {} (1, 2 or 3 is known)", dimension));
+  frame.dimension = static_cast<int>(dimension);
   return frame;
 }
 

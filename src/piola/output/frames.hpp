@@ -18,8 +18,9 @@ class FrameWriter {
   void write(double time, FieldCache& cache);
   /// Times of the frames written so far [s].
   std::vector<double> const& times() const { return times_; }
-  /// Continues after the frames with these times; later files on the disk are removed.
-  void continue_after(std::vector<double> times);
+  /// Continues after the frames with these times; later files on the disk are removed. Returns the names of frames that
+  /// should be there and are not.
+  std::vector<std::string> continue_after(std::vector<double> times);
 
  private:
   std::vector<FieldInfo> chosen(FieldCache const& cache) const;

@@ -2,6 +2,8 @@
 #include "piola/output/hdf5.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/deflate.hpp"
+#include "piola/output/hdf5_types.hpp"
+#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -11,36 +13,6 @@ namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{1}
                                     << 20;  // large enough to compress well, small enough to share among threads
-
-template <class T>
-hid_t native_type();
-template <>
-hid_t native_type<float>() {
-  return H5T_NATIVE_FLOAT;
-}
-template <>
-hid_t native_type<double>() {
-  return H5T_NATIVE_DOUBLE;
-}
-template <>
-hid_t native_type<std::int64_t>() {
-  return H5T_NATIVE_INT64;
-}
-template <>
-hid_t native_type<std::int32_t>() {
-  return H5T_NATIVE_INT32;
-}
-template <>
-hid_t native_type<std::uint8_t>() {
-  return H5T_NATIVE_UINT8;
-}
-template <>
-hid_t native_type<char>() {
-  return H5T_NATIVE_CHAR;
-}
-
-/// HDF5 would print its own stack of errors; ours are exceptions.
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 void check(herr_t result, std::string_view what) {
   if (result < 0)
@@ -53,15 +25,6 @@ Handle new_file_in_memory() {
   check(H5Pset_fapl_core(access.id(), std::size_t{4} << 20, false), "a file in memory");
   // One fixed file name: nothing of it reaches the disk.
   return Handle(H5Fcreate("piola.image", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "a file in memory");
-}
-
-Handle open_file(std::filesystem::path const& path) {
-  silence();
-  hid_t const id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id < 0) {
-    throw FileError(fmt::format("{}: cannot be read as an HDF5 file - it is missing or damaged", path.string()));
-  }
-  return Handle(id, H5Fclose, path.string());
 }
 
 /// Compresses all chunks in threads, then hands them to HDF5 in order.
@@ -161,83 +124,8 @@ std::vector<std::byte> Image::bytes() {
   check(size < 0 ? -1 : 0, "the file image");
   std::vector<std::byte> image(static_cast<std::size_t>(size));
   check(H5Fget_file_image(file_.id(), image.data(), image.size()) < 0 ? -1 : 0, "the file image");
+  append_seal(image);
   return image;
-}
-
-Reader::Reader(std::filesystem::path const& path) : path_(path), file_(open_file(path)) {}
-
-void Reader::fail(std::string_view what) const {
-  throw FileError(fmt::format("{}: has no readable '{}' - the file is damaged or was written by another program",
-                              path_.string(), what));
-}
-
-bool Reader::has(std::string const& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
-
-std::vector<std::string> Reader::names(std::string const& group) const {
-  if (!has(group)) fail(group);
-  Handle const owner(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT), H5Gclose, group);
-  std::vector<std::string> found;
-  auto const add = [](hid_t, char const* name, H5L_info_t const*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  if (H5Literate(owner.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &found) < 0) fail(group);
-  return found;
-}
-
-std::vector<std::uint64_t> Reader::shape(std::string const& path) const {
-  hid_t const id = has(path) ? H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT) : -1;
-  if (id < 0) fail(path);
-  Handle const set(id, H5Dclose, path);
-  Handle const space(H5Dget_space(set.id()), H5Sclose, path);
-  std::array<hsize_t, H5S_MAX_RANK> dims{};
-  int const rank = H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr);
-  if (rank < 0) fail(path);
-  return {dims.begin(), dims.begin() + rank};
-}
-
-template <class T>
-std::vector<T> Reader::dataset(std::string const& path) const {
-  std::size_t count = 1;
-  for (std::uint64_t const n : shape(path)) count *= n;
-  std::vector<T> values(count);
-  Handle const set(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose, path);
-  if (count > 0 && H5Dread(set.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) fail(path);
-  return values;
-}
-template std::vector<float> Reader::dataset(std::string const&) const;
-template std::vector<double> Reader::dataset(std::string const&) const;
-template std::vector<std::int64_t> Reader::dataset(std::string const&) const;
-template std::vector<std::int32_t> Reader::dataset(std::string const&) const;
-template std::vector<char> Reader::dataset(std::string const&) const;
-
-std::string Reader::text(std::string const& object, std::string const& name) const {
-  hid_t const id = H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) fail(name);
-  Handle const held(id, H5Aclose, name);
-  Handle const type(H5Aget_type(held.id()), H5Tclose, name);
-  std::string value(H5Tget_size(type.id()), '\0');
-  if (H5Aread(held.id(), type.id(), value.data()) < 0) fail(name);
-  value.resize(std::min(value.find('\0'), value.size()));
-  return value;
-}
-
-double Reader::number(std::string const& object, std::string const& name) const {
-  hid_t const id = H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) fail(name);
-  Handle const held(id, H5Aclose, name);
-  double value = 0;
-  if (H5Aread(held.id(), H5T_NATIVE_DOUBLE, &value) < 0) fail(name);
-  return value;
-}
-
-std::int64_t Reader::integer(std::string const& object, std::string const& name) const {
-  hid_t const id = H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) fail(name);
-  Handle const held(id, H5Aclose, name);
-  std::int64_t value = 0;
-  if (H5Aread(held.id(), H5T_NATIVE_INT64, &value) < 0) fail(name);
-  return value;
 }
 
 }  // namespace piola::hdf5

@@ -56,23 +56,36 @@ class Image {
   Handle file_;
 };
 
-/// Reads a file; every question throws FileError with the path if the answer is not there or has another size.
+/// Reads a file. The whole file is checked against its seal before HDF5 opens it; then every answer is checked against
+/// what the file says about kind, shape and size before a byte of it is read. What is not there, or is something else
+/// than asked for, throws FileError with path and name.
 class Reader {
  public:
   explicit Reader(std::filesystem::path const& path);
   bool has(std::string const& path) const;
   std::vector<std::string> names(std::string const& group) const;  ///< members, sorted
-  std::vector<std::uint64_t> shape(std::string const& dataset) const;
+  /// Numbers per row of a data set: 1 if it has one dimension.
+  std::uint64_t columns(std::string const& dataset) const;
+  /// All numbers of a data set with this many columns and any number of rows, row by row. Whole numbers may be asked
+  /// for as floating-point ones, not the other way round.
   template <class T>
-  std::vector<T> dataset(std::string const& path) const;
+  std::vector<T> dataset(std::string const& path, std::uint64_t columns = 1) const;
   std::string text(std::string const& object, std::string const& name) const;
   double number(std::string const& object, std::string const& name) const;
   std::int64_t integer(std::string const& object, std::string const& name) const;
   std::filesystem::path const& path() const { return path_; }
 
+  /// Throws FileError: "PATH: 'what' why - the file is damaged or was written by another program".
+  [[noreturn]] void fail(std::string_view what, std::string_view why) const;
+
  private:
-  [[noreturn]] void fail(std::string_view what) const;
+  Handle open_dataset(std::string const& path) const;
+  Handle open_attribute(std::string const& object, std::string const& name) const;
+  std::vector<std::uint64_t> shape(hid_t dataset, std::string const& path) const;
+  template <class T>
+  T single(std::string const& object, std::string const& name) const;
   std::filesystem::path path_;
+  std::uintmax_t bytes_;  ///< of the file
   Handle file_;
 };
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace piola {
 namespace {
@@ -121,24 +122,44 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> 
   put(header(table_.columns));
 }
 
-HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time)
+HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time,
+                         std::optional<HistoryMark> mark)
     : path_(std::move(path)) {
   table_.columns = std::move(columns);
-  std::string const text = read_text_file(path_);
   std::string const first = header(table_.columns);
+  bool const there = std::filesystem::exists(path_);
+  std::string const text = there ? read_text_file(path_) : first;
   if (!text.starts_with(first)) {
     throw FileError(fmt::format("{}: has other columns than this run would write - run the case again in a new folder",
                                 path_.string()));
   }
-  std::size_t kept = first.size();
+  CheckSum sum;
+  if (mark) sum.add(std::string_view(text).substr(0, mark->bytes));
+  bool const whole = mark && mark->bytes <= text.size() && sum.value() == mark->check_sum;
+  take_rows(whole ? std::string_view(text).substr(0, mark->bytes) : std::string_view(text), time);
+  if (!there || bytes_ != text.size()) write_whole_file(path_, std::string_view(text).substr(0, bytes_));
+  if (mark && !whole) {
+    complaint_ = fmt::format("{}: {} rows up to t = {} s where the checkpoint counts on {}; {}", path_.string(),
+                             table_.rows.size(), time, mark->rows,
+                             there ? "rows are missing or were changed" : "the file was missing and begins anew");
+  }
+  open("a");
+}
+
+void HistoryFile::take_rows(std::string_view text, double time) {
+  std::size_t kept = header(table_.columns).size();
   for (std::size_t at = kept, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
-    auto row = read_row(std::string_view(text).substr(at, end - at), table_.columns.size());
+    auto row = read_row(text.substr(at, end - at), table_.columns.size());
     if (!(row[0] <= time)) break;
     table_.rows.push_back(std::move(row));
     kept = end + 1;
   }
-  if (kept != text.size()) write_whole_file(path_, std::string_view(text).substr(0, kept));
-  open("a");
+  bytes_ = kept;
+  sum_.add(text.substr(0, kept));
+}
+
+void HistoryFile::sync() {
+  if (::fsync(::fileno(file_.get())) != 0) throw FileError(cannot_write(path_, errno));
 }
 
 void HistoryFile::open(char const* mode) {
@@ -149,6 +170,8 @@ void HistoryFile::open(char const* mode) {
 void HistoryFile::put(std::string const& line) {
   bool const written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
   if (!written || std::fflush(file_.get()) != 0) throw FileError(cannot_write(path_, errno));
+  bytes_ += line.size();
+  sum_.add(line);
 }
 
 std::vector<std::string> HistoryFile::append(std::vector<double> const& row) {

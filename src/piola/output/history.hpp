@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/formulation.hpp"
+#include "piola/output/seal.hpp"
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -29,23 +31,40 @@ std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics);
 /// Their values, in the same order.
 std::vector<double> diagnostic_values(double time, std::int64_t step, double dt, Diagnostics const& diagnostics);
 
+/// How much of history.csv a checkpoint counts on.
+struct HistoryMark {
+  std::uint64_t rows = 0, bytes = 0;
+  std::uint32_t check_sum = 0;  ///< CRC-32 of these bytes
+};
+
 /// history.csv on the disk: a line is complete as soon as `append` returns.
 class HistoryFile {
  public:
   /// Starts a new file. Throws FileError.
   HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns);
-  /// Continues a file after its last row with time <= `time`; later rows are cut off. Throws FileError if the file is
-  /// missing or has other columns.
-  HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time);
+  /// Continues a file after its last row with time <= `time`; later rows are cut off. What differs from the `mark` of
+  /// the checkpoint is told by `complaint`; a missing file is begun anew. Throws FileError if the file has other
+  /// columns.
+  HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time,
+              std::optional<HistoryMark> mark = {});
   /// Adds a line. Numbers that are not finite become empty cells; returns the names of their columns.
   std::vector<std::string> append(std::vector<double> const& row);
   HistoryTable const& table() const { return table_; }
+  HistoryMark mark() const { return {table_.rows.size(), bytes_, sum_.value()}; }
+  /// What was missing or changed when the file was continued, in one sentence; empty if nothing was.
+  std::string const& complaint() const { return complaint_; }
+  /// Waits until every row is on the disk. Throws FileError.
+  void sync();
 
  private:
+  void take_rows(std::string_view text, double time);
   void open(char const* mode);
   void put(std::string const& line);
   std::filesystem::path path_;
   HistoryTable table_;
+  std::uint64_t bytes_ = 0;
+  CheckSum sum_;
+  std::string complaint_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
 };
 

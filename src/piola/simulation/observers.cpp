@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/observers.hpp"
 #include "piola/base/version.hpp"
+#include "piola/exec/instruction_sets.hpp"
 #include "piola/output/files.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,13 +15,13 @@ double history_interval(CaseSpec const& spec) {
   return spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / history_rows;
 }
 
-double kept(NamedState& reader, std::string_view name) {
+double kept_number(NamedState& reader, std::string_view name) {
   double value = 0;
   reader.get(name, {&value, 1});
   return value;
 }
 
-void keep(StateWriter& writer, std::string_view name, double value) { writer.put(name, {&value, 1}); }
+void keep_number(StateWriter& writer, std::string_view name, double value) { writer.put(name, {&value, 1}); }
 
 /// The units that a formulation announces for the columns that it adds.
 void take_units(std::string const& formulation, std::vector<HistoryColumn>& columns) {
@@ -49,7 +50,8 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
   }
   auto const path = results_.folder / "history.csv";
   if (resume_time) {
-    file_.emplace(path, std::move(columns), *resume_time);
+    file_.emplace(path, std::move(columns), *resume_time, mark_);
+    if (!file_->complaint().empty()) results_.journal.warn(file_->complaint());
   } else {
     file_.emplace(path, std::move(columns));
   }
@@ -81,17 +83,24 @@ void HistoryObserver::finish(Formulation const& formulation, Moment const& momen
 }
 
 void HistoryObserver::save(StateWriter& writer) const {
-  keep(writer, "history_next", schedule_.state());
+  keep_number(writer, "history_next", schedule_.state());
   std::vector<double> angles;
   for (Probe const& probe : probes_) angles.push_back(probe.state());
   writer.put("probe_angles", angles);
+  HistoryMark const mark = file_->mark();
+  writer.put("history_file", std::array{static_cast<double>(mark.rows), static_cast<double>(mark.bytes),
+                                        static_cast<double>(mark.check_sum)});
 }
 
 void HistoryObserver::load(NamedState& reader) {
-  schedule_.restore(kept(reader, "history_next"));
+  schedule_.restore(kept_number(reader, "history_next"));
   std::vector<double> angles(probes_.size());
   reader.get("probe_angles", angles);
   for (std::size_t k = 0; k < probes_.size(); ++k) probes_[k].restore(angles[k]);
+  std::array<double, 3> mark{};
+  reader.get("history_file", mark);
+  mark_ = {static_cast<std::uint64_t>(mark[0]), static_cast<std::uint64_t>(mark[1]),
+           static_cast<std::uint32_t>(mark[2])};
 }
 
 FrameObserver::FrameObserver(Results results)
@@ -115,13 +124,16 @@ void FrameObserver::finish(Formulation const& formulation, Moment const& moment,
 }
 
 void FrameObserver::save(StateWriter& writer) const {
-  keep(writer, "frames_next", schedule_.state());
+  keep_number(writer, "frames_next", schedule_.state());
   writer.put("frame_times", writer_.times());
 }
 
 void FrameObserver::load(NamedState& reader) {
-  schedule_.restore(kept(reader, "frames_next"));
-  writer_.continue_after(reader.all("frame_times"));
+  schedule_.restore(kept_number(reader, "frames_next"));
+  auto const missing = writer_.continue_after(reader.all("frame_times"));
+  if (missing.empty()) return;
+  results_.journal.warn(fmt::format("{}: {} of {} frames up to the checkpoint {} missing", missing.front(),
+                                    missing.size(), writer_.times().size(), missing.size() == 1 ? "is" : "are"));
 }
 
 PictureObserver::PictureObserver(Results results)
@@ -196,6 +208,7 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
                moment.wall_seconds,
                moment.stepping_seconds,
                std::string(version()),
+               exec_host::machine_text(results_.spec.run.machine),
                results_.spec.source,
                {},
                {}};
@@ -205,20 +218,25 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
   return c;
 }
 
+void CheckpointObserver::keep(Formulation const& formulation, Moment const& moment) {
+  for (Observer* other : others_) other->sync();
+  keep_checkpoint(results_.folder, take(formulation, moment));
+}
+
 void CheckpointObserver::see(Formulation const& formulation, Moment const& moment) {
-  if (schedule_.due(moment.time)) keep_checkpoint(results_.folder, take(formulation, moment));
+  if (schedule_.due(moment.time)) keep(formulation, moment);
 }
 
 void CheckpointObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
   if (ending == Ending::failed) {
     write_checkpoint(results_.folder / failed_checkpoint, take(formulation, moment));
   } else {
-    keep_checkpoint(results_.folder, take(formulation, moment));
+    keep(formulation, moment);
   }
 }
 
-void CheckpointObserver::save(StateWriter& writer) const { keep(writer, "checkpoints_next", schedule_.state()); }
-void CheckpointObserver::load(NamedState& reader) { schedule_.restore(kept(reader, "checkpoints_next")); }
+void CheckpointObserver::save(StateWriter& writer) const { keep_number(writer, "checkpoints_next", schedule_.state()); }
+void CheckpointObserver::load(NamedState& reader) { schedule_.restore(kept_number(reader, "checkpoints_next")); }
 
 ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles,
                                    HistoryObserver const& history)

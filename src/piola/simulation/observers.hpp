@@ -27,6 +27,8 @@ class Observer {
   virtual void see(Formulation const& formulation, Moment const& moment) = 0;
   /// Called once, after the last step of this part of the run.
   virtual void finish(Formulation const&, Moment const&, Ending) {}
+  /// Called before a checkpoint that counts on what was written: all of it is on the disk afterwards.
+  virtual void sync() {}
   /// What a resumed run needs to continue; names are unique among observers.
   virtual void save(StateWriter&) const {}
   virtual void load(NamedState&) {}
@@ -48,7 +50,8 @@ class HistoryObserver : public Observer {
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void save(StateWriter& writer) const override;
   void load(NamedState& reader) override;
-  /// Opens the file anew, or cut off after `resume_time`. Called before the first step.
+  void sync() override { file_->sync(); }
+  /// Opens the file anew, or cut off after `resume_time` (after load). Called before the first step.
   void open(Formulation const& formulation, std::optional<double> resume_time);
   HistoryTable const& table() const { return file_->table(); }
 
@@ -58,6 +61,7 @@ class HistoryObserver : public Observer {
   Schedule schedule_;
   std::vector<Probe> probes_;
   std::optional<HistoryFile> file_;
+  HistoryMark mark_;              ///< of the checkpoint that the run was resumed from
   std::set<std::string> warned_;  ///< columns with cells that were not numbers
 };
 
@@ -108,6 +112,7 @@ class CheckpointObserver : public Observer {
 
  private:
   Checkpoint take(Formulation const& formulation, Moment const& moment) const;
+  void keep(Formulation const& formulation, Moment const& moment);
   Results results_;
   Schedule schedule_;
   std::vector<Observer*> others_;

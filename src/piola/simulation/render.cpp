@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 std::string title_of(fs::path const& folder) {
   if (!fs::exists(folder / "summary.json")) return folder.filename().string();
   auto const summary = nlohmann::json::parse(read_text_file(folder / "summary.json"), nullptr, false);
-  return summary.is_object() ? summary.value("title", folder.filename().string()) : folder.filename().string();
+  bool const titled = summary.is_object() && summary.contains("title") && summary["title"].is_string();
+  return titled ? summary["title"].get<std::string>() : folder.filename().string();
 }
 
 /// What all frames have in common: the window and the range of values.

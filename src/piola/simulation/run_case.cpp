@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
+#include "piola/exec/instruction_sets.hpp"
 #include "piola/output/files.hpp"
 #include "piola/simulation/failure_text.hpp"
 #include "piola/simulation/observers.hpp"
@@ -49,27 +50,45 @@ Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Wat
   return moment;
 }
 
+/// What makes the bits of a resumed run differ from those of an uninterrupted one.
+void compare_origin(Checkpoint const& c, Simulation const& s, Journal& journal) {
+  std::string const here = exec_host::machine_text(s.spec.run.machine);
+  char const* const what = "the numbers may differ in their last digits from those of a run without interruption";
+  if (c.version != version())
+    journal.warn(fmt::format("the checkpoint was written by Piola {}, this is {}; {}", c.version, version(), what));
+  if (c.machine != here)
+    journal.warn(
+        fmt::format("the checkpoint was written with the instruction set {}, this is {}; {}", c.machine, here, what));
+}
+
+void check_source(Checkpoint const& c, Simulation const& s, std::filesystem::path const& folder) {
+  if (c.source == s.spec.source) return;
+  throw InputError(
+      fmt::format("{}: is not the case that this run was started with (it was changed since) - restore it, or run it "
+                  "anew with 'piola run'",
+                  (folder / "case.toml").string()));
+}
+
 /// A resumed run: everything as it was when the newest good checkpoint was written.
 Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
   std::vector<std::string> warnings;
-  Checkpoint c = read_newest_checkpoint(options.folder, warnings);
-  if (c.source != s.spec.source) {
-    throw InputError(
-        fmt::format("{}: is not the case that this run was started with (it was changed since) - restore it, or run it "
-                    "anew with 'piola run'",
-                    (options.folder / "case.toml").string()));
-  }
+  Moment moment;
+  use_newest_checkpoint(options.folder, warnings, [&](Checkpoint& c) {
+    check_source(c, s, options.folder);
+    s.formulation->load(c.state);
+    for (Observer* observer : watch.all()) observer->load(c.observers);
+    compare_origin(c, s, journal);
+    moment = {.time = c.time,
+              .step = c.step,
+              .dt = c.dt,
+              .first_dt = c.first_dt,
+              .wall_seconds = c.wall_seconds,
+              .stepping_seconds = c.stepping_seconds};
+  });
   for (std::string const& warning : warnings) journal.warn(warning);
-  journal.note(fmt::format("resumed at step {}, t = {} s; {}", c.step, c.time, start_text(s)));
-  s.formulation->load(c.state);
-  watch.history.open(*s.formulation, c.time);
-  for (Observer* observer : watch.all()) observer->load(c.observers);
-  return {.time = c.time,
-          .step = c.step,
-          .dt = c.dt,
-          .first_dt = c.first_dt,
-          .wall_seconds = c.wall_seconds,
-          .stepping_seconds = c.stepping_seconds};
+  journal.note(fmt::format("resumed at step {}, t = {} s; {}", moment.step, moment.time, start_text(s)));
+  watch.history.open(*s.formulation, moment.time);
+  return moment;
 }
 
 double largest(std::vector<double> const& values) {

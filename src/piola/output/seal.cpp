@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/seal.hpp"
+#include "piola/base/problems.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <libdeflate.h>
+
+namespace piola {
+namespace {
+
+constexpr std::size_t block = std::size_t{1} << 20;  // bytes read at once
+
+std::string seal_text(std::uint32_t check_sum, std::uint64_t bytes) {
+  return fmt::format("piola seal: CRC-32 {:08x} over {:020} bytes\n", check_sum, bytes);
+}
+
+std::size_t const seal_length = seal_text(0, 0).size();
+
+}  // namespace
+
+void CheckSum::add(std::span<std::byte const> bytes) { value_ = libdeflate_crc32(value_, bytes.data(), bytes.size()); }
+
+void CheckSum::add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
+
+std::string seal_of(std::span<std::byte const> content) {
+  CheckSum sum;
+  sum.add(content);
+  return seal_text(sum.value(), content.size());
+}
+
+void append_seal(std::vector<std::byte>& file) {
+  std::string const seal = seal_of(file);
+  auto const bytes = std::as_bytes(std::span(seal));
+  file.insert(file.end(), bytes.begin(), bytes.end());
+}
+
+void verify_seal(std::filesystem::path const& path) {
+  std::error_code error;
+  auto const size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || error || size == 0)
+    throw FileError(fmt::format("{}: cannot be read - it is missing, empty or not a file", path.string()));
+  auto const content = size - std::min<std::uintmax_t>(size, seal_length);
+  CheckSum sum;
+  std::vector<char> buffer(std::min<std::uintmax_t>(content, block));
+  for (std::uintmax_t left = content; left > 0 && file; left -= std::min<std::uintmax_t>(left, block)) {
+    auto const part = std::min<std::uintmax_t>(left, block);
+    file.read(buffer.data(), static_cast<std::streamsize>(part));
+    sum.add(std::string_view(buffer.data(), part));
+  }
+  std::string seal(seal_length, '\0');
+  file.read(seal.data(), static_cast<std::streamsize>(seal_length));
+  if (!file || !seal.starts_with("piola seal: ")) {
+    throw FileError(fmt::format(
+        "{}: does not end with its check sum - the file is cut off or was written by another program", path.string()));
+  }
+  if (seal != seal_text(sum.value(), content)) {
+    throw FileError(
+        fmt::format("{}: does not have the check sum it was written with - the file is damaged", path.string()));
+  }
+}
+
+}  // namespace piola

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// CRC-32 (IEEE 802.3) of bytes that come piece by piece: every change of up to 32 bits in a row shows, any other with
+/// probability 1 - 2^-32.
+class CheckSum {
+ public:
+  void add(std::span<std::byte const> bytes);
+  void add(std::string_view text);
+  std::uint32_t value() const { return value_; }
+
+ private:
+  std::uint32_t value_ = 0;
+};
+
+/// The seal is the last line of a binary file: "piola seal: CRC-32 1a2b3c4d over 00000000000000001234 bytes\n". Readers
+/// of HDF5 ignore what stands behind the end that a file states itself, so that sealed files stay ordinary HDF5 files.
+std::string seal_of(std::span<std::byte const> content);
+void append_seal(std::vector<std::byte>& file);
+
+/// Reads the whole file once, before anything else looks inside. Throws FileError unless its last line is the seal of
+/// all that stands before it.
+void verify_seal(std::filesystem::path const& path);
+
+}  // namespace piola
