@@ -21,7 +21,8 @@ int run(Options const& options) {
   Simulation simulation = build(std::move(spec));
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
                          .resume = false,
-                         .force = options.force};
+                         .force = options.force,
+                         .case_file = file};
   return run_and_report(simulation, where, options.quiet);
 }
 

@@ -76,7 +76,7 @@ expect 2 "" "$program" run bar.toml --set run.ende=1
 check test ! -e bar-results
 
 expect 0 "sway = " "$program" run bar.toml
-for file in history.csv summary.json frames/000004.hdf frames.hdf.series frames.xmf \
+for file in history.csv summary.json frames/000004.hdf frames.hdf.series \
   pictures/Pressure-000002.png case.toml log.txt; do
   check test -s "bar-results/$file"
 done
@@ -110,6 +110,9 @@ for _ in $(seq 100); do
   [ -e long/checkpoints ] && ls long/checkpoints/*.h5 > /dev/null 2>&1 && break
   sleep 0.1
 done
+expect 2 "is in use by process $child on host" "$program" run bar.toml --set run.end='"1000 s"' --out long
+expect 2 "is in use by process $child on host" "$program" resume long
+check test -s long/history.csv
 kill -TERM $child
 kill -TERM $child 2>/dev/null  # tools that stop programs often signal the process and its group
 wait $child
@@ -122,6 +125,21 @@ expect 3 "docs/user/when-it-stops.md" "$program" run bar.toml --out broken \
   --set 'body.bar.initial_velocity=["0","0","-20000*Z"]'
 check grep -q '"status": "failed"' broken/summary.json
 check test -s broken/checkpoints/failed.h5
+
+# The case itself is never replaced by results, whatever is forced.
+mkdir here && cp bar.toml here/case.toml
+(
+  cd here || exit 1
+  expect 2 "give another folder with --out" "$program" run case.toml --out . --force --set run.end='"1 ms"'
+  expect 2 "give another folder with --out" "$program" run . --out . --force
+  exit $failures
+)
+failures=$?
+check cmp bar.toml here/case.toml
+check test "$(ls here)" = case.toml
+
+# A file without end is not read to its end.
+expect 2 "more than 4 MB" "$program" run /dev/zero
 
 # A folder that cannot be written, a disk that is full.
 expect 1 "cannot be written" "$program" run bar.toml --out /proc/piola

@@ -58,13 +58,24 @@ TEST(Document, SyntaxErrorsHaveAPlace) {
 TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
   EXPECT_EQ(problems_of(std::string("a = 1\n b\0", 9)),
             "f:2:3: a NUL byte, which no text file holds - is this a case file?");
-  EXPECT_EQ(problems_of(std::string(5'000'000, '#')), "f: the file has 5 MB (at most 4 MB) - is this a case file?");
+  EXPECT_EQ(problems_of(std::string(5'000'000, '#')),
+            "f: the file has more than 4 MB (allowed: at most that) - is this a case file?");
   std::string key = "a";
   for (int i = 0; i < 100; ++i) key += ".a";
   EXPECT_EQ(problems_of(key + " = 1"), "f:1:130: a key with more than 64 dots - is this a case file?");
   EXPECT_EQ(problems_of("a = \"" + std::string(100, '.') + "\" # " + std::string(100, '.')), "");
   EXPECT_EQ(problems_of("a = '''\n" + std::string(100, '.') + "'''"), "");
   EXPECT_NE(problems_of("a = " + std::string(5000, '[') + std::string(5000, ']')), "");
+}
+
+TEST(Document, LongTextsAndKeysAreRefusedWithoutBeingShown) {
+  EXPECT_EQ(problems_of("a = \"" + std::string(10'000, 'x') + "\""), "");
+  EXPECT_EQ(
+      problems_of("[t]\na = [1, \"" + std::string(10'001, 'x') + "\"]"),
+      "f:2:9: a text of 10,001 characters (allowed: at most 10,000) - shorten it; long formulas can be divided with "
+      "'define'");
+  EXPECT_EQ(problems_of(std::string(201, 'k') + " = 1"),
+            "f:1:1: a key of 201 characters (allowed: at most 200) - shorten it");
 }
 
 TEST(Document, WrittenTomlReadsBackTheSame) {

@@ -41,8 +41,8 @@ Simulation probed() {
 
 /// Files that a resumed run must leave like an uninterrupted one.
 void expect_same_results(std::filesystem::path const& a, std::filesystem::path const& b) {
-  for (char const* name : {"history.csv", "frames.hdf.series", "frames.xmf", "frames/000000.hdf", "frames/000003.hdf",
-                           "frames/000004.hdf"}) {
+  for (char const* name :
+       {"history.csv", "frames.hdf.series", "frames/000000.hdf", "frames/000003.hdf", "frames/000004.hdf"}) {
     EXPECT_TRUE(text_of(a / name) == text_of(b / name)) << name;
   }
   auto const ca = list_checkpoints(a), cb = list_checkpoints(b);
@@ -83,7 +83,7 @@ TEST(RunCase, WritesAllThatAUserExpects) {
   s.spec.output.picture_height = 240;
   CaseOutcome const outcome = run(s, folder / "r");
   EXPECT_EQ(outcome.ending, Ending::completed);
-  for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "frames.xmf", "case.toml", "log.txt",
+  for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "case.toml", "log.txt",
                            "frames/000004.hdf", "pictures/Pressure-000002.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "r" / name)) << name;
   }

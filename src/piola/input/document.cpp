@@ -133,7 +133,10 @@ std::optional<Document> parse_document(std::string_view text, std::string const&
   if (problems.count() > before) return std::nullopt;
   try {
     toml::table const table = toml::parse(text);
-    return Document{Converter(text, name).node(table), std::string(text)};
+    Document document{Converter(text, name).node(table), std::string(text)};
+    refuse_long_texts(document.root, problems);
+    if (problems.count() > before) return std::nullopt;
+    return document;
   } catch (toml::parse_error const& error) {
     auto const& begin = error.source().begin;
     problems.add({name, static_cast<int>(begin.line), static_cast<int>(begin.column)},

@@ -6,7 +6,7 @@
 namespace piola {
 namespace {
 
-constexpr std::size_t most_bytes = 4'000'000;
+constexpr std::size_t longest_text = 10'000, longest_key = 200;
 constexpr int most_dots = 64;
 
 Place place_of(std::string_view text, std::size_t position, std::string const& name) {
@@ -51,9 +51,8 @@ std::size_t find_long_key(std::string_view text) {
 }  // namespace
 
 void refuse_dangerous_text(std::string_view text, std::string const& name, Problems& problems) {
-  if (text.size() > most_bytes) {
-    problems.add({name, 0, 0}, "the file has " + size_text(static_cast<double>(text.size())) +
-                                   " (at most 4 MB) - is this a case file?");
+  if (text.size() > most_case_bytes) {
+    problems.add({name, 0, 0}, "the file has more than 4 MB (allowed: at most that) - is this a case file?");
     return;
   }
   if (std::size_t const nul = text.find('\0'); nul != std::string_view::npos) {
@@ -63,6 +62,23 @@ void refuse_dangerous_text(std::string_view text, std::string const& name, Probl
   if (std::size_t const dot = find_long_key(text); dot != std::string_view::npos) {
     problems.add(place_of(text, dot, name), "a key with more than 64 dots - is this a case file?");
   }
+}
+
+void refuse_long_texts(Node const& node, Problems& problems) {
+  if (node.text.size() > longest_text) {
+    problems.add(node.place,
+                 "a text of " + count_text(static_cast<std::int64_t>(node.text.size())) +
+                     " characters (allowed: at most 10,000) - shorten it; long formulas can be divided with "
+                     "'define'");
+  }
+  for (Node::Entry const& entry : node.entries) {
+    if (entry.key.size() > longest_key) {
+      problems.add(entry.place, "a key of " + count_text(static_cast<std::int64_t>(entry.key.size())) +
+                                    " characters (allowed: at most 200) - shorten it");
+    }
+    refuse_long_texts(entry.value, problems);
+  }
+  for (Node const& item : node.items) refuse_long_texts(item, problems);
 }
 
 }  // namespace piola

@@ -2,10 +2,10 @@
 #include "piola/input/read_case.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/document_guard.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <unistd.h>
 
 namespace piola {
@@ -134,7 +134,10 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
 std::string content_of(std::filesystem::path const& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path.string() + ": cannot be read - check the name and the permissions");
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string text(most_case_bytes + 1, '\0');  // one more than is allowed tells that there are more
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/files.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <sstream>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -89,15 +90,41 @@ void write_whole_file(std::filesystem::path const& path, std::string_view conten
   write_whole_file(path, std::as_bytes(std::span(content.data(), content.size())));
 }
 
-std::string read_text_file(std::filesystem::path const& path) {
+bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::uint64_t old_end,
+                   std::string_view text) {
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  struct stat now {};
+  if (file.get() < 0 || ::fstat(file.get(), &now) != 0 || static_cast<std::uint64_t>(now.st_size) != size) return false;
+  auto const from = static_cast<::off_t>(size - old_end);
+  std::string before(old_end, '\0');
+  if (::pread(file.get(), before.data(), old_end, from) != static_cast<::ssize_t>(old_end)) return false;
+  ::ssize_t const written = ::pwrite(file.get(), text.data(), text.size(), from);
+  if (written == static_cast<::ssize_t>(text.size()) && ::fdatasync(file.get()) == 0) return true;
+  int const error = written < 0 ? errno : written < static_cast<::ssize_t>(text.size()) ? ENOSPC : errno;
+  static_cast<void>(::pwrite(file.get(), before.data(), old_end, from));  // these bytes have their place on the disk
+  static_cast<void>(::ftruncate(file.get(), static_cast<::off_t>(size)));
+  throw FileError(cannot_write(path, error));
+}
+
+std::string read_text_file(std::filesystem::path const& path, std::uint64_t most) {
+  constexpr std::size_t block = std::size_t{1} << 16;
   std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  std::string text;
+  while (in && text.size() <= most) {
+    std::size_t const before = text.size();
+    text.resize(before + block);
+    in.read(text.data() + before, block);
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
   if (!in.is_open() || in.bad()) {
     throw FileError(
         fmt::format("{}: cannot be read - check that the file exists and that you may read it", path.string()));
   }
-  return text.str();
+  if (text.size() > most) {
+    throw FileError(fmt::format("{}: holds more than {} - is this the right file?", path.string(),
+                                size_text(static_cast<double>(most))));
+  }
+  return text;
 }
 
 void make_folder(std::filesystem::path const& path) {

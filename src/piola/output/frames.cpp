@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace piola {
 namespace {
 
 using hdf5::Storage;
+
+constexpr char const* index_name = "frames.hdf.series";
 
 template <class T>
 std::span<T const> one(T const& value) {
@@ -53,28 +54,12 @@ void put_field(hdf5::Image& file, FieldInfo const& info, std::span<double const>
   file.attribute(path, "unit", info.unit);
 }
 
-/// XDMF has its own order for Tensor6, so that six components go as a plain matrix row.
-std::string_view xdmf_kind(int components) {
-  switch (components) {
-    case 1: return "Scalar";
-    case 3: return "Vector";
-    case 9: return "Tensor";
-    default: return "Matrix";
-  }
-}
-
-std::string xdmf_item(std::string const& file, std::string const& path, std::int64_t rows, int columns, bool integer) {
-  std::string const shape = columns == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, columns);
-  return fmt::format(R"(<DataItem Format="HDF" NumberType="{}" Precision="{}" Dimensions="{}">{}:{}</DataItem>)",
-                     integer ? "Int" : "Float", integer ? 8 : 4, shape, file, path);
-}
-
 }  // namespace
 
 std::string frame_name(std::size_t number) { return fmt::format("frames/{:06}.hdf", number); }
 
 FrameWriter::FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress)
-    : folder_(std::move(folder)), fields_(std::move(fields)), compress_(compress) {}
+    : folder_(std::move(folder)), fields_(std::move(fields)), compress_(compress), index_(folder_ / index_name) {}
 
 std::vector<FieldInfo> FrameWriter::chosen(FieldCache const& cache) const {
   std::vector<FieldInfo> list;
@@ -104,8 +89,13 @@ void FrameWriter::write(double time, FieldCache& cache) {
   file.dataset<double>("/VTKHDF/FieldData/TimeValue", one(time));
   write_whole_file(folder_ / frame_name(times_.size()), file.bytes());
   times_.push_back(time);
-  write_series();
-  write_xdmf(fields, cache.particles().size());
+  if (times_.size() == 1 || !index_.add({time, frame_name(times_.size() - 1)})) write_index();
+}
+
+void FrameWriter::write_index() {
+  std::vector<FrameIndex::Entry> entries;
+  for (std::size_t k = 0; k < times_.size(); ++k) entries.emplace_back(times_[k], frame_name(k));
+  index_.write(entries);
 }
 
 std::vector<std::string> FrameWriter::continue_after(std::vector<double> times) {
@@ -117,40 +107,8 @@ std::vector<std::string> FrameWriter::continue_after(std::vector<double> times) 
   for (std::size_t k = 0; k < times_.size(); ++k) {
     if (!std::filesystem::exists(folder_ / frame_name(k), ignored)) missing.push_back(frame_name(k));
   }
+  if (!times_.empty()) write_index();
   return missing;
-}
-
-void FrameWriter::write_series() const {
-  std::vector<std::string> entries;
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    entries.push_back(fmt::format(R"(    {{ "name": "{}", "time": {} }})", frame_name(k), times_[k]));
-  }
-  write_whole_file(
-      folder_ / "frames.hdf.series",
-      fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", fmt::join(entries, ",\n")));
-}
-
-void FrameWriter::write_xdmf(std::vector<FieldInfo> const& fields, std::int64_t particles) const {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
-      "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    std::string const file = frame_name(k);
-    text += fmt::format("<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", times_[k]);
-    text += fmt::format(
-        "<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"{}\">{}</Topology>\n",
-        particles, xdmf_item(file, "/VTKHDF/Connectivity", particles, 1, true));
-    text += fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-                        xdmf_item(file, "/VTKHDF/Points", particles, 3, false));
-    for (FieldInfo const& info : fields) {
-      text += fmt::format(
-          "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", info.name,
-          xdmf_kind(info.components),
-          xdmf_item(file, "/VTKHDF/PointData/" + info.name, particles, info.components, is_integer(info.name)));
-    }
-    text += "</Grid>\n";
-  }
-  write_whole_file(folder_ / "frames.xmf", text + "</Grid>\n</Domain>\n</Xdmf>\n");
 }
 
 namespace {
@@ -194,17 +152,8 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
 }
 
 std::vector<std::pair<double, std::filesystem::path>> list_frames(std::filesystem::path const& folder) {
-  std::filesystem::path const index = folder / "frames.hdf.series";
-  auto const document = nlohmann::json::parse(read_text_file(index), nullptr, false);
   std::vector<std::pair<double, std::filesystem::path>> frames;
-  try {
-    for (auto const& entry : document.at("files")) {
-      frames.emplace_back(entry.at("time").get<double>(), folder / entry.at("name").get<std::string>());
-    }
-  } catch (nlohmann::json::exception const&) {
-    throw FileError(fmt::format("{}: is not an index of frames - run the case again, or open the frames one by one",
-                                index.string()));
-  }
+  for (auto const& [time, name] : read_frame_index(folder / index_name)) frames.emplace_back(time, folder / name);
   return frames;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/output/field_cache.hpp"
+#include "piola/output/frame_index.hpp"
 #include <array>
 #include <filesystem>
 #include <string>
@@ -9,12 +10,12 @@
 namespace piola {
 
 /// Frames as ParaView 5.11 opens them: one HDF5 file per frame in VTKHDF 1.0 layout, frames/000000.hdf and so on,
-/// with two indices over all frames that are renewed after each: frames.hdf.series (JSON) and frames.xmf (XDMF).
+/// with an index over all frames that grows with each, frames.hdf.series.
 class FrameWriter {
  public:
   /// `fields` empty: every field of the formulation. Names that the formulation does not have are left out.
   FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress);
-  /// Writes the next frame and the indices. Throws FileError; earlier frames stay as they are.
+  /// Writes the next frame and its line in the index. Throws FileError; earlier frames stay as they are.
   void write(double time, FieldCache& cache);
   /// Times of the frames written so far [s].
   std::vector<double> const& times() const { return times_; }
@@ -24,12 +25,12 @@ class FrameWriter {
 
  private:
   std::vector<FieldInfo> chosen(FieldCache const& cache) const;
-  void write_series() const;
-  void write_xdmf(std::vector<FieldInfo> const& fields, std::int64_t particles) const;
+  void write_index();
   std::filesystem::path folder_;
   std::vector<std::string> fields_;
   bool compress_;
   std::vector<double> times_;
+  FrameIndex index_;
 };
 
 /// Path of frame `number` inside a results folder, "frames/000012.hdf".

@@ -11,6 +11,8 @@
 namespace piola {
 namespace {
 
+constexpr std::uint64_t most_checks_bytes = 4'000'000;
+
 /// One [[variant]] or [[check]] while it is read.
 class Entry {
  public:
@@ -165,7 +167,7 @@ Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
 CheckFile read_checks(std::filesystem::path const& path) {
   Problems problems;
   CheckFile file;
-  auto const document = parse_document(read_text_file(path), path.string(), problems);
+  auto const document = parse_document(read_text_file(path, most_checks_bytes), path.string(), problems);
   problems.raise_if_any();
   for (Node::Entry const& e : document->root.entries) {
     if (e.key != "variant" && e.key != "check")

@@ -13,9 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t most_summary_bytes = 100'000'000;
+
 std::string title_of(fs::path const& folder) {
   if (!fs::exists(folder / "summary.json")) return folder.filename().string();
-  auto const summary = nlohmann::json::parse(read_text_file(folder / "summary.json"), nullptr, false);
+  auto const summary =
+      nlohmann::json::parse(read_text_file(folder / "summary.json", most_summary_bytes), nullptr, false);
   bool const titled = summary.is_object() && summary.contains("title") && summary["title"].is_string();
   return titled ? summary["title"].get<std::string>() : folder.filename().string();
 }

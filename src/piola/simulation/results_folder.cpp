@@ -3,8 +3,11 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/version.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/folder_lock.hpp"
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <fstream>
 #include <optional>
 
 namespace piola {
@@ -12,26 +15,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t longest_headline = 20000;  // of a log: version and title
+
+// frames.xmf was written by earlier versions.
 constexpr std::array own_names{"history.csv", "summary.json", "frames", "frames.hdf.series", "frames.xmf", "pictures",
                                "checkpoints", "case.toml",    "log.txt"};
 
 /// Title of the run whose results lie in a folder; nothing if there are none.
 std::optional<std::string> title_of(fs::path const& folder) {
-  if (!fs::exists(folder / "log.txt")) return std::nullopt;
-  std::string const line = [&] {
-    std::string const text = read_text_file(folder / "log.txt");
-    return text.substr(0, text.find('\n'));
-  }();
+  std::ifstream log(folder / "log.txt");
+  std::string line(longest_headline, '\0');
+  log.read(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(std::min(static_cast<std::size_t>(log.gcount()), line.find('\n')));
   auto const colon = line.find(": ");
   if (!line.starts_with("Piola ") || colon == std::string::npos) return std::nullopt;
   return line.substr(colon + 2);
 }
 
-void remove_own(fs::path const& folder) {
+bool holds_anything(fs::path const& folder) {
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](fs::directory_entry const& entry) { return entry.path().filename() != lock_name; });
+}
+
+/// Whether `inner` lies in the folder `outer`, after all links have been followed.
+bool lies_in(fs::path const& inner, fs::path const& outer) {
+  std::error_code error;
+  fs::path const i = fs::weakly_canonical(inner, error), o = fs::weakly_canonical(outer, error);
+  return !error && std::mismatch(o.begin(), o.end(), i.begin(), i.end()).first == o.end();
+}
+
+/// Another name of the same file (a link of either kind) counts too.
+void protect_case(fs::path const& folder, fs::path const& case_file) {
+  if (case_file.empty()) return;
   for (char const* name : own_names) {
-    std::error_code error;
-    fs::remove_all(folder / name, error);
-    if (error) throw FileError(cannot_write(folder / name, error.value()));
+    std::error_code not_there;
+    if (!fs::equivalent(folder / name, case_file, not_there) && !lies_in(case_file, folder / name)) continue;
+    throw InputError(
+        fmt::format("{}: is where the results would be written, and the case {} is there itself (allowed: any folder "
+                    "whose results do not replace it) - give another folder with --out",
+                    (folder / name).string(), case_file.string()));
   }
 }
 
@@ -42,19 +64,25 @@ std::string log_headline(std::string const& title) {
   return fmt::format("Piola {}: {}", version(), line);
 }
 
-void prepare_results(fs::path const& folder, std::string const& title, bool force) {
+void check_results(fs::path const& folder, ResultsOf const& run) {
+  protect_case(folder, run.case_file);
   make_folder(folder);
-  if (!fs::is_empty(folder)) {
-    auto const there = title_of(folder);
-    bool const same = there && *there == log_headline(title).substr(log_headline(title).find(": ") + 2);
-    if (!same && !force) {
-      std::string const what = there ? fmt::format("holds the results of another case, \"{}\"", *there)
-                                     : "is not empty and holds no results of Piola";
-      throw InputError(fmt::format(
-          "{}: {} (an empty or new folder is needed) - give another folder with --out, or --force to use this one",
-          folder.string(), what));
-    }
-    remove_own(folder);
+  if (!holds_anything(folder) || run.force) return;
+  auto const there = title_of(folder);
+  std::string const headline = log_headline(run.title);
+  if (there && *there == headline.substr(headline.find(": ") + 2)) return;
+  std::string const what = there ? fmt::format("holds the results of another case, \"{}\"", *there)
+                                 : "is not empty and holds no results of Piola";
+  throw InputError(fmt::format(
+      "{}: {} (an empty or new folder is needed) - give another folder with --out, or --force to use this one",
+      folder.string(), what));
+}
+
+void clear_results(fs::path const& folder) {
+  for (char const* name : own_names) {
+    std::error_code error;
+    fs::remove_all(folder / name, error);
+    if (error) throw FileError(cannot_write(folder / name, error.value()));
   }
 }
 

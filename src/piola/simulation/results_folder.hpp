@@ -5,10 +5,20 @@
 
 namespace piola {
 
-/// Makes a folder ready for a new run. The results of an earlier run of the same case (same title) are removed; a
-/// folder with anything else in it is refused unless `force`, and even then only files with Piola's names are removed.
-/// Throws InputError (refused) or FileError (cannot be made or written).
-void prepare_results(std::filesystem::path const& folder, std::string const& title, bool force);
+/// Whose results a folder is to hold.
+struct ResultsOf {
+  std::string title;
+  std::filesystem::path case_file;  ///< that it was read from; empty if none
+  bool force = false;               ///< use a folder that holds other things
+};
+
+/// Makes the folder if there is none, and says whether a new run may use it: one that is empty, holds an earlier run of
+/// the same case (same title), or anything if `force`. A folder in which results would replace the case file itself is
+/// never taken. Throws InputError (refused) or FileError (cannot be made).
+void check_results(std::filesystem::path const& folder, ResultsOf const& run);
+
+/// Removes the results of an earlier run, files and folders with Piola's names only. Throws FileError.
+void clear_results(std::filesystem::path const& folder);
 
 /// First line of log.txt, by which a results folder is known: "Piola VERSION: TITLE".
 std::string log_headline(std::string const& title);

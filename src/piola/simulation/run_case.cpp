@@ -5,6 +5,7 @@
 #include "piola/base/version.hpp"
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/folder_lock.hpp"
 #include "piola/simulation/failure_text.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/quantities.hpp"
@@ -184,11 +185,16 @@ double energy_increase(HistoryTable const& history) {
 }
 
 CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop) {
+  if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
+  FolderLock const lock(options.folder);
   Journal journal(options.folder / "log.txt", listener);
   if (!options.resume) {
-    prepare_results(options.folder, s.spec.title, options.force);
+    clear_results(options.folder);
     journal.start(log_headline(s.spec.title));
   }
+  if (!lock.held())
+    journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
+                             options.folder.string()));
   Watch watch({options.folder, s.spec, s.particles, journal}, listener);
   Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
   March const end = march(*s.formulation, s.spec.run, moment, watch.all(), stop);

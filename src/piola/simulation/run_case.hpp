@@ -12,9 +12,10 @@
 namespace piola {
 
 struct RunOptions {
-  std::filesystem::path folder;  ///< of the results
-  bool resume = false;           ///< continue from the newest checkpoint in `folder`
-  bool force = false;            ///< use a folder that holds other things
+  std::filesystem::path folder;          ///< of the results
+  bool resume = false;                   ///< continue from the newest checkpoint in `folder`
+  bool force = false;                    ///< use a folder that holds other things
+  std::filesystem::path case_file = {};  ///< that the case was read from: never replaced by results
 };
 
 struct CaseOutcome {

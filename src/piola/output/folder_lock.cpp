@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/folder_lock.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace piola {
+namespace {
+
+/// What the file says about its holder: "process 1234 on host 'node7' since 2026-01-31 12:00:00".
+std::string holder_text() {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host = {'?'};
+  return fmt::format("process {} on host '{}' since {:%Y-%m-%d %H:%M:%S}", ::getpid(), host.data(),
+                     fmt::localtime(std::time(nullptr)));
+}
+
+std::string holder_of(int descriptor) {
+  std::array<char, 400> text{};
+  ::ssize_t const count = ::pread(descriptor, text.data(), text.size(), 0);
+  std::string const holder(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+  return holder.starts_with("process ") ? holder.substr(0, holder.find('\n')) : "another process";
+}
+
+/// Whether the file that was opened is still the one with that name: its holder removes it in the end.
+bool still_there(int descriptor, std::filesystem::path const& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(std::filesystem::path const& folder) : file_(folder / lock_name) {
+  while (!take()) {
+  }
+  if (!held_) return;
+  std::string const text = holder_text() + "\n";
+  bool const written = ::ftruncate(descriptor_, 0) == 0 &&
+                       ::pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<::ssize_t>(text.size());
+  if (!written) {
+    int const error = errno;
+    ::close(descriptor_);
+    throw FileError(cannot_write(file_, error));
+  }
+}
+
+/// Returns false if the file was removed between opening and locking it.
+bool FolderLock::take() {
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw FileError(cannot_write(file_, errno));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+    held_ = still_there(descriptor_, file_);
+    if (!held_) ::close(descriptor_);
+    return held_;
+  }
+  bool const taken = errno == EWOULDBLOCK;
+  std::string const holder = taken ? holder_of(descriptor_) : "";
+  ::close(descriptor_);
+  descriptor_ = -1;
+  if (!taken) return true;
+  throw InputError(
+      fmt::format("{}: is in use by {} (allowed: one run at a time in a folder) - wait until it ends, stop it, or use "
+                  "another folder",
+                  file_.parent_path().string(), holder));
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ < 0) return;
+  ::unlink(file_.c_str());  // while it is still locked: nobody can have taken it
+  ::close(descriptor_);
+}
+
+}  // namespace piola
