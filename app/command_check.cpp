@@ -5,6 +5,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"
+#include "piola/simulation/warnings.hpp"
 #include "commands.hpp"
 #include <algorithm>
 #include <chrono>
@@ -24,6 +25,7 @@ struct Cost {
   double seconds = 0;  ///< wall time of the whole run
   int threads = 1;
   bool measured = false;
+  std::vector<std::string> warnings = {};
 };
 
 std::string times(std::array<int, 3> const& n, int dimension) {
@@ -237,6 +239,7 @@ Cost measured_cost(CaseSpec const& spec) {
   cost.step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
   cost.bytes = static_cast<double>(simulation.formulation->memory_bytes());
   cost.seconds = seconds_per_step(*simulation.formulation, cost.step) * spec.run.end / cost.step;
+  cost.warnings = simulation.warnings;
   return cost;
 }
 
@@ -246,6 +249,7 @@ Cost estimated_cost(CaseSpec const& spec, std::vector<BodyFacts> const& facts, s
   Cost cost;
   cost.threads = exec_host::set_threads(spec.run.threads);
   cost.step = step_estimate(spec, facts);
+  cost.warnings = warnings_of(spec, assemble(spec), {.step = cost.step});
   cost.bytes = bytes_per_particle * static_cast<double>(particles);
   cost.seconds = spec.run.end / cost.step * static_cast<double>(particles) / (steps_per_second_and_core * cost.threads);
   return cost;
@@ -271,7 +275,7 @@ int check(CaseOptions const& options) {
              cost.threads, cost.threads == 1 ? "thread" : "threads",
              cost.measured ? "from a few steps; without output" : "estimated");
   print_output(spec);
-  std::vector<std::string> const warnings = implausible(spec, facts, cost.step);
+  std::vector<std::string> const& warnings = cost.warnings;
   for (std::string const& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("{}\n",
              warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");

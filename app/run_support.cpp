@@ -114,6 +114,10 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
                         *s.angular_drift);
   for (MeasuredQuantity const& q : s.quantities)
     text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value), q.unit == "1" ? "" : " " + q.unit);
+  if (!s.warnings.empty())
+    text += fmt::format(
+        "  {}: see log.txt\n",
+        s.warnings.size() == 1 ? "1 warning" : count_text(static_cast<std::int64_t>(s.warnings.size())) + " warnings");
   if (!outcome.last_picture.empty()) text += fmt::format("  picture: {}\n", outcome.last_picture.string());
   if (!outcome.index.empty()) text += fmt::format("  for ParaView: {}\n", outcome.index.string());
   if (outcome.ending == Ending::stopped)

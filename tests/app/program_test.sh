@@ -87,6 +87,14 @@ expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 
 expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
 expect 2 "no frames" "$program" render .
 
+# A number without its unit is allowed, but never in silence: on the screen, in the log and in the summary.
+expect 0 "so that the run is a single step" "$program" run bar.toml --quiet --out soft \
+  --set body.bar.material.youngs_modulus=17 --set 'body.bar.initial_velocity=["0.01*Z","0","0"]'
+check grep -q "softer than any jelly" soft/log.txt
+check grep -q "softer than any jelly" soft/summary.json
+expect 0 "2 warnings: see log.txt" "$program" run bar.toml --out soft \
+  --set body.bar.material.youngs_modulus=17 --set 'body.bar.initial_velocity=["0.01*Z","0","0"]' --force
+
 # A run that lost its newest checkpoint continues to the same bytes.
 cp -r bar-results parts
 rm "$(ls parts/checkpoints/*.h5 | tail -1)"

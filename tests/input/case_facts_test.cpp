@@ -18,7 +18,9 @@ struct Looked {
 Looked look(std::string const& text) {
   Looked looked{read_case_text(text, "case.toml"), {}, {}};
   looked.facts = body_facts(looked.spec, make_particles(looked.spec));
-  looked.warnings = implausible(looked.spec, looked.facts, step_estimate(looked.spec, looked.facts));
+  Problems slips;
+  find_slips(looked.spec, looked.facts, step_estimate(looked.spec, looked.facts), slips);
+  looked.warnings = slips.lines();
   return looked;
 }
 
@@ -48,22 +50,27 @@ TEST(CaseFacts, SolidsInRateFormHaveMassAndWavesToo) {
 
 TEST(CaseFacts, SlipsOfUnitsAreNoticed) {
   EXPECT_EQ(look(test::sample_with("1100 kg/m^3", "1.1 kg/m^3")).warnings.at(0),
-            "body \"column\": density is 1.1 kg/m^3, lighter than foam (solids have 100 to 20000 kg/m^3) - was g/cm^3 "
+            "case.toml:10:45: body \"column\": density is 1.1 kg/m^3, lighter than foam (solids have 100 to 20000 "
+            "kg/m^3) - was g/cm^3 "
             "meant?");
   auto const soft = look(test::sample_with("17 MPa", "17 Pa")).warnings;
   EXPECT_EQ(soft.at(0),
-            "body \"column\": youngs_modulus is 17 Pa, softer than any jelly (1 kPa to 1 TPa is usual) - was MPa or "
+            "case.toml:10:77: body \"column\": youngs_modulus is 17 Pa, softer than any jelly (1 kPa to 1 TPa is "
+            "usual) - was MPa or "
             "GPa meant?");
   EXPECT_NE(soft.at(1).find("above the speed of pressure waves, 0.2421 m/s"), std::string::npos);
-  EXPECT_EQ(look(test::sample_with("0.5 s", "0.5 us")).warnings.at(0),
-            "run.end is 500 ns, shorter than one step of about 309.8 us - check the unit");
+  EXPECT_EQ(
+      look(test::sample_with("0.5 s", "0.5 us")).warnings.at(0),
+      "case.toml:6:7: run.end is 500 ns, shorter than one step of about 309.8 us, so that the run is a single step - "
+      "check the units of run.end and of the moduli");
   EXPECT_NE(look(test::sample_with("0.5 s", "500000 s")).warnings.at(0).find("steps are needed"), std::string::npos);
 }
 
 TEST(CaseFacts, CoarseAndUnevenBodiesAreNoticed) {
   auto const thin = look(test::sample_with("[5, 25, 5]", "[5, 25, 2]")).warnings;
   EXPECT_EQ(thin.at(0),
-            "body \"column\": only 2 particles across in z (3 or more are needed to bend) - make the spacing smaller");
+            "case.toml:9:9: body \"column\": only 2 particles across in z (3 or more are needed to bend) - make the "
+            "spacing smaller");
   EXPECT_NE(thin.at(1).find("the spacings differ by a factor of 4"), std::string::npos);
 }
 

@@ -61,6 +61,25 @@ TEST(RunCase, TheSummaryTellsWhereTheTimeWent) {
   EXPECT_EQ(text_of(folder / "history.csv").find("springs"), std::string::npos);
 }
 
+// What looks odd is told before the first step, and by a resumed run again.
+TEST(RunCase, TellsTheWarningsOfTheCase) {
+  struct Ear : Listener {
+    std::vector<std::string> heard;
+    void warning(std::string const& text) override { heard.push_back(text); }
+  } ear;
+  TemporaryFolder const folder;
+  std::atomic<int> stop{0};
+  for (bool const resume : {false, true}) {
+    Simulation s = make_springs();
+    s.warnings = {"case.toml:1:1: the springs are odd - choose others"};
+    ear.heard.clear();
+    run_case(s, {.folder = folder / "r", .resume = resume, .force = false}, ear, stop);
+    EXPECT_EQ(ear.heard, s.warnings);
+    EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["warnings"][0], s.warnings[0]);
+    EXPECT_NE(text_of(folder / "r/log.txt").find("warning: " + s.warnings[0]), std::string::npos);
+  }
+}
+
 TEST(RunCase, MomentaDriftOnlyWhereNothingHoldsOrPushes) {
   TemporaryFolder const folder;
   Simulation s = make_springs();

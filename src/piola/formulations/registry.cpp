@@ -2,13 +2,17 @@
 #include "piola/formulations/registry.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/adaptle/doubts.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/solver.hpp"
+#include "piola/formulations/jst_advection/doubts.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/solver.hpp"
+#include "piola/formulations/jst_sph/doubts.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/formulations/make.hpp"
+#include "piola/formulations/taylor_sph/doubts.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include <algorithm>
@@ -20,11 +24,14 @@ namespace {
 struct Entry {
   FormulationInfo info;
   std::unique_ptr<Formulation> (*make)(Assembly const&);
+  void (*doubt)(Assembly const&, std::size_t body, BodyDoubts&);
 };
 
 /// Adding a formulation: its folder and one line here.
-std::array const all{Entry{jst_sph::info(), &jst_sph::make}, Entry{jst_advection::info(), &jst_advection::make},
-                     Entry{taylor_sph::info(), &taylor_sph::make}, Entry{adaptle::info(), &adaptle::make}};
+std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::doubt},
+                     Entry{jst_advection::info(), &jst_advection::make, &jst_advection::doubt},
+                     Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::doubt},
+                     Entry{adaptle::info(), &adaptle::make, &adaptle::doubt}};
 
 std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info};
 
@@ -79,6 +86,16 @@ std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> ch
 double number_of(FormulationSpec const& spec, std::string_view name, double otherwise) {
   auto const given = spec.numbers.find(name);
   return given != spec.numbers.end() ? given->second : otherwise;
+}
+
+std::vector<Doubt> doubts(Assembly const& assembly) {
+  std::vector<Doubt> found;
+  for (std::size_t b = 0; b < assembly.formulations.size(); ++b)
+    for (auto const& entry : all) {
+      BodyDoubts about(assembly, b, found);
+      if (entry.info.name == assembly.formulations[b].name) entry.doubt(assembly, b, about);
+    }
+  return found;
 }
 
 std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {

@@ -27,8 +27,8 @@ std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& parti
 /// may be smaller.
 double step_estimate(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double default_cfl = 0.3);
 
-/// Numbers that are allowed but look like a slip (units, a missing zero, a body too thin), one sentence each. `step` is
-/// the expected time step [s].
-std::vector<std::string> implausible(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double step);
+/// Notes numbers that are allowed but look like a slip (units, a missing zero, a body too thin), one sentence each with
+/// its place in the file. `step` is the expected time step [s].
+void find_slips(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double step, Problems& slips);
 
 }  // namespace piola

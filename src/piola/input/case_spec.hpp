@@ -24,6 +24,7 @@ struct RunSpec {
   double min_step = 0;           ///< s; a smaller stable step is a failure (0: 1e-6 of the first step)
   int threads = 0;               ///< 0: all cores
   std::string machine = "auto";  ///< instruction set: auto, scalar, v2, v3, v4
+  Places places;
 };
 
 /// [[body]]

@@ -13,30 +13,6 @@ using Kind = RigidShape::Kind;
 
 double dot(Vec3 const& a, Vec3 const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// How far inside the shape a point is [m]; negative outside, where it need not be the distance.
-double depth(RigidShape const& shape, Vec3 const& x, int dimension) {
-  Vec3 const r{x[0] - shape.centre[0], x[1] - shape.centre[1], x[2] - shape.centre[2]};
-  double const along = dot(r, shape.axis);
-  switch (shape.kind) {
-    case Kind::plane: return -along;
-    case Kind::sphere: return shape.radius - std::sqrt(dot(r, r));
-    case Kind::cylinder:
-      return std::min(shape.radius - std::sqrt(std::max(0.0, dot(r, r) - along * along)),
-                      shape.half_lengths[0] - std::abs(along));
-    case Kind::box: break;
-  }
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-    least = std::min(least, shape.half_lengths[d] - std::abs(r[d]));
-  return least;
-}
-
-Vec3 start_of(BodySpec const& body, Vec3 const& X) {
-  Vec3 x = X;
-  for (std::size_t d = 0; body.initial_displacement && d < 3; ++d) x[d] += (*body.initial_displacement)[d](X);
-  return x;
-}
-
 // Where the shape itself stands in the file.
 Place place_of_shape(RigidSpec const& rigid) {
   constexpr std::array<std::string_view, 4> keys{"plane", "sphere", "cylinder", "box"};
@@ -51,7 +27,7 @@ void check_overlap(RigidSpec const& rigid, BodySpec const& spec, ParticleSet con
   Vec3 first{};
   for (std::int64_t id = body.first; id < body.last; ++id) {
     Vec3 const x = start_of(spec, particles.X[static_cast<std::size_t>(id)]);
-    if (!(depth(rigid, x, particles.dimension) > allowed)) continue;
+    if (!(distance_to(rigid, x, particles.dimension) < -allowed)) continue;
     if (inside++ == 0) first = x;
   }
   if (inside == 0) return;
@@ -72,7 +48,36 @@ void check_velocity(RigidSpec const& rigid, int dimension, Problems& problems) {
   }
 }
 
+/// How far a point lies outside each face of a shape whose sides are its axes [m]; negative: inside.
+std::array<double, 3> outside_faces(RigidShape const& shape, Vec3 const& r, int dimension) {
+  std::array<double, 3> q;
+  q.fill(-std::numeric_limits<double>::infinity());
+  if (shape.kind == Kind::cylinder) {
+    double const along = dot(r, shape.axis);
+    q[0] = std::abs(along) - shape.half_lengths[0];
+    q[1] = std::sqrt(std::max(0.0, dot(r, r) - along * along)) - shape.radius;
+    return q;
+  }
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) q[d] = std::abs(r[d]) - shape.half_lengths[d];
+  return q;
+}
+
 }  // namespace
+
+Vec3 start_of(BodySpec const& body, Vec3 const& X) {
+  Vec3 x = X;
+  for (std::size_t d = 0; body.initial_displacement && d < 3; ++d) x[d] += (*body.initial_displacement)[d](X);
+  return x;
+}
+
+double distance_to(RigidShape const& shape, Vec3 const& x, int dimension) {
+  Vec3 const r{x[0] - shape.centre[0], x[1] - shape.centre[1], x[2] - shape.centre[2]};
+  if (shape.kind == Kind::plane) return dot(r, shape.axis);
+  if (shape.kind == Kind::sphere) return std::sqrt(dot(r, r)) - shape.radius;
+  auto const q = outside_faces(shape, r, dimension);
+  double const nearest = std::max({q[0], q[1], q[2]});
+  return nearest < 0 ? nearest : std::hypot(std::max(q[0], 0.0), std::max(q[1], 0.0), std::max(q[2], 0.0));
+}
 
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
   for (RigidSpec const& rigid : spec.rigids) {

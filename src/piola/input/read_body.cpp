@@ -101,6 +101,13 @@ void check_law(Section const& section, BodySpec const& body) {
                              in_quotes(body.law) + " (allowed: " + joined(usable) + ") - change body.material.law");
 }
 
+/// Places of what a table holds, as "material.density".
+void add_places_within(Section const& section, std::string const& table, Places& places) {
+  Node const* const node = section.node().find(table);
+  if (node == nullptr) return;
+  for (Node::Entry const& entry : node->entries) places[table + "." + entry.key] = entry.value.place;
+}
+
 }  // namespace
 
 std::vector<Definition> read_definitions(Value const& value, Names const& names, Problems& problems) {
@@ -148,6 +155,7 @@ BodySpec read_body(Section const& section, std::map<std::string, double> const& 
   section.refuse_unknown();
   body.places = places_of(section, {"name", "shape", "material", "formulation", "initial_velocity",
                                     "initial_displacement", "initial_deformation_gradient"});
+  for (std::string const table : {"material", "formulation"}) add_places_within(section, table, body.places);
   return body;
 }
 

@@ -152,7 +152,7 @@ ContactSpec read_contact(Section const& section, int dimension) {
   section.read("closing_speed", contact.closing_speed);
   section.read("exponent", contact.exponent);
   section.refuse_unknown();
-  contact.places = places_of(section, {"law"});
+  contact.places = places_of(section, {"law", "scale", "stiffness", "closing_speed", "exponent"});
   return contact;
 }
 

@@ -109,6 +109,7 @@ void read_run(Section const& section, RunSpec& run) {
                                                              quantity_text(run.max_step, "s") + ")");
   }
   section.refuse_unknown();
+  run.places = places_of(section, {"end", "cfl", "max_step"});
 }
 
 void read_output(Section const& section, OutputSpec& output) {

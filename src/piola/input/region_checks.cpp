@@ -22,6 +22,11 @@ Place place_of(Places const& places, std::string_view key) {
   return found == places.end() ? Place{} : found->second;
 }
 
+Place place_in_table(Places const& places, std::string_view table, std::string_view key) {
+  auto const found = places.find(std::string(table) + "." + std::string(key));
+  return found == places.end() ? place_of(places, table) : found->second;
+}
+
 std::string point_text(Vec3 const& X, int dimension) {
   std::string text = "(";
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)

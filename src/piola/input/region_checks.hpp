@@ -9,9 +9,11 @@
 
 namespace piola {
 
-/// Tools of check_regions, internal to input/.
+/// Tools of check_regions and of the warnings about a case.
 
 Place place_of(Places const& places, std::string_view key);
+/// Of a key in a table of the section; else of the table.
+Place place_in_table(Places const& places, std::string_view table, std::string_view key);
 /// "(0.5, 6, 0.5) m".
 std::string point_text(std::array<double, 3> const& X, int dimension);
 /// "its particles reach from ... to ...".
@@ -48,8 +50,16 @@ void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problem
 /// Reports the cracks, mirrors, rings, rigid shapes and contact that the formulation of the bodies does not know.
 void check_abilities(CaseSpec const& spec, Problems& problems);
 
+/// Where a particle with the reference position X is at the start [m].
+std::array<double, 3> start_of(BodySpec const& body, std::array<double, 3> const& X);
+/// Distance of a point from the surface of a rigid shape [m], negative inside.
+double distance_to(RigidShape const& shape, std::array<double, 3> const& x, int dimension);
+
 /// Reports rigid shapes that hold particles at the start, and velocities of theirs that are not finite then.
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+
+/// Reports bodies that overlap at the start.
+void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// The parts of check_regions that look at supports, loads and mirrors.
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);

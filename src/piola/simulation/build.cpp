@@ -6,6 +6,7 @@
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/simulation/warnings.hpp"
 #include <algorithm>
 #include <string_view>
 
@@ -175,6 +176,8 @@ Simulation build(CaseSpec spec) {
   simulation.formulation = make_formulation(assembly);
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);
+  double const step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
+  simulation.warnings = warnings_of(spec, assembly, {.step = step, .start = simulation.formulation->diagnose()});
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);
   return simulation;

@@ -16,6 +16,7 @@ struct Simulation {
   std::string formulation_name;  ///< of the bodies, joined with " + " if there are several
   double mass = 0;               ///< kg (per unit thickness or section in 2D and 1D)
   int threads = 1;
+  std::vector<std::string> warnings;  ///< what looks odd about the case (simulation/warnings.hpp)
 };
 
 /// What the formulation is built from: the particles of a case, and its formulas evaluated there. Throws InputError

@@ -195,6 +195,7 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
   if (!lock.held())
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
+  for (std::string const& warning : s.warnings) journal.warn(warning);
   Watch watch({options.folder, s.spec, s.particles, journal}, listener);
   Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
   March const end = march(*s.formulation, s.spec.run, moment, watch.all(), stop);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/doubts.hpp"
+#include "piola/formulations/adaptle/options.hpp"
+#include "piola/materials/solids.hpp"
+#include <algorithm>
+#include <initializer_list>
+
+namespace piola::adaptle {
+namespace {
+
+using Keys = std::initializer_list<std::string_view>;
+
+void ignore(BodyDoubts& doubts, Keys keys, std::string_view why) {
+  for (std::string_view const key : keys) doubts.ignored(key, why);
+}
+
+/// Which descriptions particles of the case may have.
+struct Mixture {
+  bool lagrangian = false, eulerian = false;
+};
+
+Mixture mixture_of(Options const& options) {
+  Mixture m;
+  for (BodyOptions const& o : options.bodies) {
+    m.lagrangian = m.lagrangian || o.description != Description::eulerian;
+    m.eulerian = m.eulerian || o.description != Description::total_lagrangian;
+  }
+  return m;
+}
+
+void doubt_description(BodyOptions const& o, Options const& all, BodyDoubts& doubts) {
+  bool const adaptive = o.description == Description::adaptive, patch = o.description == Description::patch;
+  if (!adaptive && !o.deletes) ignore(doubts, {"convert_strain"}, "particles convert with description = \"adaptive\"");
+  if (!adaptive && !o.deletes)
+    ignore(doubts, {"convert_damage"}, "particles convert with description = \"adaptive\", or fail with \"delete\"");
+  if (!adaptive) ignore(doubts, {"conversion_radius", "tether"}, "particles convert with description = \"adaptive\"");
+  if (!adaptive && !o.deletes && !patch)
+    ignore(doubts, {"jacobian_min", "jacobian_max"}, "particles convert with description = \"adaptive\"");
+  if (!patch) ignore(doubts, {"blend"}, "it belongs to description = \"patch\"");
+  if (patch && all.settings.interface_form == Interface::printed)
+    ignore(doubts, {"blend"}, "interface = \"printed\" is sharp");
+  if (o.description == Description::eulerian)
+    ignore(doubts, {"hourglass"}, "it damps total-Lagrangian particles, and all are Eulerian");
+}
+
+void doubt_mixture(Options const& all, BodyDoubts& doubts) {
+  Mixture const m = mixture_of(all);
+  if (!m.lagrangian || !m.eulerian)
+    ignore(doubts, {"interface", "artificial_stress_interface"}, "no particles of both descriptions can meet");
+  if (!m.eulerian) {
+    if (number_of(doubts.spec(), "artificial_stress", 0) > 0)
+      ignore(doubts, {"artificial_stress"}, "it acts on Eulerian particles, and none can become so");
+    ignore(doubts, {"artificial_stress_exponent"}, "no particle can become Eulerian");
+  }
+  if (!m.lagrangian && doubts.gives("correction", "material"))
+    ignore(doubts, {"correction"}, "it corrects total-Lagrangian sums, and all particles are Eulerian");
+  if (!all.settings.corrected) ignore(doubts, {"correction_limit"}, "it belongs to correction = \"mixed\"");
+}
+
+void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyDoubts& doubts) {
+  bool const riemann = all.settings.viscosity == Viscosity::riemann;
+  if (riemann)
+    ignore(doubts, {"alpha", "beta", "viscosity_speed", "artificial_stress", "artificial_stress_exponent"},
+           "viscosity = \"riemann\" takes its place");
+  else if (o.alpha == 0 && o.beta == 0)
+    ignore(doubts, {"viscosity", "viscosity_speed"}, "alpha and beta are zero");
+  if (!riemann && o.artificial_stress == 0 && mixture_of(all).eulerian)
+    ignore(doubts, {"artificial_stress_exponent"}, "artificial_stress is zero");
+  if (o.artificial_stress == 0 && mixture_of(all).lagrangian && mixture_of(all).eulerian)
+    ignore(doubts, {"artificial_stress_interface"}, "artificial_stress is zero");
+  if (!o.initial_pressure) ignore(doubts, {"initial_pressure_lasts"}, "there is no initial_pressure");
+  if (dimension == 3 && doubts.gives("assumption", "plane_strain"))
+    ignore(doubts, {"assumption"}, "the body has three dimensions");
+}
+
+/// Criteria of damage for a law without it, and damage from which nothing follows.
+void doubt_damage(BodyOptions const& o, BodyDoubts& doubts) {
+  bool damages = false;
+  with_solid(doubts.material(), [&](auto const& law) { damages = law.damages; });
+  std::string_view const cannot =
+      "the law has no damage that grows, so that no particle fails; damage = \"johnson_cook\"";
+  bool const converts = o.description == Description::adaptive || o.deletes;
+  if (!damages) {
+    if (converts) ignore(doubts, {"convert_damage"}, cannot);
+    if (o.releases || (o.deletes && o.convert_strain == unbounded)) ignore(doubts, {"failed"}, cannot);
+    if (!o.convert_when) return;
+    auto const words = expression_words(o.convert_when->text());
+    if (std::find(words.begin(), words.end(), "damage") != words.end())
+      doubts.add("formulation.convert_when",
+                 "convert_when asks for damage, which stays zero (the law has none that grows) - set damage = "
+                 "\"johnson_cook\" or change the formula");
+  } else if (!converts && !o.releases && !doubts.gives("failed")) {
+    doubts.add("material.damage",
+               "damage grows, but nothing follows from it (failed particles keep their stress and stay as they are) - "
+               "choose failed or description = \"adaptive\"");
+  }
+}
+
+}  // namespace
+
+void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
+  Options const all = read_options(assembly);
+  BodyOptions const& o = all.bodies[body];
+  doubt_description(o, all, doubts);
+  doubt_mixture(all, doubts);
+  doubt_forces(o, all, assembly.particles.dimension, doubts);
+  doubt_damage(o, doubts);
+}
+
+}  // namespace piola::adaptle

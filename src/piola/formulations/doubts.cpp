@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/doubts.hpp"
+#include "piola/base/text.hpp"
+#include "piola/materials/solids.hpp"
+#include <algorithm>
+
+namespace piola {
+
+bool BodyDoubts::has_support() const {
+  Body const& body = assembly_.particles.bodies[body_];
+  return std::any_of(assembly_.supports.begin(), assembly_.supports.end(), [&](Support const& support) {
+    return std::any_of(support.particles.begin(), support.particles.end(),
+                       [&](std::int64_t id) { return id >= body.first && id < body.last; });
+  });
+}
+
+bool BodyDoubts::has_mirror() const {
+  return std::any_of(assembly_.mirrors.begin(), assembly_.mirrors.end(),
+                     [&](MirrorPlane const& mirror) { return mirror.body == body_; });
+}
+
+bool BodyDoubts::gives(std::string_view name) const {
+  return spec().words.contains(name) || spec().numbers.contains(name) || spec().formulas.contains(name);
+}
+
+bool BodyDoubts::gives(std::string_view name, std::string_view word) const {
+  auto const given = spec().words.find(name);
+  return given != spec().words.end() && given->second == word;
+}
+
+void BodyDoubts::ignored(std::string_view name, std::string_view why) {
+  if (gives(name))
+    add("formulation." + std::string(name),
+        std::string(name) + " has no effect here (" + std::string(why) + ") - remove it, or change what it depends on");
+}
+
+void BodyDoubts::add(std::string key, std::string text) {
+  found_.push_back(
+      {body_, std::move(key), "body " + in_quotes(assembly_.particles.bodies[body_].name) + ": " + std::move(text)});
+}
+
+double poissons_ratio_of(MaterialParameters const& material) {
+  double ratio = 0;
+  with_any_law(material,
+               [&](auto const& law) { ratio = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu)); });
+  return ratio;
+}
+
+}  // namespace piola

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// Something that a case may ask for, but does not get, or gets in a way that its author may not expect.
+struct Doubt {
+  std::size_t body = 0;
+  std::string key;   ///< within the body: "formulation.blend", "material.poissons_ratio", "initial_displacement"
+  std::string text;  ///< what is odd (why) - what to do
+};
+
+/// What a formulation finds odd about the bodies of a case that it can run: settings without effect here, laws that
+/// lock or cannot fail.
+std::vector<Doubt> doubts(Assembly const& assembly);
+
+/// Collects the doubts about one body.
+class BodyDoubts {
+ public:
+  BodyDoubts(Assembly const& assembly, std::size_t body, std::vector<Doubt>& found)
+      : assembly_(assembly), body_(body), found_(found) {}
+
+  FormulationSpec const& spec() const { return assembly_.formulations[body_]; }
+  MaterialParameters const& material() const { return assembly_.materials[body_]; }
+  bool has_support() const;
+  bool has_mirror() const;
+  /// Whether the case gives a setting of the formulation.
+  bool gives(std::string_view name) const;
+  /// Whether the case gives this word for it.
+  bool gives(std::string_view name, std::string_view word) const;
+  /// Notes a setting that is given, but has no effect; `why`: when it has one.
+  void ignored(std::string_view name, std::string_view why);
+  void add(std::string key, std::string text);
+
+ private:
+  Assembly const& assembly_;
+  std::size_t body_;
+  std::vector<Doubt>& found_;
+};
+
+/// Poisson's ratio of a law at rest, from its bulk and shear moduli.
+double poissons_ratio_of(MaterialParameters const& material);
+
+}  // namespace piola

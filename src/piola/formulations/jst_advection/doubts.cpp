@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_advection/doubts.hpp"
+
+namespace piola::jst_advection {
+
+void doubt(Assembly const& assembly, std::size_t, BodyDoubts& doubts) {
+  std::string const why = " has no effect here (only the velocity is carried along) - remove it";
+  if (!assembly.initial_displacement.empty()) doubts.add("initial_displacement", "initial_displacement" + why);
+  if (!assembly.initial_deformation_gradient.empty())
+    doubts.add("initial_deformation_gradient", "initial_deformation_gradient" + why);
+}
+
+}  // namespace piola::jst_advection

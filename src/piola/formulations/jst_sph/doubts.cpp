@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/jst_sph/doubts.hpp"
+#include "piola/base/text.hpp"
+#include "piola/formulations/jst_sph/options.hpp"
+#include "piola/materials/solids.hpp"
+#include <fmt/format.h>
+
+namespace piola::jst_sph {
+namespace {
+
+/// The classical baseline has neither stabilisation nor projection, and steps of its own.
+void doubt_displacement(Assembly const& assembly, BodyDoubts& doubts) {
+  for (std::string_view const name : {"eps2_momentum", "eps4_momentum"})
+    if (number_of(doubts.spec(), name, 0) > 0)
+      doubts.ignored(name, "variables = \"displacement\" have no stabilisation");
+  if (doubts.gives("integrator", "verlet"))
+    doubts.ignored("integrator", "variables = \"displacement\" are advanced by Runge-Kutta");
+  if (doubts.gives("angular_momentum_projection", "on"))
+    doubts.ignored("angular_momentum_projection", "variables = \"displacement\" have no projection");
+  if (doubts.gives("scheme", "filtered"))
+    doubts.ignored("scheme",
+                   "variables = \"displacement\" have neither its filter nor its stabilisation nor its steps");
+  if (!assembly.initial_deformation_gradient.empty())
+    doubts.add("initial_deformation_gradient",
+               "initial_deformation_gradient has no effect here (with variables = \"displacement\" the deformation is "
+               "that of the positions) - give initial_displacement");
+}
+
+/// Settings of operators that are switched off.
+void doubt_operators(Options const& o, BodyDoubts& doubts) {
+  bool const none = o.biharmonic == Biharmonic::none;
+  if (none || (o.eps4 == 0 && o.eps4_J == 0))
+    if (!doubts.gives("biharmonic", "as_scheme")) doubts.ignored("biharmonic", "there is no biharmonic stabilisation");
+  if (none && !doubts.gives("stabilisation_speed", "as_scheme"))
+    doubts.ignored("stabilisation_speed", "there is no stabilisation");
+  if (none && !o.filter && !o.corrected_kernel())
+    doubts.ignored("laplacian_support", "there is no stabilisation, no filter and no corrected kernel");
+  if (!o.filter)
+    doubts.ignored("filter_passes",
+                   "the volumetric energy is not filtered; volumetric_filter = \"on\" does so, or Poisson's ratios "
+                   "from 0.45 on with scheme = \"filtered\"");
+  if (is_solid(doubts.material()))
+    doubts.ignored("wave_speed", "solids in rate form take the speed of their current state");
+  else if (o.exact_speed && doubts.gives("wave_speed", "estimate"))
+    doubts.ignored("wave_speed", "for this law the speed always comes from its tangent");
+}
+
+void doubt_boundaries(Options const& o, BodyDoubts& doubts) {
+  if (o.multipliers && !doubts.has_support()) doubts.ignored("supports", "the body has no support");
+  if (o.project && doubts.has_mirror() && doubts.gives("angular_momentum_projection", "on"))
+    doubts.ignored("angular_momentum_projection", "a body with mirror planes is not projected");
+}
+
+/// Near incompressibility: what locks, grows or rings (docs/theory/jst-sph.md, Limits; jst-sph-default.md, 1 and 2).
+void doubt_incompressible(Options const& o, BodyDoubts& doubts) {
+  constexpr double nearly = 0.4501;
+  double const ratio = poissons_ratio_of(doubts.material());
+  if (!(ratio > nearly) || o.filter) return;
+  std::string const has = fmt::format("poissons_ratio is {}", number_text(ratio, 4));
+  if (o.variables == Variables::displacement)
+    doubts.add(
+        "material.poissons_ratio",
+        has +
+            ", and with variables = \"displacement\" nothing damps the fast changes of volume, which Runge-Kutta "
+            "steps amplify - leave variables out");
+  else if (o.biharmonic != Biharmonic::none && !o.shear_speed)
+    doubts.add("material.poissons_ratio",
+               has +
+                   ", where a stabilisation with the speed of pressure waves locks and takes energy (it is meant for "
+                   "0.45 and less) - take scheme = \"filtered\" or stabilisation_speed = \"shear\"");
+  else
+    doubts.add("material.poissons_ratio",
+               has +
+                   ", and the volumetric energy is not filtered, so that the pressure rings and bending is a little "
+                   "stiff - " +
+                   (doubts.gives("volumetric_filter", "off")
+                        ? "leave volumetric_filter out"
+                        : "take scheme = \"filtered\" and a law with an isochoric part, such as neo_hookean"));
+}
+
+/// Damage is recorded here; nothing becomes of it.
+void doubt_damage(BodyDoubts& doubts) {
+  bool damages = false;
+  with_solid(doubts.material(), [&](auto const& law) { damages = law.damages; });
+  if (damages)
+    doubts.add("material.damage",
+               "damage is recorded, but does not weaken the material (jst_sph lets no particle fail) - set damage = "
+               "\"none\", or take the formulation adaptle");
+}
+
+}  // namespace
+
+void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
+  Options const o = read_options(assembly.formulations[body], assembly.materials[body], assembly.cfl);
+  if (o.variables == Variables::displacement) doubt_displacement(assembly, doubts);
+  doubt_operators(o, doubts);
+  doubt_boundaries(o, doubts);
+  doubt_incompressible(o, doubts);
+  doubt_damage(doubts);
+}
+
+}  // namespace piola::jst_sph

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include "piola/input/case_facts.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+/// What a run is judged by before it starts.
+struct Prospect {
+  double step = 0;  ///< expected time step [s]
+  /// Energies at the start; nothing where the formulation was not built.
+  std::optional<Diagnostics> start = {};
+};
+
+/// All that looks odd about a case that can run: slips of units, settings without effect, laws that lock or cannot
+/// fail, bodies that touch or cannot touch. One sentence each, "file:line:column: what (what is usual) - what to do",
+/// in the order of the file. What `piola check` shows, and `piola run` tells and writes to summary.json and log.txt.
+std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, Prospect const& prospect);
+
+}  // namespace piola
