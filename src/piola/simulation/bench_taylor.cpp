@@ -24,6 +24,7 @@ struct Subject {
   int dimension, side;
   char const* configuration;
   char const* virtual_particles;
+  char const* exchange;
   bool deforming;  ///< strained by a wave, so that lists do not last; all steps count
 };
 
@@ -48,8 +49,11 @@ Assembly body(Subject const& subject, std::string const& machine) {
   std::array const values{density, youngs_modulus, poissons_ratio};
   std::copy(values.begin(), values.end(), material.value);
   a.materials = {material};
-  a.formulations = {FormulationSpec{
-      "taylor_sph", {}, {{"configuration", subject.configuration}, {"virtual_particles", subject.virtual_particles}}}};
+  a.formulations = {FormulationSpec{"taylor_sph",
+                                    {},
+                                    {{"configuration", subject.configuration},
+                                     {"virtual_particles", subject.virtual_particles},
+                                     {"exchange", subject.exchange}}}};
   for (auto const& X : a.particles.X)
     a.initial_velocity.push_back(
         {subject.deforming ? shear_speed(X[1], subject.side) : 1e-3 * std::sin(2 * X[0]), 0, 0});
@@ -134,15 +138,18 @@ TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options) {
   report.machine = machine->name;
   report.lanes = machine->lanes;
   constexpr char const *triangles = "delaunay", *boxes = "lattice_cells";
+  constexpr char const *adjoint = "adjoint", *estimates = "estimates";
   int const plate = options.plate_side, cube = options.cube_side;
-  Subject const deforming{"plate, moving, lists follow", 2, plate, "updated", triangles, true};
-  Subject const subjects[] = {{"plate, fixed", 2, plate, "fixed", triangles, false},
-                              {"plate, moving", 2, plate, "updated", triangles, false},
+  Subject const deforming{"plate, moving, lists follow", 2, plate, "updated", triangles, estimates, true};
+  Subject const subjects[] = {{"plate, fixed", 2, plate, "fixed", triangles, estimates, false},
+                              {"plate, moving", 2, plate, "updated", triangles, estimates, false},
+                              {"plate, moving, adjoint", 2, plate, "updated", triangles, adjoint, false},
                               deforming,
-                              {"plate, moving, boxes", 2, plate, "updated", boxes, false},
-                              {"bar, fixed", 1, options.bar_particles, "fixed", triangles, false},
-                              {"cube, fixed", 3, cube, "fixed", triangles, false},
-                              {"cube, moving, boxes", 3, cube, "updated", boxes, false}};
+                              {"plate, moving, boxes", 2, plate, "updated", boxes, estimates, false},
+                              {"bar, fixed", 1, options.bar_particles, "fixed", triangles, estimates, false},
+                              {"cube, fixed", 3, cube, "fixed", triangles, estimates, false},
+                              {"cube, moving, boxes", 3, cube, "updated", boxes, estimates, false},
+                              {"cube, moving, adjoint", 3, cube, "updated", triangles, adjoint, false}};
   for (auto const& subject : subjects)
     for (std::string const& name : {report.machine, std::string("scalar")}) measure(report, options, subject, name);
   report.upkeep = measure_upkeep(options, deforming, report.machine);

@@ -9,8 +9,10 @@ namespace {
 using Words = std::map<std::string, std::string, std::less<>>;
 using Numbers = std::map<std::string, double, std::less<>>;
 
+/// Of estimates, unless the words say otherwise.
 Options options(int dimension, Words words = {}, Numbers numbers = {}, double cfl = std::nan(""),
                 bool whole_lattice = true) {
+  words.emplace("exchange", "estimates");
   return read_options({"taylor_sph", std::move(numbers), std::move(words)}, dimension, cfl, whole_lattice);
 }
 
@@ -23,7 +25,26 @@ std::string message(int dimension, Words words, double cfl = std::nan("")) {
   return "";
 }
 
-TEST(TaylorOptions, AreAMovingBodyOfLatticeBoxesByDefault) {
+TEST(TaylorOptions, AreAMovingBodyOfSimplicesWithTheAdjointExchangeByDefault) {
+  for (int D = 1; D <= 3; ++D) {
+    Options const o = read_options({"taylor_sph", {}, {}}, D, std::nan(""), true);
+    EXPECT_TRUE(o.moving);
+    EXPECT_TRUE(o.adjoint);
+    EXPECT_FALSE(o.lattice_cells);
+    EXPECT_FALSE(o.conserve) << "momenta are kept anyway";
+    EXPECT_EQ(o.memory, 0.2);
+    EXPECT_EQ(o.hourglass, 0);
+    EXPECT_EQ(o.cfl, 0.9);
+    Options const fixed = read_options({"taylor_sph", {}, {{"configuration", "fixed"}}}, D, std::nan(""), true);
+    EXPECT_FALSE(fixed.adjoint) << "exact waves at Courant number 1 need the estimates";
+  }
+  Options const boxes = read_options({"taylor_sph", {{"cell_memory", 0.5}}, {{"virtual_particles", "lattice_cells"}}},
+                                     2, std::nan(""), true);
+  EXPECT_EQ(boxes.hourglass_stiffness, 0.05);
+  EXPECT_EQ(boxes.memory, 0.5);
+}
+
+TEST(TaylorOptions, OfEstimatesAreAMovingBodyOfLatticeBoxesByDefault) {
   for (int D = 1; D <= 3; ++D) {
     Options const o = options(D);
     EXPECT_TRUE(o.moving);

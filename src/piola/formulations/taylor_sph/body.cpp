@@ -4,6 +4,7 @@
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 namespace piola::taylor_sph {
@@ -45,7 +46,10 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   largest_radius_ = (0.6 + 0.35 * D()) * widest;
   cells_ = first_cells(set);
   if (D() > 1 && options_.hourglass > 0) boxes_ = lattice_cells(set, body_);
-  if (!assembly.initial_displacement.empty()) weigh_displaced(assembly);
+  if (options_.adjoint)
+    weigh_cells(assembly);
+  else if (!assembly.initial_displacement.empty())
+    weigh_displaced(assembly);
   place_initially(assembly);
 }
 
@@ -65,6 +69,25 @@ void TaylorBody::weigh_displaced(Assembly const& assembly) {
   for (std::size_t i = 0; i < X_.size(); ++i) mass_[i] *= after[i] / before[i];
 }
 
+/// Under the adjoint exchange masses are the shares of the cells, m_i = rho0 sum V_J / n, of where particles are born.
+void TaylorBody::weigh_cells(Assembly const& assembly) {
+  Points x = X_;
+  for (Index i = 0; i < particles() && !assembly.initial_displacement.empty(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      x[at(i)][c] += assembly.initial_displacement[static_cast<std::size_t>(body_.first + i)][c];
+  mass_.assign(X_.size(), 0);
+  for (Index cell = 0; cell < cells_.count(); ++cell)
+    for (Index const corner : cells_.of(cell))
+      mass_[at(corner)] += state_.k.rho0 * volume_of(cells_, cell, x) / cells_.corners;
+  auto const lost = std::find_if(mass_.begin(), mass_.end(), [](double m) { return !(m > 0); });
+  if (lost == mass_.end()) return;
+  auto const& X = X_[static_cast<std::size_t>(lost - mass_.begin())];
+  throw InputError(
+      fmt::format("taylor_sph: the particle of body '{}' at ({:.4g}, {:.4g}, {:.4g}) m is the corner of no "
+                  "cell - use smaller spacings, or a shape without lone particles",
+                  body_.name, X[0], X[1], X[2]));
+}
+
 void TaylorBody::set_constants(Assembly const& assembly, std::size_t body) {
   state_.material = assembly.materials[body];
   auto& k = state_.k;
@@ -82,7 +105,11 @@ void TaylorBody::set_constants(Assembly const& assembly, std::size_t body) {
   k.form = options_.form;
   k.kernel = options_.kernel;
   k.moving = options_.moving;
-  k.loaded = boundary_.has_accelerations();
+  k.loaded = boundary_.has_accelerations() || (options_.adjoint && boundary_.has_tractions());
+  k.adjoint = options_.adjoint;
+  k.memory = options_.adjoint ? options_.memory : 0;
+  k.hourglass_stiffness = options_.hourglass_stiffness;
+  if (k.adjoint) kernel_volume_.assign(X_.size(), k.kernel_volume);
   for (Index i = 0; i < particles(); ++i)
     mass_.push_back(k.rho0 * assembly.particles.volume[static_cast<std::size_t>(body_.first + i)]);
 }
@@ -113,7 +140,7 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   s.displacement.assign(s.v.size(), 0);
   s.x_of_lists = s.x_of_cells = s.x;
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
-  s.books.assign(13, 0);
+  s.books.assign(15, 0);
   restore(s);
   free_ = !boundary_.holds();
   double now[MotionSums::size];
@@ -179,6 +206,7 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   state_.items = boundary_.items();
   fill_cell_tables(x_of_cells);
   fill_hourglass_tables();
+  fill_cell_memory();
 }
 
 void TaylorBody::fill_cell_tables(Points const& x) {
@@ -206,6 +234,29 @@ void TaylorBody::fill_cell_tables(Points const& x) {
   state_.cells.simplices = cells_.corners == D() + 1;
   state_.cells.corner = corner_.data();
   state_.cells.reference_quality = reference_quality_.data();
+  state_.cells.adjoint = options_.adjoint;
+}
+
+/// What the adjoint exchange keeps per cell, and the cells around each particle, in their order.
+void TaylorBody::fill_cell_memory() {
+  if (!options_.adjoint) return;
+  int const corners = cells_.corners;
+  around_begin_.assign(at(state_.boundary.last) + 1, 0);
+  for (Index const corner : cells_.corner) ++around_begin_[at(slot_of_[at(corner)]) + 1];
+  std::partial_sum(around_begin_.begin(), around_begin_.end(), around_begin_.begin());
+  around_.assign(cells_.corner.size(), 0);
+  std::vector<Index> next(around_begin_.begin(), around_begin_.end() - 1);
+  for (Index c = 0; c < cells_.count(); ++c)
+    for (int k = 0; k < corners; ++k)
+      around_[at(next[at(slot_of_[at(cells_.of(c)[static_cast<std::size_t>(k)])])]++)] = c * corners + k;
+  state_.around = {around_begin_.data(), around_.data()};
+  std::size_t const slots = at(state_.virtuals.last), D = at(this->D());
+  int const patterns = D == 1 || corners == this->D() + 1 ? 0 : D == 2 ? 1 : 4;
+  cell_across_.assign(slots, 0);
+  cell_force_.assign(slots * at(corners) * D, 0);
+  cell_gradient_.assign(slots * D * D, 0);
+  cell_hourglass_.assign(slots * at(patterns) * D, 0);
+  state_.memory = {cell_across_.data(), cell_force_.data(), cell_gradient_.data(), cell_hourglass_.data(), patterns};
 }
 
 void TaylorBody::fill_hourglass_tables() {
@@ -227,7 +278,32 @@ void TaylorBody::fill_hourglass_tables() {
   state_.hourglass = {boxes, box_corner_.data(), pattern_.data(), box_of_.data()};
 }
 
+/// Everything from outside enters as a force, at half time, or as a prescribed speed: no stress is imposed.
+void TaylorBody::step_adjoint(double time, double dt) {
+  if (surface_positions_.size() != X_.size()) surface_positions_ = X_;
+  for (Index const i : boundary_.particles()) {
+    auto const here = x(i), speed = v(i);
+    for (std::size_t c = 0; c < 3; ++c)
+      surface_positions_[at(i)][c] = here[c] + (state_.k.moving ? 0.5 * dt * speed[c] : 0);
+  }
+  boundary_.prepare_speeds(time, dt, surface_positions_, [&](Index i) { return v(i); });
+  if (state_.k.loaded) {
+    prepare_loads(time + 0.5 * dt);
+    for (double const t : {time, time + dt})
+      boundary_.each_traction(t, [&](Index i, std::array<double, 3> const& f) {
+        for (int c = 0; c < D(); ++c)
+          acceleration_.at(slot_of_[at(i)], c) += 0.5 * f[static_cast<std::size_t>(c)] / mass_[at(i)];
+      });
+  }
+  machine_->adjoint_step(state_, dt);
+  work_ += state_.work;
+  last_step_ = dt;
+  ++steps_since_triangulation_;
+  if (state_.k.moving) follow_motion();
+}
+
 void TaylorBody::step(double time, double dt) {
+  if (options_.adjoint) return step_adjoint(time, dt);
   if (state_.k.loaded) prepare_loads(time + 0.5 * dt);
   prepare_boundary(time, dt, 0.5 * dt);
   machine_->half_step(state_, dt);
@@ -319,6 +395,20 @@ SymMat<3> TaylorBody::stress(Index i) const {
 
 double TaylorBody::volume_ratio(Index i) const { return record(i)[D()] / kernel_volume_[at(i)]; }
 
+int TaylorBody::neighbours(Index i) const {
+  if (!options_.adjoint) return to_real_.count(i);
+  std::size_t const slot = at(slot_of_[at(i)]);
+  return around_begin_[slot + 1] - around_begin_[slot];
+}
+
+CellEnergy TaylorBody::cell_energy() const {
+  if (!options_.adjoint) return {};
+  BodyState state = state_;
+  return machine_->cell_energy(state);
+}
+
+double TaylorBody::staggering_energy() const { return last_step_ * last_step_ / 8 * cell_energy().square; }
+
 Points TaylorBody::positions() const {
   Points r(X_.size());
   for (Index i = 0; i < particles(); ++i) r[at(i)] = x(i);
@@ -328,6 +418,8 @@ Points TaylorBody::positions() const {
 std::size_t TaylorBody::bytes() const {
   return real_.bytes() + virtual_.bytes() + across_.bytes() + drift_.bytes() + displacement_.bytes() +
          acceleration_.bytes() + slot_mass_.bytes() + to_virtual_.bytes() + to_real_.bytes() +
+         sizeof(double) * (cell_across_.size() + cell_force_.size() + cell_gradient_.size() + cell_hourglass_.size()) +
+         sizeof(Index) * (around_begin_.size() + around_.size()) +
          sizeof(double) * (reference_square_.size() + reference_quality_.size() + pattern_.size() + partial_.size()) +
          sizeof(Index) * (corner_.size() + box_corner_.size() + box_of_.size() + cells_.corner.size());
 }

@@ -17,8 +17,10 @@ struct Snapshot {
   std::vector<double> stress, across, volume;     ///< SymMat<D>, 1, 1 per particle
   std::vector<double> x_of_lists, x_of_cells;     ///< positions when lists and cells were made
   std::vector<double> corners;                    ///< of the cells
+  std::vector<double> cell_stress, cell_across;   ///< adjoint: SymMat<D>, 1 per cell; empty: means of the corners
+  std::vector<double> cell_hourglass;             ///< adjoint, boxes: patterns * D per cell
   std::vector<double> books;  ///< work, power, filter loss, list updates, triangulations, steps, hasty updates,
-                              ///< momenta
+                              ///< momenta, exchange loss, last step
 };
 
 /// Wall time spent besides the steps themselves [s].
@@ -52,7 +54,10 @@ class TaylorBody {
   double volume_ratio(Index i) const;  ///< rho0 / rho
   double mass(Index i) const { return mass_[at(i)]; }
   double volume(Index i) const { return mass_[at(i)] / state_.k.rho0; }  ///< at the start
-  int neighbours(Index i) const { return to_real_.count(i); }
+  int neighbours(Index i) const;                                         ///< virtual particles that a real one sees
+  CellEnergy cell_energy() const;                                        ///< of the adjoint exchange, else zero
+  /// Adjoint: dt^2/8 sum V L:D:L [J]. The sum of energies less this only falls, but for the work from outside.
+  double staggering_energy() const;
 
   Snapshot snapshot() const;
   void restore(Snapshot const& snapshot);
@@ -81,6 +86,7 @@ class TaylorBody {
   void set_constants(Assembly const& assembly, std::size_t body);
   Cells first_cells(ParticleSet const& set) const;
   void weigh_displaced(Assembly const& assembly);
+  void weigh_cells(Assembly const& assembly);
   void place_initially(Assembly const& assembly);
   Points positions() const;
   Points middles(Points const& x) const;
@@ -89,6 +95,9 @@ class TaylorBody {
   void order_slots(std::vector<Index> const& on_boundary);
   void fill_cell_tables(Points const& x);
   void fill_hourglass_tables();
+  void fill_cell_memory();
+  void restore_cells(Snapshot const& snapshot);
+  void step_adjoint(double time, double dt);
   std::vector<double> reach_of_cells(Points const& x) const;
   std::vector<double> reach_of_particles(std::vector<double> const& cells) const;
   bool sees(Index particle, Index cell) const;
@@ -121,7 +130,8 @@ class TaylorBody {
   Field acceleration_{"Acceleration", "m/s2", 3, Role::derived};
   Field slot_mass_{"Mass", "kg", 1, Role::reference};
   SetPairs to_virtual_, to_real_;
-  std::vector<Index> corner_, box_corner_, box_of_;
+  std::vector<Index> corner_, box_corner_, box_of_, around_begin_, around_;
+  std::vector<double> cell_across_, cell_force_, cell_gradient_, cell_hourglass_;
   std::vector<double> reference_square_, reference_quality_, pattern_, partial_;
   FailureSlot failure_;
   BodyState state_;
@@ -130,6 +140,7 @@ class TaylorBody {
   bool free_ = false;                 ///< no support: momentum changes by loads alone
   std::array<double, 6> momentum_{};  ///< linear and angular, that a free body must have
   double work_ = 0, power_ = 0;
+  double last_step_ = 0;  ///< [s]
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
   long hasty_updates_ = 0;  ///< list updates in successive steps, up to now
   SetupSeconds seconds_;

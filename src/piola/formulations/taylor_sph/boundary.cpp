@@ -286,6 +286,12 @@ void Boundary::prepare(double time, double dt, Points const& x, std::function<Po
   }
 }
 
+void Boundary::prepare_speeds(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity) {
+  if (has_tractions()) turn(x);
+  if (!holds()) return;
+  for (std::size_t k = 0; k < particles_.size(); ++k) hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);
+}
+
 double Boundary::power(std::function<Point(Index)> const& velocity, std::function<Stress(Index)> const& stress) const {
   double sum = 0;
   for (Index const particle : particles_)

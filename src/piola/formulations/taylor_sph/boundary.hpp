@@ -26,6 +26,9 @@ class Boundary {
   /// Velocities before are those that the particles have.
   void prepare(double time, double dt, Points const& x, std::function<std::array<double, 3>(Index)> const& velocity,
                std::function<std::array<double, 6>(Index)> const& stress_now);
+  /// As `prepare`, of the velocities alone, and of normals where there are tractions.
+  void prepare_speeds(double time, double dt, Points const& x,
+                      std::function<std::array<double, 3>(Index)> const& velocity);
   /// How many sides meet at a particle; 0 inside.
   int sides(Index particle) const { return static_cast<int>(sides_[static_cast<std::size_t>(particle)].size()); }
   std::vector<Index> const& particles() const { return particles_; }

@@ -52,6 +52,14 @@ CellMeasures place(BodyState& body) {
   with_step(body, [&](auto step) { m = step.place(); });
   return m;
 }
+void adjoint_step(BodyState& body, double dt) {
+  with_step(body, [&](auto step) { step.adjoint(dt); });
+}
+CellEnergy cell_energy(BodyState& body) {
+  CellEnergy e;
+  with_step(body, [&](auto step) { e = step.cell_energy(); });
+  return e;
+}
 
 #define PIOLA_NAME_OF(x) #x
 #define PIOLA_NAME(x) PIOLA_NAME_OF(x)
@@ -60,7 +68,16 @@ CellMeasures place(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{
-    PIOLA_NAME(PIOLA_MACHINE), lane_count, &half_step, &full_step, &impose, &filter, &motion, &add_rigid, &place};
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE),
+                      lane_count,
+                      &half_step,
+                      &full_step,
+                      &impose,
+                      &filter,
+                      &motion,
+                      &add_rigid,
+                      &place,
+                      &adjoint_step,
+                      &cell_energy};
 
 }  // namespace piola::taylor_sph::inline PIOLA_MACHINE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of Taylor-SPH for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this
 // file proves is that the same source makes device code for every dimension, kernel and rate-form law.
+#include "piola/formulations/taylor_sph/adjoint_passes.hpp"
 #include "piola/formulations/taylor_sph/boundary_passes.hpp"
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/filter_passes.hpp"
@@ -24,10 +25,21 @@ void launch_law(Range r, void const* pass) {
   }
 }
 
+template <int D, class Law>
+void launch_adjoint(Range r, void const* pass) {
+  if constexpr (RateForm<Law>) {
+    exec::for_each(r, as<CornerForces<D, Law>>(pass));
+    exec::for_each_block(r, as<StrainCells<D, Law>>(pass));
+    exec::for_each_block(r, as<AdvanceStresses<D, Law>>(pass));
+    exec::for_each_block(r, as<CellEnergies<D, Law>>(pass));
+  }
+}
+
 template <int D, class... Law>
 void launch_laws(Range r, void const* pass, LawList<Law...>) {
   (launch_law<D, CubicSpline, Law>(r, pass), ...);
   (launch_law<D, WendlandC2, Law>(r, pass), ...);
+  (launch_adjoint<D, Law>(r, pass), ...);
 }
 
 template <int D>
@@ -37,6 +49,8 @@ void launch_all(Range r, void const* pass) {
   exec::for_each_block(r, as<PlaceVirtuals<D>>(pass));
   exec::for_each_block(r, as<LargestVolume<D>>(pass));
   exec::for_each_block(r, as<SumMotion<D>>(pass));
+  exec::for_each_block(r, as<AdvanceVelocities<D>>(pass));
+  exec::for_each_block(r, as<GatherVolumes<D>>(pass));
   exec::for_each(r, as<AddRigidMotion<D>>(pass));
   if constexpr (D > 1) exec::for_each(r, as<MeasurePatterns<D>>(pass));
 }

@@ -158,6 +158,7 @@ bool TaylorBody::sees(Index particle, Index cell) const {
 }
 
 void TaylorBody::make_lists(Points const& x) {
+  if (options_.adjoint) return note_distances(x);
   Stopwatch const watch(seconds_.lists);
   x_of_lists_ = x;
   auto cell_h = reach_of_cells(x), real_h = reach_of_particles(cell_h);
@@ -261,13 +262,14 @@ void TaylorBody::follow_motion() {
   measures_ = machine_->place(state_);
   // A cell that doubled since its lists were made, or was crushed to a fiftieth, is as lost as one turned inside out.
   constexpr double doubled = 3, crushed = 0.02;
-  if (!(measures_.strain < doubled) || !(measures_.spacing > crushed * first_spacing_)) measures_.inverted = true;
+  bool const lost_lists = !options_.adjoint && !(measures_.strain < doubled);
+  if (lost_lists || !(measures_.spacing > crushed * first_spacing_)) measures_.inverted = true;
   // Distances that change by 10 % in every step, or cells that are spoilt in no time, are no motion that steps resolve.
   constexpr long most_hasty = 25;
   if (hasty_updates_ > most_hasty) measures_.inverted = true;
   if (measures_.inverted || failure_.index != FailureSlot::none) return;
   if (measures_.quality < least_quality && steps_since_triangulation_ >= least_steps && triangulate_anew()) return;
-  if (measures_.strain < largest_strain) {
+  if (options_.adjoint || measures_.strain < largest_strain) {
     if (steps_since_triangulation_ > least_steps) hasty_updates_ = 0;
     return;
   }
@@ -295,6 +297,7 @@ bool TaylorBody::triangulate_anew() {
   Snapshot s = snapshot();
   s.x_of_lists = s.x_of_cells = s.x;
   s.corners.assign(inside.corner.begin(), inside.corner.end());
+  for (auto* per_cell : {&s.cell_stress, &s.cell_across, &s.cell_hourglass}) per_cell->clear();
   s.books[4] = static_cast<double>(triangulations_);
   restore(s);
   return true;
@@ -318,6 +321,13 @@ Snapshot TaylorBody::snapshot() const {
   s.x_of_lists = flattened(x_of_lists_, D());
   s.x_of_cells = flattened(x_of_cells_, D());
   s.corners.assign(cells_.corner.begin(), cells_.corner.end());
+  for (Index c = 0; c < cells_.count() && options_.adjoint; ++c) {
+    double const* const stress = state_.virtual_ + static_cast<std::ptrdiff_t>(c) * record_stride(D()) + 2 * D() + 1;
+    s.cell_stress.insert(s.cell_stress.end(), stress, stress + n);
+    s.cell_across.push_back(cell_across_[at(c)]);
+  }
+  auto const hourglass = static_cast<std::ptrdiff_t>(cells_.count()) * state_.memory.patterns * D();
+  s.cell_hourglass.assign(cell_hourglass_.begin(), cell_hourglass_.begin() + hourglass);
   s.books = {work_,
              power_,
              state_.filter_loss,
@@ -326,7 +336,27 @@ Snapshot TaylorBody::snapshot() const {
              static_cast<double>(steps_since_triangulation_),
              static_cast<double>(hasty_updates_)};
   s.books.insert(s.books.end(), momentum_.begin(), momentum_.end());
+  s.books.insert(s.books.end(), {state_.exchange_loss, last_step_});
   return s;
+}
+
+/// New cells take the mean stress of their corners.
+void TaylorBody::restore_cells(Snapshot const& s) {
+  int const n = D() * (D() + 1) / 2;
+  bool const known = !s.cell_stress.empty();
+  for (Index c = 0; c < cells_.count(); ++c) {
+    double* const stress = state_.virtual_ + static_cast<std::ptrdiff_t>(c) * record_stride(D()) + 2 * D() + 1;
+    auto const first = static_cast<std::size_t>(c) * static_cast<std::size_t>(n);
+    for (int k = 0; k < n; ++k) {
+      double mean = 0;
+      for (Index const corner : cells_.of(c)) mean += record(corner)[2 * D() + 1 + k] / cells_.corners;
+      stress[k] = known ? s.cell_stress[first + static_cast<std::size_t>(k)] : mean;
+    }
+    double mean = 0;
+    for (Index const corner : cells_.of(c)) mean += across_.at(slot_of_[at(corner)]) / cells_.corners;
+    cell_across_[at(c)] = known ? s.cell_across[at(c)] : mean;
+  }
+  std::ranges::copy(s.cell_hourglass, cell_hourglass_.begin());
 }
 
 void TaylorBody::restore(Snapshot const& s) {
@@ -356,6 +386,9 @@ void TaylorBody::restore(Snapshot const& s) {
   steps_since_triangulation_ = static_cast<long>(s.books[5]);
   hasty_updates_ = static_cast<long>(s.books[6]);
   std::copy_n(s.books.begin() + 7, 6, momentum_.begin());
+  state_.exchange_loss = s.books[13];
+  last_step_ = s.books[14];
+  if (options_.adjoint) restore_cells(s);
   make_lists(points_of(s.x_of_lists, D()));
   measures_ = machine_->place(state_);
   if (!(first_spacing_ > 0)) first_spacing_ = measures_.spacing;

@@ -9,6 +9,7 @@ namespace piola::taylor_sph {
 namespace {
 
 constexpr std::array<std::string_view, 2> configuration_words{"updated", "fixed"};
+constexpr std::array<std::string_view, 3> exchange_words{"as_configuration", "adjoint", "estimates"};
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_stress", "uniaxial_strain"};
 constexpr std::array<std::string_view, 3> virtual_words{"as_configuration", "delaunay", "lattice_cells"};
@@ -22,6 +23,11 @@ constexpr std::array choices{
            "updated: updated Lagrangian, everything in the current configuration; fixed: that of the start, "
            "geometrically linear, exact transport at Courant number 1",
            configuration_words},
+    Choice{"exchange",
+           "between real and virtual particles; adjoint: forces by the transpose of the cells' gradients, momenta and "
+           "energy balance on any set; estimates: kernel sums as in the paper; as_configuration: updated: adjoint, "
+           "fixed: estimates",
+           exchange_words},
     Choice{"assumption",
            "about the directions that a body does not have; as_dimension: 1D uniaxial_stress (a bar), 2D plane_strain",
            assumption_words},
@@ -29,32 +35,46 @@ constexpr std::array choices{
         "virtual_particles",
         "where values of half time live; delaunay: centroids of triangles (tetrahedra, in 1D midpoints), with "
         "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice; as_configuration: "
-        "updated: lattice_cells where the body is a whole box of particles, else and fixed: delaunay",
+        "delaunay, but with estimates in the updated configuration lattice_cells where the body is a whole box of "
+        "particles",
         virtual_words},
     Choice{"gradient",
-           "linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: eqs. 19, 20",
+           "of estimates; linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: "
+           "eqs. "
+           "19, 20",
            gradient_words},
-    Choice{"kernel", "smoothing kernel, support 2h", kernel_words},
-    Choice{
-        "momentum_projection",
-        "updated configuration, bodies without supports: linear and angular momentum change by the loads alone, by a "
-        "rigid motion added after each step",
-        switch_words}};
+    Choice{"kernel", "smoothing kernel of estimates, support 2h", kernel_words},
+    Choice{"momentum_projection",
+           "estimates in the updated configuration, bodies without supports: linear and angular momentum change by the "
+           "loads alone, by a "
+           "rigid motion added after each step",
+           switch_words}};
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1",
-              "h in spacings of real particles (1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: triangles "
+              "h of estimates in spacings of real particles (1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: "
+              "triangles "
               "1.1, else "
               "0.9); it follows the cells as they deform",
               Interval{0.3, 3, false, false}, no_default},
     Parameter{"hourglass_filter", "1",
               "share of the checkerboard pattern of velocity that each step takes away, as Flanagan and Belytschko's "
-              "hourglass vectors measure it; 0: none (updated 0.3, fixed 0)",
-              Interval{0, 1, false, false}, no_default}};
+              "hourglass vectors measure it; 0: none (estimates: updated 0.3, fixed 0)",
+              Interval{0, 1, false, false}, no_default},
+    Parameter{"cell_memory", "1",
+              "adjoint: share of a cell's own stress in what acts on its corners, the rest is the mean of theirs; 0: "
+              "virtual particles live half a step as in the paper; 1: none of the paper's damping, triangles of "
+              "constant strain",
+              Interval{0, 1, false, false}, 0.2},
+    Parameter{"hourglass_stiffness", "1",
+              "adjoint, lattice_cells: elastic resistance to the checkerboard pattern of the boxes, in shares of the "
+              "wave modulus",
+              Interval{0, 1, false, false}, 0.05}};
 
 constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};
 
-constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"}};
+constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"},
+                                 DiagnosticInfo{"centred_energy", "J"}};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
@@ -92,7 +112,9 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
   o.form = word(spec, "gradient") == "printed" ? GradientForm::printed : GradientForm::linear_exact;
   o.kernel = word(spec, "kernel") == "wendland_c2" ? KernelShape::wendland_c2 : KernelShape::cubic_spline;
   auto const virtual_particles = word(spec, "virtual_particles");
-  bool const by_configuration = virtual_particles == "as_configuration" && o.moving && whole_lattice;
+  auto const exchange = word(spec, "exchange");
+  o.adjoint = exchange == "adjoint" || (exchange == "as_configuration" && o.moving);
+  bool const by_configuration = virtual_particles == "as_configuration" && o.moving && !o.adjoint && whole_lattice;
   o.lattice_cells = dimension > 1 && (virtual_particles == "lattice_cells" || by_configuration);
   o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
   // Moving surfaces need more neighbours than small strains do.
@@ -101,9 +123,11 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
                                  dimension == 1    ? 0.6
                                  : o.lattice_cells ? of_cells
                                                    : of_simplices);
-  o.conserve = word(spec, "momentum_projection") == "on";
-  o.hourglass = number_of(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
-  o.cfl = std::isnan(cfl) ? (o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
+  o.conserve = word(spec, "momentum_projection") == "on" && !o.adjoint;
+  o.hourglass = o.adjoint ? 0 : number_of(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
+  o.memory = number_of(spec, "cell_memory", 0.2);
+  o.hourglass_stiffness = o.lattice_cells ? number_of(spec, "hourglass_stiffness", 0.05) : 0;
+  o.cfl = std::isnan(cfl) ? (o.adjoint || o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
   if (o.cfl > 1)
     problems.add({},
                  fmt::format("run.cfl = {} is above 1: two-step Taylor amplifies short waves then and blows up within "

@@ -10,12 +10,15 @@ struct Options {
   bool moving = true;  ///< updated Lagrangian; else the configuration of the start
   GradientForm form = GradientForm::linear_exact;
   KernelShape kernel = KernelShape::cubic_spline;
-  bool lattice_cells = false;   ///< virtual particles in the middle of lattice boxes; else of simplices
-  bool stress_free = false;     ///< the missing directions: free of stress, else held
-  double smoothing_length = 1;  ///< h in particle spacings
-  double hourglass = 0;         ///< share of the hourglass pattern taken away by each step
-  bool conserve = true;         ///< momenta of bodies without supports, exactly
-  double cfl = 1;               ///< c dt / spacing
+  bool adjoint = true;             ///< the adjoint exchange between the two sets; else estimates by kernel sums
+  double memory = 0.2;             ///< adjoint: share of the cells' own stress
+  double hourglass_stiffness = 0;  ///< adjoint: of the patterns of boxes, in shares of D_11
+  bool lattice_cells = false;      ///< virtual particles in the middle of lattice boxes; else of simplices
+  bool stress_free = false;        ///< the missing directions: free of stress, else held
+  double smoothing_length = 1;     ///< h in particle spacings
+  double hourglass = 0;            ///< share of the hourglass pattern taken away by each step
+  bool conserve = true;            ///< momenta of bodies without supports, exactly
+  double cfl = 1;                  ///< c dt / spacing
 };
 
 /// Registry entry: keys, meanings, defaults, laws.

@@ -68,16 +68,17 @@ class Solver final : public Formulation {
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
     Observation all;
-    std::array<double, 3> more{};
+    std::array<double, 4> more{};
     for (auto const& body : bodies_) {
       observe(*body, set_, all);
-      more[0] += body->state().filter_loss;
+      more[0] += body->state().filter_loss + body->state().exchange_loss;
       more[1] += static_cast<double>(body->list_updates());
       more[2] += static_cast<double>(body->triangulations());
+      more[3] += body->staggering_energy();
     }
     Diagnostics d = all.finish();
     d.stabilisation_loss = more[0];
-    d.more = {{"list_updates", more[1]}, {"triangulations", more[2]}};
+    d.more = {{"list_updates", more[1]}, {"triangulations", more[2]}, {"centred_energy", d.total_energy() - more[3]}};
     return d;
   }
 
@@ -149,6 +150,9 @@ void each_array(S& snapshot, std::size_t body, F const& f) {
   f(fmt::format("body{}_position_of_lists", body), snapshot.x_of_lists);
   f(fmt::format("body{}_position_of_cells", body), snapshot.x_of_cells);
   f(fmt::format("body{}_cells", body), snapshot.corners);
+  f(fmt::format("body{}_cell_stress", body), snapshot.cell_stress);
+  f(fmt::format("body{}_cell_out_of_plane_stress", body), snapshot.cell_across);
+  f(fmt::format("body{}_cell_hourglass", body), snapshot.cell_hourglass);
   f(fmt::format("body{}_books", body), snapshot.books);
 }
 
@@ -168,7 +172,9 @@ void Solver::load(StateReader& reader) {
     Snapshot snapshot = bodies_[k]->snapshot();
     std::array<double, 1> cells{};
     reader.get(fmt::format("body{}_cell_corners", k), cells);
-    snapshot.corners.resize(static_cast<std::size_t>(cells[0]));
+    std::size_t const now = snapshot.corners.size(), then = static_cast<std::size_t>(cells[0]);
+    for (auto* per_cell : {&snapshot.corners, &snapshot.cell_stress, &snapshot.cell_across, &snapshot.cell_hourglass})
+      per_cell->resize(per_cell->size() * then / now);
     each_array(snapshot, k, [&](std::string const& name, std::vector<double>& values) { reader.get(name, values); });
     bodies_[k]->restore(snapshot);
   }

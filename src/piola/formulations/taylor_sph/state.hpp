@@ -24,8 +24,11 @@ struct Constants {
   double hourglass;      ///< share of the hourglass pattern that each step takes away
   GradientForm form;
   KernelShape kernel;
-  bool moving;  ///< updated Lagrangian; false: the configuration of the start, geometrically linear
-  bool loaded;  ///< there are accelerations
+  bool moving;                     ///< updated Lagrangian; false: the configuration of the start, geometrically linear
+  bool loaded;                     ///< there are accelerations
+  bool adjoint = false;            ///< the adjoint exchange; else estimates by kernel sums
+  double memory = 0;               ///< adjoint: share of the cells' own stress
+  double hourglass_stiffness = 0;  ///< adjoint, boxes: of their patterns, in shares of D_11
 };
 
 /// A particle as its neighbours read it: one record of `stride` doubles,
@@ -62,6 +65,26 @@ struct CellTable {
   Index const* corner = nullptr;              ///< corner k of lane l of group g: [(g * corners + k) * lanes + l]
   double const* reference_square = nullptr;   ///< of the distance of each pair of corners, when lists were made [m2]
   double const* reference_quality = nullptr;  ///< volume / (longest edge)^D, when cells were made
+  bool adjoint = false;                       ///< waves cross cells as the adjoint exchange lets them
+};
+
+/// The cells around each real particle, for the adjoint exchange.
+struct CellsAround {
+  Index const* begin = nullptr;  ///< per slot
+  Index const* entry = nullptr;  ///< cell * corners + number of the corner
+};
+
+/// What cells keep and hand on under the adjoint exchange; a cell's own stress stands in its record.
+struct CellMemory {
+  double* across = nullptr;     ///< stress across the plane [Pa]
+  double* force = nullptr;      ///< on each corner [N], D per corner
+  double* gradient = nullptr;   ///< volume times velocity gradient, D * D per cell
+  double* hourglass = nullptr;  ///< amplitudes of the patterns of a box [m]
+  int patterns = 0;
+  template <int D>
+  PIOLA_FN double* hourglass_of(Index cell, int pattern) const {
+    return hourglass + (static_cast<std::ptrdiff_t>(cell) * patterns + pattern) * D;
+  }
 };
 
 /// Boxes of the lattice, for the hourglass filter.
@@ -97,16 +120,27 @@ struct BodyState {
   SetPairTable to_virtual, to_real;
   CellTable cells;
   HourglassTable hourglass;
+  CellsAround around;
+  CellMemory memory;
   BoundaryItem* items = nullptr;  ///< per slot of `boundary`
   double* partial = nullptr;      ///< room for partial sums of reductions, 16 per block
   FailureSlot* failure = nullptr;
-  double filter_loss = 0;  ///< energy taken by the hourglass filter since the start [J]
+  double filter_loss = 0;    ///< energy taken by the hourglass filter since the start [J]
+  double exchange_loss = 0;  ///< energy taken by the adjoint exchange since the start [J]
+  double work = 0;           ///< adjoint: of all that acts from outside, in the last step [J]
 };
 
 /// Positions in sums over a body: mass, mass x, mass x (x) x (XX YY ZZ XY YZ XZ), momentum, moment of momentum;
 /// components that a body does not have are zero.
 struct MotionSums {
   static constexpr int mass = 0, x = 1, xx = 4, v = 10, moment = 13, size = 16;
+};
+
+/// Sums over the cells of a body under the adjoint exchange [J, J, W/s].
+struct CellEnergy {
+  double stored = 0;     ///< V t:D^-1:t / 2 of the cells' own stress
+  double hourglass = 0;  ///< of the patterns of boxes
+  double square = 0;     ///< V L:D:L of the velocities of now
 };
 
 /// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
@@ -120,6 +154,8 @@ struct Machine {
   void (*motion)(BodyState& body, double* sums);           ///< MotionSums of the real particles
   void (*add_rigid)(BodyState& body, double const* rate);  ///< to the velocities: spin, push, centre
   CellMeasures (*place)(BodyState& body);                  ///< virtual particles into the middle of their cells
+  void (*adjoint_step)(BodyState& body, double dt);        ///< a whole step by the adjoint exchange
+  CellEnergy (*cell_energy)(BodyState& body);              ///< of the adjoint exchange
 };
 
 /// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/taylor_sph/adjoint_passes.hpp"
 #include "piola/formulations/taylor_sph/boundary_passes.hpp"
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/filter_passes.hpp"
@@ -48,6 +49,26 @@ class Step {
     AddRigidMotion<D> const pass{b_.real, {r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
     for (Range const range : {b_.interior, b_.boundary}) exec::for_each(range, pass);
   }
+  /// A whole step by the adjoint exchange.
+  void adjoint(double dt) {
+    exec::for_each(b_.virtuals, CornerForces<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, b_.virtual_, dt});
+    b_.work = 0;
+    advance_velocities(b_.interior, b_.interior_count, nullptr, dt);
+    advance_velocities(b_.boundary, b_.boundary_count, b_.items, dt);
+    exec::for_each_block(b_.virtuals, StrainCells<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, view(b_.drift),
+                                                          b_.virtual_, b_.virtual_count, b_.partial, dt});
+    double square = exec::add_partials<1>(b_.partial, exec::block_count(b_.virtuals)).v[0];
+    square -= advance_stresses(b_.interior, b_.interior_count, dt);
+    square -= advance_stresses(b_.boundary, b_.boundary_count, dt);
+    b_.exchange_loss += 0.5 * (1 - b_.k.memory) * dt * dt * square;
+  }
+  CellEnergy cell_energy() {
+    using Pass = CellEnergies<D, Law>;
+    exec::for_each_block(b_.virtuals,
+                         Pass{law_, b_.k, b_.cells, b_.memory, b_.real, b_.virtual_, b_.virtual_count, b_.partial});
+    auto const sum = exec::add_partials<Pass::results>(b_.partial, exec::block_count(b_.virtuals));
+    return {sum.v[0], sum.v[1], sum.v[2]};
+  }
   /// Virtual particles into the middle of their cells.
   CellMeasures place() {
     exec::for_each_block(b_.virtuals, PlaceVirtuals<D>{b_.cells, b_.real, b_.virtual_, b_.partial});
@@ -59,6 +80,10 @@ class Step {
       m.spacing = minimum(m.spacing, part[2]);
       if (!(part[3] > 0)) m.inverted = true;
     }
+    if (b_.k.adjoint) {
+      gather_volumes(b_.interior, b_.interior_count);
+      gather_volumes(b_.boundary, b_.boundary_count);
+    }
     m.dilation =
         maximum(largest_volume(b_.interior, b_.interior_count), largest_volume(b_.boundary, b_.boundary_count)) /
         b_.k.kernel_volume;
@@ -69,6 +94,23 @@ class Step {
   View acceleration() const { return view(b_.acceleration); }
   static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   static WriteView write(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
+  void advance_velocities(Range range, Index count, BoundaryItem const* items, double dt) {
+    exec::for_each_block(
+        range, AdvanceVelocities<D>{b_.k, b_.around, b_.memory, b_.real, view(b_.mass), acceleration(), write(b_.drift),
+                                    items, range.first, range.first + count, b_.partial, dt});
+    b_.work += exec::add_partials<1>(b_.partial, exec::block_count(range)).v[0];
+  }
+  double advance_stresses(Range range, Index count, double dt) {
+    exec::for_each_block(
+        range, AdvanceStresses<D, Law>{law_, b_.k, b_.around, b_.memory, b_.cells.corners, b_.virtual_, b_.real,
+                                       write(b_.out_of_plane), write(b_.displacement), view(b_.drift),
+                                       range.first + count, b_.failure, b_.partial, dt});
+    return exec::add_partials<1>(b_.partial, exec::block_count(range)).v[0];
+  }
+  void gather_volumes(Range range, Index count) {
+    exec::for_each_block(range, GatherVolumes<D>{b_.k, b_.around, b_.cells.corners, b_.virtual_, b_.real, view(b_.mass),
+                                                 range.first + count});
+  }
   void sum_motion(Range range, Index count, double* sums) {
     exec::for_each_block(range, SumMotion<D>{b_.real, view(b_.mass), range.first + count, b_.partial});
     auto const part = exec::add_partials<MotionSums::size>(b_.partial, exec::block_count(range));
