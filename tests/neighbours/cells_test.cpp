@@ -72,6 +72,23 @@ TEST(SplitAlternately, MirrorsTheDiagonalsOfBoxesSideBySide) {
   }
 }
 
+TEST(SplitAlternately, ByRowOrColumnPutsSixTrianglesAroundEachParticleInside) {
+  auto const set = unit_box(2, 6);
+  Cells const boxes = lattice_cells(set, set.bodies[0]);
+  for (auto const diagonals : {Diagonals::by_row, Diagonals::by_column}) {
+    Cells const cells = split_alternately(boxes, set, set.bodies[0], diagonals);
+    expect_filled(cells, set.X, 1, 4);
+    std::vector<int> degree(set.X.size(), 0);
+    for (Index const p : cells.corner) ++degree[static_cast<std::size_t>(p)];
+    for (std::size_t p = 0; p < set.X.size(); ++p) {
+      auto const& i = set.lattice_index[p];
+      if (i[0] % 5 != 0 && i[1] % 5 != 0) {
+        EXPECT_EQ(degree[p], 6);
+      }
+    }
+  }
+}
+
 TEST(SplitAlternately, MakesFiveTetrahedraThatFitThoseBeside) {
   auto const set = unit_box(3, 4);
   Cells const boxes = lattice_cells(set, set.bodies[0]);

@@ -129,13 +129,15 @@ Cells lattice_cells(ParticleSet const& set, Body const& body) {
   return cells;
 }
 
-Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body) {
+Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body, Diagonals diagonals) {
   PIOLA_EXPECTS(boxes.corners == 1 << boxes.dimension);
   Cells cells{boxes.dimension, boxes.dimension + 1, {}};
   for (Index box = 0; box < boxes.count(); ++box) {
     auto const corner = boxes.of(box);
     auto const& at = set.lattice_index[static_cast<std::size_t>(body.first + corner[0])];
-    bool const odd = (at[0] + at[1] + at[2]) % 2 != 0;
+    bool const all = diagonals == Diagonals::by_box || boxes.dimension != 2;
+    int const number = all ? at[0] + at[1] + at[2] : diagonals == Diagonals::by_row ? at[1] : at[0];
+    bool const odd = number % 2 != 0;
     for (auto const& simplex : simplices_of_box(boxes.dimension, odd))
       for (int c = 0; c < cells.corners; ++c)
         cells.corner.push_back(corner[static_cast<std::size_t>(simplex[static_cast<std::size_t>(c)])]);

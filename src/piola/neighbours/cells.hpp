@@ -39,10 +39,15 @@ struct Surface {
 /// On cracks each cell takes the particles of its own side.
 Cells lattice_cells(ParticleSet const& set, Body const& body);
 
-/// Every box cut into simplices, with diagonals that alternate from box to box: 1D as they are, 2 triangles, 5
-/// tetrahedra. The parity of a box's lattice position decides, so that the diagonals on a facet are those of the
-/// box beside. `boxes`: from lattice_cells of the same body.
-Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body);
+/// How the diagonals of boxes lie: alternating from box to box; or, in 2D, from row to row or from column to column, so
+/// that six triangles meet at every particle inside.
+enum class Diagonals { by_box, by_row, by_column };
+
+/// Every box cut into simplices, with diagonals that alternate: 1D as they are, 2 triangles, 5 tetrahedra. The parity
+/// of a box's lattice position decides, so that the diagonals on a facet are those of the box beside. `boxes`: from
+/// lattice_cells of the same body.
+Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body,
+                        Diagonals diagonals = Diagonals::by_box);
 
 /// Delaunay triangulation (tetrahedralisation in 3D, intervals in 1D) of any points, without what lies outside of the
 /// body: simplices whose circumradius is above `largest_radius` [m] (never more than 4 times the diagonal of the box

@@ -60,7 +60,9 @@ TEST_P(AdjointExchange, BalancesEnergyInEveryStepToRoundOff) {
       double const now = more(*f, "centred_energy"), loss = f->diagnose().stabilisation_loss - lost;
       EXPECT_NEAR(now - before, -loss, 1e-13 * scale) << "step " << k << " memory " << memory;
       EXPECT_GE(loss, -1e-15 * scale) << "step " << k << " memory " << memory;
-      if (memory == 1) EXPECT_EQ(loss, 0);
+      if (memory == 1) {
+        EXPECT_EQ(loss, 0);
+      }
       before = now;
       lost += loss;
     }
@@ -112,7 +114,9 @@ TEST_P(AdjointMotion, PassesThePatchTest) {
   double const along = D == 1 ? 2 * youngs_modulus : m.lambda * volume + 4 * m.mu;
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_NEAR(stress[6 * i] / (along * rate * dt), 1, 1e-8) << i;
-    if (D > 1) EXPECT_NEAR(stress[6 * i + 3] / (2 * m.mu * rate * dt), 1, 1e-8) << i;
+    if (D > 1) {
+      EXPECT_NEAR(stress[6 * i + 3] / (2 * m.mu * rate * dt), 1, 1e-8) << i;
+    }
   }
 }
 

@@ -118,7 +118,11 @@ void TaylorBody::set_constants(Assembly const& assembly, std::size_t body) {
 Cells TaylorBody::first_cells(ParticleSet const& set) const {
   if (options_.lattice_cells) return lattice_cells(set, body_);
   if (is_whole_lattice(set, body_) && (body_.regular || !cracks_.empty()))
-    return split_alternately(lattice_cells(set, body_), set, body_);
+    // Under the adjoint exchange masses are those of the cells: as many around each particle.
+    return split_alternately(lattice_cells(set, body_), set, body_,
+                             !options_.adjoint ? Diagonals::by_box
+                             : cracks_.empty() ? Diagonals::by_row
+                                               : Diagonals::by_column);
   return delaunay(X_, D(), largest_radius_);
 }
 

@@ -158,9 +158,9 @@ bool TaylorBody::sees(Index particle, Index cell) const {
 }
 
 void TaylorBody::make_lists(Points const& x) {
-  if (options_.adjoint) return note_distances(x);
   Stopwatch const watch(seconds_.lists);
   x_of_lists_ = x;
+  if (options_.adjoint) return note_distances(x);
   auto cell_h = reach_of_cells(x), real_h = reach_of_particles(cell_h);
   for (auto* all : {&cell_h, &real_h})
     for (double& h : *all) h *= options_.smoothing_length;
