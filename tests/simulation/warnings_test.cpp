@@ -111,8 +111,17 @@ TEST(Warnings, SettingsThatJstSphIgnores) {
 }
 
 TEST(Warnings, SettingsThatTaylorSphIgnores) {
-  std::string const on = ", momentum_projection = \"on\"";
+  std::string const estimates = ", exchange = \"estimates\"", on = estimates + ", momentum_projection = \"on\"",
+                    boxes = ", virtual_particles = \"lattice_cells\"";
   expect_ignored({
+      {"momentum_projection", taylor(", momentum_projection = \"on\""), taylor(on)},
+      {"gradient", taylor(", gradient = \"printed\""), taylor(estimates + ", gradient = \"printed\"")},
+      {"kernel", taylor(", kernel = \"wendland_c2\""), taylor(estimates + ", kernel = \"wendland_c2\"")},
+      {"smoothing_length", taylor(", smoothing_length = 1"), taylor(estimates + ", smoothing_length = 1")},
+      {"hourglass_filter", taylor(", hourglass_filter = 0.2"), taylor(estimates + ", hourglass_filter = 0.2")},
+      {"cell_memory", taylor(estimates + ", cell_memory = 0.1"), taylor(", cell_memory = 0.1")},
+      {"cell_memory", taylor(", configuration = \"fixed\", cell_memory = 0.1"), taylor(", cell_memory = 0.1")},
+      {"hourglass_stiffness", taylor(", hourglass_stiffness = 0.1"), taylor(boxes + ", hourglass_stiffness = 0.1")},
       {"momentum_projection", taylor(on, support), taylor(on)},
       {"momentum_projection", taylor(on + ", configuration = \"fixed\""), taylor(on)},
   });
