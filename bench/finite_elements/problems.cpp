@@ -81,6 +81,16 @@ Problem twist() {
   return p;
 }
 
+Problem twist_long() {
+  Problem p = twist();
+  p.name = "twist_long";
+  p.about = "twisting column at the times of the figures";
+  p.end = 0.25;
+  p.readings = {{"twist_at_100_ms", "degree", 0, Take::at_time, 0.1, degree},
+                {"twist_at_250_ms", "degree", 0, Take::at_time, 0.25, degree}};
+  return p;
+}
+
 Problem bend() {
   Problem p = column("bend", "bending column, Lee et al. 2016, Section 8.8");
   p.end = 0.55;
@@ -89,6 +99,15 @@ Problem bend() {
   p.trace = [](Mesh const& mesh) { return std::vector{top_sway(mesh)}; };
   p.readings = {{"tip_maximum", "m", 0, Take::first_peak, 0, 1},
                 {"time_of_tip_maximum", "s", 0, Take::time_of_first_peak, 0, 1}};
+  return p;
+}
+
+Problem bend_long() {
+  Problem p = bend();
+  p.name = "bend_long";
+  p.about = "bending column at the time of the figure";
+  p.end = 1.5;
+  p.readings = {{"tip_at_1500_ms", "m", 0, Take::at_time, 1.5, 1}};
   return p;
 }
 
@@ -216,6 +235,8 @@ Problem swing() {
 
 }  // namespace
 
-std::vector<Problem> problems() { return {twist(), bend(), tensile(), coining(), punch(), spin(), swing()}; }
+std::vector<Problem> problems() {
+  return {twist(), twist_long(), bend(), bend_long(), tensile(), coining(), punch(), spin(), swing()};
+}
 
 }  // namespace bricks

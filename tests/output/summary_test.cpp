@@ -21,7 +21,7 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
                                             "end_time", "wall_seconds", "stages_per_second", "threads", "energy",
                                             "momentum", "quantities", "warnings"}));
   EXPECT_TRUE(json["energy"].contains("initial") && json["energy"].contains("final") &&
-              json["energy"].contains("max_increase"));
+              json["energy"].contains("max_increase") && json["energy"].contains("max_decrease"));
   EXPECT_EQ(json["momentum"]["linear_drift"], 0.25);
   EXPECT_EQ(json["momentum"]["angular_drift"], 0.5);
   EXPECT_EQ(json["quantities"]["peak"]["value"], 2.5);

@@ -250,12 +250,14 @@ TEST(RunCase, KeepsTheStepBelowTheBoundOfTheUser) {
   EXPECT_EQ(run(s, folder / "r").summary.steps, 1000);
 }
 
-TEST(EnergyIncrease, IsTheLargestRiseAboveAnyEarlierRow) {
+TEST(EnergyChange, IsTheLargestRiseAboveOrFallBelowAnyEarlierRow) {
   HistoryTable const history{{{"total_energy", "J"}, {"external_work", "J"}},
                              {{10, 0}, {6, 0}, {20, 11}, {9, 2}, {8, 2}}};  // own energy: 10, 6, 9, 7, 6
   EXPECT_DOUBLE_EQ(energy_increase(history), 3.0 / 20);
   HistoryTable const falling{{{"total_energy", "J"}, {"external_work", "J"}}, {{10, 0}, {6, 0}, {5, 0}}};
   EXPECT_EQ(energy_increase(falling), 0);
+  EXPECT_DOUBLE_EQ(energy_decrease(history), 4.0 / 20);
+  EXPECT_DOUBLE_EQ(energy_decrease(falling), 5.0 / 10);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ VerificationRow row(std::string const& variant, std::string const& verdict, bool
           .tolerance = "within 10 %",
           .verdict = verdict,
           .accepted = accepted,
-          .note = "two\nlines"};
+          .note = "two\nlines",
+          .evidence = "paper"};
 }
 
 std::vector<CaseVerification> sample(std::filesystem::path const& picture) {
@@ -42,17 +43,32 @@ TEST(VerificationReport, AcceptsWhatPassesOrFallsShortAsExpected) {
 TEST(VerificationReport, IsJsonForScripts) {
   auto const json = nlohmann::json::parse(verification_json(sample("")));
   for (char const* key : {"case", "variant", "quantity", "unit", "reference", "source", "measured", "tolerance",
-                          "verdict", "accepted", "note"})
+                          "verdict", "accepted", "note", "evidence"})
     EXPECT_TRUE(json["rows"][0].contains(key)) << key;
   EXPECT_EQ(json["rows"][0]["measured"], 1.5);
   EXPECT_EQ(json["runs"][0]["wall_seconds"], 12);
   EXPECT_EQ(json["runs"][2]["variant"], "refused");
+  EXPECT_EQ(json["evidence"]["paper"], 2);
+  EXPECT_EQ(json["evidence"]["code"], 0);
 }
 
 TEST(VerificationReport, IsATableWithNotesWhereNotAllIsWell) {
   std::string const text = verification_table(sample(""));
   EXPECT_NE(text.find("falls short, as expected\n    two\nlines"), std::string::npos) << text;
   EXPECT_EQ(text.find("passes\n    two"), std::string::npos) << text;
+}
+
+// What holds by construction is shown, and does not count.
+TEST(VerificationReport, CountsEvidenceByKind) {
+  auto cases = sample("");
+  EXPECT_EQ(evidence_text(cases), "Evidence: 2 paper.");
+  for (char const* kind : {"theory", "code", "own trial", "theory", "code"}) {
+    cases[0].rows.push_back(row("v", "passes", true));
+    cases[0].rows.back().evidence = kind;
+  }
+  EXPECT_EQ(evidence_text(cases), "Evidence: 2 theory, 2 paper, 1 own trial; besides 2 checks of the code.");
+  EXPECT_TRUE(verification_table(cases).ends_with(
+      "\nEvidence: 2 theory, 2 paper, 1 own trial; besides 2 checks of the code.\n"));
 }
 
 TEST(VerificationReport, IsAPageWithPicturesBesideIt) {
@@ -63,9 +79,11 @@ TEST(VerificationReport, IsAPageWithPicturesBesideIt) {
   write_verification_page(folder / "new/page", cases);
   std::string const page = testing::text_of(folder / "new/page/README.md");
   for (char const* part :
-       {"# Verification\n", "1 of 3 rows pass, 1 falls short as expected, **1 not as they should**. The runs took 15 s",
+       {"# Verification\n",
+        "1 of 3 rows pass, 1 falls short as expected, **1 not as they should**. The runs took 15 s of wall time. "
+        "Evidence: 3 paper.\n",
         "\n## Springs on a plate\n\n`toys/springs`\n",
-        "| eps = 1/8 | start | 1.2 J | 1.5 J | within 10 % | passes | a book \\| a paper | two lines |\n",
+        "| eps = 1/8 | start | 1.2 J | 1.5 J | within 10 % | passes | paper | a book \\| a paper | two lines |\n",
         "| **falls short** |", "| eps = 1/8 | 12 s | ![eps = 1/8](toys-springs-eps-1-8.png) |\n",
         "| eps = 1 8 | 3 s | ![eps = 1 8](toys-springs-eps-1-8-2.png) |\n", "| refused | did not run |  |\n"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;

@@ -23,18 +23,21 @@ quantity = "start"
 reference = "1.2 J"
 tolerance = "10 %"
 source = "a book"
+evidence = "paper"
 [[check]]
 variant = "coarse"
 quantity = "energy.max_increase"
 reference = 1e-9
 kind = "below"
 source = "conservation"
+evidence = "theory"
 [[check]]
 variant = "fine"
 quantity = "start"
 reference = 1.2
 tolerance = 0.01
 source = "a book"
+evidence = "paper"
 )";
 
 void write(std::filesystem::path const& path, std::string const& text) {
@@ -205,6 +208,7 @@ quantity = "steps"
 reference = 1
 tolerance = 0
 source = "both are the same"
+evidence = "code"
 )");
   std::vector<VerifyProgress> told;
   std::atomic<int> const none{0};
@@ -249,6 +253,7 @@ reference = 2
 tolerance = 0.1
 expected = "falls short"
 source = "s"
+evidence = "theory"
 note = "why"
 )");
   Check const c = read_checks(folder / "checks.toml").checks.at(0);
@@ -263,7 +268,7 @@ TEST(ReadChecks, ComparisonsMustBeWhole) {
   auto const message = [&](std::string const& keys) {
     write(folder / "checks.toml",
           "[[variant]]\nname = \"5\"\n[[variant]]\nname = \"9\"\n[[check]]\nvariant = \"9\"\nquantity = "
-          "\"q\"\nreference = 2\ntolerance = 0.1\nsource = \"s\"\n" +
+          "\"q\"\nreference = 2\ntolerance = 0.1\nsource = \"s\"\nevidence = \"theory\"\n" +
               keys);
     try {
       read_checks(folder / "checks.toml");
@@ -277,20 +282,20 @@ TEST(ReadChecks, ComparisonsMustBeWhole) {
                                              (folder / "checks.toml").string() + ":5:1: check needs 'ratio' - add it");
   EXPECT_EQ(message("relative_to = \"5\"\n"), ":5:1: check needs 'as' - add it");
   EXPECT_EQ(message("relative_to = \"5\"\nas = \"ratio\"\nratio = 2\n"),
-            ":13:9: check: 'ratio' is only for as = \"order\" - remove it");
+            ":14:9: check: 'ratio' is only for as = \"order\" - remove it");
   EXPECT_EQ(message("relative_to = \"5\"\nas = \"order\"\nratio = 1\n"),
-            ":13:9: check: 'ratio' has the wrong kind (a number above 1: the spacing of the other variant by that of "
+            ":14:9: check: 'ratio' has the wrong kind (a number above 1: the spacing of the other variant by that of "
             "this one is expected) - correct it");
   EXPECT_EQ(message("relative_to = \"9\"\nas = \"ratio\"\n"),
             ":5:1: check: 'relative_to' is the variant itself - name another [[variant]]");
   EXPECT_EQ(message("relative_to = \"7\"\nas = \"ratio\"\n"),
             ":5:1: check: there is no variant '7' - give the name of a [[variant]]");
   EXPECT_EQ(message("relative_to = \"5\"\nas = \"sum\"\n"),
-            ":12:6: check: 'as' has the wrong kind (\"order\" or \"ratio\" is expected) - correct it");
+            ":13:6: check: 'as' has the wrong kind (\"order\", \"ratio\" or \"field_error\" is expected) - correct it");
   EXPECT_EQ(message("expected = \"falls short\"\n"),
-            ":11:12: check: what is expected to fall short needs a 'note' that says why - add it");
+            ":12:12: check: what is expected to fall short needs a 'note' that says why - add it");
   EXPECT_EQ(message("expected = \"passes\"\nnote = \"n\"\n"),
-            ":11:12: check: 'expected' has the wrong kind (\"falls short\" is expected) - correct it");
+            ":12:12: check: 'expected' has the wrong kind (\"falls short\" is expected) - correct it");
 }
 
 TEST(ReadChecks, ReportsAllThatIsWrong) {
@@ -303,10 +308,151 @@ TEST(ReadChecks, ReportsAllThatIsWrong) {
   } catch (InputError const& error) {
     std::string const text = error.what();
     for (char const* part : {"does not know 'referense'", "did you mean", "needs 'reference'",
-                             "'kind' has the wrong kind", "'tolerance' has the wrong kind"}) {
+                             "'kind' has the wrong kind", "'tolerance' has the wrong kind", "needs 'evidence'"}) {
       EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
     }
   }
+}
+
+/// What read_checks says about one check with these keys, without the name of the file.
+std::string complaints(std::string const& keys) {
+  testing::TemporaryFolder const folder;
+  write(folder / "checks.toml",
+        "[[variant]]\nname = \"5\"\n[[variant]]\nname = \"9\"\n[[check]]\nvariant = \"9\"\nsource = \"s\"\n" + keys);
+  try {
+    read_checks(folder / "checks.toml");
+    return "";
+  } catch (InputError const& error) {
+    std::string text = error.what();
+    std::string const name = (folder / "checks.toml").string();
+    for (auto at = text.find(name); at != std::string::npos; at = text.find(name)) text.erase(at, name.size());
+    return text;
+  }
+}
+
+TEST(ReadChecks, EveryRowSaysWhatItStandsOn) {
+  std::string const rest = "quantity = \"q\"\nreference = 2\ntolerance = 0.1\n";
+  EXPECT_EQ(complaints(rest), ":5:1: check needs 'evidence' - add it");
+  for (std::string const& word : evidence_words()) EXPECT_EQ(complaints(rest + "evidence = \"" + word + "\"\n"), "");
+  EXPECT_EQ(
+      complaints(rest + "evidence = \"finite element\"\n"),
+      ":11:12: check: 'finite element' is no kind of evidence (known: theory, finite elements, experiment, paper, "
+      "other code, own trial, own refinement, own regression, code) - did you mean \"finite elements\"?");
+}
+
+TEST(ReadChecks, BoundsMayStandOnBothSides) {
+  std::string const rest = "quantity = \"q\"\nkind = \"between\"\nevidence = \"paper\"\n";
+  EXPECT_EQ(complaints(rest + "reference = [1, \"2 m\"]\n"), "");
+  EXPECT_EQ(complaints(rest + "reference = 1\n"),
+            ":11:13: check: 'reference' has the wrong kind ([lowest, highest] is expected) - correct it");
+  EXPECT_EQ(complaints(rest + "reference = [1, 2]\ntolerance = 1\n"),
+            ":12:13: check: 'tolerance' is not for kind = \"between\" - remove it");
+}
+
+TEST(ReadChecks, FieldsAreComparedAtATime) {
+  std::string const rest = "reference = 1\nkind = \"below\"\nevidence = \"own refinement\"\nrelative_to = \"5\"\n";
+  std::string const field = rest + "as = \"field_error\"\nfield = \"Pressure\"\n";
+  EXPECT_EQ(complaints(field + "time = \"10 ms\"\nwhere = \"Y > 1\"\n"), "");
+  EXPECT_EQ(complaints(field), ":5:1: check needs 'time' - add it");
+  EXPECT_EQ(complaints(field + "time = \"10 m\"\n"),
+            ":14:8: check: 'time' has the wrong kind (a time such as \"0.1 s\" is expected) - correct it");
+  EXPECT_NE(complaints(field + "time = 1\nwhere = \"Y >\"\n").find(":15:9: check: 'where'"), std::string::npos);
+  EXPECT_EQ(complaints(field + "time = 1\nquantity = \"q\"\n"),
+            ":15:12: check: 'quantity' is not for as = \"field_error\", which compares a 'field' - remove it");
+  EXPECT_EQ(complaints(rest + "as = \"ratio\"\nquantity = \"q\"\nwhere = \"Y > 1\"\n"),
+            ":14:9: check: 'where' is only for as = \"field_error\" - remove it");
+}
+
+TEST(Verify, JudgesBoundsOnBothSides) {
+  Check c = check_of("v", "a", "1 mm", 0, Check::Kind::between);
+  c.upper = "0.002 m";
+  auto const row = [&](double value) {
+    std::string const summary =
+        R"({"status": "completed", "quantities": {"a": {"value": )" + std::to_string(value) + R"(, "unit": "m"}}})";
+    return compare("c", {c}, {{.variant = "v", .summary = summary}}).at(0);
+  };
+  EXPECT_EQ(row(0.0015).verdict, "passes");
+  EXPECT_EQ(row(0.0009).verdict, "falls short");
+  EXPECT_EQ(row(0.0021).verdict, "falls short");
+  EXPECT_EQ(row(0.0021).tolerance, "to 0.002 m");
+  c.upper = "2 kg";
+  EXPECT_NE(row(0.0015).note.find("kg"), std::string::npos);
+  EXPECT_FALSE(row(0.0015).accepted);
+}
+
+// Both plates turn alike, so that the field of one is that of the other at the same places.
+TEST(Verify, ComparesFieldsWithARefinedRun) {
+  testing::TemporaryFolder const folder;
+  write(folder / "cases/springs/checks.toml", R"(
+[[variant]]
+name = "4"
+set = ["4"]
+[[variant]]
+name = "8"
+set = ["8"]
+[[check]]
+variant = "4"
+relative_to = "8"
+as = "field_error"
+field = "Displacement"
+time = "0.3 s"
+reference = [0, 1e-12]
+kind = "between"
+source = "each spring for itself"
+evidence = "code"
+[[check]]
+variant = "4"
+relative_to = "8"
+as = "field_error"
+field = "Displacment"
+time = "0.3 s"
+reference = 1
+kind = "below"
+source = "a slip"
+evidence = "code"
+)");
+  std::atomic<int> const none{0};
+  auto const prepare = [](std::filesystem::path const&, std::vector<std::string> const& set) {
+    Simulation s = testing::make_springs(std::stoi(set.at(0)));
+    s.spec.run.max_step = 0.005;  // below the step that wanders with the particles
+    return s;
+  };
+  auto const rows =
+      verify({.cases = folder / "cases", .names = {}, .out = folder / "out"}, prepare, {}, none).at(0).rows;
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].quantity, "Displacement at 300 ms, error against 8");
+  ASSERT_TRUE(rows[0].measured) << rows[0].note;
+  EXPECT_EQ(rows[0].verdict, "passes") << *rows[0].measured;
+  EXPECT_EQ(rows[0].evidence, "code");
+  EXPECT_EQ(rows[1].note, "4 has no Displacment at 300 ms; 8 has no Displacment at 300 ms");
+  EXPECT_FALSE(rows[1].accepted);
+}
+
+TEST(Verify, DividesTheErrorsOfTwoRuns) {
+  auto const run = [](std::string const& name, double value) {
+    VariantRun r = run_with(name, "q", 1);
+    r.samples = {{.field = "Pressure",
+                  .time = 0.5,
+                  .dimension = 1,
+                  .values = {value},
+                  .X = {{0, 0, 0}},
+                  .volume = {1},
+                  .spacing = {1},
+                  .body = {0}}};
+    return r;
+  };
+  Check c = check_of("new", "", "0.1", 0.01);
+  c.as = Check::As::field_error;
+  c.relative_to = "fine";
+  c.beside = "printed";
+  c.field = "Pressure";
+  c.time = 0.5;
+  auto const row = compare("c", {c}, {run("new", 4.1), run("printed", 5), run("fine", 4)}).at(0);
+  EXPECT_EQ(row.quantity, "Pressure at 500 ms, error against fine, by that of printed");
+  EXPECT_NEAR(row.measured.value_or(0), 0.1, 1e-12);  // 0.1/4 by 1/4
+  EXPECT_TRUE(row.accepted);
+  EXPECT_TRUE(compare("c", {c}, {run("new", 4.1), run("fine", 4)}).empty());
+  EXPECT_FALSE(compare("c", {c}, {run("new", 4.1), run("printed", 4), run("fine", 4)}).at(0).accepted);
 }
 
 TEST(FindCases, NamesTheCasesThereAre) {

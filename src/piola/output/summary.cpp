@@ -8,18 +8,21 @@ namespace piola {
 std::string to_json(Summary const& s) {
   nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
   for (MeasuredQuantity const& q : s.quantities) quantities[q.name] = {{"value", q.value}, {"unit", q.unit}};
-  nlohmann::ordered_json document{
-      {"status", s.status},
-      {"title", s.title},
-      {"version", s.version},
-      {"formulation", s.formulation},
-      {"particles", s.particles},
-      {"steps", s.steps},
-      {"end_time", s.end_time},
-      {"wall_seconds", s.wall_seconds},
-      {"stages_per_second", s.stages_per_second},
-      {"threads", s.threads},
-      {"energy", {{"initial", s.energy_initial}, {"final", s.energy_final}, {"max_increase", s.energy_max_increase}}}};
+  nlohmann::ordered_json document{{"status", s.status},
+                                  {"title", s.title},
+                                  {"version", s.version},
+                                  {"formulation", s.formulation},
+                                  {"particles", s.particles},
+                                  {"steps", s.steps},
+                                  {"end_time", s.end_time},
+                                  {"wall_seconds", s.wall_seconds},
+                                  {"stages_per_second", s.stages_per_second},
+                                  {"threads", s.threads},
+                                  {"energy",
+                                   {{"initial", s.energy_initial},
+                                    {"final", s.energy_final},
+                                    {"max_increase", s.energy_max_increase},
+                                    {"max_decrease", s.energy_max_decrease}}}};
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
   for (auto const& [name, value] : s.seconds) document["seconds"][name] = value;

@@ -27,6 +27,8 @@ struct Summary {
   double energy_initial = 0, energy_final = 0;  ///< J
   /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
   double energy_max_increase = 0;
+  /// Largest fall of it below any earlier value, likewise.
+  double energy_max_decrease = 0;
   /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
   std::optional<double> linear_drift, angular_drift;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation tells

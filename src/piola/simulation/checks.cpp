@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/expression.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include "piola/input/document.hpp"
 #include "piola/output/files.hpp"
 #include "piola/simulation/verify.hpp"
@@ -93,8 +95,10 @@ void read_kind(Entry& entry, Check& check) {
     check.kind = Check::Kind::below;
   else if (word == "above")
     check.kind = Check::Kind::above;
+  else if (word == "between")
+    check.kind = Check::Kind::between;
   else if (!word.empty() && word != "within")
-    entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\" or \"above\"");
+    entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\", \"above\" or \"between\"");
 }
 
 // What a check takes from two variants: "ratio", or "order" with the `ratio` of their spacings.
@@ -105,8 +109,10 @@ void read_comparison(Entry& entry, Check& check) {
     check.as = Check::As::ratio;
   else if (word == "order")
     check.as = Check::As::order;
+  else if (word == "field_error")
+    check.as = Check::As::field_error;
   else if (!word.empty())
-    entry.wrong(*entry.find("as", false), "as", "\"order\" or \"ratio\"");
+    entry.wrong(*entry.find("as", false), "as", "\"order\", \"ratio\" or \"field_error\"");
   Node const* node = entry.find("ratio", check.as == Check::As::order);
   if (node == nullptr) return;
   check.refinement = node->is_number() ? node->number() : 0;
@@ -114,6 +120,66 @@ void read_comparison(Entry& entry, Check& check) {
     entry.complain(*node, "'ratio' is only for as = \"order\" - remove it");
   else if (!(check.refinement > 1))
     entry.wrong(*node, "ratio", "a number above 1: the spacing of the other variant by that of this one");
+}
+
+// What is compared point by point: `field` at a `time`, perhaps only `where` a condition holds.
+void read_field(Entry& entry, Check& check) {
+  bool const used = check.as == Check::As::field_error;
+  for (char const* key : {"field", "time", "where", "beside"}) {
+    Node const* const node = entry.find(key, false);
+    if (node && !used) entry.complain(*node, fmt::format("'{}' is only for as = \"field_error\" - remove it", key));
+  }
+  check.quantity = entry.text("quantity", !used);
+  if (!used) return;
+  if (Node const* const node = entry.find("quantity", false))
+    entry.complain(*node, "'quantity' is not for as = \"field_error\", which compares a 'field' - remove it");
+  check.field = entry.text("field", true);
+  if (Node const* const node = entry.find("time", true)) {
+    Quantity const time = read_quantity(node->is_number() ? exact_text(node->number()) : node->text, "s");
+    check.time = time.value;
+    if (time.problem) entry.wrong(*node, "time", "a time such as \"0.1 s\"");
+  }
+  check.beside = entry.text("beside", false);
+  check.where = entry.text("where", false);
+  try {
+    Expression const tried(check.where.empty() ? "1" : check.where);
+  } catch (ExpressionError const& error) {
+    entry.complain(*entry.find("where", true),
+                   fmt::format("'where' {} - correct the condition in X, Y, Z", error.text));
+  }
+}
+
+std::string reference_text(Entry& entry, Node const& node) {
+  if (node.is_number()) return exact_text(node.number());
+  if (node.is_text()) return node.text;
+  entry.wrong(node, "reference", "a number, or a number with unit in quotes");
+  return "0";
+}
+
+void read_reference(Entry& entry, Check& check) {
+  Node const* const node = entry.find("reference", true);
+  if (node == nullptr) return;
+  if (check.kind != Check::Kind::between) {
+    check.reference = reference_text(entry, *node);
+  } else if (!node->is_array() || node->items.size() != 2) {
+    entry.wrong(*node, "reference", "[lowest, highest]");
+  } else {
+    check.reference = reference_text(entry, node->items[0]);
+    check.upper = reference_text(entry, node->items[1]);
+    if (Node const* const tolerance = entry.find("tolerance", false))
+      entry.complain(*tolerance, "'tolerance' is not for kind = \"between\" - remove it");
+  }
+}
+
+void read_evidence(Entry& entry, Check& check) {
+  std::string const word = entry.text("evidence", true);
+  auto const& known = evidence_words();
+  auto const at = std::find(known.begin(), known.end(), word);
+  if (at != known.end())
+    check.evidence = static_cast<Evidence>(at - known.begin());
+  else if (!word.empty())
+    entry.complain(*entry.find("evidence", true), fmt::format("'{}' is no kind of evidence (known: {}) - {}", word,
+                                                              joined(known), advice_for_name(word, known)));
 }
 
 void read_expectation(Entry& entry, Check& check) {
@@ -133,27 +199,21 @@ bool is_variant(CheckFile const& file, std::string const& name) {
 
 Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
   Entry entry(table, "check", problems);
-  entry.only({"variant", "quantity", "reference", "tolerance", "kind", "relative_to", "as", "ratio", "expected",
-              "source", "note"});
+  entry.only({"variant", "quantity", "field", "time", "where", "beside", "reference", "tolerance", "kind",
+              "relative_to", "as", "ratio", "expected", "evidence", "source", "note"});
   Check check;
-  check.quantity = entry.text("quantity", true);
   check.variant = entry.text("variant", file.variants.size() > 1);
   if (check.variant.empty() && !file.variants.empty()) check.variant = file.variants.front().name;
   check.source = entry.text("source", true);
   check.note = entry.text("note", false);
   read_kind(entry, check);
   read_tolerance(entry, check);
-  if (Node const* node = entry.find("reference", true)) {
-    if (node->is_number())
-      check.reference = exact_text(node->number());
-    else if (node->is_text())
-      check.reference = node->text;
-    else
-      entry.wrong(*node, "reference", "a number, or a number with unit in quotes");
-  }
+  read_reference(entry, check);
+  read_evidence(entry, check);
   read_comparison(entry, check);
+  read_field(entry, check);
   read_expectation(entry, check);
-  for (std::string const& name : {check.variant, check.relative_to}) {
+  for (std::string const& name : {check.variant, check.relative_to, check.beside}) {
     if (name.empty() || is_variant(file, name)) continue;
     problems.add(table.place, fmt::format("check: there is no variant '{}' - give the name of a [[variant]]", name));
   }
@@ -163,6 +223,14 @@ Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
 }
 
 }  // namespace
+
+std::vector<std::string> const& evidence_words() {
+  static std::vector<std::string> const words{"theory",    "finite elements", "experiment",     "paper", "other code",
+                                              "own trial", "own refinement",  "own regression", "code"};
+  return words;
+}
+
+std::string const& evidence_word(Evidence evidence) { return evidence_words()[static_cast<std::size_t>(evidence)]; }
 
 CheckFile read_checks(std::filesystem::path const& path) {
   Problems problems;

@@ -27,13 +27,20 @@ struct Watch {
   CheckpointObserver checkpoints;
   ProgressObserver progress;
 
-  Watch(Results const& results, Listener& listener)
+  Observer* also;
+
+  Watch(Results const& results, Listener& listener, Observer* last)
       : history(results),
         frames(results),
         pictures(results),
         checkpoints(results, {&history, &frames, &pictures}),
-        progress(listener, results.spec.run.end, results.particles.size(), history) {}
-  std::array<Observer*, 5> all() { return {&history, &frames, &pictures, &checkpoints, &progress}; }
+        progress(listener, results.spec.run.end, results.particles.size(), history),
+        also(last) {}
+  std::vector<Observer*> all() {
+    std::vector<Observer*> list{&history, &frames, &pictures, &checkpoints, &progress};
+    if (also != nullptr) list.push_back(also);
+    return list;
+  }
 };
 
 std::string start_text(Simulation const& s) {
@@ -98,6 +105,20 @@ double largest(std::vector<double> const& values) {
   return most;
 }
 
+/// Largest rise (sign 1) or fall (sign -1) of the energy that no support or load brought, by the largest energy.
+double largest_rise(HistoryTable const& history, double sign) {
+  auto const energy = history.values("total_energy"), work = history.values("external_work");
+  double rise = 0, lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < energy.size(); ++k) {
+    double const own = sign * (energy[k] - work[k]);
+    if (!std::isfinite(own)) continue;
+    lowest = std::min(lowest, own);
+    rise = std::max(rise, own - lowest);
+  }
+  double const scale = largest(energy);
+  return scale > 0 ? rise / scale : rise;
+}
+
 /// Largest change of a vector column triple since the first row.
 double drift(HistoryTable const& history, std::string const& name) {
   double most = 0;
@@ -126,6 +147,7 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.energy_initial = energy.front();
   summary.energy_final = energy.back();
   summary.energy_max_increase = energy_increase(history);
+  summary.energy_max_decrease = energy_decrease(history);
   bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() && s.spec.rigids.empty();
   if (!free) return;
   // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
@@ -171,18 +193,8 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
 
 }  // namespace
 
-double energy_increase(HistoryTable const& history) {
-  auto const energy = history.values("total_energy"), work = history.values("external_work");
-  double rise = 0, lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < energy.size(); ++k) {
-    double const own = energy[k] - work[k];
-    if (!std::isfinite(own)) continue;
-    lowest = std::min(lowest, own);
-    rise = std::max(rise, own - lowest);
-  }
-  double const scale = largest(energy);
-  return scale > 0 ? rise / scale : rise;
-}
+double energy_increase(HistoryTable const& history) { return largest_rise(history, 1); }
+double energy_decrease(HistoryTable const& history) { return largest_rise(history, -1); }
 
 CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop) {
   if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
@@ -196,10 +208,11 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
   for (std::string const& warning : s.warnings) journal.warn(warning);
-  Watch watch({options.folder, s.spec, s.particles, journal}, listener);
+  Watch watch({options.folder, s.spec, s.particles, journal}, listener, options.also);
   Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
-  March const end = march(*s.formulation, s.spec.run, moment, watch.all(), stop);
-  for (Observer* observer : watch.all()) observer->finish(*s.formulation, moment, end.ending);
+  std::vector<Observer*> const observers = watch.all();
+  March const end = march(*s.formulation, s.spec.run, moment, observers, stop);
+  for (Observer* observer : observers) observer->finish(*s.formulation, moment, end.ending);
 
   CaseOutcome outcome{
       end.ending, summarise(s, moment, end.ending, watch.history.table(), journal), {}, watch.pictures.last(), {}};

@@ -5,6 +5,7 @@
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/journal.hpp"
 #include "piola/simulation/moment.hpp"
+#include "piola/simulation/observers.hpp"
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -16,6 +17,7 @@ struct RunOptions {
   bool resume = false;                   ///< continue from the newest checkpoint in `folder`
   bool force = false;                    ///< use a folder that holds other things
   std::filesystem::path case_file = {};  ///< that the case was read from: never replaced by results
+  Observer* also = nullptr;              ///< looks on after all others; its state is in no checkpoint
 };
 
 struct CaseOutcome {
@@ -33,5 +35,7 @@ CaseOutcome run_case(Simulation& simulation, RunOptions const& options, Listener
 
 /// Largest rise of (total energy - external work) above any earlier row, by the largest total energy of the history.
 double energy_increase(HistoryTable const& history);
+/// Its largest fall below any earlier row, likewise: what stabilisation, viscosity and friction took.
+double energy_decrease(HistoryTable const& history);
 
 }  // namespace piola

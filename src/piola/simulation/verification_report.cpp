@@ -66,13 +66,13 @@ std::string title_of(CaseVerification const& c) {
 
 std::string rows_text(CaseVerification const& c) {
   std::string text =
-      "| variant | quantity | reference | measured | tolerance | verdict | source | note |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "| variant | quantity | reference | measured | tolerance | verdict | evidence | source | note |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (VerificationRow const& r : c.rows) {
     std::string const verdict = r.accepted ? r.verdict : "**" + r.verdict + "**";
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(r.variant), cell(r.quantity),
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(r.variant), cell(r.quantity),
                         with_unit(number_text(r.reference), r), with_unit(measured_text(r), r), r.tolerance, verdict,
-                        cell(r.source), cell(r.note));
+                        r.evidence, cell(r.source), cell(r.note));
   }
   return text;
 }
@@ -86,6 +86,19 @@ std::string runs_text(fs::path const& folder, CaseVerification const& c, std::se
                         run.summary.empty() ? "did not run" : duration_text(run.wall_seconds), shown);
   }
   return text;
+}
+
+/// How many rows stand on each kind of evidence, in the order of evidence_words().
+std::vector<std::size_t> count_evidence(std::vector<CaseVerification> const& cases) {
+  auto const& words = evidence_words();
+  std::vector<std::size_t> counts(words.size());
+  for (CaseVerification const& c : cases) {
+    for (VerificationRow const& r : c.rows) {
+      auto const at = std::find(words.begin(), words.end(), r.evidence);
+      if (at != words.end()) ++counts[static_cast<std::size_t>(at - words.begin())];
+    }
+  }
+  return counts;
 }
 
 std::string total_text(std::vector<CaseVerification> const& cases) {
@@ -102,10 +115,24 @@ std::string total_text(std::vector<CaseVerification> const& cases) {
   std::string text = fmt::format("{} of {} rows pass", accepted - expected, rows);
   if (expected > 0) text += fmt::format(", {} {} short as expected", expected, expected == 1 ? "falls" : "fall");
   if (accepted < rows) text += fmt::format(", **{} not as they should**", rows - accepted);
-  return text + ". The runs took " + duration_text(seconds) + " of wall time.";
+  return text + ". The runs took " + duration_text(seconds) + " of wall time. " + evidence_text(cases);
 }
 
 }  // namespace
+
+std::string evidence_text(std::vector<CaseVerification> const& cases) {
+  auto const counts = count_evidence(cases);
+  auto const code = static_cast<std::size_t>(Evidence::code);
+  std::string text;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    if (k != code && counts[k] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k], evidence_words()[k]);
+  }
+  text = "Evidence: " + (text.empty() ? "none" : text);
+  if (counts[code] > 0)
+    text += fmt::format("; besides {} {} of the code", counts[code], counts[code] == 1 ? "check" : "checks");
+  return text + ".";
+}
 
 bool all_accepted(std::vector<CaseVerification> const& cases) {
   return std::all_of(cases.begin(), cases.end(), [](CaseVerification const& c) {
@@ -117,17 +144,21 @@ std::string verification_json(std::vector<CaseVerification> const& cases) {
   auto rows = nlohmann::ordered_json::array(), runs = nlohmann::ordered_json::array();
   for (CaseVerification const& c : cases) {
     for (VerificationRow const& r : c.rows) {
-      nlohmann::ordered_json row{
-          {"case", r.case_name},      {"variant", r.variant},   {"quantity", r.quantity}, {"unit", r.unit},
-          {"reference", r.reference}, {"source", r.source},     {"measured", nullptr},    {"tolerance", r.tolerance},
-          {"verdict", r.verdict},     {"accepted", r.accepted}, {"note", r.note}};
+      nlohmann::ordered_json row{{"case", r.case_name},    {"variant", r.variant},     {"quantity", r.quantity},
+                                 {"unit", r.unit},         {"reference", r.reference}, {"source", r.source},
+                                 {"measured", nullptr},    {"tolerance", r.tolerance}, {"verdict", r.verdict},
+                                 {"accepted", r.accepted}, {"note", r.note},           {"evidence", r.evidence}};
       if (r.measured) row["measured"] = *r.measured;
       rows.push_back(std::move(row));
     }
     for (VariantRun const& run : c.runs)
       runs.push_back({{"case", c.name}, {"variant", run.variant}, {"wall_seconds", run.wall_seconds}});
   }
-  return nlohmann::ordered_json{{"version", version()}, {"rows", rows}, {"runs", runs}}.dump(2) + "\n";
+  auto counts = nlohmann::ordered_json::object();
+  auto const evidence = count_evidence(cases);
+  for (std::size_t k = 0; k < evidence.size(); ++k) counts[evidence_words()[k]] = evidence[k];
+  return nlohmann::ordered_json{{"version", version()}, {"rows", rows}, {"runs", runs}, {"evidence", counts}}.dump(2) +
+         "\n";
 }
 
 std::string verification_table(std::vector<CaseVerification> const& cases) {
@@ -140,7 +171,7 @@ std::string verification_table(std::vector<CaseVerification> const& cases) {
       if (r.verdict != "passes" && !r.note.empty()) text += fmt::format("    {}\n", r.note);
     }
   }
-  return text;
+  return text + evidence_text(cases) + "\n";
 }
 
 void write_verification_page(fs::path const& folder, std::vector<CaseVerification> const& cases) {

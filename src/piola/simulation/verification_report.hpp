@@ -10,6 +10,9 @@ namespace piola {
 /// Whether no row falls short or passes contrary to expectation.
 bool all_accepted(std::vector<CaseVerification> const& cases);
 
+/// One sentence: how many rows stand on each kind of evidence. Checks of the code are none and counted apart.
+std::string evidence_text(std::vector<CaseVerification> const& cases);
+
 std::string verification_json(std::vector<CaseVerification> const& cases);
 std::string verification_table(std::vector<CaseVerification> const& cases);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/verify.hpp"
+#include "piola/base/expression.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
@@ -34,6 +35,7 @@ std::optional<std::pair<double, std::string>> look_up(nlohmann::json const& summ
 }
 
 std::string tolerance_text(Check const& c) {
+  if (c.kind == Check::Kind::between) return "to " + c.upper;
   std::string const amount =
       c.relative ? fmt::format("{} %", number_text(100 * c.tolerance)) : number_text(c.tolerance);
   switch (c.kind) {
@@ -43,16 +45,22 @@ std::string tolerance_text(Check const& c) {
   }
 }
 
-bool holds(Check const& c, double measured, double reference) {
+bool holds(Check const& c, double measured, double reference, double upper) {
   double const allowed = c.relative ? c.tolerance * std::abs(reference) : c.tolerance;
   switch (c.kind) {
     case Check::Kind::below: return measured <= reference + allowed;
     case Check::Kind::above: return measured >= reference - allowed;
+    case Check::Kind::between: return measured >= reference && measured <= upper;
     default: return std::abs(measured - reference) <= allowed;
   }
 }
 
 std::string quantity_label(Check const& c) {
+  if (c.as == Check::As::field_error) {
+    std::string const where = c.where.empty() ? "" : " where " + c.where;
+    std::string const by = c.beside.empty() ? "" : ", by that of " + c.beside;
+    return fmt::format("{} at {}{}, error against {}{}", c.field, quantity_text(c.time, "s"), where, c.relative_to, by);
+  }
   if (c.as == Check::As::ratio) return c.quantity + ", ratio to " + c.relative_to;
   if (c.as == Check::As::order) return c.quantity + ", order from " + c.relative_to;
   return c.quantity;
@@ -68,7 +76,8 @@ VerificationRow row_of(std::string const& case_name, Check const& c) {
                       .measured = {},
                       .tolerance = tolerance_text(c),
                       .verdict = "falls short",
-                      .note = c.note};
+                      .note = c.note,
+                      .evidence = evidence_word(c.evidence)};
   return row;
 }
 
@@ -85,58 +94,103 @@ void judge(VerificationRow& row, Check const& c, bool good) {
 
 bool completed(nlohmann::json const& summary) { return summary.at("status") == "completed"; }
 
-/// The number that a check looks at, with its unit; notes in the row why there is none.
-std::optional<std::pair<double, std::string>> measured_by(Check const& c, nlohmann::json const& summary,
-                                                          nlohmann::json const& other, VerificationRow& row) {
-  auto const found = look_up(summary, c.quantity);
-  if (!found) add_note(row, "summary.json has no such quantity");
-  if (!found || c.as == Check::As::value) return found;
-  auto const beside = look_up(other, c.quantity);
-  if (!beside) {
-    add_note(row, fmt::format("summary.json of {} has no such quantity", c.relative_to));
-    return std::nullopt;
-  }
-  double const quotient = found->first / beside->first;
-  double const value = c.as == Check::As::ratio ? quotient : -std::log(quotient) / std::log(c.refinement);
-  if (std::isfinite(value)) return std::pair{value, std::string("1")};
-  add_note(row, fmt::format("{} and {} cannot be compared", number_text(found->first), number_text(beside->first)));
-  return std::nullopt;
-}
-
 /// A run with its summary read; null if it left none.
 struct ReadRun {
   VariantRun const* run;
   nlohmann::json summary;
 };
 
-VerificationRow compare_one(std::string const& case_name, Check const& c, ReadRun const& read, ReadRun const& other) {
+FieldSample const* sample_of(VariantRun const& run, Check const& c, VerificationRow& row) {
+  for (FieldSample const& sample : run.samples) {
+    if (sample.field == c.field && sample.time == c.time) return &sample;
+  }
+  add_note(row, fmt::format("{} has no {} at {}", run.variant, c.field, quantity_text(c.time, "s")));
+  return nullptr;
+}
+
+/// The error of the field in one variant against that of another.
+std::optional<double> error_of(Check const& c, VariantRun const& run, VariantRun const& reference,
+                               VerificationRow& row) {
+  FieldSample const *const f = sample_of(run, c, row), *const r = sample_of(reference, c, row);
+  if (f == nullptr || r == nullptr) return std::nullopt;
+  auto const where = c.where.empty() ? std::nullopt : std::optional(Expression(c.where));
+  auto const value = relative_difference(*f, *r, where ? &*where : nullptr);
+  if (!value)
+    add_note(row, fmt::format("{} of {} and of {} cannot be compared", c.field, run.variant, reference.variant));
+  return value;
+}
+
+std::optional<std::pair<double, std::string>> field_error(Check const& c, std::vector<ReadRun const*> const& runs,
+                                                          VerificationRow& row) {
+  auto value = error_of(c, *runs[0]->run, *runs[1]->run, row);
+  auto const by = c.beside.empty() ? std::optional(1.0) : error_of(c, *runs[2]->run, *runs[1]->run, row);
+  if (!value || !by) return std::nullopt;
+  *value /= *by;
+  if (std::isfinite(*value)) return std::pair{*value, std::string("1")};
+  add_note(row, fmt::format("{} has no error to divide by", c.beside));
+  return std::nullopt;
+}
+
+/// The number that a check looks at, with its unit; notes in the row why there is none.
+std::optional<std::pair<double, std::string>> measured_by(Check const& c, std::vector<ReadRun const*> const& runs,
+                                                          VerificationRow& row) {
+  if (c.as == Check::As::field_error) return field_error(c, runs, row);
+  auto const found = look_up(runs[0]->summary, c.quantity);
+  if (!found) add_note(row, "summary.json has no such quantity");
+  if (!found || c.as == Check::As::value) return found;
+  auto const other = look_up(runs[1]->summary, c.quantity);
+  if (!other) {
+    add_note(row, fmt::format("summary.json of {} has no such quantity", c.relative_to));
+    return std::nullopt;
+  }
+  double const quotient = found->first / other->first;
+  double const value = c.as == Check::As::ratio ? quotient : -std::log(quotient) / std::log(c.refinement);
+  if (std::isfinite(value)) return std::pair{value, std::string("1")};
+  add_note(row, fmt::format("{} and {} cannot be compared", number_text(found->first), number_text(other->first)));
+  return std::nullopt;
+}
+
+/// Judges what was found; `runs` are that of the check and those that it is compared with.
+VerificationRow compare_one(std::string const& case_name, Check const& c, std::vector<ReadRun const*> const& runs) {
   VerificationRow row = row_of(case_name, c);
-  for (ReadRun const* each : {&read, &other}) {
+  for (ReadRun const* each : runs) {
     if (!each->summary.is_null()) continue;
     add_note(row, each->run->problem);
     return row;
   }
-  auto const found = measured_by(c, read.summary, other.summary, row);
+  auto const found = measured_by(c, runs, row);
+  double upper = 0;
   if (found) {
     row.measured = found->first;
     row.unit = found->second;
     Quantity const reference = read_quantity(c.reference, row.unit);
     row.reference = reference.value;
-    if (reference.problem) {
-      add_note(row, *reference.problem);
+    Quantity const high = c.kind == Check::Kind::between ? read_quantity(c.upper, row.unit) : Quantity{};
+    upper = high.value;
+    for (auto const& problem : {reference.problem, high.problem}) {
+      if (!problem) continue;
+      add_note(row, *problem);
       return row;
     }
   }
-  bool const complete = completed(read.summary) && completed(other.summary);
+  bool complete = true;
+  for (ReadRun const* each : runs) complete = complete && completed(each->summary);
   if (!complete) add_note(row, "the run did not complete");
-  for (ReadRun const* each : {&read, &other}) {
+  for (ReadRun const* each : runs) {
     std::string const& problem = each->run->problem;
     if (!problem.empty()) add_note(row, problem.substr(0, problem.find('\n')));
-    if (&read == &other) break;
   }
   // A quantity that a completed run does not have is a slip, not a claim that is missed.
-  if (found || !complete) judge(row, c, found && complete && holds(c, *row.measured, row.reference));
+  if (found || !complete) judge(row, c, found && complete && holds(c, *row.measured, row.reference, upper));
   return row;
+}
+
+/// Names of the variants that a check looks at, its own first.
+std::vector<std::string> involved(Check const& c) {
+  std::vector<std::string> names{c.variant};
+  if (c.as != Check::As::value) names.push_back(c.relative_to);
+  if (!c.beside.empty()) names.push_back(c.beside);
+  return names;
 }
 
 /// Tells how far a verification is: how much work each run is, and how much of all is done.
@@ -171,12 +225,16 @@ class Watch : public Listener {
 };
 
 VariantRun run_variant(fs::path const& case_file, CheckVariant const& variant, fs::path const& out,
-                       Prepare const& prepare, Listener& listener, std::atomic<int> const& stop) {
+                       std::vector<FieldSampler::Wish> wishes, Prepare const& prepare, Listener& listener,
+                       std::atomic<int> const& stop) {
   VariantRun run{.variant = variant.name};
   try {
     Simulation simulation = prepare(case_file, variant.set);
     run.title = simulation.spec.title;
-    CaseOutcome const outcome = run_case(simulation, {.folder = out, .resume = false, .force = true}, listener, stop);
+    FieldSampler sampler(std::move(wishes), simulation.particles);
+    CaseOutcome const outcome =
+        run_case(simulation, {.folder = out, .resume = false, .force = true, .also = &sampler}, listener, stop);
+    run.samples = sampler.samples();
     run.wall_seconds = outcome.summary.wall_seconds;
     run.picture = outcome.last_picture;
     run.summary = to_json(outcome.summary);
@@ -196,7 +254,8 @@ struct Plan {
 };
 
 bool looks_at(Check const& c, std::string const& variant) {
-  return c.variant == variant || (c.as != Check::As::value && c.relative_to == variant);
+  auto const names = involved(c);
+  return std::find(names.begin(), names.end(), variant) != names.end();
 }
 
 Plan plan_of(fs::path const& folder, VerifyOptions const& options) {
@@ -208,6 +267,17 @@ Plan plan_of(fs::path const& folder, VerifyOptions const& options) {
     if (used && (variant.is_short || !options.short_only)) plan.variants.push_back(variant);
   }
   return plan;
+}
+
+/// The fields that checks look at in a variant.
+std::vector<FieldSampler::Wish> wishes_of(std::vector<Check> const& checks, std::string const& variant) {
+  std::vector<FieldSampler::Wish> wishes;
+  for (Check const& c : checks) {
+    FieldSampler::Wish const wish{c.field, c.time};
+    bool const known = std::find(wishes.begin(), wishes.end(), wish) != wishes.end();
+    if (c.as == Check::As::field_error && looks_at(c, variant) && !known) wishes.push_back(wish);
+  }
+  return wishes;
 }
 
 double work_of(Plan const& plan, CheckVariant const& variant, Weigh const& weigh) {
@@ -233,8 +303,11 @@ std::vector<VerificationRow> compare(std::string const& case_name, std::vector<C
   for (ReadRun const& run : read) {
     for (Check const& c : checks) {
       if (c.variant != run.run->variant) continue;
-      auto const other = run_of(c.as == Check::As::value ? c.variant : c.relative_to);
-      if (other != read.end()) rows.push_back(compare_one(case_name, c, run, *other));
+      std::vector<ReadRun const*> runs_of_check;
+      for (std::string const& name : involved(c)) {
+        if (auto const found = run_of(name); found != read.end()) runs_of_check.push_back(&*found);
+      }
+      if (runs_of_check.size() == involved(c).size()) rows.push_back(compare_one(case_name, c, runs_of_check));
     }
   }
   return rows;
@@ -283,8 +356,8 @@ std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const
     for (CheckVariant const& variant : plan.variants) {
       if (stop.load() != 0) break;
       watch.start(plan.name, variant.name);
-      result.runs.push_back(
-          run_variant(plan.file, variant, options.out / plan.name / variant.name, prepare, watch, stop));
+      result.runs.push_back(run_variant(plan.file, variant, options.out / plan.name / variant.name,
+                                        wishes_of(plan.checks, variant.name), prepare, watch, stop));
     }
     result.rows = compare(plan.name, plan.checks, result.runs);
     if (stop.load() != 0) break;

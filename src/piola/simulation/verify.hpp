@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/simulation/build.hpp"
+#include "piola/simulation/field_samples.hpp"
 #include "piola/simulation/journal.hpp"
 #include <atomic>
 #include <filesystem>
@@ -18,18 +19,36 @@ struct CheckVariant {
   bool is_short = false;         ///< belongs to the quick selection
 };
 
+/// Where the number of a check comes from.
+enum class Evidence {
+  theory,           ///< closed forms, conservation laws, orders of convergence
+  finite_elements,  ///< converged, published or of bench/finite_elements
+  experiment,
+  paper,           ///< what the paper of the formulation shows or claims
+  other_code,      ///< numbers of other programs
+  own_trial,       ///< an independent trial implementation of the same scheme
+  own_refinement,  ///< this program with more particles
+  own_regression,  ///< what this program gave before
+  code             ///< holds by construction: shows a slip in the code, tells nothing about the answer
+};
+/// As in checks.toml, e.g. "finite elements"; in the order of Evidence.
+std::vector<std::string> const& evidence_words();
+std::string const& evidence_word(Evidence evidence);
+
 /// One published or analytical number beside a measured one: [[check]] of checks.toml.
 struct Check {
-  enum class Kind { within, below, above };
+  enum class Kind { within, below, above, between };
   /// What is compared: the quantity itself, or what it comes to beside that of another variant.
   enum class As {
     value,
-    ratio,  ///< q / q_other
-    order   ///< log(q_other / q) / log(refinement): the order of convergence
+    ratio,       ///< q / q_other
+    order,       ///< log(q_other / q) / log(refinement): the order of convergence
+    field_error  ///< relative_difference() of a field between the two
   };
   std::string variant;
-  std::string quantity;   ///< name of a [[quantity]], or a dotted path in summary.json such as "energy.max_increase"
-  std::string reference;  ///< a number, or a number with unit
+  std::string quantity;    ///< name of a [[quantity]], or a dotted path in summary.json such as "energy.max_increase"
+  std::string reference;   ///< a number, or a number with unit; between: the lower one
+  std::string upper = {};  ///< between: the upper one
   double tolerance = 0;
   bool relative = false;  ///< the tolerance is a fraction of the reference
   Kind kind = Kind::within;
@@ -38,6 +57,11 @@ struct Check {
   double refinement = 0;                ///< order: key `ratio`, spacing of the other variant by that of this one
   bool expected_to_fall_short = false;  ///< then `note` says why
   std::string source, note;
+  Evidence evidence = Evidence::theory;
+  std::string field = {};   ///< field_error: what is compared, e.g. "Pressure"
+  double time = 0;          ///< field_error: when [s]
+  std::string where = {};   ///< field_error: a condition in X, Y, Z; empty: everywhere
+  std::string beside = {};  ///< field_error: a variant by whose error that of this one is divided; empty: none
 };
 
 struct CheckFile {
@@ -58,6 +82,7 @@ struct VerificationRow {
   std::string verdict;    ///< "passes", "falls short", or one of these with ", as" or ", contrary to" expectation
   bool accepted = false;  ///< passes, or falls short as expected
   std::string note;
+  std::string evidence = {};  ///< a word of evidence_words()
 };
 
 /// One variant of a case after its run.
@@ -68,6 +93,7 @@ struct VariantRun {
   std::filesystem::path picture = {};  ///< the last one; empty if there is none
   std::string summary = {};            ///< text of summary.json; empty if the run could not be made
   std::string problem = {};            ///< why it failed or could not be made
+  std::vector<FieldSample> samples = {};
 };
 
 /// All that was run for one case, and what the checks say about it.
