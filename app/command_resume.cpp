@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include <fmt/format.h>
@@ -11,6 +10,7 @@ namespace piola::app {
 namespace {
 
 struct Options {
+  CaseOptions from;
   std::string folder;
   bool quiet = false;
 };
@@ -22,9 +22,7 @@ int resume(Options const& options) {
         "{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to",
         options.folder));
   }
-  CaseSpec spec = read_case(file);
-  spec.source = read_text_file(file);  // to the letter: it is compared with the case in the checkpoint
-  Simulation simulation = build(std::move(spec));
+  Simulation simulation = build(read_case(file, options.from.overrides()));
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false}, options.quiet);
 }
 
@@ -34,6 +32,7 @@ void add_resume(CLI::App& program, Action& action) {
   auto const options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("resume", "Continue a run from its newest checkpoint, bit for bit");
   command->add_option("folder", options->folder, "The results folder of the run")->required();
+  options->from.add_to(*command, false);
   command->add_flag("--quiet,-q", options->quiet, "Say nothing unless something is wrong");
   command->callback([options, &action] { action = [options] { return resume(*options); }; });
 }

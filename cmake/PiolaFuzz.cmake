@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Fuzz targets: one program per tests/fuzz/*_fuzz.cpp, linked with libFuzzer (clang).
+# Fuzz targets: one program per tests/fuzz/NAME_fuzz.cpp, with its corpus in tests/fuzz/corpus/NAME, linked with libFuzzer (clang).
 
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "PIOLA_FUZZ needs clang (the compiler here is ${CMAKE_CXX_COMPILER_ID}) - use the preset 'fuzz'")
@@ -8,6 +8,6 @@ file(GLOB _sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/fuzz/*_fuzz.cp
 foreach(source IN LISTS _sources)
   get_filename_component(name "${source}" NAME_WE)
   add_executable(${name} "${source}")
-  target_link_libraries(${name} PRIVATE piola piola_warnings piola_host)
+  target_link_libraries(${name} PRIVATE piola piola_warnings piola_host Piola::hdf5)
   target_link_options(${name} PRIVATE -fsanitize=fuzzer)
 endforeach()

@@ -107,9 +107,22 @@ cp -r bar-results damaged
 truncate -s 2000 "$(ls damaged/checkpoints/*.h5 | tail -1)"
 expect 0 "warning: " "$program" resume damaged
 check cmp bar-results/history.csv damaged/history.csv
-echo "# changed" >> damaged/case.toml
-expect 2 "is not the case that this run was started with" "$program" resume damaged
+echo "# a comment changes nothing" >> damaged/case.toml
+expect 0 "completed" "$program" resume damaged
+expect 2 "bar.material.density: \"1100 kg/m^3\" -> 1200" "$program" resume damaged --set body.bar.material.density=1200
+check test -z "$(grep 1200 damaged/case.toml)"
 expect 2 "holds no case.toml" "$program" resume .
+
+# A finished run is extended to the bytes of the longer run.
+more="--set output.history.every=0.001"
+"$program" run bar.toml --quiet --out longer $more --set run.end=0.0263
+"$program" run bar.toml --quiet --out extended $more
+expect 0 "completed" "$program" resume extended --set run.end=0.0263 --threads 1
+for file in history.csv frames/000004.hdf frames/000006.hdf frames.hdf.series; do
+  check cmp longer/$file extended/$file
+done
+check grep -q 'changed: run.end: "20 ms" -> 0.0263' extended/log.txt
+expect 2 "lies before the newest checkpoint" "$program" resume extended --set run.end=0.01
 
 # A signal leads to a checkpoint and exit code 4.
 "$program" run bar.toml --set run.end='"1000 s"' --out long --quiet &

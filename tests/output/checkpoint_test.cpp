@@ -15,6 +15,7 @@ Checkpoint sample(std::int64_t step) {
   c.step = step;
   c.dt = 1.0 / 3;
   c.first_dt = 0.25;
+  c.cut_to_end = true;
   c.wall_seconds = 7;
   c.version = "0.1.0";
   c.machine = "v3 of a processor with v4";
@@ -29,7 +30,10 @@ Checkpoint sample(std::int64_t step) {
 /// Step of the checkpoint that a resumed run would start from.
 std::int64_t newest_usable(std::filesystem::path const& folder, std::vector<std::string>& warnings) {
   std::int64_t step = -1;
-  use_newest_checkpoint(folder, warnings, [&](Checkpoint const& c) { step = c.step; });
+  use_newest_checkpoint(folder, warnings, [&](Checkpoint const& c) {
+    step = c.step;
+    return true;
+  });
   return step;
 }
 
@@ -46,6 +50,7 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_EQ(back.step, 12);
   EXPECT_EQ(back.dt, c.dt);
   EXPECT_EQ(back.first_dt, c.first_dt);
+  EXPECT_TRUE(back.cut_to_end);
   EXPECT_EQ(back.source, c.source);
   EXPECT_EQ(back.version, c.version);
   EXPECT_EQ(back.machine, c.machine);
@@ -115,10 +120,25 @@ TEST(Checkpoint, FallsBackWhenItsUserCannotUseIt) {
   use_newest_checkpoint(folder.path(), warnings, [&](Checkpoint& c) {
     if (c.step == 6) c.state.all("something else");
     used = c.step;
+    return true;
   });
   EXPECT_EQ(used, 5);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("000000006.h5: checkpoint: has no 'something else'"), std::string::npos) << warnings[0];
+}
+
+TEST(Checkpoint, IsPassedOverWithoutAWordWhereItIsDeclined) {
+  testing::TemporaryFolder const folder;
+  keep_checkpoint(folder.path(), sample(5));
+  keep_checkpoint(folder.path(), sample(6));
+  std::vector<std::string> warnings;
+  std::vector<std::int64_t> seen;
+  EXPECT_FALSE(use_newest_checkpoint(folder.path(), warnings, [&](Checkpoint& c) {
+    seen.push_back(c.step);
+    return false;
+  }));
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{6, 5}));
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(Checkpoint, SaysWhyNoneCanBeUsed) {

@@ -182,7 +182,7 @@ TEST(RunCase, RefusesToResumeAnotherCase) {
   TemporaryFolder const folder;
   Simulation first = make_springs(), second = make_springs();
   run(first, folder / "r");
-  second.spec.source += "# changed\n";
+  second.spec.source = "title = \"Other springs\"\n";
   EXPECT_THROW(run(second, folder / "r", true), InputError);
 }
 

@@ -27,6 +27,7 @@ struct Node {
 
   bool is_table() const { return kind == Kind::table; }
   bool is_array() const { return kind == Kind::array; }
+  bool is_list_of_tables() const;  ///< not empty, nothing but tables: [[...]]
   bool is_text() const { return kind == Kind::text; }
   bool is_number() const { return kind == Kind::integer || kind == Kind::real; }
   double number() const { return kind == Kind::integer ? static_cast<double>(integer) : real; }
@@ -59,5 +60,8 @@ void apply_overrides(Document& document, std::span<std::string const> overrides,
 
 /// TOML text of a table, entries in their order.
 std::string toml_text(Node const& root);
+
+/// A value as it stands behind "key = ".
+std::string toml_value(Node const& node);
 
 }  // namespace piola

@@ -11,6 +11,11 @@ Node const* Node::find(std::string_view key) const {
   return entry == entries.end() ? nullptr : &entry->value;
 }
 
+bool Node::is_list_of_tables() const {
+  return is_array() && !items.empty() &&
+         std::all_of(items.begin(), items.end(), [](Node const& item) { return item.is_table(); });
+}
+
 Node* Node::find(std::string_view key) { return const_cast<Node*>(static_cast<Node const*>(this)->find(key)); }
 
 namespace {

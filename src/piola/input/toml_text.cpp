@@ -42,7 +42,17 @@ std::string real_value(double value) {
   return text;
 }
 
-std::string value_text(Node const& node) {
+std::string lines_of(Node const& table) {
+  std::string out;
+  for (Node::Entry const& entry : table.entries) {
+    out += key_text(entry.key) + " = " + toml_value(entry.value) + "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string toml_value(Node const& node) {
   switch (node.kind) {
     case Node::Kind::text: return text_value(node.text);
     case Node::Kind::integer: return std::to_string(node.integer);
@@ -51,32 +61,17 @@ std::string value_text(Node const& node) {
     case Node::Kind::date: return node.text;
     case Node::Kind::array: {
       std::string out = "[";
-      for (Node const& item : node.items) out += (out.size() > 1 ? ", " : "") + value_text(item);
+      for (Node const& item : node.items) out += (out.size() > 1 ? ", " : "") + toml_value(item);
       return out + "]";
     }
     case Node::Kind::table: break;
   }
   std::string out = "{";
   for (Node::Entry const& entry : node.entries) {
-    out += (out.size() > 1 ? ", " : " ") + key_text(entry.key) + " = " + value_text(entry.value);
+    out += (out.size() > 1 ? ", " : " ") + key_text(entry.key) + " = " + toml_value(entry.value);
   }
   return out + (out.size() > 1 ? " }" : "}");
 }
-
-bool is_list_of_tables(Node const& node) {
-  return node.is_array() && !node.items.empty() &&
-         std::all_of(node.items.begin(), node.items.end(), [](Node const& item) { return item.is_table(); });
-}
-
-std::string lines_of(Node const& table) {
-  std::string out;
-  for (Node::Entry const& entry : table.entries) {
-    out += key_text(entry.key) + " = " + value_text(entry.value) + "\n";
-  }
-  return out;
-}
-
-}  // namespace
 
 std::string toml_text(Node const& root) {
   std::string values, sections;
@@ -84,10 +79,10 @@ std::string toml_text(Node const& root) {
     std::string const key = key_text(entry.key);
     if (entry.value.is_table()) {
       sections += "\n[" + key + "]\n" + lines_of(entry.value);
-    } else if (is_list_of_tables(entry.value)) {
+    } else if (entry.value.is_list_of_tables()) {
       for (Node const& item : entry.value.items) sections += "\n[[" + key + "]]\n" + lines_of(item);
     } else {
-      values += key + " = " + value_text(entry.value) + "\n";
+      values += key + " = " + toml_value(entry.value) + "\n";
     }
   }
   return values + sections;

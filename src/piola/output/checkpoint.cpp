@@ -10,7 +10,7 @@
 namespace piola {
 namespace {
 
-constexpr std::int64_t layout_version = 2;
+constexpr std::int64_t layout_version = 3;
 
 void put_state(hdf5::Image& file, std::string const& group, NamedState const& state) {
   file.group(group);
@@ -65,6 +65,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c) {
   file.attribute("/", "step", std::array{c.step});
   file.attribute("/", "dt", c.dt);
   file.attribute("/", "first_dt", c.first_dt);
+  file.attribute("/", "cut_to_end", std::array<std::int64_t, 1>{c.cut_to_end ? 1 : 0});
   file.attribute("/", "wall_seconds", c.wall_seconds);
   file.attribute("/", "stepping_seconds", c.stepping_seconds);
   file.dataset<char>("/case", std::span<char const>(c.source));
@@ -86,6 +87,7 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
   c.step = file.integer("/", "step");
   c.dt = file.number("/", "dt");
   c.first_dt = file.number("/", "first_dt");
+  c.cut_to_end = file.integer("/", "cut_to_end") != 0;
   c.wall_seconds = file.number("/", "wall_seconds");
   c.stepping_seconds = file.number("/", "stepping_seconds");
   auto const source = file.dataset<char>("/case");
@@ -119,13 +121,14 @@ void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& che
   for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k], kept_all_the_same);
 }
 
-void use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
-                           std::function<void(Checkpoint&)> const& use) {
+bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
+                           std::function<bool(Checkpoint&)> const& use) {
+  bool declined = false;
   for (auto const& path : list_checkpoints(results)) {
     try {
       Checkpoint checkpoint = read_checkpoint(path);
-      use(checkpoint);
-      return;
+      if (use(checkpoint)) return true;
+      declined = true;
     } catch (InputError const&) {
       throw;
     } catch (std::bad_alloc const&) {
@@ -137,6 +140,7 @@ void use_newest_checkpoint(std::filesystem::path const& results, std::vector<std
           fmt::format("{}{}; the checkpoint before it is used", named ? "" : path.string() + ": ", what));
     }
   }
+  if (declined) return false;
   std::string reasons;
   for (std::string const& warning : warnings) reasons += "\n" + warning.substr(0, warning.rfind(';'));
   throw InputError(

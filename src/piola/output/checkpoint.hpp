@@ -32,6 +32,7 @@ struct Checkpoint {
   double dt = 0;                                  ///< s, the last step
   double first_dt = 0;                            ///< s, the first stable step: the measure of a collapsed one
   double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far
+  bool cut_to_end = false;                        ///< the last step has its length from the end of the run
   std::string version;                            ///< of the program that wrote it
   std::string machine;                            ///< instruction sets used and available when it was written
   std::string source;                             ///< the case as run
@@ -51,10 +52,11 @@ std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const&
 /// Writes the checkpoint of its step and removes all but the last two.
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint);
 /// Hands the newest checkpoint to `use`. One that is damaged, or that `use` throws at, is passed over for the one
-/// before it, with a line in `warnings`. InputError and std::bad_alloc come through; throws InputError with the reasons
-/// if no checkpoint could be used.
-void use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
-                           std::function<void(Checkpoint&)> const& use);
+/// before it, with a line in `warnings`; one for which `use` returns false without a word. Returns whether one was
+/// used. InputError and std::bad_alloc come through; throws InputError with the reasons if there is none to choose
+/// from.
+bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
+                           std::function<bool(Checkpoint&)> const& use);
 
 /// The name of the last state of a run that failed; it is kept for study, never resumed from.
 inline constexpr char const* failed_checkpoint = "checkpoints/failed.h5";

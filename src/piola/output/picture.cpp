@@ -66,10 +66,11 @@ double light(double nx, double ny, double nz) {
 }
 
 void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colour colour, bool flat) {
-  int const x0 = std::max(0, static_cast<int>(std::floor(centre[0] - radius))),
-            x1 = std::min(out.colour.width - 1, static_cast<int>(std::ceil(centre[0] + radius)));
-  int const y0 = std::max(0, static_cast<int>(std::floor(centre[1] - radius))),
-            y1 = std::min(out.colour.height - 1, static_cast<int>(std::ceil(centre[1] + radius)));
+  auto const inside_of = [](double pixel, int size) { return static_cast<int>(std::clamp(pixel, -1.0, size + 0.0)); };
+  int const x0 = std::max(0, inside_of(std::floor(centre[0] - radius), out.colour.width)),
+            x1 = std::min(out.colour.width - 1, inside_of(std::ceil(centre[0] + radius), out.colour.width));
+  int const y0 = std::max(0, inside_of(std::floor(centre[1] - radius), out.colour.height)),
+            y1 = std::min(out.colour.height - 1, inside_of(std::ceil(centre[1] + radius), out.colour.height));
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       double const nx = (x + 0.5 - centre[0]) / radius, ny = (y + 0.5 - centre[1]) / radius;
@@ -95,7 +96,7 @@ Image draw_balls(PictureData const& data, PictureStyle const& style, Projection 
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Pixel const p = project(data.points[i]);
     double const radius = std::max(data.radius[i] * project.scale * fine, least);
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) continue;
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(radius)) continue;
     double const depth = dot(data.points[i], project.towards) * project.scale * fine;
     draw_ball(out, {p[0] * fine, p[1] * fine}, depth, radius, map(data.values[i]), data.dimension < 3);
   }

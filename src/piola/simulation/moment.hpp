@@ -10,6 +10,7 @@ struct Moment {
   std::int64_t step = 0;             ///< steps done
   double dt = 0;                     ///< s, the last step
   double first_dt = 0;               ///< s, the first stable step
+  bool cut_to_end = false;           ///< the last step has its length from the end of the run
   bool bounded_by_max_step = false;  ///< the last step was limited by run.max_step, not by the waves
   double wall_seconds = 0;           ///< since the start, over all parts of a resumed run
   double stepping_seconds = 0;       ///< of these, inside the formulation

@@ -15,14 +15,6 @@ double history_interval(CaseSpec const& spec) {
   return spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / history_rows;
 }
 
-double kept_number(NamedState& reader, std::string_view name) {
-  double value = 0;
-  reader.get(name, {&value, 1});
-  return value;
-}
-
-void keep_number(StateWriter& writer, std::string_view name, double value) { writer.put(name, {&value, 1}); }
-
 /// The units that a formulation announces for the columns that it adds.
 void take_units(std::string const& formulation, std::vector<HistoryColumn>& columns) {
   auto const info = find_formulation(formulation);
@@ -83,7 +75,6 @@ void HistoryObserver::finish(Formulation const& formulation, Moment const& momen
 }
 
 void HistoryObserver::save(StateWriter& writer) const {
-  keep_number(writer, "history_next", schedule_.state());
   std::vector<double> angles;
   for (Probe const& probe : probes_) angles.push_back(probe.state());
   writer.put("probe_angles", angles);
@@ -92,8 +83,8 @@ void HistoryObserver::save(StateWriter& writer) const {
                                         static_cast<double>(mark.check_sum)});
 }
 
-void HistoryObserver::load(NamedState& reader) {
-  schedule_.restore(kept_number(reader, "history_next"));
+void HistoryObserver::load(NamedState& reader, Moment const& moment) {
+  schedule_.start_after(moment.time);
   std::vector<double> angles(probes_.size());
   reader.get("probe_angles", angles);
   for (std::size_t k = 0; k < probes_.size(); ++k) probes_[k].restore(angles[k]);
@@ -123,13 +114,10 @@ void FrameObserver::finish(Formulation const& formulation, Moment const& moment,
   if (wanted && !written) write(formulation, moment.time);
 }
 
-void FrameObserver::save(StateWriter& writer) const {
-  keep_number(writer, "frames_next", schedule_.state());
-  writer.put("frame_times", writer_.times());
-}
+void FrameObserver::save(StateWriter& writer) const { writer.put("frame_times", writer_.times()); }
 
-void FrameObserver::load(NamedState& reader) {
-  schedule_.restore(kept_number(reader, "frames_next"));
+void FrameObserver::load(NamedState& reader, Moment const& moment) {
+  schedule_.start_after(moment.time);
   auto const missing = writer_.continue_after(reader.all("frame_times"));
   if (missing.empty()) return;
   results_.journal.warn(fmt::format("{}: {} of {} frames up to the checkpoint {} missing", missing.front(),
@@ -182,17 +170,17 @@ void PictureObserver::finish(Formulation const& formulation, Moment const& momen
 }
 
 void PictureObserver::save(StateWriter& writer) const {
-  writer.put("pictures", std::array{schedule_.state(), count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0,
-                                    window_.x1, window_.y0, window_.y1});
+  writer.put("pictures",
+             std::array{count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0, window_.y1});
 }
 
-void PictureObserver::load(NamedState& reader) {
-  std::array<double, 8> v{};
+void PictureObserver::load(NamedState& reader, Moment const& moment) {
+  std::array<double, 7> v{};
   reader.get("pictures", v);
-  schedule_.restore(v[0]);
-  count_ = v[1];
-  last_time_ = v[2];
-  window_ = {v[3] != 0, v[4], v[5], v[6], v[7]};
+  schedule_.start_after(moment.time);
+  count_ = v[0];
+  last_time_ = v[1];
+  window_ = {v[2] != 0, v[3], v[4], v[5], v[6]};
 }
 
 CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others)
@@ -207,6 +195,7 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
                moment.first_dt,
                moment.wall_seconds,
                moment.stepping_seconds,
+               moment.cut_to_end,
                std::string(version()),
                exec_host::machine_text(results_.spec.run.machine),
                results_.spec.source,
@@ -214,7 +203,6 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
                {}};
   formulation.save(c.state);
   for (Observer const* other : others_) other->save(c.observers);
-  save(c.observers);
   return c;
 }
 
@@ -227,6 +215,8 @@ void CheckpointObserver::see(Formulation const& formulation, Moment const& momen
   if (schedule_.due(moment.time)) keep(formulation, moment);
 }
 
+void CheckpointObserver::before_cut(Formulation const& formulation, Moment const& moment) { keep(formulation, moment); }
+
 void CheckpointObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
   if (ending == Ending::failed) {
     write_checkpoint(results_.folder / failed_checkpoint, take(formulation, moment));
@@ -235,8 +225,7 @@ void CheckpointObserver::finish(Formulation const& formulation, Moment const& mo
   }
 }
 
-void CheckpointObserver::save(StateWriter& writer) const { keep_number(writer, "checkpoints_next", schedule_.state()); }
-void CheckpointObserver::load(NamedState& reader) { schedule_.restore(kept_number(reader, "checkpoints_next")); }
+void CheckpointObserver::load(NamedState&, Moment const& moment) { schedule_.start_after(moment.time); }
 
 ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles,
                                    HistoryObserver const& history)

@@ -25,13 +25,16 @@ class Observer {
   virtual ~Observer() = default;
   /// Called at the start of a new run and after each step.
   virtual void see(Formulation const& formulation, Moment const& moment) = 0;
+  /// Called before a last step that has its length from the end of the run, so that a run with a later end would take
+  /// another one; the moment is that of the step before.
+  virtual void before_cut(Formulation const&, Moment const&) {}
   /// Called once, after the last step of this part of the run.
   virtual void finish(Formulation const&, Moment const&, Ending) {}
   /// Called before a checkpoint that counts on what was written: all of it is on the disk afterwards.
   virtual void sync() {}
   /// What a resumed run needs to continue; names are unique among observers.
   virtual void save(StateWriter&) const {}
-  virtual void load(NamedState&) {}
+  virtual void load(NamedState&, Moment const&) {}
 };
 
 /// What every observer needs to know. The references outlive the observers.
@@ -49,7 +52,7 @@ class HistoryObserver : public Observer {
   void see(Formulation const& formulation, Moment const& moment) override;
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void save(StateWriter& writer) const override;
-  void load(NamedState& reader) override;
+  void load(NamedState& reader, Moment const& moment) override;
   void sync() override { file_->sync(); }
   /// Opens the file anew, or cut off after `resume_time` (after load). Called before the first step.
   void open(Formulation const& formulation, std::optional<double> resume_time);
@@ -72,7 +75,7 @@ class FrameObserver : public Observer {
   void see(Formulation const& formulation, Moment const& moment) override;
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void save(StateWriter& writer) const override;
-  void load(NamedState& reader) override;
+  void load(NamedState& reader, Moment const& moment) override;
 
  private:
   void write(Formulation const& formulation, double time);
@@ -88,7 +91,7 @@ class PictureObserver : public Observer {
   void see(Formulation const& formulation, Moment const& moment) override;
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void save(StateWriter& writer) const override;
-  void load(NamedState& reader) override;
+  void load(NamedState& reader, Moment const& moment) override;
   std::filesystem::path const& last() const { return last_; }
 
  private:
@@ -101,14 +104,16 @@ class PictureObserver : public Observer {
   std::filesystem::path last_;
 };
 
-/// checkpoints/*.h5 at each due time, at the end and when stopped. Keeps what the other observers need, too.
+/// checkpoints/*.h5 at each due time, at the end and when stopped. Keeps what the other observers need, too. Before a
+/// last step that is cut to the end of the run there is one more: a run that is extended later continues from there as
+/// if it had never had that end.
 class CheckpointObserver : public Observer {
  public:
   CheckpointObserver(Results results, std::vector<Observer*> others);
   void see(Formulation const& formulation, Moment const& moment) override;
+  void before_cut(Formulation const& formulation, Moment const& moment) override;
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
-  void save(StateWriter& writer) const override;
-  void load(NamedState& reader) override;
+  void load(NamedState& reader, Moment const& moment) override;
 
  private:
   Checkpoint take(Formulation const& formulation, Moment const& moment) const;

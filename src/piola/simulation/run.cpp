@@ -21,13 +21,19 @@ Failure collapse(double stable) {
   return {.what = "time step collapsed", .body = {}, .X = {}, .x = {}, .values = {{"stable step [s]", stable}}};
 }
 
+struct Step {
+  double dt;        ///< s
+  bool cut_to_end;  ///< a run with a later end would take another one
+};
+
 /// The stable step, shortened by the user's bound and to hit the end time exactly. A rest of less than a millionth of a
 /// step is taken along rather than left for a step of its own.
-double choose_step(double stable, RunSpec const& run, Moment& moment) {
+Step choose_step(double stable, RunSpec const& run, Moment& moment) {
   moment.bounded_by_max_step = run.max_step < stable;
   double const dt = std::min(stable, run.max_step);
   double const rest = run.end - moment.time;
-  return dt * (1 + 1e-6) >= rest ? rest : dt;
+  if (dt * (1 + 1e-6) < rest) return {dt, false};
+  return {rest, rest != dt || moment.time + dt != run.end};
 }
 
 }  // namespace
@@ -42,12 +48,16 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     if (moment.step == 0) moment.first_dt = std::min(stable, run.max_step);
     if (collapsed(stable, run, moment)) return {Ending::failed, collapse(stable)};
 
-    double const dt = choose_step(stable, run, moment);
+    auto const [dt, cut_to_end] = choose_step(stable, run, moment);
+    if (cut_to_end) {
+      for (Observer* observer : observers) observer->before_cut(formulation, moment);
+    }
     formulation.step(moment.time, dt);
 
     moment.time = dt == run.end - moment.time ? run.end : moment.time + dt;
     moment.step += 1;
     moment.dt = dt;
+    moment.cut_to_end = cut_to_end;
     moment.stepping_seconds += seconds_since(step_start);
     moment.wall_seconds = wall_before + seconds_since(start);
 

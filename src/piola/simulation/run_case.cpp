@@ -4,6 +4,7 @@
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/instruction_sets.hpp"
+#include "piola/input/case_difference.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/simulation/failure_text.hpp"
@@ -69,34 +70,85 @@ void compare_origin(Checkpoint const& c, Simulation const& s, Journal& journal) 
         fmt::format("the checkpoint was written with the instruction set {}, this is {}; {}", c.machine, here, what));
 }
 
-void check_source(Checkpoint const& c, Simulation const& s, std::filesystem::path const& folder) {
-  if (c.source == s.spec.source) return;
-  throw InputError(
-      fmt::format("{}: is not the case that this run was started with (it was changed since) - restore it, or run it "
-                  "anew with 'piola run'",
-                  (folder / "case.toml").string()));
+/// What the case says differently from the one that the checkpoint was written with, as lines for the log. Throws
+/// InputError if any of that would make it another run.
+std::vector<std::string> accepted_changes(Checkpoint const& c, CaseSpec const& spec,
+                                          std::filesystem::path const& folder) {
+  std::string const file = (folder / "case.toml").string();
+  std::vector<std::string> accepted;
+  std::string refused;
+  for (CaseDifference const& d : case_differences(c.source, spec.source)) {
+    std::string const line = fmt::format("{}: {} -> {}", d.key, d.before, d.after);
+    if (may_change_on_resume(d.key))
+      accepted.push_back(line);
+    else
+      refused += "\n  " + line;
+  }
+  if (!refused.empty()) {
+    throw InputError(
+        fmt::format("{}: is not the case that this run was started with (allowed to change: {}) - restore "
+                    "it, or run it anew with 'piola run'; what differs:{}",
+                    file, keys_that_may_change(), refused));
+  }
+  if (spec.run.end < c.time) {
+    throw InputError(
+        fmt::format("{}: run.end = {} s lies before the newest checkpoint (allowed: from {} s on) - give a "
+                    "later one",
+                    file, spec.run.end, c.time));
+  }
+  return accepted;
 }
 
-/// A resumed run: everything as it was when the newest good checkpoint was written.
-Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
-  std::vector<std::string> warnings;
+/// Brings everything to the newest good checkpoint. One that was reached by a step cut to an earlier end of the run is
+/// taken only if `cut_too`.
+std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder, Journal& journal, Watch& watch,
+                              bool cut_too) {
+  std::vector<std::string> warnings, changes;
+  std::vector<std::filesystem::path> abandoned;
   Moment moment;
-  use_newest_checkpoint(options.folder, warnings, [&](Checkpoint& c) {
-    check_source(c, s, options.folder);
-    s.formulation->load(c.state);
-    for (Observer* observer : watch.all()) observer->load(c.observers);
-    compare_origin(c, s, journal);
+  bool const found = use_newest_checkpoint(folder, warnings, [&](Checkpoint& c) {
+    changes = accepted_changes(c, s.spec, folder);
+    if (c.cut_to_end && c.time < s.spec.run.end && !cut_too) {
+      abandoned.push_back(checkpoint_path(folder, c.step));
+      return false;
+    }
     moment = {.time = c.time,
               .step = c.step,
               .dt = c.dt,
               .first_dt = c.first_dt,
+              .cut_to_end = c.cut_to_end,
               .wall_seconds = c.wall_seconds,
               .stepping_seconds = c.stepping_seconds};
+    s.formulation->load(c.state);
+    for (Observer* observer : watch.all()) observer->load(c.observers, moment);
+    compare_origin(c, s, journal);
+    return true;
   });
+  if (!found) return std::nullopt;
+  std::error_code kept_all_the_same;
+  for (auto const& path : abandoned) std::filesystem::remove(path, kept_all_the_same);
   for (std::string const& warning : warnings) journal.warn(warning);
-  journal.note(fmt::format("resumed at step {}, t = {} s; {}", moment.step, moment.time, start_text(s)));
-  watch.history.open(*s.formulation, moment.time);
+  for (std::string const& change : changes) journal.note("changed: " + change);
   return moment;
+}
+
+/// A resumed run: everything as it was when the newest good checkpoint was written, but for the changes that the user
+/// wants and that leave the state at each time as it is.
+Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
+  auto moment = restore(s, options.folder, journal, watch, false);
+  if (!moment) {
+    moment = restore(s, options.folder, journal, watch, true);
+    journal.warn(
+        fmt::format("the step before t = {} s was cut to the end that the run had then, and no checkpoint from "
+                    "before it is left; from there on the numbers differ in their last digits from those of a "
+                    "run with the new end from the start",
+                    moment->time));
+  }
+  auto const file = options.folder / "case.toml";
+  if (read_text_file(file) != s.spec.source) write_whole_file(file, s.spec.source);
+  journal.note(fmt::format("resumed at step {}, t = {} s; {}", moment->step, moment->time, start_text(s)));
+  watch.history.open(*s.formulation, moment->time);
+  return *moment;
 }
 
 double largest(std::vector<double> const& values) {

@@ -18,8 +18,9 @@ class Schedule {
     next_ = multiple + 1;
     return true;
   }
-  double state() const { return next_; }
-  void restore(double state) { next_ = state; }
+  /// Takes what was due up to this time [s] as done, for instance before a checkpoint: the next output is then the same
+  /// whatever came before, with another interval too.
+  void start_after(double time) { due(time); }
 
  private:
   double every_;
