@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Fuzz targets: one program per tests/fuzz/NAME_fuzz.cpp, with its corpus in tests/fuzz/corpus/NAME, linked with libFuzzer (clang).
+# Fuzz targets: one program per tests/fuzz/NAME_fuzz.cpp, linked with libFuzzer (clang); their corpora are in
+# tests/fuzz/corpus/NAME.
 
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "PIOLA_FUZZ needs clang (the compiler here is ${CMAKE_CXX_COMPILER_ID}) - use the preset 'fuzz'")

@@ -226,7 +226,7 @@ TEST(Resume, GivesTheSameBytesHoweverOftenARunIsKilled) {
   Simulation whole = busy_springs();
   run(whole, folder / "whole");
   int kills = 0;
-  while (!run_until_killed(folder / "parts", static_cast<useconds_t>(7000 + 9000 * (kills % 7) + 500 * kills))) ++kills;
+  while (!run_until_killed(folder / "parts", static_cast<useconds_t>(1500 * (kills % 7) + 500 * kills))) ++kills;
   EXPECT_GE(kills, 3);
   expect_same_files(folder / "whole", folder / "parts");
 }

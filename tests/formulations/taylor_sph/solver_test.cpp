@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/solver.hpp"
+#include "piola/base/problems.hpp"
 #include "formulations/taylor_sph/taylor_bodies.hpp"
+#include <limits>
 
 namespace piola {
 namespace {
@@ -140,6 +142,21 @@ TEST(TaylorCheckpoint, OfOneMachineContinuesOnAnother) {
 }
 
 // ---- large shear
+
+TEST(TaylorSolver, RefusesACheckpointWithCellsOfParticlesThatAreNotThere) {
+  Assembly const a = assemble_taylor(unit_box(2, 5));
+  auto const f = make_formulation(a);
+  SavedState const good = saved(*f);
+  for (double const bad : {25.0, -1.0, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    SavedState cells = good, count = good;
+    cells.values.at("body0_cells").at(3) = bad;
+    EXPECT_THROW(f->load(cells), FileError) << bad;
+    count.values.at("body0_cell_corners").at(0) = bad > 1 ? 1e300 : bad;
+    EXPECT_THROW(f->load(count), FileError) << bad;
+  }
+  SavedState again = good;
+  EXPECT_NO_THROW(f->load(again));
+}
 
 /// Uniform simple shear is a solution: the stress is that of Jaumann's rate, through all triangulations,
 ///   s12 = G sin(g), s11 = -s22 = G (1 - cos(g)) for a shear g.

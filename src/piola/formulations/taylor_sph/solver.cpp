@@ -7,6 +7,7 @@
 #include "piola/formulations/taylor_sph/observe.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -167,15 +168,27 @@ void Solver::save(StateWriter& writer) const {
   writer.put("time", std::array{time_});
 }
 
+/// Numbers of particles are used as places in memory.
+void expect_number_below(double number, double bound, std::size_t body) {
+  if (number >= 0 && number < bound && number == std::floor(number)) return;
+  throw FileError(
+      fmt::format("checkpoint: the cells of body {} have a corner {} (allowed: whole numbers below {}) - it "
+                  "was written by another version; run the case again",
+                  body, number, bound));
+}
+
 void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     Snapshot snapshot = bodies_[k]->snapshot();
     std::array<double, 1> cells{};
     reader.get(fmt::format("body{}_cell_corners", k), cells);
+    expect_number_below(cells[0], std::pow(2.0, 32), k);
     std::size_t const now = snapshot.corners.size(), then = static_cast<std::size_t>(cells[0]);
     for (auto* per_cell : {&snapshot.corners, &snapshot.cell_stress, &snapshot.cell_across, &snapshot.cell_hourglass})
-      per_cell->resize(per_cell->size() * then / now);
+      per_cell->resize(now == 0 ? then : per_cell->size() * then / now);
     each_array(snapshot, k, [&](std::string const& name, std::vector<double>& values) { reader.get(name, values); });
+    auto const points = static_cast<double>(bodies_[k]->particles());
+    for (double const corner : snapshot.corners) expect_number_below(corner, points, k);
     bodies_[k]->restore(snapshot);
   }
   std::array<double, 1> time{};
