@@ -111,18 +111,21 @@ class OddFile {
     return shape;
   }
   hid_t odd_type() {
-    hid_t const variable = H5Tcopy(H5T_C_S1);
-    H5Tset_size(variable, H5T_VARIABLE);
-    hsize_t const width = 300;
-    std::array<hid_t, 9> const types{H5T_NATIVE_DOUBLE,
-                                     H5T_NATIVE_FLOAT,
-                                     H5T_NATIVE_INT64,
-                                     H5T_NATIVE_INT8,
-                                     H5T_C_S1,
-                                     variable,
-                                     H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &width),
-                                     H5Tcreate(H5T_COMPOUND, 16),
-                                     H5T_NATIVE_LDOUBLE};
+    static hid_t const variable = [] {
+      hid_t const type = H5Tcopy(H5T_C_S1);
+      H5Tset_size(type, H5T_VARIABLE);
+      return type;
+    }();
+    constexpr hsize_t width = 300;
+    static std::array<hid_t, 9> const types{H5T_NATIVE_DOUBLE,
+                                            H5T_NATIVE_FLOAT,
+                                            H5T_NATIVE_INT64,
+                                            H5T_NATIVE_INT8,
+                                            H5T_C_S1,
+                                            variable,
+                                            H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &width),
+                                            H5Tcreate(H5T_COMPOUND, 16),
+                                            H5T_NATIVE_LDOUBLE};
     return types[choices_.next(types.size())];
   }
 
