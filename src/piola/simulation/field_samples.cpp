@@ -82,12 +82,14 @@ FieldSampler::FieldSampler(std::vector<Wish> wishes, ParticleSet const& particle
 }
 
 void FieldSampler::see(Formulation const& formulation, Moment const& moment) {
-  if (pending_.empty()) return;
   constexpr double ahead = 3;  // steps; a step is rarely three times as long as the one before
+  auto const soon = [&](Pending const& pending) {
+    return moment.step == 0 || moment.time + ahead * moment.dt >= pending.wish.time;
+  };
+  if (std::none_of(pending_.begin(), pending_.end(), soon)) return;
   FieldCache cache(formulation, particles_);
   std::erase_if(pending_, [&](Pending& pending) {
-    if (moment.time + ahead * moment.dt < pending.wish.time && moment.step > 0) return false;
-    return !cache.knows(pending.wish.field) || take(pending, cache, moment);
+    return soon(pending) && (!cache.knows(pending.wish.field) || take(pending, cache, moment));
   });
 }
 
