@@ -5,28 +5,17 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"
+#include "piola/simulation/estimate.hpp"
 #include "piola/simulation/warnings.hpp"
 #include "commands.hpp"
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
-#include <limits>
 #include <memory>
 
 namespace piola::app {
 namespace {
-
-/// What a run would cost; measured on the first steps where that is cheap.
-struct Cost {
-  double step = 0;     ///< s of the simulation
-  double bytes = 0;    ///< memory
-  double seconds = 0;  ///< wall time of the whole run
-  int threads = 1;
-  bool measured = false;
-  std::vector<std::string> warnings = {};
-};
 
 std::string times(std::array<int, 3> const& n, int dimension) {
   std::string text;
@@ -217,50 +206,42 @@ void print_output(CaseSpec const& spec) {
   if (!quantities.empty()) fmt::print("  quantities: {}\n", joined(quantities));
 }
 
-/// Wall time of one step: the shortest of a few, because other programs disturb the others.
-double seconds_per_step(Formulation& formulation, double step) {
-  using Clock = std::chrono::steady_clock;
-  double shortest = std::numeric_limits<double>::infinity(), total = 0;
-  for (int i = 0; i < 2 || (i < 20 && total < 0.2); ++i) {
-    auto const start = Clock::now();
-    formulation.step(i * step, step);
-    double const seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    shortest = std::min(shortest, seconds);
-    total += seconds;
+/// What a run would take, and what looks odd.
+struct Look {
+  Estimate cost;
+  std::vector<std::string> warnings;
+};
+
+// Smaller cases are built, which tells what the formulation refuses; of larger ones a part.
+Look look_at(CaseSpec const& spec, std::int64_t particles) {
+  if (particles < large_case) {
+    Simulation const simulation = build(spec);
+    return {estimate(spec, simulation.particles, *simulation.formulation, simulation.threads), simulation.warnings};
   }
-  return shortest;
+  int const threads = exec_host::set_threads(spec.run.threads);
+  Assembly const assembly = assemble(spec);
+  Look look{estimate_from_parts(spec, assembly.particles, threads), {}};
+  look.warnings = warnings_of(spec, assembly, {.step = look.cost.step});
+  return look;
 }
 
-// Builds the case and makes a few steps of it, which tells more than any formula about this machine.
-Cost measured_cost(CaseSpec const& spec) {
-  Simulation simulation = build(spec);
-  Cost cost{.measured = true};
-  cost.threads = simulation.threads;
-  cost.step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
-  cost.bytes = static_cast<double>(simulation.formulation->memory_bytes());
-  cost.seconds = seconds_per_step(*simulation.formulation, cost.step) * spec.run.end / cost.step;
-  cost.warnings = simulation.warnings;
-  return cost;
-}
-
-// For cases too large to build just for a look: bytes and rate of the JST-SPH solver.
-Cost estimated_cost(CaseSpec const& spec, std::vector<BodyFacts> const& facts, std::int64_t particles) {
-  constexpr double bytes_per_particle = 1500, steps_per_second_and_core = 1.2e6;
-  Cost cost;
-  cost.threads = exec_host::set_threads(spec.run.threads);
-  cost.step = step_estimate(spec, facts);
-  cost.warnings = warnings_of(spec, assemble(spec), {.step = cost.step});
-  cost.bytes = bytes_per_particle * static_cast<double>(particles);
-  cost.seconds = spec.run.end / cost.step * static_cast<double>(particles) / (steps_per_second_and_core * cost.threads);
-  return cost;
+void print_cost(CaseSpec const& spec, Estimate const& cost) {
+  bool const bounded = spec.run.max_step < cost.rule.settled;
+  std::string const first =
+      cost.rule.first < cost.step ? fmt::format(", from {} at the start", quantity_text(cost.rule.first, "s", 3)) : "";
+  fmt::print("step: about {}{}, about {} {}\n", quantity_text(cost.step, "s", 3), first, count_text(cost.steps),
+             cost.steps == 1 ? "step" : "steps");
+  fmt::print("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
+  fmt::print("needs, estimated: {} to set up and {} to run with {} {}, {} of memory, {} of disk\n",
+             duration_text(cost.setup_seconds), duration_text(cost.run_seconds), cost.threads,
+             cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
 }
 
 int check(CaseOptions const& options) {
-  constexpr std::int64_t cheap = 1'000'000;
   CaseSpec const spec = read_case(options.file, options.overrides());
   ParticleSet const particles = make_particles(spec);
   std::vector<BodyFacts> const facts = body_facts(spec, particles);
-  Cost const cost = particles.size() <= cheap ? measured_cost(spec) : estimated_cost(spec, facts, particles.size());
+  Look const look = look_at(spec, particles.size());
   fmt::print("{}\n", spec.title);
   fmt::print("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
              quantity_text(spec.run.end, "s"));
@@ -269,13 +250,9 @@ int check(CaseOptions const& options) {
   print_loads(spec, particles);
   print_cracks(particles);
   print_contact(spec, particles.dimension);
-  fmt::print("step: about {}, about {} steps\n", quantity_text(cost.step, "s", 3),
-             count_text(static_cast<std::int64_t>(std::min(std::ceil(spec.run.end / cost.step), 1e18))));
-  fmt::print("needs: about {} of memory and {} with {} {} ({})\n", size_text(cost.bytes), duration_text(cost.seconds),
-             cost.threads, cost.threads == 1 ? "thread" : "threads",
-             cost.measured ? "from a few steps; without output" : "estimated");
+  print_cost(spec, look.cost);
   print_output(spec);
-  std::vector<std::string> const& warnings = cost.warnings;
+  std::vector<std::string> const& warnings = look.warnings;
   for (std::string const& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("{}\n",
              warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");

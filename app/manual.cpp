@@ -62,6 +62,8 @@ std::string value_with_range(std::string value, Interval const& allowed) {
 }
 
 std::string default_text(Parameter const& parameter, bool optional) {
+  if (parameter.required() && optional && !parameter.standard.empty())
+    return "default: " + std::string(parameter.standard);
   if (parameter.required()) return optional ? "default: set by the other words" : "required";
   std::string const value(parameter.standard);
   return "default: " + (value.empty() ? number_text(parameter.default_value) : value);

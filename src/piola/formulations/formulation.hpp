@@ -43,6 +43,16 @@ struct Failure {
   std::vector<std::pair<std::string, double>> values;  ///< e.g. {"det F", -0.02}, {"neighbours", 27}
 };
 
+/// How long the steps of a run will be, for estimates and for words.
+struct StepRule {
+  double settled = 0;       ///< s, the step once the run has settled
+  double first = 0;         ///< s
+  double growth = 1;        ///< a step may be longer than the one before by this factor; 1: no bound
+  std::string limit;        ///< what limits the step, in words
+  double more_stages = 0;   ///< right-hand sides a step on average besides stages_per_step
+  double setup_stages = 0;  ///< right-hand sides before the first step
+};
+
 /// Receives or returns the evolved state by name, in Id order; bit-exact doubles.
 class StateWriter {
  public:
@@ -65,6 +75,12 @@ class Formulation {
   virtual double stable_time_step() const = 0;  ///< s, the step to take from the current state
   /// The step that runs go at once they have settled, where the first steps are shorter: for estimates [s].
   virtual double settled_time_step() const { return stable_time_step(); }
+  virtual StepRule step_rule() const {
+    StepRule rule;
+    rule.settled = rule.first = settled_time_step();
+    rule.limit = "the formulation";
+    return rule;
+  }
   virtual void step(double time, double dt) = 0;       ///< from time to time + dt
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;

@@ -44,6 +44,7 @@ constexpr std::array fields{
     FieldName{"Temperature", "K", 1},
     FieldName{"InternalEnergy", "J/kg", 1},
     FieldName{"KernelType", "1", 1},
+    FieldName{"Neighbours", "1", 1},
     FieldName{"Body", "1", 1},
     FieldName{"Id", "1", 1},
 };

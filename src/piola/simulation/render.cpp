@@ -45,7 +45,7 @@ std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const&
                                     std::function<void(fs::path const&)> const& drawn) {
   if (!fs::exists(folder / "frames.hdf.series")) {
     throw InputError(
-        fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with output.frames_every set",
+        fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with output.frames.every set",
                     folder.string()));
   }
   auto const frames = list_frames(folder);

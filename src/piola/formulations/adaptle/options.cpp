@@ -48,14 +48,15 @@ constexpr std::array choices{
            lasting_words}};
 
 constexpr std::array parameters{
-    Parameter{"smoothing_length", "1", "h in spacings (2D 1.4, 3D 1.2)", Interval{0.6, 3, false, false}, no_default},
+    Parameter{"smoothing_length", "1", "h in spacings", Interval{0.6, 3, false, false}, no_default, "2D 1.4, 3D 1.2"},
     Parameter{"alpha", "1", "linear part of the viscosity, eq. 6", not_negative, 1},
     Parameter{"beta", "1", "quadratic part of the viscosity, eq. 6", not_negative, 2},
     Parameter{
         "hourglass", "1",
         "damping of relative velocities of total-Lagrangian neighbours that their velocity gradients do not explain; "
-        "0: none (0.2; with correction = \"none\", where gradients miss even linear motion at free surfaces, 0)",
-        Interval{0, 2, false, false}, no_default},
+        "0: none",
+        Interval{0, 2, false, false}, no_default,
+        "0.2; with correction = \"none\", where gradients miss even linear motion at free surfaces, 0"},
     Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
               Interval{0, 1, false, false}, 0.3},
     Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},

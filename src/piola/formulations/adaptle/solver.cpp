@@ -46,6 +46,14 @@ class Solver final : public Formulation {
     return up_to_release(particles_.stable_time_step(), particles_.next_release() - particles_.books().time);
   }
   double settled_time_step() const override { return particles_.stable_time_step(); }
+  StepRule step_rule() const override {
+    StepRule rule;
+    rule.settled = rule.first = settled_time_step();
+    rule.limit =
+        fmt::format("waves: run.cfl h / c with run.cfl = {}; in the run also by viscosity, accelerations and contact",
+                    particles_.system().settings.cfl);
+    return rule;
+  }
   void step(double time, double dt) override { particles_.step(time, dt); }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override { return observe(particles_, set_); }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <stdexcept>
 
@@ -49,6 +50,12 @@ class Solver final : public Formulation {
   }
 
   double stable_time_step() const override { return options_.cfl * h_ / options_.wave_speed; }
+  StepRule step_rule() const override {
+    StepRule rule;
+    rule.settled = rule.first = stable_time_step();
+    rule.limit = fmt::format("the speed that is given: run.cfl h / c with run.cfl = {}", options_.cfl);
+    return rule;
+  }
   void step(double time, double dt) override {
     u_ = advance(u_, options_.wave_speed * dt / h_, options_.eps4);
     time_ = time + dt;

@@ -68,12 +68,12 @@ constexpr std::array parameters{
     Parameter{"eps2_volume", "1", "harmonic stabilisation of the volume ratio (pFJ, pFHJ)", not_negative, 0.0},
     Parameter{"eps4_volume", "1", "biharmonic stabilisation of the volume ratio (pFJ, pFHJ), eq. 38", not_negative,
               0.0},
-    Parameter{"gradient_support", "1", "smoothing length of the gradient in particle spacings (robust 0.8, paper 1.2)",
-              Interval{0.5, 3, true, false}, no_default},
+    Parameter{"gradient_support", "1", "smoothing length of the gradient in particle spacings",
+              Interval{0.5, 3, true, false}, no_default, "0.8; scheme = \"paper\" 1.2"},
     Parameter{"filter_passes", "1", "passes of the volumetric filter and of its adjoint: 2, or 3 for smoother pressure",
               Interval{1, 8, false, false}, 2.0},
-    Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings (1.2)",
-              Interval{0.5, 3, true, false}, no_default}};
+    Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings",
+              Interval{0.5, 3, true, false}, no_default, "1.2"}};
 
 /// What Diagnostics::more holds (observe.cpp): det F minus the volume ratio that the volumetric energy sees; the books
 /// of solids in rate form, whose internal energy is the strain energy.

@@ -46,6 +46,22 @@ class Solver final : public Formulation {
     return dt;
   }
 
+  StepRule step_rule() const override {
+    StepRule rule;
+    rule.settled = rule.first = settled_time_step();
+    if (monitors_.front() == nullptr) {
+      rule.limit = fmt::format("waves: run.cfl h / c with run.cfl = {}", alpha_.front());
+      return rule;
+    }
+    rule.first = first_share * rule.settled;
+    rule.growth = growth;
+    rule.limit =
+        "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
+    rule.more_stages = StabilityMonitor::stages_per_step;
+    rule.setup_stages = StabilityMonitor::setup_stages;
+    return rule;
+  }
+
   void step(double time, double dt) override {
     for (auto const& body : bodies_) body->step(*machine_, time, dt);
     time_ = time + dt;

@@ -52,15 +52,13 @@ constexpr std::array choices{
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1",
-              "h of estimates in spacings of real particles (1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: "
-              "triangles "
-              "1.1, else "
-              "0.9); it follows the cells as they deform",
-              Interval{0.3, 3, false, false}, no_default},
+              "h of estimates in spacings of real particles; it follows the cells as they deform",
+              Interval{0.3, 3, false, false}, no_default,
+              "1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: triangles 1.1, else 0.9"},
     Parameter{"hourglass_filter", "1",
               "share of the checkerboard pattern of velocity that each step takes away, as Flanagan and Belytschko's "
-              "hourglass vectors measure it; 0: none (estimates: updated 0.3, fixed 0)",
-              Interval{0, 1, false, false}, no_default},
+              "hourglass vectors measure it; 0: none",
+              Interval{0, 1, false, false}, no_default, "estimates: updated 0.3, else 0; 1D 0"},
     Parameter{"cell_memory", "1",
               "adjoint: share of a cell's own stress in what acts on its corners, the rest is the mean of theirs; 0: "
               "virtual particles live half a step as in the paper; 1: none of the paper's damping, triangles of "

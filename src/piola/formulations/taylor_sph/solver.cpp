@@ -61,6 +61,12 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) dt = std::min(dt, body->stable_time_step());
     return dt;
   }
+  StepRule step_rule() const override {
+    StepRule rule;
+    rule.settled = rule.first = settled_time_step();
+    rule.limit = fmt::format("waves: run.cfl spacing / c with run.cfl = {}", bodies_.front()->options().cfl);
+    return rule;
+  }
   void step(double time, double dt) override {
     for (auto const& body : bodies_) body->step(time, dt);
     time_ = time + dt;

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/estimate.hpp"
+#include "piola/exec/instruction_sets.hpp"
+#include "piola/formulations/doubts.hpp"
+#include "piola/formulations/make.hpp"
+#include "piola/input/check_case.hpp"
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace piola {
+namespace {
+
+/// Processor time per particle and right-hand side [s], by the number of dimensions: whole steps with all they need,
+/// one thread, AVX-512. From `piola bench` (bench/README.md) and, where that has no row, runs of 40 steps.
+struct Pace {
+  std::array<double, 3> lattice;    ///< neighbours at fixed distances; taylor_sph: boxes; adaptle: total Lagrangian
+  std::array<double, 3> scattered;  ///< lists; taylor_sph: simplices; adaptle: Eulerian
+  std::array<double, 3> setup;      ///< s per particle besides right-hand sides: tables, lists, the first output
+  std::array<double, 3> overhead;   ///< bytes per particle at the peak besides Formulation::memory_bytes
+  std::array<double, 3> more_scattered = {};  ///< and these, if scattered
+};
+
+/// Measured by the largest resident memory of runs with 1,000 to 125,000 particles: in it are the set of particles,
+/// twice, what set-up needs for a while, and the state as a checkpoint holds it, twice.
+Pace pace_of(std::string_view formulation) {
+  constexpr double ns = 1e-9, us = 1e-6;
+  if (formulation == "adaptle")
+    return {
+        {400 * ns, 483 * ns, 1370 * ns}, {300 * ns, 377 * ns, 746 * ns}, {2 * us, 2 * us, 5 * us}, {2200, 2200, 1830}};
+  if (formulation == "taylor_sph")
+    return {{10 * ns, 98 * ns, 590 * ns},
+            {10 * ns, 200 * ns, 1350 * ns},
+            {1 * us, 2 * us, 6 * us},
+            {900, 1220, 1780},
+            {0, 430, 1800}};
+  return {{40 * ns, 103 * ns, 280 * ns}, {80 * ns, 250 * ns, 1000 * ns}, {2 * us, 3 * us, 6 * us}, {800, 800, 1060}};
+}
+
+constexpr double filter_factor = 2;     ///< of the volumetric filter of jst_sph
+constexpr double program_bytes = 24e6;  ///< the program with its libraries
+constexpr double row_stages = 2;        ///< right-hand sides that a row of history.csv is worth
+constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
+constexpr double picture_seconds = 0.2;
+constexpr double compressed = 0.42;     ///< share that is left of the numbers of a frame
+constexpr double picture_bytes = 0.6;   ///< per pixel
+constexpr double cell_bytes = 12;       ///< of a history.csv
+constexpr double kept_checkpoints = 2;  ///< at a time
+constexpr double frame_file_bytes = 48e3, checkpoint_file_bytes = 11e3;  ///< of a file without particles
+
+/// Instruction sets of less width take longer; measured: scalar.
+double slowness(std::string const& machine) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> factors{
+      {{"v4", 1}, {"v3", 1.2}, {"v2", 1.8}, {"scalar", 2.5}}};
+  for (auto const& [name, factor] : factors)
+    if (machine == name || (machine == "auto" && exec_host::processor_can_run(name))) return factor;
+  return factors.back().second;
+}
+
+/// Whether jst_sph filters the volumetric energy, as far as the case tells.
+bool is_filtered(BodySpec const& body) {
+  FormulationSpec const& spec = body.formulation;
+  auto const word = [&](std::string_view key, std::string_view standard) {
+    auto const found = spec.words.find(key);
+    return found == spec.words.end() ? standard : std::string_view(found->second);
+  };
+  if (spec.name != "jst_sph") return false;
+  if (word("volumetric_filter", "as_scheme") != "as_scheme") return word("volumetric_filter", "") == "on";
+  auto const law = find_law(body.law);
+  return word("scheme", "filtered") == "filtered" && word("variables", "pF") != "displacement" && law &&
+         law->volumetric_split && poissons_ratio_of(body.material) > 0.4499;
+}
+
+/// Whether the neighbours of a body follow from its lattice.
+bool is_regular(CaseSpec const& spec, BodySpec const& body) {
+  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
+                                    [&](MirrorSpec const& mirror) { return mirror.body == body.name; });
+  std::string_view const name = body.formulation.name;
+  auto const says = [&](char const* key, std::string_view word) {
+    auto const found = body.formulation.words.find(key);
+    return found != body.formulation.words.end() && found->second == word;
+  };
+  if (name == "adaptle") return !says("description", "eulerian");
+  if (name == "taylor_sph")
+    return says("virtual_particles", "lattice_cells") ||
+           (body.shape.kind == ShapeSpec::Kind::box && says("exchange", "estimates") &&
+            !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
+  return !mirrored && body.shape.jitter == 0 && body.shape.arrangement == ShapeSpec::Arrangement::lattice;
+}
+
+/// Counts what a checkpoint holds.
+struct Counter : StateWriter {
+  double values = 0;
+  void put(std::string_view, std::span<double const> some) override { values += static_cast<double>(some.size()); }
+};
+
+/// What the parts of the output come to in number.
+struct Plan {
+  double rows, frames, pictures, checkpoints;
+};
+
+Plan plan_of(CaseSpec const& spec) {
+  OutputSpec const& o = spec.output;
+  auto const times = [&](double every) { return every > 0 ? std::floor(spec.run.end / every) + 1 : 0; };
+  return {o.history_every > 0 ? times(o.history_every) : 501, times(o.frames_every), times(o.pictures_every),
+          std::max(1.0, times(o.checkpoints_every))};
+}
+
+/// Bytes of a frame per particle: positions, cells, numbers and fields.
+double frame_bytes(OutputSpec const& output, std::vector<FieldInfo> const& fields) {
+  double numbers = 4;  // position and volume
+  for (FieldInfo const& field : fields) {
+    auto const& chosen = output.frame_fields;
+    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), field.name) != chosen.end())
+      numbers += field.components;
+  }
+  constexpr double cells = 17, ids = 16;
+  double const share = output.compress ? compressed : 1, share_of_whole = output.compress ? 0.05 : 1;
+  return 4 * numbers * share + (cells + ids) * share_of_whole;
+}
+
+double disk_of(CaseSpec const& spec, Formulation const& formulation, double particles, double state) {
+  Plan const plan = plan_of(spec);
+  double columns = 24 + static_cast<double>(formulation.diagnose().more.size());
+  for (ProbeSpec const& probe : spec.probes) columns += static_cast<double>(probe.quantities.size());
+  return plan.frames * (frame_file_bytes + particles * frame_bytes(spec.output, formulation.fields())) +
+         plan.pictures * picture_bytes * spec.output.picture_width * spec.output.picture_height +
+         kept_checkpoints * (checkpoint_file_bytes + 8 * state * particles) + plan.rows * columns * cell_bytes;
+}
+
+/// Fills in what follows from rule, memory and disk.
+void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, Estimate& e) {
+  auto const D = static_cast<std::size_t>(particles.dimension - 1);
+  double const slow = slowness(spec.run.machine), all = static_cast<double>(particles.size());
+  double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    Pace const pace = pace_of(spec.bodies[b].formulation.name);
+    auto const n = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
+    bool const regular = is_regular(spec, spec.bodies[b]);
+    side += n * slow * (regular ? pace.lattice : pace.scattered)[D] * (is_filtered(spec.bodies[b]) ? filter_factor : 1);
+    tables += n * pace.setup[D];
+    e.memory += n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
+  }
+  // Loops of few particles are shared by few threads.
+  constexpr double least_share = 2048;
+  double const threads = std::min<double>(e.threads, std::floor(all / least_share) + 1);
+  Plan const plan = plan_of(spec);
+  double const rows = std::min(plan.rows, static_cast<double>(e.steps) + 1);
+  e.step = std::min(e.rule.settled, spec.run.max_step);
+  e.setup_seconds = tables + e.rule.setup_stages * side / threads;
+  e.run_seconds = static_cast<double>(e.steps) * (stages + e.rule.more_stages) * side / threads +
+                  rows * row_stages * side / threads + plan.frames * frame_seconds * all +
+                  plan.pictures * picture_seconds + plan.checkpoints * checkpoint_seconds * all;
+  e.memory += program_bytes;
+}
+
+}  // namespace
+
+std::int64_t steps_of(StepRule const& rule, RunSpec const& run) {
+  double const most = std::min(rule.settled, run.max_step);
+  double time = 0, step = std::min(rule.first, most), steps = 0;
+  while (rule.growth > 1 && step < most && time + step < run.end) {
+    time += step;
+    step = std::min(rule.growth * step, most);
+    ++steps;
+  }
+  // As the main loop: a rest of less than a millionth of a step is taken along.
+  steps += std::max(1.0, std::ceil((run.end - time) / step * (1 - 1e-6)));
+  return static_cast<std::int64_t>(std::min(steps, 1e18));
+}
+
+Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulation const& formulation, int threads) {
+  Estimate e;
+  e.rule = formulation.step_rule();
+  e.steps = steps_of(e.rule, spec.run);
+  e.threads = threads;
+  auto const n = static_cast<double>(particles.size());
+  Counter counter;
+  formulation.save(counter);
+  e.memory = static_cast<double>(formulation.memory_bytes());
+  e.disk = disk_of(spec, formulation, n, n > 0 ? counter.values / n : 0);
+  count_work(spec, particles, formulation.stages_per_step(), e);
+  return e;
+}
+
+ShapeSpec part_of(ShapeSpec const& shape, int particles) {
+  ShapeSpec part = shape;
+  auto const spacing = spacing_of(shape);
+  bool const cells = shape.placement == ShapeSpec::Placement::cell_centred;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(shape.dimension); ++d) {
+    if (shape.particles[d] <= particles || shape.kind != ShapeSpec::Kind::box) continue;
+    part.particles[d] = particles;
+    part.max[d] = shape.min[d] + (cells ? particles : particles - 1) * spacing[d];
+  }
+  if (shape.kind == ShapeSpec::Kind::box) return part;
+  double const reach = particles * shape.spacing;
+  part.length = std::min(shape.length, reach);
+  part.radius = std::min(shape.radius, 0.5 * reach);
+  if (part.radius < shape.radius) part.inner_radius = std::max(0.0, part.radius - (shape.radius - shape.inner_radius));
+  if (part.inner_radius < 0.05 * part.radius) part.inner_radius = 0;
+  return part;
+}
+
+Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles, int threads) {
+  constexpr std::array part_size{4000, 100, 24};
+  Estimate e;
+  e.threads = threads;
+  double stages = 1;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    Assembly a;
+    a.cfl = spec.run.cfl;
+    a.machine = spec.run.machine;
+    a.materials = {spec.bodies[b].material};
+    a.formulations = {spec.bodies[b].formulation};
+    int const size = part_size[static_cast<std::size_t>(particles.dimension - 1)];
+    fill(part_of(spec.bodies[b].shape, size), spec.bodies[b].name, a.particles);
+    auto const formulation = make_formulation(a);
+    StepRule const rule = formulation->step_rule();
+    if (b == 0 || rule.settled < e.rule.settled) e.rule = rule;
+    stages = formulation->stages_per_step();
+    Counter counter;
+    formulation->save(counter);
+    auto const all = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
+    auto const some = static_cast<double>(a.particles.size());
+    e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
+    e.disk += disk_of(spec, *formulation, all, counter.values / some);
+  }
+  e.steps = steps_of(e.rule, spec.run);
+  count_work(spec, particles, stages, e);
+  return e;
+}
+
+}  // namespace piola

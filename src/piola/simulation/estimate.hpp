@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/input/case_spec.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <cstdint>
+
+namespace piola {
+
+/// What a run would take. Work is counted, not timed: the same case gives the same answer on an idle and on a busy
+/// machine. Times are those of the processor that `bench/README.md` speaks of; bytes are measured ones.
+struct Estimate {
+  StepRule rule;             ///< without run.max_step
+  double step = 0;           ///< s, once the run has settled
+  std::int64_t steps = 0;    ///< with a gentle start
+  double setup_seconds = 0;  ///< wall time before the first step
+  double run_seconds = 0;    ///< wall time of the steps and of all output
+  double memory = 0;         ///< largest resident memory [bytes], with set-up and output
+  double disk = 0;           ///< frames, pictures, checkpoints and history [bytes]
+  int threads = 1;
+};
+
+/// Steps that a run of this length takes, from the first one on.
+std::int64_t steps_of(StepRule const& rule, RunSpec const& run);
+
+/// Of a case whose formulation is built.
+Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulation const& formulation, int threads);
+
+/// Of a case too large to be built for a look: of each body a small part with the same spacing is built, which has the
+/// same step and, inside, as much memory per particle. Throws InputError for what the formulation refuses.
+Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles, int threads);
+
+/// From this many particles on a case is estimated from parts.
+inline constexpr std::int64_t large_case = 200'000;
+
+/// The same shape with the same spacing, cut down to about this many particles along each direction.
+ShapeSpec part_of(ShapeSpec const& shape, int particles);
+
+}  // namespace piola
