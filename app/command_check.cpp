@@ -119,14 +119,16 @@ void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
 }
 
 void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
-  constexpr std::array<std::string_view, 3> kinds{"traction", "body force", "acceleration"};
-  constexpr std::array<std::string_view, 3> units{"Pa", "N/m^3", "m/s^2"};
+  constexpr std::array<std::string_view, 4> kinds{"traction", "body force", "acceleration", "pressure"};
+  constexpr std::array<std::string_view, 4> units{"Pa", "N/m^3", "m/s^2", "Pa"};
   for (LoadSpec const& load : spec.loads) {
     auto const kind = static_cast<std::size_t>(load.kind);
     auto const count = loaded_particles(particles, body_named(particles, load.body), load).size();
-    std::string const face = load.kind == LoadSpec::Kind::traction ? " of face " + face_text(load.face) : "";
+    std::string const face = load.on_face() ? " of face " + face_text(load.face) : "";
+    bool const pressure = load.kind == LoadSpec::Kind::pressure;
     fmt::print("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)),
-               face, kinds[kind], vector_text(load.value, particles.dimension), units[kind], until_text(load.until));
+               face, kinds[kind], pressure ? load.value[0].text() : vector_text(load.value, particles.dimension),
+               units[kind], until_text(load.until));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const count = face_particles(particles, body_named(particles, mirror.body), mirror.face).size();

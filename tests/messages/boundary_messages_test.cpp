@@ -25,8 +25,8 @@ TEST(BoundaryMessages, SupportsSayWhatMayBeHeld) {
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"tangent\"\nnormal = [1, 0]")),
             "case.toml:18:10: support.normal has 2 components (allowed: 3, the dimension of the body)");
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"xyz\"\nuntill = 1\nuntil = 0")),
-            "case.toml:18:1: \"untill\" is not a key of support (allowed: body, where, fix, normal, velocity, until) - "
-            "did you mean \"until\"?\n"
+            "case.toml:18:1: \"untill\" is not a key of support (allowed: name, body, where, fix, normal, velocity, "
+            "until) - did you mean \"until\"?\n"
             "case.toml:19:9: support.until is 0 s (allowed: above 0)");
 }
 
@@ -53,17 +53,20 @@ TEST(BoundaryMessages, SupportsThatContradictAreNamed) {
 }
 
 TEST(BoundaryMessages, LoadsAreOfOneKind) {
-  EXPECT_EQ(with("[[load]]\nbody = \"column\"\n"),
-            "case.toml:23:1: load has no of traction, body_force, acceleration (allowed: one) - add or remove one");
+  EXPECT_EQ(
+      with("[[load]]\nbody = \"column\"\n"),
+      "case.toml:23:1: load has no of traction, pressure, body_force, acceleration (allowed: one) - add or remove "
+      "one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nbody_force = [0, 0, 0]\nacceleration = [0, 0, 0]\n"),
-            "case.toml:23:1: load has 2 of traction, body_force, acceleration (allowed: one) - add or remove one");
+            "case.toml:23:1: load has 2 of traction, pressure, body_force, acceleration (allowed: one) - add or remove "
+            "one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nforce = [0, 0, 0]\nbody_force = [0, \"1 Pa\", 0]\n"),
-            "case.toml:25:1: \"force\" is not a key of load (allowed: body, where, traction, face, body_force, "
-            "acceleration, until) - choose one of these\n"
+            "case.toml:25:1: \"force\" is not a key of load (allowed: name, body, where, traction, pressure, follows, "
+            "face, body_force, acceleration, until) - choose one of these\n"
             "case.toml:26:18: load.body_force[1] cannot be read: \"1 Pa\" is not a force per volume (expected a unit "
             "such as N/m^3)");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nacceleration = [0, \"1/(Y - 6)\", 0]\nface = \"+x\"\n"),
-            "case.toml:26:8: load.face is used only by a traction - remove it");
+            "case.toml:26:8: load.face is used only by a traction or a pressure - remove it");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nacceleration = [0, \"1/(Y - 6)\", 0]\n"),
             "case.toml:25:16: load.acceleration[1], formula \"1/(Y - 6)\" is inf at X = (-0.5, 6, -0.5) m of body "
             "\"column\" (allowed: a finite number at every particle)");
@@ -71,9 +74,10 @@ TEST(BoundaryMessages, LoadsAreOfOneKind) {
 
 TEST(BoundaryMessages, TractionsNeedAFaceOfABox) {
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\n"),
-            "case.toml:23:1: load needs \"face\" (the face of a box that the traction acts on) - add face = \"+x\"");
-  EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\nface = \"y\"\n"),
-            "case.toml:26:8: load.face is \"y\" (allowed: -x, +x, -y, +y, -z, +z) - did you mean \"-y\"?");
+            "case.toml:23:1: load needs \"face\" (the face that the load acts on) - add face = \"+x\"");
+  EXPECT_EQ(
+      with("[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\nface = \"y\"\n"),
+      "case.toml:26:8: load.face is \"y\" (allowed: -x, +x, -y, +y, -z, +z, outer, inner) - did you mean \"-y\"?");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\nface = \"+y\"\nwhere = \"Y <= 3\"\n"),
             "case.toml:27:9: load.where, formula \"Y <= 3\" selects no particle of the face \"+y\" of body \"column\" "
             "(its particles reach from (-0.5, 0, -0.5) m to (0.5, 6, 0.5) m) - change the condition");
@@ -81,10 +85,28 @@ TEST(BoundaryMessages, TractionsNeedAFaceOfABox) {
   EXPECT_EQ(message_of(sample_with(box, "sphere = { centre = [0, 0, 0], radius = 1 }, spacing = 0.2") +
                        "[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\nface = \"+y\"\n"
                        "[[mirror]]\nbody = \"column\"\nface = \"+y\"\n"),
-            "case.toml:26:8: body \"column\" has no face \"+y\", because it is no box (allowed: tractions on faces of "
-            "boxes)\n"
+            "case.toml:26:8: body \"column\" has no face \"+y\" (allowed: outer)\n"
             "case.toml:29:8: body \"column\" has no face \"+y\", because it is no box (allowed: mirrors at faces of "
             "boxes)");
+}
+
+TEST(BoundaryMessages, PressuresActOnFacesAndMayFollowThem) {
+  EXPECT_EQ(with("[[load]]\nbody = \"column\"\npressure = 1\nface = \"outer\"\n"),
+            "case.toml:26:8: body \"column\" has no face \"outer\" (allowed: -x, +x, -y, +y, -z, +z)");
+  EXPECT_EQ(
+      with("[[load]]\nbody = \"column\"\npressure = \"1/X\"\nface = \"+y\"\n"),
+      "case.toml:25:12: load.pressure, formula \"1/X\" is inf at X = (0, 6, -0.5) m of body \"column\" (allowed: a "
+      "finite number at every particle)");
+  EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 1, 0]\nface = \"+y\"\nfollows = true\n"),
+            "case.toml:27:11: load.follows is used only by a pressure - remove it");
+}
+
+TEST(BoundaryMessages, NamesThatColumnsBeginWithBelongToOneSection) {
+  EXPECT_EQ(with("[[load]]\nname = \"support_0\"\nbody = \"column\"\nacceleration = [0, 1, 0]\n"),
+            "case.toml:24:8: the name \"support_0\" is taken by a support (allowed: one name for one support, load, "
+            "rigid shape or probe) - choose another name");
+  EXPECT_EQ(with("[[quantity]]\nname = \"base\"\ncolumn = \"support_0.force_y\"\ntake = \"mean\"\nunit = \"kN\"\n"),
+            "");
 }
 
 TEST(BoundaryMessages, MirrorsNeedParticlesOnTheirFace) {
@@ -102,7 +124,7 @@ TEST(BoundaryMessages, MirrorsNeedParticlesOnTheirFace) {
             "remove one");
   EXPECT_EQ(with(mirror + "[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\nface = \"+z\"\n"),
             "case.toml:29:8: the face \"+z\" of body \"column\" is a mirror, inside the whole body (allowed: tractions "
-            "on other faces) - remove the traction or the mirror");
+            "and pressures on other faces) - remove the load or the mirror");
   EXPECT_EQ(with(mirror + "[[support]]\nbody = \"column\"\nwhere = \"Z > 0 && Y > 2\"\nfix = \"z\"\nvelocity = [0, 0, "
                           "1]\n"),
             "case.toml:23:1: mirror.0 and support.1 (line 26) both hold the particle at X = (-0.5, 2.25, 0.5) m of "

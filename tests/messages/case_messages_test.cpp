@@ -133,11 +133,11 @@ TEST(CaseMessages, AnEmptyBodyIsReported) {
 TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(message_of(sample_with("\"pressure\"]", "\"presure\"]")),
             "case.toml:22:33: probe.quantities[1] is \"presure\" (allowed: pressure, damage, temperature, "
-            "density, momentum_x, momentum_y, momentum_z, jacobian and 42 more) - did you mean \"pressure\"?");
+            "density, momentum_x, momentum_y, momentum_z, jacobian and 48 more) - did you mean \"pressure\"?");
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "
-      "pressure_max, step, strain_energy, dt and 18 more) - did you mean \"tip.pressure\"?");
+      "pressure_max, step, strain_energy, dt and 25 more) - did you mean \"tip.pressure\"?");
   EXPECT_EQ(message_of(sample_case() +
                        "[[quantity]]\nname = \"q\"\ncolumn = \"tip.pressure\"\nunit = \"m\"\nthreshold = 3\n"),
             "case.toml:26:8: quantity.unit is \"m\" (allowed: a unit of a pressure or modulus such as Pa)\n"
@@ -161,7 +161,7 @@ TEST(CaseMessages, ErrorsNeedAFieldAndAFormulaPerComponent) {
       message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
       "case.toml:27:9: probe.field is \"Presure\" (allowed: Displacement, Velocity, Momentum, Pressure, CauchyStress, "
       "FirstPiolaStress, DeformationGradient, Jacobian, VonMisesStress, Density, Damage, EquivalentPlasticStrain, "
-      "Temperature, InternalEnergy, KernelType, Body, Id) - did you mean "
+      "Temperature, InternalEnergy, KernelType, Neighbours, PrincipalStress, PrincipalStrain, Body, Id) - did you mean "
       "\"Pressure\"?");
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Pressure\"\nreference = [\"1/t\"]\nwhere = \"Y > 5\"\n"),
@@ -189,8 +189,8 @@ formulation = { name = "jst_sph" }
 
 TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(message_of(sample_case(), {"run.ens=1"}),
-            "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, max_step, min_step, threads, machine) - "
-            "did you "
+            "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, rest, max_step, "
+            "min_step, threads, machine) - did you "
             "mean \"end\"?");
   EXPECT_EQ(message_of(sample_case(), {"body.colum.name=a"}),
             "--set body.colum.name=a: no body has the name \"colum\" (known: column) - did you mean \"column\"?");

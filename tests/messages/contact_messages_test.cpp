@@ -42,7 +42,7 @@ TEST(ContactMessages, RigidShapesAreOfOneKind) {
             "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity) - "
             "choose one of these");
   EXPECT_EQ(with("[[rigid]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
-            "case.toml:23:1: rigid needs \"name\" (name in messages and tables) - add name = \"column\"");
+            "case.toml:23:1: rigid needs \"name\" (name in messages and of columns) - add name = \"column\"");
 }
 
 TEST(ContactMessages, RigidShapesHaveSoundNumbers) {

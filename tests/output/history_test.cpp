@@ -22,7 +22,7 @@ TEST(History, StartsWithTheAgreedColumns) {
             "linear_momentum_y,"
             "linear_momentum_z,angular_momentum_x,angular_momentum_y,angular_momentum_z,jacobian_min,jacobian_max,"
             "pressure_min,pressure_max,"
-            "pressure_oscillation,projection_loss,plastic_work");
+            "pressure_oscillation,projection_loss,damping_loss,plastic_work");
   EXPECT_EQ(diagnostic_values(1, 2, 3, d).size(), names.size());
   EXPECT_EQ(names.back().unit, "J");
 }

@@ -46,6 +46,19 @@ TEST(Quantity, TakesEveryKindOfNumber) {
   EXPECT_NEAR(value(Take::mean_absolute_difference), 0.5, 1e-12);
 }
 
+TEST(Quantity, TakesTheMeanOverTime) {
+  EXPECT_NEAR(value(Take::mean), -0.4 * (1 - std::cos(5.0)), 1e-5);
+  QuantitySpec spec{.name = "q", .column = "y", .take = Take::mean, .reference = {}, .unit = "1"};
+  spec.from = 0.25;
+  spec.until = 0.75;
+  std::string why;
+  auto const q = measure(spec, table(), why);
+  ASSERT_TRUE(q) << why;
+  EXPECT_NEAR(q->value, -0.8 * (std::cos(1.25) - std::cos(3.75)), 1e-5);
+  spec.from = spec.until = 0.5;
+  EXPECT_NEAR(measure(spec, table(), why)->value, -2 * std::sin(2.5), 1e-12);
+}
+
 TEST(Quantity, TakesTheRange) { EXPECT_NEAR(value(Take::range), 4, 1e-5); }
 
 // Against 0.8 of the column itself the relative error is 0.2/0.8, in percent if that is asked for.

@@ -47,6 +47,9 @@ class Springs : public Formulation {
     ++steps_;
     if (steps_ == stop_at && stop != nullptr) *stop = 15;
   }
+  void damp(double factor) override {
+    for (double& v : v_) v *= factor;
+  }
   std::optional<Failure> failure() const override {
     if (steps_ < fail_at) return std::nullopt;
     return Failure{"is inverted", 3, "plate", set_.X[3], {0.5, 0.25, 0}, {{"det F", -0.02}, {"neighbours", 27}}};

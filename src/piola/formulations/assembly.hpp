@@ -26,6 +26,8 @@ struct Support {
   std::array<double, 3> normal{};                          ///< unit vector
   std::optional<std::array<Expression, 3>> velocity;       ///< m/s, in X, Y, Z, t; nothing: at rest
   double until = std::numeric_limits<double>::infinity();  ///< s: released then
+  std::string name = {};
+  std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
 };
 
 /// A dead load: particle k feels the acceleration value(X, t) * factor[k].
@@ -36,6 +38,15 @@ struct Load {
   double until = std::numeric_limits<double>::infinity();  ///< s: gone then
   /// Outward unit normal of the loaded face in the reference configuration, if the load is a traction.
   std::optional<std::array<double, 3>> normal = {};
+  std::vector<std::array<double, 3>> normals = {};  ///< the same particle by particle, of curved faces
+  bool pressure = false;                            ///< the value's first component is a pressure [Pa] on that face
+  bool follows = false;                             ///< a pressure on the deformed face, along its current normal
+  std::string name = {};                            ///< empty: its force is not recorded
+  std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
+
+  bool on_face() const { return normal.has_value() || !normals.empty(); }
+  /// Of the face at particle k.
+  std::array<double, 3> normal_of(std::size_t k) const { return normals.empty() ? *normal : normals[k]; }
 };
 
 /// A face of a box across which the body is continued by its mirror image.

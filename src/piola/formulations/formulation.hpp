@@ -18,6 +18,20 @@ struct FieldInfo {
   int components;    ///< 1 scalar, 3 vector, 6 symmetric tensor (XX YY ZZ XY YZ XZ), 9 tensor (row by row)
 };
 
+/// What a support, a load or a rigid shape does to the bodies, on average over the last step.
+struct Action {
+  std::string name;
+  std::array<double, 3> force{};   ///< N
+  std::array<double, 3> moment{};  ///< N m, about the middle of its particles at the start or the centre of the shape
+};
+
+/// What one body has of the quantities below.
+struct BodyShare {
+  std::string name;
+  double kinetic_energy = 0, strain_energy = 0;  ///< J
+  std::array<double, 3> linear_momentum{};       ///< kg m/s
+};
+
 /// Integral quantities of the whole system at one time, SI units.
 struct Diagnostics {
   double kinetic_energy = 0;                 ///< J
@@ -25,12 +39,15 @@ struct Diagnostics {
   double stabilisation_loss = 0;             ///< J, energy removed by the stabilisation since the start
   double projection_loss = 0;                ///< J, energy removed by the momentum projections since the start
   double external_work = 0;                  ///< J, work of loads and driven supports since the start
+  double damping_loss = 0;                   ///< J, energy removed by damping since the start
   std::array<double, 3> linear_momentum{};   ///< kg m/s
   std::array<double, 3> angular_momentum{};  ///< kg m2/s, about the origin
   double jacobian_min = 0, jacobian_max = 0;
   double pressure_min = 0, pressure_max = 0;         ///< Pa, positive in tension
   double pressure_oscillation = 0;                   ///< 1 for a checkerboard, O(dx^2) for a smooth field
   std::vector<std::pair<std::string, double>> more;  ///< columns of this formulation only
+  std::vector<BodyShare> bodies;
+  std::vector<Action> actions;
   double total_energy() const { return kinetic_energy + strain_energy; }
 };
 
@@ -81,7 +98,11 @@ class Formulation {
     rule.limit = "the formulation";
     return rule;
   }
-  virtual void step(double time, double dt) = 0;       ///< from time to time + dt
+  virtual void step(double time, double dt) = 0;  ///< from time to time + dt
+  /// Multiplies the velocities that nothing prescribes by `factor`, from 0 to 1; the kinetic energy that they lose is
+  /// the damping loss. Called between steps.
+  virtual void damp(double factor) = 0;
+  virtual double kinetic_energy() const { return diagnose().kinetic_energy; }  ///< [J]
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;
 

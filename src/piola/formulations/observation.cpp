@@ -5,10 +5,17 @@
 
 namespace piola {
 
+void Observation::add_strain_energy(double energy) {
+  totals.strain_energy += energy;
+  totals.bodies.back().strain_energy += energy;
+}
+
 void Observation::add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass) {
   for (std::size_t c = 0; c < 3; ++c) {
     std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
     totals.linear_momentum[c] += mass * v[c];
+    totals.bodies.back().linear_momentum[c] += mass * v[c];
+    totals.bodies.back().kinetic_energy += 0.5 * mass * v[c] * v[c];
     totals.angular_momentum[c] += mass * (x[p] * v[q] - x[q] * v[p]);
     totals.kinetic_energy += 0.5 * mass * v[c] * v[c];
   }

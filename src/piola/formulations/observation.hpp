@@ -15,6 +15,9 @@ struct Observation {
   double second_difference_square = 0;
   double second_difference_count = 0;
 
+  /// What is added from here on belongs to this body, too.
+  void open_body(std::string const& name) { totals.bodies.push_back({name, 0, 0, {}}); }
+  void add_strain_energy(double energy);  ///< [J]
   /// One particle: position [m], velocity [m/s], mass [kg].
   void add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass);
   /// One particle: volume ratio, pressure [Pa], tributary volume.

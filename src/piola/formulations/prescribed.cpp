@@ -55,6 +55,18 @@ double speed_along(std::array<Expression, 3> const& velocity, Direction const& d
   return speed;
 }
 
+Direction acceleration_by(std::array<Expression, 3> const& value, std::optional<Direction> const& normal, double factor,
+                          std::array<double, 3> const& X, double time) {
+  Direction a{};
+  if (normal) {
+    double const push = -factor * value[0](X, time);
+    for (std::size_t c = 0; c < 3; ++c) a[c] = push * (*normal)[c];
+  } else {
+    for (std::size_t c = 0; c < 3; ++c) a[c] = factor * value[c](X, time);
+  }
+  return a;
+}
+
 double up_to_release(double dt, double rest) {
   constexpr double last_steps = 20;
   double const steps = std::ceil(rest / dt * (1 - 1e-6));

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/assembly.hpp"
 #include <array>
+#include <optional>
 #include <vector>
 
 /// What supports and loads mean, for every formulation.
@@ -26,6 +27,10 @@ std::vector<Direction> directions_of(Support const& support, int D);
 /// Prescribed speed along d of the particle with reference position X [m/s].
 double speed_along(std::array<Expression, 3> const& velocity, Direction const& d, std::array<double, 3> const& X,
                    double time);
+
+/// The acceleration factor * value at X, or factor * (-value[0] normal) by a pressure [m/s2].
+Direction acceleration_by(std::array<Expression, 3> const& value, std::optional<Direction> const& normal, double factor,
+                          std::array<double, 3> const& X, double time);
 
 /// dt, or less, so that a step ends after `rest` [s], where a support or a load does: the impulse of what drives a body
 /// would else depend on the step. The last steps before are alike, so that none is a sliver.

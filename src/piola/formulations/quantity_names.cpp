@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/math/symmetric_eigen.hpp"
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 
 namespace piola {
 namespace {
@@ -29,28 +32,65 @@ constexpr std::array fields{
     FieldWord{"density", "Density", "kg/m^3", 1},
     FieldWord{"specific_energy", "InternalEnergy", "J/kg", 1},
     FieldWord{"kernel_type", "KernelType", "1", 1},
+    FieldWord{"principal_stress", "PrincipalStress", "Pa", 3},
+    FieldWord{"principal_strain", "PrincipalStrain", "1", 3},
 };
+
+constexpr std::array actions{PartQuantity{"force_x", "N"},    PartQuantity{"force_y", "N"},
+                             PartQuantity{"force_z", "N"},    PartQuantity{"moment_x", "N m"},
+                             PartQuantity{"moment_y", "N m"}, PartQuantity{"moment_z", "N m"}};
+constexpr std::array bodies{PartQuantity{"kinetic_energy", "J"}, PartQuantity{"strain_energy", "J"},
+                            PartQuantity{"linear_momentum_x", "kg m/s"}, PartQuantity{"linear_momentum_y", "kg m/s"},
+                            PartQuantity{"linear_momentum_z", "kg m/s"}};
 
 constexpr std::array<std::string_view, 3> vector_suffix{"_x", "_y", "_z"};
 constexpr std::array<std::string_view, 6> symmetric_suffix{"_xx", "_yy", "_zz", "_xy", "_yz", "_xz"};
 constexpr std::array<std::string_view, 9> tensor_suffix{"_xx", "_xy", "_xz", "_yx", "_yy", "_yz", "_zx", "_zy", "_zz"};
 
-std::string_view suffix(int components, int c) {
+constexpr std::array<std::string_view, 3> principal_suffix{"_1", "_2", "_3"};
+
+std::string_view suffix(std::string_view word, int components, int c) {
   auto const i = static_cast<std::size_t>(c);
+  if (word.starts_with("principal_")) return principal_suffix[i];
   if (components == 3) return vector_suffix[i];
   if (components == 6) return symmetric_suffix[i];
   if (components == 9) return tensor_suffix[i];
   return "";
 }
 
+void put_falling(SymMat<3> const& A, double* out) {
+  auto const e = symmetric_eigen(A);
+  std::copy_n(e.value, 3, out);
+  std::sort(out, out + 3, std::greater<>());
+}
+
+void put_principal_stress(double const* stress, double* out) {
+  SymMat<3> s;
+  std::copy_n(stress, 6, s.c);
+  put_falling(s, out);
+}
+
+/// ln(lambda) = 1/2 ln of the eigenvalues of F^T F.
+void put_principal_strain(double const* F, double* out) {
+  SymMat<3> C{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) C(i, j) += F[3 * k + i] * F[3 * k + j];
+  put_falling(C, out);
+  for (int c = 0; c < 3; ++c) out[c] = 0.5 * std::log(out[c]);
+}
+
+constexpr std::array derived{DerivedField{"PrincipalStress", "CauchyStress", "Pa", &put_principal_stress},
+                             DerivedField{"PrincipalStrain", "DeformationGradient", "1", &put_principal_strain}};
+
 std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;
   for (FieldWord const& f : fields) {
     for (int c = 0; c < f.components; ++c) {
-      table.push_back(
-          {std::string(f.word) + std::string(suffix(f.components, c)), std::string(f.field), c, std::string(f.unit)});
+      table.push_back({std::string(f.word) + std::string(suffix(f.word, f.components, c)), std::string(f.field), c,
+                       std::string(f.unit)});
     }
-    if (f.components == 3) {
+    if (f.components == 3 && !f.word.starts_with("principal_")) {
       table.push_back(
           {std::string(f.word) + "_magnitude", std::string(f.field), FieldQuantity::magnitude, std::string(f.unit)});
     }
@@ -59,6 +99,14 @@ std::vector<FieldQuantity> make_table() {
 }
 
 }  // namespace
+
+std::span<DerivedField const> derived_fields() { return derived; }
+bool is_derived(std::string_view field) {
+  return std::any_of(derived.begin(), derived.end(), [&](DerivedField const& d) { return d.name == field; });
+}
+
+std::span<PartQuantity const> action_quantities() { return actions; }
+std::span<PartQuantity const> body_quantities() { return bodies; }
 
 std::vector<FieldQuantity> const& all_quantities() {
   static std::vector<FieldQuantity> const table = make_table();

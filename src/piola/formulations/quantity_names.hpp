@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,28 @@ std::optional<FieldQuantity> find_quantity(std::string_view name);
 
 /// Every known quantity name, for suggestions and the manual.
 std::vector<FieldQuantity> const& all_quantities();
+
+/// A field that follows from another one, whatever the formulation: its values in falling order.
+struct DerivedField {
+  std::string_view name, from;
+  std::string_view unit;
+  void (*put)(double const* from, double* out);  ///< one particle
+};
+/// "PrincipalStress" [Pa]: eigenvalues of the Cauchy stress. "PrincipalStrain": principal logarithmic (Hencky) strains
+/// ln(lambda), with the principal stretches lambda of the deformation gradient; in plane strain one of them is zero.
+std::span<DerivedField const> derived_fields();
+bool is_derived(std::string_view field);
+
+/// A number of history.csv that belongs to a named part of the case, as NAME.word.
+struct PartQuantity {
+  std::string_view word;
+  std::string_view unit;  ///< SI, UDUNITS notation
+};
+
+/// Of every support, rigid shape and named load: its force and moment on the bodies, in the order of Action.
+std::span<PartQuantity const> action_quantities();
+/// Of every body where there are several, in the order of BodyShare.
+std::span<PartQuantity const> body_quantities();
 
 /// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
 /// "stress_intensity" [Pa m^0.5].

@@ -22,7 +22,7 @@ constexpr std::array sections{
     SectionInfo{"body.material", "material = { ... }", "the law of the material and its parameters"},
     SectionInfo{"body.formulation", "formulation = { ... }", "the SPH formulation and its settings"},
     SectionInfo{"support", "[[support]]", "particles whose velocity is prescribed in some directions: zero, or driven"},
-    SectionInfo{"load", "[[load]]", "a dead load: exactly one of traction, body_force, acceleration"},
+    SectionInfo{"load", "[[load]]", "a load: exactly one of traction, pressure, body_force, acceleration"},
     SectionInfo{"mirror", "[[mirror]]", "a face of a box across which the body goes on as its mirror image"},
     SectionInfo{"crack", "[[crack]]", "a straight crack in a two-dimensional box, without traction on its faces"},
     SectionInfo{"rigid", "[[rigid]]", "a rigid obstacle: exactly one of plane, sphere, cylinder, box"},

@@ -23,6 +23,9 @@ struct RunSpec {
   double max_step = std::numeric_limits<double>::infinity();  ///< s, upper bound of the step
   double min_step = 0;           ///< s; a smaller stable step is a failure (0: 1e-6 of the first step)
   int threads = 0;               ///< 0: all cores
+  double damping = 0;            ///< rate at which velocities decay [1/s]
+  bool relax = false;            ///< dynamic relaxation: ends at rest
+  double rest = 1e-3;            ///< relax: the residual force at rest, beside the largest of the run
   std::string machine = "auto";  ///< instruction set: auto, scalar, v2, v3, v4
   Places places;
 };
@@ -42,6 +45,7 @@ struct BodySpec {
 
 /// [[support]]: the velocity of the particles that `where` selects, prescribed in some directions.
 struct SupportSpec {
+  std::string name;  ///< "support_1" if the case gives none to the second one
   std::string body;
   Expression where;
   Support::Frame frame = Support::Frame::axes;
@@ -54,12 +58,16 @@ struct SupportSpec {
 
 /// [[load]]: a dead load on the particles that `where` selects.
 struct LoadSpec {
-  enum class Kind { traction, body_force, acceleration };
+  enum class Kind { traction, body_force, acceleration, pressure };
+  std::string name;  ///< empty: its force is not recorded
   std::string body;
   std::optional<Expression> where;  ///< default all
   Kind kind = Kind::acceleration;
-  std::array<Expression, 3> value;                         ///< Pa, N/m^3 or m/s^2, in X, Y, Z, t
-  Face face;                                               ///< traction
+  std::array<Expression, 3> value;  ///< Pa, N/m^3 or m/s^2, in X, Y, Z, t
+  Face face;                        ///< traction, pressure
+  ShapeSpec shape;                  ///< of the body
+  bool follows = false;             ///< pressure: on the deformed face
+  bool on_face() const { return kind == Kind::traction || kind == Kind::pressure; }
   double until = std::numeric_limits<double>::infinity();  ///< s: gone then
   Places places;
 };
@@ -151,7 +159,8 @@ struct QuantitySpec {
     relative_error,
     oscillation_period,
     range,
-    change
+    change,
+    mean
   };
   std::string name;
   std::string column;
@@ -160,7 +169,7 @@ struct QuantitySpec {
   double time = 0;                      ///< at_time [s]
   std::optional<Expression> reference;  ///< mean_absolute_difference, relative_error: formula in t
   std::string unit = "1";               ///< as shown
-  double from = 0;  ///< mean_absolute_difference, relative_error: rows from this time on; change: start [s]
+  double from = 0;  ///< mean, mean_absolute_difference, relative_error: rows from this time on; change: start [s]
   double until = std::numeric_limits<double>::infinity();  ///< and up to this one; change: end [s]
 };
 

@@ -157,7 +157,7 @@ bool check_support(SupportSpec const& support, ParticleSet const& particles, Bod
 }
 
 void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& body, Problems& problems) {
-  constexpr std::array keys{"traction", "body_force", "acceleration"};
+  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure"};
   Place const place = place_of(load.places, "where");
   if (load.where && !check_where(*load.where, "load.where", place, particles, body, problems)) return;
   std::vector<std::int64_t> const ids = loaded_particles(particles, body, load);
@@ -168,12 +168,14 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
   }
   std::string const key = keys[static_cast<std::size_t>(load.kind)];
   FormulaCheck const check(particles, body, problems);
+  if (load.kind == LoadSpec::Kind::pressure) {
+    check.finite(load.value[0], "load.pressure", place_of(load.places, key), ids);
+    return;
+  }
   for (std::size_t d = 0; d < static_cast<std::size_t>(particles.dimension); ++d) {
     check.finite(load.value[d], "load." + key + "[" + std::to_string(d) + "]", place_of(load.places, key), ids);
   }
 }
-
-bool same_face(Face const& a, Face const& b) { return a.axis == b.axis && a.upper == b.upper; }
 
 bool check_mirror(CaseSpec const& spec, std::size_t number, Body const& body, Problems& problems) {
   MirrorSpec const& mirror = spec.mirrors[number];
@@ -186,17 +188,17 @@ bool check_mirror(CaseSpec const& spec, std::size_t number, Body const& body, Pr
     return false;
   }
   for (std::size_t other = 0; other < number; ++other) {
-    if (spec.mirrors[other].body != mirror.body || !same_face(spec.mirrors[other].face, mirror.face)) continue;
+    if (spec.mirrors[other].body != mirror.body || !(spec.mirrors[other].face == mirror.face)) continue;
     problems.add(place, face + " is a mirror already (allowed: one mirror per face) - remove one");
     return false;
   }
   for (LoadSpec const& load : spec.loads) {
-    if (load.kind != LoadSpec::Kind::traction || load.body != mirror.body || !same_face(load.face, mirror.face))
-      continue;
-    problems.add(place_of(load.places, "face"),
-                 face +
-                     " is a mirror, inside the whole body (allowed: tractions on other faces) - remove the traction "
-                     "or the mirror");
+    if (!load.on_face() || load.body != mirror.body || !(load.face == mirror.face)) continue;
+    problems.add(
+        place_of(load.places, "face"),
+        face +
+            " is a mirror, inside the whole body (allowed: tractions and pressures on other faces) - remove the load "
+            "or the mirror");
   }
   return true;
 }

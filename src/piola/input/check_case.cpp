@@ -124,13 +124,18 @@ std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body co
 }
 
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
-  Expression const* const where = load.where ? &*load.where : nullptr;
-  if (load.kind != LoadSpec::Kind::traction) return select_particles(particles, body, where);
-  std::vector<std::int64_t> ids = face_particles(particles, body, load.face);
-  std::erase_if(ids, [&](std::int64_t id) {
-    return where != nullptr && (*where)(particles.X[static_cast<std::size_t>(id)]) == 0;
-  });
+  if (!load.on_face()) return select_particles(particles, body, load.where ? &*load.where : nullptr);
+  std::vector<std::int64_t> ids;
+  for (FaceShare const& share : loaded_shares(particles, body, load)) ids.push_back(share.particle);
   return ids;
+}
+
+std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
+  auto shares = face_shares(load.shape, particles, body, load.face);
+  std::erase_if(shares, [&](FaceShare const& share) {
+    return load.where && (*load.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
+  });
+  return shares;
 }
 
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {

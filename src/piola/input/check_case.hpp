@@ -28,7 +28,9 @@ std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, st
 /// off that line by at most 1e-3 of the distance, at distances in [from, to] with a slack of 1e-6 of them.
 std::vector<std::int64_t> particles_ahead(ParticleSet const& particles, Body const& body, ProbeSpec const& probe);
 
-/// Ids of the particles that a load acts on; of a traction, only those of its face.
+/// Ids of the particles that a load acts on; of a traction or a pressure, only those of its face.
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load);
+/// Of a traction or a pressure: with their parts of the face.
+std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& body, LoadSpec const& load);
 
 }  // namespace piola

@@ -26,6 +26,7 @@ constexpr std::array columns{
     HistoryName{"pressure_max", "Pa"},
     HistoryName{"pressure_oscillation", "1"},
     HistoryName{"projection_loss", "J"},
+    HistoryName{"damping_loss", "J"},
 };
 
 constexpr std::array fields{
@@ -45,6 +46,8 @@ constexpr std::array fields{
     FieldName{"InternalEnergy", "J/kg", 1},
     FieldName{"KernelType", "1", 1},
     FieldName{"Neighbours", "1", 1},
+    FieldName{"PrincipalStress", "Pa", 3},
+    FieldName{"PrincipalStrain", "1", 3},
     FieldName{"Body", "1", 1},
     FieldName{"Id", "1", 1},
 };

@@ -9,8 +9,17 @@ using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 4> contact_words{"kernel", "linear", "printed", "none"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
+constexpr std::array<std::string_view, 8> surface_words{"-x", "+x", "-y", "+y", "-z", "+z", "outer", "inner"};
 
 constexpr std::array keys{
+    KeyInfo{"support",
+            "name",
+            name,
+            "",
+            {},
+            "support_0, support_1, ...",
+            "first part of the columns NAME.force_x to NAME.moment_z of history.csv",
+            {}},
     KeyInfo{"support", "body", name, "", {}, "", "name of the body", {}},
     KeyInfo{"support", "where", formula, "", {}, "", "condition in X, Y, Z that selects particles", {}},
     KeyInfo{
@@ -33,6 +42,14 @@ constexpr std::array keys{
             {}},
     KeyInfo{"support", "until", quantity, "s", positive, "the end of the run", "released at this time", {}},
 
+    KeyInfo{"load",
+            "name",
+            name,
+            "",
+            {},
+            "none: not recorded",
+            "first part of the columns NAME.force_x to NAME.moment_z of history.csv",
+            {}},
     KeyInfo{"load", "body", name, "", {}, "", "name of the body", {}},
     KeyInfo{"load", "where", formula, "", {}, "all particles", "condition in X, Y, Z that selects particles", {}},
     KeyInfo{"load",
@@ -43,7 +60,32 @@ constexpr std::array keys{
             "none",
             "force per reference area of a face, one formula in X, Y, Z, t per direction",
             {}},
-    KeyInfo{"load", "face", word, "", {}, "none", "traction (required there): the loaded face of a box", face_words},
+    KeyInfo{"load",
+            "pressure",
+            formula,
+            "Pa",
+            {},
+            "none",
+            "force per area of a face, against its outward normal; a formula in X, Y, Z, t",
+            {}},
+    KeyInfo{"load",
+            "follows",
+            flag,
+            "",
+            {},
+            "false",
+            "pressure: it acts on the deformed face, along its current normal; else along that of the start",
+            {}},
+    KeyInfo{
+        "load",
+        "face",
+        word,
+        "",
+        {},
+        "none",
+        "traction, pressure (required there): a face of a box or an end of a cylinder; outer: the curved surface of "
+        "a cylinder, ball or disc; inner: that of its hole",
+        surface_words},
     KeyInfo{"load",
             "body_force",
             formulas,
@@ -77,7 +119,7 @@ constexpr std::array keys{
     KeyInfo{"crack", "from", point, "m", place_range, "", "one end, at a particle; inside the body it is a tip", {}},
     KeyInfo{"crack", "to", point, "m", place_range, "", "the other end, at a particle", {}},
 
-    KeyInfo{"rigid", "name", name, "", {}, "", "name in messages and tables", {}},
+    KeyInfo{"rigid", "name", name, "", {}, "", "name in messages and of columns", {}},
     KeyInfo{"rigid", "plane", table, "", {}, "none", "a plane", {}},
     KeyInfo{"rigid", "sphere", table, "", {}, "none", "a sphere or disc", {}},
     KeyInfo{"rigid", "cylinder", table, "", {}, "none", "a cylinder", {}},

@@ -54,26 +54,63 @@ void read_face(Section const& section, BodyNames const& body, std::string const&
   }
 }
 
+/// Whether a body has such a face to load.
+bool has_face(ShapeSpec const& shape, Face const& face) {
+  bool const box = shape.kind == ShapeSpec::Kind::box;
+  if (face.part == Face::Part::outer) return !box;
+  if (face.part == Face::Part::inner) return !box && shape.inner_radius > 0;
+  return (box && face.axis < shape.dimension) || (shape.kind == ShapeSpec::Kind::cylinder && face.axis == shape.axis);
+}
+
+/// The faces of a body that tractions and pressures may act on.
+std::string loadable_faces(ShapeSpec const& shape) {
+  std::string text;
+  for (auto const part : {Face::Part::flat, Face::Part::outer, Face::Part::inner})
+    for (int axis = 0; axis < (part == Face::Part::flat ? 3 : 1); ++axis)
+      for (bool const upper : {false, true})
+        if (Face const face{axis, upper, part}; has_face(shape, face) && (part == Face::Part::flat || !upper))
+          text += (text.empty() ? "" : ", ") + face_text(face);
+  return text;
+}
+
+void read_loaded_face(Section const& section, BodyNames const& body, LoadSpec& load) {
+  load.shape = body.shape;
+  int const word = section.word_index("face");
+  if (word < 0) return;
+  constexpr int flat = 6;
+  load.face = word < flat ? Face{word / 2, word % 2 == 1}
+                          : Face{0, false, word == flat ? Face::Part::outer : Face::Part::inner};
+  if (has_face(body.shape, load.face)) return;
+  section.problems().add(section.place_of("face"), "body " + in_quotes(body.name) + " has no face " +
+                                                       in_quotes(face_text(load.face)) +
+                                                       " (allowed: " + loadable_faces(body.shape) + ")");
+}
+
 void read_load_value(Section const& section, BodyNames const* body, LoadSpec& load) {
-  constexpr std::array kinds{"traction", "body_force", "acceleration"};
+  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure"};
   int given = 0;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (!section.has(kinds[k])) continue;
     ++given;
     load.kind = static_cast<LoadSpec::Kind>(k);
     if (body == nullptr) continue;
+    if (load.kind == LoadSpec::Kind::pressure) {
+      if (auto value = section.formula("pressure", body->names)) load.value[0] = std::move(*value);
+      continue;
+    }
     if (auto value = read_vector(section, kinds[k], *body)) load.value = std::move(*value);
   }
   if (given == 1) return;
   section.problems().add(section.place(), "load has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                                              " of traction, body_force, acceleration (allowed: one) - add or remove "
-                                              "one");
+                                              " of traction, pressure, body_force, acceleration (allowed: one) - add "
+                                              "or remove one");
 }
 
 }  // namespace
 
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies) {
   SupportSpec support;
+  section.read("name", support.name);
   BodyNames const* const body = find_body(section, bodies, support.body);
   int const dimension = body != nullptr ? body->dimension : 3;
   if (auto where = section.formula("where", body != nullptr ? body->names : Names{})) support.where = std::move(*where);
@@ -90,18 +127,24 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
 
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies) {
   LoadSpec load;
+  section.read("name", load.name);
   BodyNames const* const body = find_body(section, bodies, load.body);
   load.where = section.formula("where", body != nullptr ? body->names : Names{});
   read_load_value(section, body, load);
-  if (!section.has("traction"))
-    section.refuse("face", "is used only by a traction");
+  if (!load.on_face())
+    section.refuse("face", "is used only by a traction or a pressure");
   else if (!section.has("face"))
-    section.report_missing("face", "the face of a box that the traction acts on", "face = \"+x\"");
+    section.report_missing("face", "the face that the load acts on", "face = \"+x\"");
   else if (body != nullptr)
-    read_face(section, *body, "tractions on faces", load.face);
+    read_loaded_face(section, *body, load);
+  if (load.kind == LoadSpec::Kind::pressure)
+    section.read("follows", load.follows);
+  else
+    section.refuse("follows", "is used only by a pressure");
   section.read("until", load.until);
   section.refuse_unknown();
-  load.places = places_of(section, {"where", "body", "face", "traction", "body_force", "acceleration"});
+  load.places =
+      places_of(section, {"where", "body", "face", "traction", "body_force", "acceleration", "pressure", "follows"});
   return load;
 }
 

@@ -49,6 +49,39 @@ void refuse_twins(std::vector<Section> const& sections, std::vector<Spec> const&
   }
 }
 
+/// Names that columns of history.csv begin with.
+struct ColumnOwner {
+  Section section;
+  std::string name, kind;
+};
+
+template <class Spec>
+void add_owners(std::vector<ColumnOwner>& owners, std::vector<Section> const& sections, std::vector<Spec> const& specs,
+                std::string const& kind) {
+  refuse_twins(sections, specs, kind);
+  for (std::size_t k = 0; k < specs.size(); ++k) owners.push_back({sections[k], specs[k].name, kind});
+}
+
+/// Names that sections of different kinds share: their columns could be taken for each other's.
+void refuse_shared_names(std::vector<ColumnOwner> const& owners) {
+  for (std::size_t i = 0; i < owners.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      ColumnOwner const &a = owners[i], &b = owners[j];
+      if (a.name.empty() || a.name != b.name || a.kind == b.kind) continue;
+      a.section.problems().add(a.section.place_of("name"),
+                               "the name " + in_quotes(a.name) + " is taken by a " + b.kind +
+                                   " (allowed: one name for one support, load, rigid shape or probe) - choose another "
+                                   "name");
+      break;
+    }
+}
+
+/// Supports have columns whether they are named or not.
+void name_supports(std::vector<SupportSpec>& supports) {
+  for (std::size_t k = 0; k < supports.size(); ++k)
+    if (supports[k].name.empty()) supports[k].name = "support_" + std::to_string(k);
+}
+
 // One formulation moves all bodies, and one dimension holds for all of them.
 void check_bodies_together(std::vector<Section> const& sections, std::vector<BodySpec> const& bodies) {
   for (std::size_t i = 1; i < bodies.size(); ++i) {
@@ -111,18 +144,24 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   std::map<std::string, double> constants;
   if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
   read_bodies(top, constants, spec, names, limits);
-  for (Section const& section : tables_of(top, "support")) spec.supports.push_back(read_support(section, names));
-  for (Section const& section : tables_of(top, "load")) spec.loads.push_back(read_load(section, names));
+  std::vector<Section> const supports = tables_of(top, "support"), loads = tables_of(top, "load");
+  for (Section const& section : supports) spec.supports.push_back(read_support(section, names));
+  name_supports(spec.supports);
+  for (Section const& section : loads) spec.loads.push_back(read_load(section, names));
   for (Section const& section : tables_of(top, "mirror")) spec.mirrors.push_back(read_mirror(section, names));
   for (Section const& section : tables_of(top, "crack")) spec.cracks.push_back(read_crack(section, names));
   int const dimension = names.empty() ? 3 : names.front().dimension;
   std::vector<Section> const rigids = tables_of(top, "rigid");
   for (Section const& section : rigids) spec.rigids.push_back(read_rigid(section, dimension, constants));
-  refuse_twins(rigids, spec.rigids, "rigid shape");
   if (auto const contact = top.table("contact")) spec.contact = read_contact(*contact, dimension);
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
-  refuse_twins(probes, spec.probes, "probe");
+  std::vector<ColumnOwner> owners;
+  add_owners(owners, supports, spec.supports, "support");
+  add_owners(owners, loads, spec.loads, "load");
+  add_owners(owners, rigids, spec.rigids, "rigid shape");
+  add_owners(owners, probes, spec.probes, "probe");
+  refuse_shared_names(owners);
   std::vector<Section> const quantities = tables_of(top, "quantity");
   for (Section const& section : quantities) spec.quantities.push_back(read_quantity_section(section, spec, constants));
   refuse_twins(quantities, spec.quantities, "quantity");

@@ -124,6 +124,15 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
     for (DiagnosticInfo const& column : formulation->diagnostics)
       columns.push_back({std::string(column.name), std::string(column.unit)});
   }
+  auto const add_all = [&](std::string const& name, std::span<PartQuantity const> quantities) {
+    for (PartQuantity const& q : quantities) columns.push_back({name + "." + std::string(q.word), std::string(q.unit)});
+  };
+  for (BodySpec const& body : spec.bodies)
+    if (spec.bodies.size() > 1) add_all(body.name, body_quantities());
+  for (SupportSpec const& support : spec.supports) add_all(support.name, action_quantities());
+  for (LoadSpec const& load : spec.loads)
+    if (!load.name.empty()) add_all(load.name, action_quantities());
+  for (RigidSpec const& rigid : spec.rigids) add_all(rigid.name, action_quantities());
   for (ProbeSpec const& probe : spec.probes) {
     for (std::string const& quantity : probe.quantities) {
       columns.push_back({probe.name + "." + quantity, std::string(unit_of_probe_quantity(probe.kind, quantity))});
@@ -171,7 +180,7 @@ bool wants(Section const& section, std::string_view key, bool wanted, std::strin
 
 // The rows that a comparison looks at, or the two times of a change.
 void read_rows(Section const& section, QuantitySpec& quantity) {
-  if (!compares(quantity.take) && quantity.take != Take::change) {
+  if (!compares(quantity.take) && quantity.take != Take::change && quantity.take != Take::mean) {
     for (std::string_view const key : {"from", "until"}) section.refuse(key, "is not used by this \"take\"");
     return;
   }
@@ -247,7 +256,8 @@ QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,
   QuantitySpec quantity;
   section.read("name", quantity.name);
   auto const unit = read_column(section, spec, quantity.column);
-  if (int const take = section.word_index("take"); take >= 0) quantity.take = static_cast<Take>(take);
+  if (int const take = section.word_index("take"); take >= 0)
+    quantity.take = take > static_cast<int>(Take::mean) ? Take::final_value : static_cast<Take>(take);  // "final"
   read_take(section, unit.value_or("1"), constants, quantity);
   if (unit) read_unit(section, unit_of_take(quantity.take, *unit), quantity);
   section.refuse_unknown();

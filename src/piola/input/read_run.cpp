@@ -103,6 +103,10 @@ void read_run(Section const& section, RunSpec& run) {
   section.read("max_step", run.max_step);
   section.read("min_step", run.min_step);
   section.read("machine", run.machine);
+  section.read("damping", run.damping);
+  section.read("relax", run.relax);
+  if (!run.relax) section.refuse("rest", "is used only with relax = true");
+  section.read("rest", run.rest);
   read_threads(section, run);
   if (run.min_step >= run.max_step) {
     section.problems().add(section.place_of("min_step"), "run.min_step is not below run.max_step (allowed: less than " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/quantity_names.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
@@ -65,7 +66,8 @@ std::vector<FieldInfo> FrameWriter::chosen(FieldCache const& cache) const {
   std::vector<FieldInfo> list;
   for (FieldInfo const& info : cache.fields()) {
     bool const always = info.name == "Id" || info.name == "Body";
-    bool const wanted = fields_.empty() || std::find(fields_.begin(), fields_.end(), info.name) != fields_.end();
+    bool const asked = std::find(fields_.begin(), fields_.end(), info.name) != fields_.end();
+    bool const wanted = fields_.empty() ? !is_derived(info.name) : asked;  // what follows from others only if asked for
     if (info.name != "Position" && (always || wanted)) list.push_back(info);
   }
   return list;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/history.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/quantity_names.hpp"
 #include "piola/output/files.hpp"
 #include <algorithm>
 #include <array>
@@ -84,8 +85,16 @@ std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {
                                      {"pressure_min", "Pa"},
                                      {"pressure_max", "Pa"},
                                      {"pressure_oscillation", "1"},
-                                     {"projection_loss", "J"}};
+                                     {"projection_loss", "J"},
+                                     {"damping_loss", "J"}};
   for (auto const& extra : diagnostics.more) columns.push_back({extra.first, unit_of_extra(extra.first)});
+  auto const add = [&](std::string const& part, std::span<PartQuantity const> quantities) {
+    for (PartQuantity const& q : quantities)
+      columns.push_back({fmt::format("{}.{}", part, q.word), std::string(q.unit)});
+  };
+  if (diagnostics.bodies.size() > 1)
+    for (BodyShare const& body : diagnostics.bodies) add(body.name, body_quantities());
+  for (Action const& action : diagnostics.actions) add(action.name, action_quantities());
   return columns;
 }
 
@@ -111,8 +120,19 @@ std::vector<double> diagnostic_values(double time, std::int64_t step, double dt,
                           d.pressure_min,
                           d.pressure_max,
                           d.pressure_oscillation,
-                          d.projection_loss};
+                          d.projection_loss,
+                          d.damping_loss};
   for (auto const& extra : d.more) row.push_back(extra.second);
+  auto const add = [&](auto const& values) { row.insert(row.end(), values.begin(), values.end()); };
+  if (d.bodies.size() > 1)
+    for (BodyShare const& body : d.bodies) {
+      add(std::array{body.kinetic_energy, body.strain_energy});
+      add(body.linear_momentum);
+    }
+  for (Action const& action : d.actions) {
+    add(action.force);
+    add(action.moment);
+  }
   return row;
 }
 

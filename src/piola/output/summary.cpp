@@ -25,6 +25,10 @@ std::string to_json(Summary const& s) {
                                     {"max_decrease", s.energy_max_decrease}}}};
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
+  if (s.relaxation) {
+    document["relaxation"] = {
+        {"at_rest", s.relaxation->at_rest}, {"residual", s.relaxation->residual}, {"stops", s.relaxation->stops}};
+  }
   for (auto const& [name, value] : s.seconds) document["seconds"][name] = value;
   document["quantities"] = quantities;
   document["warnings"] = s.warnings;

@@ -15,6 +15,13 @@ struct MeasuredQuantity {
   std::string unit;
 };
 
+/// How a dynamic relaxation ended.
+struct RelaxationReport {
+  bool at_rest = false;
+  double residual = 0;  ///< forces out of balance beside the largest of the run
+  long stops = 0;       ///< how often the bodies were brought to rest
+};
+
 /// What summary.json says about a run.
 struct Summary {
   std::string status;  ///< "completed", "failed" or "stopped"
@@ -32,6 +39,7 @@ struct Summary {
   /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
   std::optional<double> linear_drift, angular_drift;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation tells
+  std::optional<RelaxationReport> relaxation;
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;
 };

@@ -7,13 +7,17 @@
 
 namespace piola {
 
-/// A face of a box: across an axis, at the smallest or the largest coordinate.
+/// A face of a body: of a box, or an end of a cylinder, across an axis, at the smallest or the largest coordinate; or
+/// the curved surface of a cylinder, a ball or a disc, outside or around its hole.
 struct Face {
+  enum class Part { flat, outer, inner };
   int axis = 0;  ///< 0 x, 1 y, 2 z
   bool upper = false;
+  Part part = Part::flat;
+  bool operator==(Face const&) const = default;
 };
 
-/// "-x", "+y": as case files name a face.
+/// "-x", "+y", "outer", "inner": as case files name a face.
 std::string face_text(Face const& face);
 
 /// Ids of the outermost particles of a box towards a face: on it, or half a spacing inside (cell_centred).
@@ -23,5 +27,18 @@ std::vector<std::int64_t> face_particles(ParticleSet const& particles, Body cons
 /// the face, halved at the ends of on_boundary directions and between the two faces of a crack. The parts sum to the
 /// face.
 double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int64_t id, Face const& face);
+
+/// What a particle stands for of a face.
+struct FaceShare {
+  std::int64_t particle = 0;       ///< id
+  double area = 0;                 ///< [m^(Dim-1); 1 in 1D]
+  std::array<double, 3> normal{};  ///< outward unit normal of the exact surface
+};
+
+/// The particles of a face with their parts of it. The parts sum to the area of the exact face: 2 pi R L of a cylinder,
+/// 4 pi R^2 of a ball, 2 pi R of a disc, pi (R^2 - r^2) of an end, whatever the staircase of a lattice has. Opposite
+/// particles of a closed surface have equal parts, so that a constant pressure on it has no resultant.
+std::vector<FaceShare> face_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                   Face const& face);
 
 }  // namespace piola

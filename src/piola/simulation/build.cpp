@@ -58,14 +58,30 @@ std::size_t index_of_body(std::string const& name, ParticleSet const& particles)
   return static_cast<std::size_t>(body_named(particles, name) - particles.bodies.data());
 }
 
+/// The middle of some particles at the start [m].
+std::array<double, 3> middle_of(std::vector<std::int64_t> const& ids, ParticleSet const& particles) {
+  std::array<double, 3> sum{};
+  double volume = 0;
+  for (auto const id : ids) {
+    auto const i = static_cast<std::size_t>(id);
+    volume += particles.volume[i];
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += particles.volume[i] * particles.X[i][c];
+  }
+  for (double& c : sum) c = volume > 0 ? c / volume : 0;
+  return sum;
+}
+
 Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
   Body const& body = particles.bodies[index_of_body(spec.body, particles)];
-  return {.particles = select_particles(particles, body, &spec.where),
+  auto const ids = select_particles(particles, body, &spec.where);
+  return {.particles = ids,
           .fix = spec.fix,
           .frame = spec.frame,
           .normal = spec.normal,
           .velocity = spec.velocity,
-          .until = spec.until};
+          .until = spec.until,
+          .name = spec.name,
+          .about = middle_of(ids, particles)};
 }
 
 double density_of(MaterialParameters const& material) {
@@ -82,19 +98,23 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
   Load load{.particles = loaded_particles(particles, particles.bodies[b], spec),
             .factor = {},
             .value = spec.value,
-            .until = spec.until};
-  if (spec.kind == LoadSpec::Kind::traction) {
-    load.normal = std::array<double, 3>{};
-    (*load.normal)[static_cast<std::size_t>(spec.face.axis)] = spec.face.upper ? 1 : -1;
+            .until = spec.until,
+            .pressure = spec.kind == LoadSpec::Kind::pressure,
+            .follows = spec.follows,
+            .name = spec.name};
+  load.about = middle_of(load.particles, particles);
+  if (!spec.on_face()) {
+    load.factor.assign(load.particles.size(), spec.kind == LoadSpec::Kind::body_force ? 1 / density : 1);
+    return load;
   }
-  for (std::int64_t const id : load.particles) {
-    double factor = 1;
-    if (spec.kind == LoadSpec::Kind::body_force) factor = 1 / density;
-    if (spec.kind == LoadSpec::Kind::traction) {
-      double const mass = density * particles.volume[static_cast<std::size_t>(id)];
-      factor = face_area(from.bodies[b].shape, particles, id, spec.face) / mass;
-    }
-    load.factor.push_back(factor);
+  bool const flat = spec.face.part == Face::Part::flat;
+  for (FaceShare const& share : loaded_shares(particles, particles.bodies[b], spec)) {
+    double const mass = density * particles.volume[static_cast<std::size_t>(share.particle)];
+    load.factor.push_back(share.area / mass);
+    if (flat)
+      load.normal = share.normal;
+    else
+      load.normals.push_back(share.normal);
   }
   return load;
 }
@@ -121,6 +141,8 @@ void check_fields(CaseSpec const& spec, Formulation const& formulation, std::str
   Problems problems;
   auto const fields = formulation.fields();
   auto const has = [&](std::string_view field) {
+    for (DerivedField const& derived : derived_fields())
+      if (derived.name == field) field = derived.from;
     return field == "Position" ||
            std::any_of(fields.begin(), fields.end(), [&](FieldInfo const& info) { return info.name == field; });
   };

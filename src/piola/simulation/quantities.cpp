@@ -61,13 +61,18 @@ std::optional<double> interpolate(Series const& s, double time) {
   return s.value[k - 1] + share * (s.value[k] - s.value[k - 1]);
 }
 
+/// Whether a row lies between the times `from` and `until` of a quantity.
+bool counts(QuantitySpec const& spec, double time) {
+  constexpr double rounding = 1e-12;
+  return time >= spec.from * (1 - rounding) && time <= spec.until * (1 + rounding);
+}
+
 /// How far the values are from a formula, over the rows that count. Nothing if no row does.
 std::optional<double> compare(QuantitySpec const& spec, Series const& s) {
-  constexpr double rounding = 1e-12;
   Expression const reference = spec.reference.value_or(Expression());
   double count = 0, sum = 0, squares = 0, whole = 0;
   for (std::size_t k = 0; k < s.value.size(); ++k) {
-    if (s.time[k] < spec.from * (1 - rounding) || s.time[k] > spec.until * (1 + rounding)) continue;
+    if (!counts(spec, s.time[k])) continue;
     double const r = reference({0, 0, 0}, s.time[k]), d = s.value[k] - r;
     count += 1;
     sum += std::abs(d);
@@ -87,8 +92,9 @@ std::optional<double> change(QuantitySpec const& spec, Series const& s) {
   return *after - *before;
 }
 
-/// Mean over time, linear between samples.
+/// Mean over time, linear between samples; of a single sample that one.
 double mean_of(Series const& s) {
+  if (s.time.size() == 1) return s.value.front();
   double sum = 0;
   for (std::size_t k = 1; k < s.value.size(); ++k)
     sum += (s.time[k] - s.time[k - 1]) * (s.value[k] + s.value[k - 1]) / 2;
@@ -135,6 +141,18 @@ std::string unit_of(Take take, std::string const& column_unit) {
   }
 }
 
+/// The mean over the rows that count.
+std::optional<double> mean_between(QuantitySpec const& spec, Series const& s) {
+  Series part;
+  for (std::size_t k = 0; k < s.time.size(); ++k) {
+    if (!counts(spec, s.time[k])) continue;
+    part.time.push_back(s.time[k]);
+    part.value.push_back(s.value[k]);
+  }
+  if (part.time.empty()) return std::nullopt;
+  return mean_of(part);
+}
+
 std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
   auto const high = std::max_element(s.value.begin(), s.value.end());
   auto const low = std::min_element(s.value.begin(), s.value.end());
@@ -154,6 +172,7 @@ std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
     case Take::oscillation_period: return oscillation_period(s);
     case Take::range: return *high - *low;
     case Take::change: return change(spec, s);
+    case Take::mean: return mean_between(spec, s);
     case Take::first_peak:
     case Take::time_of_first_peak: break;
   }

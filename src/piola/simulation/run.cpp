@@ -39,10 +39,12 @@ Step choose_step(double stable, RunSpec const& run, Moment& moment) {
 }  // namespace
 
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
-            std::atomic<int> const& stop) {
+            std::atomic<int> const& stop, Relaxation* relaxation) {
   auto const start = Clock::now();
   double const wall_before = moment.wall_seconds;
-  while (moment.time < run.end) {
+  if (relaxation != nullptr && moment.step == 0) relaxation->start(formulation);
+  bool at_rest = relaxation != nullptr && relaxation->rest().reached;
+  while (moment.time < run.end && !at_rest) {
     auto const step_start = Clock::now();
     double const stable = formulation.stable_time_step();
     if (moment.step == 0) moment.first_dt = std::min(stable, run.max_step);
@@ -53,6 +55,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
       for (Observer* observer : observers) observer->before_cut(formulation, moment);
     }
     formulation.step(moment.time, dt);
+    if (relaxation != nullptr) at_rest = relaxation->after_step(formulation, dt);
 
     moment.time = dt == run.end - moment.time ? run.end : moment.time + dt;
     moment.step += 1;
@@ -63,7 +66,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
 
     if (auto failure = formulation.failure()) return {Ending::failed, std::move(failure)};
     for (Observer* observer : observers) observer->see(formulation, moment);
-    if (stop.load(std::memory_order_relaxed) != 0 && moment.time < run.end) return {Ending::stopped, {}};
+    if (stop.load(std::memory_order_relaxed) != 0 && moment.time < run.end && !at_rest) return {Ending::stopped, {}};
   }
   return {};
 }

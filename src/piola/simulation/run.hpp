@@ -4,6 +4,7 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/simulation/moment.hpp"
 #include "piola/simulation/observers.hpp"
+#include "piola/simulation/relaxation.hpp"
 #include <atomic>
 #include <optional>
 #include <span>
@@ -16,9 +17,10 @@ struct March {
   std::optional<Failure> failure;  ///< set if ending is failed
 };
 
-/// The main loop: from `moment` to the end time of `run`, or until the physics fails, or until `stop` is not zero.
-/// Observers see the const state after each step; they never change the step.
+/// The main loop: from `moment` to the end time of `run`, or until the bodies are at rest if `relaxation` looks for
+/// that, or until the physics fails, or until `stop` is not zero. Observers see the const state after each step; they
+/// never change the step.
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
-            std::atomic<int> const& stop);
+            std::atomic<int> const& stop, Relaxation* relaxation = nullptr);
 
 }  // namespace piola

@@ -10,6 +10,7 @@
 #include "piola/simulation/failure_text.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/quantities.hpp"
+#include "piola/simulation/relaxation.hpp"
 #include "piola/simulation/results_folder.hpp"
 #include "piola/simulation/run.hpp"
 #include <algorithm>
@@ -25,6 +26,7 @@ struct Watch {
   HistoryObserver history;
   FrameObserver frames;
   PictureObserver pictures;
+  Relaxation relaxation;
   CheckpointObserver checkpoints;
   ProgressObserver progress;
 
@@ -34,11 +36,12 @@ struct Watch {
       : history(results),
         frames(results),
         pictures(results),
-        checkpoints(results, {&history, &frames, &pictures}),
+        relaxation(results.spec.run),
+        checkpoints(results, {&history, &frames, &pictures, &relaxation}),
         progress(listener, results.spec.run.end, results.particles.size(), history),
         also(last) {}
   std::vector<Observer*> all() {
-    std::vector<Observer*> list{&history, &frames, &pictures, &checkpoints, &progress};
+    std::vector<Observer*> list{&history, &frames, &pictures, &relaxation, &checkpoints, &progress};
     if (also != nullptr) list.push_back(also);
     return list;
   }
@@ -248,6 +251,25 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
 double energy_increase(HistoryTable const& history) { return largest_rise(history, 1); }
 double energy_decrease(HistoryTable const& history) { return largest_rise(history, -1); }
 
+namespace {
+
+/// Says whether a dynamic relaxation came to rest.
+void report_rest(Simulation const& s, Relaxation const& relaxation, Ending ending, Journal& journal) {
+  if (!relaxation.active() || ending != Ending::completed) return;
+  Rest const& rest = relaxation.rest();
+  std::string const share =
+      fmt::format("forces out of balance are {:.2g} of the largest (limit {})", rest.residual, s.spec.run.rest);
+  if (rest.reached)
+    journal.note(fmt::format("at rest after {} stops: {}", rest.stops, share));
+  else
+    journal.warn(
+        fmt::format("relax: not at rest at run.end after {} stops: {} - give the run more time, or check that "
+                    "supports hold every body",
+                    rest.stops, share));
+}
+
+}  // namespace
+
 CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop) {
   if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
   FolderLock const lock(options.folder);
@@ -263,7 +285,8 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
   Watch watch({options.folder, s.spec, s.particles, journal}, listener, options.also);
   Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
   std::vector<Observer*> const observers = watch.all();
-  March const end = march(*s.formulation, s.spec.run, moment, observers, stop);
+  March const end = march(*s.formulation, s.spec.run, moment, observers, stop, &watch.relaxation);
+  report_rest(s, watch.relaxation, end.ending, journal);
   for (Observer* observer : observers) observer->finish(*s.formulation, moment, end.ending);
 
   CaseOutcome outcome{
@@ -271,6 +294,10 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
   if (end.failure) outcome.failure = failure_text(*end.failure, moment, s.spec.run.cfl, options.folder);
   if (std::filesystem::exists(options.folder / "frames.hdf.series"))
     outcome.index = options.folder / "frames.hdf.series";
+  if (watch.relaxation.active()) {
+    Rest const& rest = watch.relaxation.rest();
+    outcome.summary.relaxation = {rest.reached, rest.residual, rest.stops};
+  }
   write_summary(options.folder / "summary.json", outcome.summary);
   journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time,
                            duration_text(moment.wall_seconds)));

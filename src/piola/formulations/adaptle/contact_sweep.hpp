@@ -159,16 +159,19 @@ struct RigidSweep {
   Half const* half;
   Sums* sums;
   double* power_on_bodies;  ///< per slot: of the moving shapes [W]
+  double* action;           ///< [block][shape]: force [N] and moment about the origin [N m]
 
-  PIOLA_FN void operator()(Range block, Index) const {
+  PIOLA_FN void operator()(Range block, Index number) const {
+    double* const of_block = action + static_cast<std::ptrdiff_t>(number) * shapes * 6;
+    for (int c = 0; c < 6 * shapes; ++c) of_block[c] = 0;
     for (Index i = block.first; i < block.last; ++i) {
       power_on_bodies[i] = 0;
-      for (int k = 0; k < shapes; ++k) push(i, shape[k]);
+      for (int k = 0; k < shapes; ++k) push(i, shape[k], of_block + 6 * k);
     }
   }
 
  private:
-  PIOLA_FN void push(Index i, RigidPlace const& s) const {
+  PIOLA_FN void push(Index i, RigidPlace const& s, double* sum) const {
     double normal[3];
     BodyConstants const& b = body[body_of[i]];
     double const stand_off = 0.5 * b.spacing, distance = distance_to<D>(s, state[i].x, normal);
@@ -179,6 +182,9 @@ struct RigidSweep {
     for (int c = 0; c < D; ++c) {
       double const force = k * (stand_off - distance) * normal[c];
       out.force[c] += force;
+      sum[c] += force;
+      sum[3 + (c + 1) % 3] += state[i].x[(c + 2) % 3] * force;
+      sum[3 + (c + 2) % 3] -= state[i].x[(c + 1) % 3] * force;
       out.contact -= force * (half[i].v[c] - s.velocity[c]);
       power_on_bodies[i] += force * s.velocity[c];
     }

@@ -103,8 +103,10 @@ struct Finish {
         a += push;
         m[BlockMeasures::load] += mass * push * (before + 0.5 * dt * a);
       }
+      if (s.held != nullptr) s.reaction[3 * i + c] = 0;
       if (s.held != nullptr && s.held[3 * i + c] != 0) {
         double const wanted = (s.held_velocity[3 * i + c] - before) / dt;
+        s.reaction[3 * i + c] = mass * (wanted - a);
         m[BlockMeasures::held] += mass * (wanted - a) * (before + 0.5 * dt * wanted);
         a = wanted;
         p.v[c] = s.held_velocity[3 * i + c];

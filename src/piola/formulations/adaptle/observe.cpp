@@ -104,11 +104,13 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   each_particle(s, [&](Index i, double pressure) {
     State const& p = s.state[i];
     Reference const& r = s.reference[i];
+    if (i == s.body[s.body_of[i]].first) o.open_body(set.bodies[at(s.body_of[i])].name);
     double const rho0 = s.body[s.body_of[i]].rho0;
     pressures[at(i)] = pressure;
     o.add_motion({p.x[0], p.x[1], p.x[2]}, {p.v[0], p.v[1], p.v[2]}, r.mass);
     o.add_state(rho0 / p.rho, pressure, r.volume);
     internal += p.energy;
+    o.add_strain_energy(p.energy);
     plastic += r.mass / rho0 * p.plastic_work;
     eulerian += p.phi > 0 ? 1 : 0;
     failed += p.damage >= 1 || !(p.alive > 0) ? 1 : 0;
@@ -119,8 +121,10 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
     o.add_oscillation(set, body, p);
   }
   Diagnostics d = o.finish();
+  d.actions = particles.actions().report();
   d.strain_energy = internal + books.contact_energy;
   d.external_work = books.external_work;
+  d.damping_loss = books.damping_loss;
   d.more = {{"internal_energy", internal},
             {"contact_energy", books.contact_energy},
             {"plastic_work", plastic},

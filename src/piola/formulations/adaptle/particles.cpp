@@ -19,6 +19,12 @@ int spatial_stride(Settings const& s) {
                      : SpatialRecord<D, false>::stride(s.artificial_stress);
 }
 
+/// Acceleration of particle k of a load [m/s2].
+Direction load_on(Load const& load, std::size_t k, Direction const& X, double time) {
+  return acceleration_by(load.value, load.pressure ? std::optional(load.normal_of(k)) : std::nullopt, load.factor[k], X,
+                         time);
+}
+
 /// Adds the wall time of its life to a sum.
 class Stopwatch {
  public:
@@ -39,6 +45,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
       machine_(&machine),
       supports_(assembly.supports),
       loads_(assembly.loads),
+      actions_(assembly),
       shapes_(assembly.rigid_shapes),
       X_(assembly.particles.X) {
   system_.dimension = assembly.particles.dimension;
@@ -241,6 +248,9 @@ void Particles::set_boundaries(Assembly const&) {
   if (!supports_.empty()) {
     held_.resize(3 * state_.size());
     held_velocity_.resize(3 * state_.size());
+    holder_.resize(3 * state_.size());
+    reaction_.resize(3 * state_.size());
+    system_.reaction = reaction_.data();
     system_.held = held_.data();
     system_.held_velocity = held_velocity_.data();
   }
@@ -254,6 +264,8 @@ void Particles::set_boundaries(Assembly const&) {
   system_.rigid = rigid_.data();
   system_.rigids = static_cast<int>(rigid_.size());
   system_.rigid_power = rigid_power_.data();
+  rigid_action_.resize(static_cast<std::size_t>(exec::block_count(Range{0, system_.particles})) * 6 * shapes_.size());
+  system_.rigid_action = rigid_action_.data();
   for (RigidShape const& shape : shapes_)
     rigid_centre_.insert(rigid_centre_.end(), shape.centre.begin(), shape.centre.end());
 }
@@ -261,13 +273,15 @@ void Particles::set_boundaries(Assembly const&) {
 void Particles::prepare_supports(double time) {
   if (supports_.empty()) return;
   std::fill(held_.begin(), held_.end(), std::int8_t{0});
-  for (Support const& support : supports_) {
+  for (std::size_t number = 0; number < supports_.size(); ++number) {
+    Support const& support = supports_[number];
     if (has_ended(support.until, time)) continue;
     for (auto const id : support.particles)
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) {
         if (!support.fix[c]) continue;
         std::size_t const k = 3 * static_cast<std::size_t>(id) + c;
         held_[k] = 1;
+        holder_[k] = number;
         held_velocity_[k] = support.velocity ? (*support.velocity)[c](X_[static_cast<std::size_t>(id)], time) : 0;
       }
   }
@@ -280,8 +294,8 @@ void Particles::prepare_loads(double time) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
       auto const id = static_cast<std::size_t>(load.particles[k]);
-      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
-        load_[3 * id + c] += load.factor[k] * load.value[c](X_[id], time);
+      auto const a = load_on(load, k, X_[id], time);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) load_[3 * id + c] += a[c];
     }
   }
 }
@@ -320,10 +334,44 @@ void Particles::step(double time, double dt) {
   prepare_rigid(time, dt);
   books_.time = time + dt;
   evaluate(dt);
+  sum_actions(time, dt);
   // What acts for one step only is gone now.
   for (std::size_t k = 0; k < body_.size() && !initial_pressure_.empty(); ++k)
     if (!options_.bodies[k].initial_pressure_lasts)
       std::fill(initial_pressure_.begin() + body_[k].first, initial_pressure_.begin() + body_[k].last, 0);
+}
+
+/// Forces act at half time and at the places of then, for the whole step.
+void Particles::sum_actions(double time, double dt) {
+  actions_.begin(dt);
+  auto const place = [&](std::size_t id) {
+    return std::array{position_[3 * id], position_[3 * id + 1], position_[3 * id + 2]};
+  };
+  for (std::size_t s = 0; s < supports_.size(); ++s)
+    for (auto const particle : supports_[s].particles) {
+      auto const id = static_cast<std::size_t>(particle);
+      std::array<double, 3> impulse{};
+      for (std::size_t c = 0; c < 3; ++c)
+        if (holder_[3 * id + c] == s) impulse[c] = dt * reaction_[3 * id + c];
+      actions_.supports[s].add(place(id), impulse);
+    }
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    if (loads_[l].name.empty() || has_ended(loads_[l].until, time + 0.5 * dt)) continue;
+    for (std::size_t k = 0; k < loads_[l].particles.size(); ++k) {
+      auto const id = static_cast<std::size_t>(loads_[l].particles[k]);
+      std::array<double, 3> impulse{};
+      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
+        impulse[c] = dt * reference_[id].mass * load_on(loads_[l], k, X_[id], time + 0.5 * dt)[c];
+      actions_.loads[l].add(place(id), impulse);
+    }
+  }
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    std::array<double, 6> sum{};
+    for (std::size_t at = 6 * k; at < rigid_action_.size(); at += 6 * shapes_.size())
+      for (std::size_t c = 0; c < 6; ++c) sum[c] += dt * rigid_action_[at + c];
+    actions_.rigids[k].add({{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}});
+    std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
+  }
 }
 
 /// Drift, sums of half time, kick, drift.
@@ -358,6 +406,23 @@ void Particles::evaluate(double dt) {
   books_.next_dt = m.dt;
   Stopwatch const watch(seconds_.conversion);
   if (wishes_by_formula() || m.wishes > 0) convert(dt);
+}
+
+void Particles::damp(double factor) {
+  double const before = kinetic_energy();
+  for (std::size_t i = 0; i < state_.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (held_.empty() || held_[3 * i + c] == 0) state_[i].v[c] *= factor;
+  books_.damping_loss += before - kinetic_energy();
+}
+
+double Particles::kinetic_energy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    double const* v = state_[i].v;
+    sum += 0.5 * reference_[i].mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  return sum;
 }
 
 std::size_t Particles::bytes() const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
@@ -15,8 +16,8 @@ struct Books {
   double contact_energy = 0, viscous_loss = 0, external_work = 0;
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
-  double time = 0, next_dt = 0;
-  static constexpr int values = 12;
+  double time = 0, next_dt = 0, damping_loss = 0;
+  static constexpr int values = 13;
 };
 
 /// Wall time by part of a step [s].
@@ -32,11 +33,15 @@ class Particles {
   Particles& operator=(Particles const&) = delete;
 
   void step(double time, double dt);
+  void damp(double factor);
+  double kinetic_energy() const;
   double stable_time_step() const;
   double next_release() const;
 
   System const& system() const { return system_; }
   Books const& books() const { return books_; }
+  Actions const& actions() const { return actions_; }
+  Actions& actions() { return actions_; }
   PartSeconds const& seconds() const { return seconds_; }
   Options const& options() const { return options_; }
   FailureSlot const& failure() const { return failure_; }
@@ -68,6 +73,7 @@ class Particles {
   void prepare_supports(double time);
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
+  void sum_actions(double time, double dt);
   void evaluate(double dt);
   void convert(double dt);
   bool wishes_by_formula();
@@ -102,7 +108,9 @@ class Particles {
   std::vector<Support> supports_;
   std::vector<Load> loads_;
   std::vector<std::int8_t> held_;
-  std::vector<double> held_velocity_, load_;
+  std::vector<std::size_t> holder_;  ///< per component: the support that holds it
+  std::vector<double> held_velocity_, load_, reaction_, rigid_action_;
+  Actions actions_;
   std::vector<RigidShape> shapes_;
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;

@@ -27,6 +27,11 @@ void check(Assembly const& assembly) {
   for (Support const& support : assembly.supports)
     if (support.frame != Support::Frame::axes)
       problems.add({}, "adaptle: a support has a normal (allowed: fix along axes) - use fix, or a rigid plane");
+  for (Load const& load : assembly.loads)
+    if (load.follows)
+      problems.add({},
+                   "adaptle: a pressure follows the deformed face (allowed: pressures along the normal of the start) - "
+                   "remove follows, or take jst_sph or taylor_sph");
   problems.raise_if_any();
 }
 
@@ -55,6 +60,8 @@ class Solver final : public Formulation {
     return rule;
   }
   void step(double time, double dt) override { particles_.step(time, dt); }
+  void damp(double factor) override { particles_.damp(factor); }
+  double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override { return observe(particles_, set_); }
   std::vector<FieldInfo> fields() const override { return observed_fields(); }
@@ -109,6 +116,7 @@ void Solver::save(StateWriter& writer) const {
   });
   writer.put("books", std::span<double const>(particles_.books_data(), Books::values));
   writer.put("rigid_centres", particles_.rigid_centres());
+  writer.put("actions", particles_.actions().state());
 }
 
 void Solver::load(StateReader& reader) {
@@ -118,6 +126,9 @@ void Solver::load(StateReader& reader) {
   });
   reader.get("books", std::span<double>(particles_.books_data(), Books::values));
   reader.get("rigid_centres", particles_.rigid_centres());
+  std::vector<double> actions = particles_.actions().state();
+  reader.get("actions", actions);
+  particles_.actions().restore(actions);
   particles_.resumed();
 }
 

@@ -197,8 +197,10 @@ struct System {
   double const* load = nullptr;              ///< acceleration of loads at half time, 3 per slot; null: none
   std::int8_t const* held = nullptr;         ///< directions with a prescribed velocity, 3 per slot; null: none
   double const* held_velocity = nullptr;     ///< at the end of the step, 3 per slot
-  std::int8_t* wish = nullptr;               ///< per slot: 0, 1 converts with its neighbours, 2 alone
-  double* partial = nullptr;                 ///< room for reductions, 16 per block
+  double* reaction = nullptr;                ///< per slot: force of supports in the step, 3 values [N]; null: none
+  double* rigid_action = nullptr;  ///< [block][shape]: force [N] and moment about the origin [N m] of rigid shapes
+  std::int8_t* wish = nullptr;     ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  double* partial = nullptr;       ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
 

@@ -67,8 +67,9 @@ struct Step {
     exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
                                                                       s.bodies, s.state, s.half, s.sums});
     if (s.rigids > 0)
-      exec::for_each_block(Range{0, s.particles}, RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of,
-                                                                s.state, s.half, s.sums, s.rigid_power});
+      exec::for_each_block(Range{0, s.particles},
+                           RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, s.state, s.half, s.sums,
+                                         s.rigid_power, s.rigid_action});
   }
 
   Measures finish(double dt) const {

@@ -60,6 +60,9 @@ class Solver final : public Formulation {
     u_ = advance(u_, options_.wave_speed * dt / h_, options_.eps4);
     time_ = time + dt;
   }
+  void damp(double factor) override {
+    for (double& u : u_) u *= factor;
+  }
   std::optional<Failure> failure() const override {
     for (std::size_t a = 0; a < u_.size(); ++a)
       if (!std::isfinite(u_[a]))

@@ -424,6 +424,21 @@ void JstBody::step(Machine const& machine, double time, double dt) {
   boundary_.end_step(state_, time + dt);
 }
 
+void JstBody::damp(double factor) {
+  double const before = kinetic_energy();
+  boundary_.damp(state_, factor);
+  state_.totals.damping_loss += before - kinetic_energy();
+}
+
+double JstBody::kinetic_energy() const {
+  double sum = 0;
+  for (Index i = 0; i < order_.particles; ++i) {
+    auto const v = this->v(i);
+    sum += volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  return 0.5 * state_.constants.rho0 * sum;
+}
+
 std::array<double, 3> JstBody::X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
 
 std::array<double, 3> JstBody::x(Index slot) const {

@@ -33,8 +33,13 @@ class JstBody {
   std::size_t bytes() const;
   /// From `time` to time + dt, with supports and loads.
   void step(Machine const& machine, double time, double dt);
+  /// Multiplies the velocities that nothing prescribes, and notes the energy.
+  void damp(double factor);
+  double kinetic_energy() const;  ///< [J]
   /// The next time at which a support or a load ends.
   double next_release(double time) const { return boundary_.next_release(time); }
+  Boundary& boundary() { return boundary_; }
+  Boundary const& boundary() const { return boundary_; }
 
   /// State of the particle in a slot, three-dimensional (missing directions do not deform).
   std::array<double, 3> X(Index slot) const;

@@ -2,6 +2,7 @@
 #include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/formulations/prescribed.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/math/tensor.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,6 +23,30 @@ int axis_of(Point const& d) {
   return -1;
 }
 
+Point place_of(BodyState const& state, Index slot, int D) {
+  Point x{};
+  for (int c = 0; c < D; ++c) x[static_cast<std::size_t>(c)] = value_at(state.x, slot, c);
+  return x;
+}
+
+/// The acceleration by a pressure that follows the face: cof F a.
+Point turned_with(BodyState const& state, Index slot, Point const& a, int D) {
+  Mat<3> F = identity<3>();
+  for (int c = 0; c < D * D; ++c) F(c / D, c % D) = value_at(state.F, slot, c);
+  Mat<3> const H = cofactor(F);
+  Point r{};
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) r[static_cast<std::size_t>(i)] += H(i, j) * a[static_cast<std::size_t>(j)];
+  return r;
+}
+
+/// What a load does to its particle k at X, where its face is not deformed.
+template <class L>
+Point load_acceleration(L const& load, std::size_t k, Point const& X, double time) {
+  return acceleration_by(load.value, load.pressure ? std::optional(load.normal_of(k)) : std::nullopt, load.factor[k], X,
+                         time);
+}
+
 }  // namespace
 
 Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order,
@@ -35,11 +60,24 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& 
   take_loads(assembly, slot_of);
 }
 
+/// One component of a particle is held once; the support named last answers for it, mirrors only if no other does.
+void Boundary::add_plain(SupportComponent const& component, PlainOwner const& owner, std::size_t& place,
+                         bool is_mirror) {
+  if (place == 0) {
+    plain_.push_back(component);
+    plain_owner_.push_back(owner);
+    place = plain_.size();
+  } else if (!is_mirror) {
+    plain_owner_[place - 1] = owner;
+  }
+}
+
 void Boundary::take_supports(Assembly const& assembly, std::vector<Support> const& mirrors,
                              std::vector<Index> const& slot_of) {
   std::vector<Support> supports = assembly.supports;
   supports.insert(supports.end(), mirrors.begin(), mirrors.end());
-  std::map<std::int64_t, std::size_t> moved;  // particles with supports that are more than plain
+  std::map<std::int64_t, std::size_t> moved;           // particles with supports that are more than plain
+  std::map<std::pair<Index, int>, std::size_t> plain;  // places of components in plain_, from 1 on
   auto const of_body = [&](std::int64_t id) { return id >= body_.first && id < body_.last; };
   for (auto const& support : supports)
     for (auto const id : support.particles)
@@ -64,7 +102,9 @@ void Boundary::take_supports(Assembly const& assembly, std::vector<Support> cons
       auto const found = moved.find(id);
       for (auto const& d : directions) {
         if (found == moved.end()) {
-          plain_.push_back({slot, axis_of(d), 0});
+          double const mass = rho0_ * assembly.particles.volume[static_cast<std::size_t>(id)];
+          add_plain({slot, axis_of(d), 0, 0, 0, 0}, {driven_.size(), mass}, plain[{slot, axis_of(d)}],
+                    driven_.size() >= assembly.supports.size());
           continue;
         }
         auto& p = particles_[found->second];
@@ -80,6 +120,7 @@ void Boundary::take_supports(Assembly const& assembly, std::vector<Support> cons
     driven_.back().particles.clear();
     steady_.push_back(!support.velocity || is_steady(*support.velocity));
   }
+  of_support_.resize(driven_.size());
 }
 
 void Boundary::take_loads(Assembly const& assembly, std::vector<Index> const& slot_of) {
@@ -89,23 +130,27 @@ void Boundary::take_loads(Assembly const& assembly, std::vector<Index> const& sl
     on.value = load.value;
     on.steady = is_steady(load.value);
     on.until = load.until;
+    on.named = !load.name.empty();
+    on.pressure = load.pressure;
+    on.follows = load.follows;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
       auto const id = load.particles[k];
       if (id < body_.first || id >= body_.last) continue;
       auto const local = static_cast<std::size_t>(id - body_.first), at = static_cast<std::size_t>(id);
       if (place[local] == SlotOrder::no_particle) {
         place[local] = static_cast<Index>(loaded_.size());
-        loaded_.push_back({slot_of[local], rho0_ * assembly.particles.volume[at], {}, {}, 0});
+        loaded_.push_back({slot_of[local], rho0_ * assembly.particles.volume[at], {}, {}, {}, {}, 0});
       }
       on.place.push_back(place[local]);
       on.factor.push_back(load.factor[k]);
+      if (load.pressure) on.normal.push_back(load.normal_of(k));
       on.X.push_back(assembly.particles.X[at]);
       if (!on.steady) continue;
-      on.acceleration.push_back({});
-      for (std::size_t c = 0; c < 3; ++c) on.acceleration.back()[c] = load.factor[k] * load.value[c](on.X.back());
+      on.acceleration.push_back(load_acceleration(load, k, on.X.back(), 0));
     }
     loads_.push_back(std::move(on));
   }
+  of_load_.resize(loads_.size());
 }
 
 void Boundary::attach(BodyState& state) {
@@ -148,7 +193,8 @@ void Boundary::add_direction(std::size_t particle, std::size_t row) {
   Point const given = d;
   if (!make_orthogonal(d, chosen)) return;
   double const length = dot(given, d);
-  HeldDirection h{p.slot, axis_of(d), true, {d[0], d[1], d[2]}, 0, p.mass, cloud_.has_value(), 0, 0, 0, 0};
+  HeldDirection h{p.slot, axis_of(d), true, {d[0], d[1], d[2]}, 0, p.mass, cloud_.has_value(), 0, 0, 0, 0, 0, 0, 0};
+  h.support = static_cast<std::int32_t>(p.rows[row].support);
   for (std::size_t r = 0; r < of_row.size(); ++r) {
     if (of_row[r] == 0) continue;
     origin.row[static_cast<std::size_t>(origin.count)] = r;
@@ -185,18 +231,18 @@ void Boundary::evaluate_speeds(double time) {
   }
 }
 
+std::array<double, 3> Boundary::acceleration_of(LoadOnBody const& load, std::size_t k, double time) const {
+  if (load.steady) return load.acceleration[k];
+  return load_acceleration(load, k, load.X[k], time);
+}
+
 /// add(load, k, acceleration) for every particle k of every load that acts in a step that begins at `time`.
 template <class Add>
 void Boundary::each_load(double time, double evaluate_at, Add const& add) const {
   for (auto const& load : loads_) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.place.size(); ++k) {
-      Point a{};
-      if (load.steady)
-        a = load.acceleration[k];
-      else
-        for (std::size_t c = 0; c < 3; ++c) a[c] = load.factor[k] * load.value[c](load.X[k], evaluate_at);
-      add(load, static_cast<std::size_t>(load.place[k]), a);
+      add(load, static_cast<std::size_t>(load.place[k]), acceleration_of(load, k, evaluate_at));
     }
   }
 }
@@ -204,17 +250,19 @@ void Boundary::each_load(double time, double evaluate_at, Add const& add) const 
 /// Loads at the start and at the end of a step; `follows`: the start is where the last step ended.
 void Boundary::evaluate_loads(double time, double end, bool follows) {
   for (auto& p : loaded_)
-    for (int c = 0; c < 3; ++c) {
-      p.before[c] = follows ? p.after[c] : 0;
-      p.after[c] = 0;
-    }
-  auto const into = [&](double(LoadedParticle::*side)[3]) {
-    return [this, side](LoadOnBody const&, std::size_t k, Point const& a) {
-      for (std::size_t c = 0; c < 3; ++c) (loaded_[k].*side)[c] += a[c];
+    for (auto* const part : {p.dead, p.follow})
+      for (int c = 0; c < 3; ++c) {
+        part[0][c] = follows ? part[1][c] : 0;
+        part[1][c] = 0;
+      }
+  auto const into = [&](int side) {
+    return [this, side](LoadOnBody const& load, std::size_t k, Point const& a) {
+      auto& part = load.follows ? loaded_[k].follow : loaded_[k].dead;
+      for (std::size_t c = 0; c < 3; ++c) part[side][c] += a[c];
     };
   };
-  if (!follows) each_load(time, time, into(&LoadedParticle::before));
-  each_load(time, end, into(&LoadedParticle::after));
+  if (!follows) each_load(time, time, into(0));
+  each_load(time, end, into(1));
 }
 
 void Boundary::begin_step(BodyState& state, double time, double dt) {
@@ -235,6 +283,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   if (changed || timed_speeds) evaluate_speeds(time + dt);
   bool const timed_loads = std::any_of(loads_.begin(), loads_.end(), [](auto const& l) { return !l.steady; });
   if (changed || timed_loads) evaluate_loads(time, time + dt, follows);
+  if (multipliers_) multipliers_->forget_impulses();
   state.held = held_.data();
   state.held_count = static_cast<Index>(held_.size());
   state.multipliers = multipliers_ ? &*multipliers_ : nullptr;
@@ -243,16 +292,115 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   };
   state.loaded = loaded_.data();
   state.loaded_count = static_cast<Index>(loaded_.size());
+  note_places(state);
 }
 
 void Boundary::end_step(BodyState& state, double time) {
   for (auto const& h : held_) state.totals.external_work += h.work;
   for (auto const& p : loaded_) state.totals.external_work += p.work;
-  if (state.constants.integrator != Integrator::verlet) return;
-  each_load(begun_, time, [&](LoadOnBody const& load, std::size_t k, Point const& a) {
+  sum_impulses(state);
+  if (state.constants.integrator == Integrator::verlet) end_loads(state, time);
+}
+
+/// Loads that end now leave the acceleration with which the next step begins.
+void Boundary::end_loads(BodyState& state, double time) {
+  each_load(begun_, time, [&](LoadOnBody const& load, std::size_t k, Point const& reference) {
     if (!has_ended(load.until, time)) return;
+    Point const a = load.follows ? turned_with(state, loaded_[k].slot, reference, D_) : reference;
     for (int c = 0; c < D_; ++c) value_at(state.rate, loaded_[k].slot, c) -= a[static_cast<std::size_t>(c)];
   });
+  for (SupportComponent& s : plain_) {
+    double& rate = value_at(state.rate, s.slot, s.component);
+    s.removed -= rate;
+    rate = 0;
+  }
+}
+
+void Boundary::note_places(BodyState const& state) {
+  auto const places = [&](auto const& items, std::vector<Point>& to) {
+    to.clear();
+    for (auto const& item : items) to.push_back(place_of(state, item.slot, D_));
+  };
+  places(plain_, plain_start_);
+  places(held_, held_start_);
+  if (std::any_of(loads_.begin(), loads_.end(), [](auto const& l) { return l.named; })) places(loaded_, loaded_start_);
+  for (auto& load : loads_) {
+    load.at_start.clear();
+    for (std::size_t k = 0; load.named && load.follows && k < load.place.size(); ++k) {
+      Index const slot = loaded_[static_cast<std::size_t>(load.place[k])].slot;
+      load.at_start.push_back(turned_with(state, slot, acceleration_of(load, k, begun_), D_));
+    }
+  }
+}
+
+/// Impulses at the places of the start and of the end of the step, as the step itself divides them: the angular
+/// momentum then changes by just their moments.
+void Boundary::sum_impulses(BodyState const& state) {
+  of_support_.assign(of_support_.size(), {});
+  of_load_.assign(of_load_.size(), {});
+  for (std::size_t k = 0; k < plain_.size(); ++k) {
+    SupportComponent const& s = plain_[k];
+    Point before{}, after{};
+    before[static_cast<std::size_t>(s.component)] = plain_owner_[k].mass * s.at_start;
+    after[static_cast<std::size_t>(s.component)] = plain_owner_[k].mass * s.at_end;
+    of_support_[plain_owner_[k].support].add(plain_start_[k], before);
+    of_support_[plain_owner_[k].support].add(place_of(state, s.slot, D_), after);
+  }
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    HeldDirection const& h = held_[k];
+    Impulse& to = of_support_[static_cast<std::size_t>(h.support)];
+    auto const along = [&](double change) {
+      double const p = h.mass * change;
+      return Point{p * h.direction[0], p * h.direction[1], p * h.direction[2]};
+    };
+    to.add(held_start_[k], along(h.at_start));
+    to.add(place_of(state, h.slot, D_), along(h.at_end));
+  }
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    if (!loads_[l].named || has_ended(loads_[l].until, begun_)) continue;
+    for (std::size_t k = 0; k < loads_[l].place.size(); ++k) {
+      auto const at = static_cast<std::size_t>(loads_[l].place[k]);
+      Point before = loads_[l].follows ? loads_[l].at_start[k] : acceleration_of(loads_[l], k, begun_);
+      Point after = acceleration_of(loads_[l], k, ended_);
+      if (loads_[l].follows) after = turned_with(state, loaded_[at].slot, after, D_);
+      for (std::size_t c = 0; c < 3; ++c) {
+        double const half = static_cast<int>(c) < D_ ? 0.5 * (ended_ - begun_) * loaded_[at].mass : 0;
+        before[c] *= half;
+        after[c] *= half;
+      }
+      of_load_[l].add(loaded_start_[at], before);
+      of_load_[l].add(place_of(state, loaded_[at].slot, D_), after);
+    }
+  }
+}
+
+void Boundary::damp(BodyState& state, double factor) const {
+  std::vector<double> along;
+  for (auto const& h : held_) {
+    along.push_back(0);
+    for (int c = 0; c < D_; ++c) along.back() += h.direction[c] * value_at(state.v, h.slot, c);
+  }
+  for (Index i = 0; i < state.slots.last; ++i)
+    for (int c = 0; c < D_; ++c) value_at(state.v, i, c) *= factor;
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    for (int c = 0; c < D_; ++c) value_at(state.v, held_[k].slot, c) += (1 - factor) * along[k] * held_[k].direction[c];
+}
+
+void Boundary::add_actions(Actions& actions) const {
+  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_support_[k]);
+  for (std::size_t k = 0; k < actions.loads.size(); ++k) actions.loads[k].add(of_load_[k]);
+  for (std::size_t k = 0; multipliers_ && k < multipliers_->impulses().size() && k < actions.supports.size(); ++k)
+    actions.supports[k].add(multipliers_->impulses()[k]);
+}
+
+std::vector<double> Boundary::state() const {
+  std::vector<double> r;
+  for (SupportComponent const& s : plain_) r.push_back(s.removed);
+  return r;
+}
+
+void Boundary::restore(std::vector<double> const& state) {
+  for (std::size_t k = 0; k < plain_.size(); ++k) plain_[k].removed = state[k];
 }
 
 double Boundary::next_release(double time) const {

@@ -48,9 +48,11 @@ struct HoldDirections {
     double const speed = h.multiplied ? start + (h.speed - h.start_speed) : h.speed, change = speed - now;
     set_along<D>(v, v_out, h, now, speed);
     if (stage.second) {
+      h.at_end = change;
       h.work += h.mass * change * h.mean_speed;  // r* dt / 2 = change
       return;
     }
+    h.at_start = 0.5 * change;
     h.mean_speed = 0.5 * (start + speed);
     h.work = 0.5 * h.mass * change * h.mean_speed;  // r dt = change
     if (h.at_rest && h.axis >= 0)
@@ -74,7 +76,8 @@ struct DriveDirections {
     double const now = along<D>(v, h), free = along<D>(rate, h);
     h.mean_speed = h.multiplied ? now + 0.5 * (h.speed - h.start_speed) : 0.5 * (now + h.speed);
     double const wanted = 2 * (h.mean_speed - now) / dt;
-    h.work = h.mass * 0.5 * dt * (wanted - free) * h.mean_speed;
+    h.at_start = 0.5 * dt * (wanted - free);
+    h.work = h.mass * h.at_start * h.mean_speed;
     set_along<D>(rate, rate_out, h, free, wanted);
   }
 };
@@ -92,8 +95,30 @@ struct ArriveAlongDirections {
     HeldDirection& h = held[k];
     double const now = along<D>(v, h), half = now - 0.5 * dt * along<D>(rate, h);
     double const speed = h.multiplied ? half + 0.5 * (h.speed - h.start_speed) : h.speed;
-    h.work += h.mass * (speed - now) * h.mean_speed;
+    h.at_end = speed - now;
+    h.work += h.mass * h.at_end * h.mean_speed;
     set_along<D>(v, v_out, h, now, speed);
+  }
+};
+
+/// The accelerations of the loads at the start or at the end of a step. A pressure p on a face acts along n da = cof F
+/// N dA (Nanson).
+template <int D>
+struct TurnLoads {
+  bool at_end;
+  LoadedParticle* loaded;
+  View F;
+
+  PIOLA_FN void operator()(Index k) const {
+    LoadedParticle& p = loaded[k];
+    double *const a = at_end ? p.after : p.before, *const dead = p.dead[at_end], *const follow = p.follow[at_end];
+    Mat<D> part;
+    for (int c = 0; c < D * D; ++c) part.c[c] = F.scalar<double>(p.slot, c);
+    Mat<3> const cofactor_F = cofactor(embed<D>(part));
+    for (int c = 0; c < D; ++c) {
+      a[c] = dead[c];
+      for (int d = 0; d < D; ++d) a[c] += cofactor_F(c, d) * follow[d];
+    }
   }
 };
 

@@ -66,7 +66,23 @@ Point value_of(FieldRef const& field, Index slot, int D) {
 
 Multipliers::Multipliers(std::span<HeldDirection const> held, Cloud const& cloud) : D_(cloud.dimension) {
   find_weights(held, cloud);
+  find_owners(held);
   factorise_rows();
+}
+
+void Multipliers::find_owners(std::span<HeldDirection const> held) {
+  owner_.assign(slots_.size(), 0);
+  std::vector<double> largest(slots_.size(), -1);
+  for (Row const& row : rows_) {
+    auto const support = static_cast<std::size_t>(held[row.held].support);
+    if (support >= impulses_.size()) impulses_.resize(support + 1);
+    for (auto k = row.first; k < row.last; ++k) {
+      auto const a = weights_[k].particle;
+      if (!(std::abs(weights_[k].weight) > largest[a])) continue;
+      largest[a] = std::abs(weights_[k].weight);
+      owner_[a] = support;
+    }
+  }
 }
 
 void Multipliers::find_weights(std::span<HeldDirection const> held, Cloud const& cloud) {
@@ -214,7 +230,11 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   set_modes(x);
   correct(v, wanted);
   double work = 0;
-  for (std::size_t a = 0; a < slots_.size(); ++a)
+  double const share = stage ? 0.5 : 1.0;  // of a change of v* in that of v^(n+1)
+  for (std::size_t a = 0; a < slots_.size(); ++a) {
+    Point impulse = change_[a];
+    for (double& c : impulse) c *= share * body.constants.rho0 * volume_[a];
+    if (call.when != MultiplierCall::When::start) impulses_[owner_[a]].add(x[a], impulse);
     for (int c = 0; c < D_; ++c) {
       auto const k = static_cast<std::size_t>(c);
       double const change = change_[a][k];
@@ -225,8 +245,9 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
         value_at(body.v, slots_[a], c) += change;
       if (stage) value_at(body.x, slots_[a], c) += 0.5 * dt * change;
     }
+  }
   if (call.when == MultiplierCall::When::start) return;
-  body.totals.external_work += (stage ? 0.5 : 1.0) * body.constants.rho0 * work;
+  body.totals.external_work += share * body.constants.rho0 * work;
 }
 
 std::size_t Multipliers::bytes() const {

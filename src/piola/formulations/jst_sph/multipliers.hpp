@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/math/envelope_cholesky.hpp"
@@ -29,6 +30,10 @@ class Multipliers {
 
   /// Corrects the velocity of the body, or the acceleration that leads to it.
   void enforce(BodyState& body, MultiplierCall const& call);
+  /// Impulses of the corrections since they were forgotten, by support; those of a particle count for the support of
+  /// the held particle that weighs most there. Their sum vanishes unless the rows prescribe a rigid motion.
+  std::vector<Impulse> const& impulses() const { return impulses_; }
+  void forget_impulses() { impulses_.assign(impulses_.size(), {}); }
   std::size_t bytes() const;
 
  private:
@@ -46,6 +51,7 @@ class Multipliers {
   void find_weights(std::span<HeldDirection const> held, Cloud const& cloud);
   void factorise_rows();
   void set_modes(std::vector<Point> const& x);
+  void find_owners(std::span<HeldDirection const> held);
   void correct(std::vector<Point> const& v, std::vector<double> const& wanted);
 
   int D_;
@@ -53,7 +59,9 @@ class Multipliers {
   std::vector<double> volume_;   ///< theirs
   std::vector<Weight> weights_;  ///< row by row
   std::vector<Row> rows_;
-  EnvelopeCholesky matrix_{{}};  ///< sum_a w_ra w_sa / V_a  d_r.d_s
+  std::vector<std::size_t> owner_;  ///< of the particles within reach: a support
+  std::vector<Impulse> impulses_;   ///< per support
+  EnvelopeCholesky matrix_{{}};     ///< sum_a w_ra w_sa / V_a  d_r.d_s
   // For one call: rigid motions of the particles and their values in the rows; the correction.
   std::vector<std::array<Point, most_modes>> modes_;
   std::vector<std::array<double, most_modes>> mode_rows_;

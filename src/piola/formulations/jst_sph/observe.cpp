@@ -96,6 +96,7 @@ void observe(JstBody const& body, JstObservation& o) {
   std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
   bool const solid = is_solid(body.state().material);
   double strain = 0;
+  o.open_body(body.body().name);
   with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
       Mat<3> const F = body.F(i);
@@ -110,10 +111,11 @@ void observe(JstBody const& body, JstObservation& o) {
       o.add_motion(body.x(i), body.v(i), V * law.rho0);
     }
   });
-  d.strain_energy += strain;
+  o.add_strain_energy(strain);
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
   d.external_work += body.state().totals.external_work;
+  d.damping_loss += body.state().totals.damping_loss;
   o.add_oscillation(body.set(), body.body(), pressure);
 }
 

@@ -347,11 +347,15 @@ struct LargestWaveSpeed {
 
 /// Holds the supported components: v_c = 0 and x_c where the support is (step 8 of Algorithm 1).
 struct HoldSupports {
-  SupportComponent const* supports;
-  WriteView v, x;
+  bool second;  ///< second Runge-Kutta stage
+  SupportComponent* supports;
+  View v;
+  WriteView v_out, x;
   PIOLA_FN void operator()(Index k) const {
-    SupportComponent const& s = supports[k];
-    v.scalar(s.slot, 0.0, s.component);
+    SupportComponent& s = supports[k];
+    double const now = v.scalar<double>(s.slot, s.component);
+    (second ? s.at_end : s.at_start) = (second ? -1 : -0.5) * now;
+    v_out.scalar(s.slot, 0.0, s.component);
     x.scalar(s.slot, s.position, s.component);
   }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
@@ -20,7 +21,8 @@ class Solver final : public Formulation {
   static constexpr double first_share = 0.05, growth = 1.08;
 
  public:
-  explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
+  explicit Solver(Assembly const& assembly)
+      : set_(assembly.particles), machine_(choose(assembly.machine)), actions_(assembly) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
@@ -63,12 +65,25 @@ class Solver final : public Formulation {
   }
 
   void step(double time, double dt) override {
-    for (auto const& body : bodies_) body->step(*machine_, time, dt);
+    actions_.begin(dt);
+    for (auto const& body : bodies_) {
+      body->step(*machine_, time, dt);
+      body->boundary().add_actions(actions_);
+    }
     time_ = time + dt;
     last_step_ = dt;
     find_largest_speeds();
     for (std::size_t k = 0; k < monitors_.size(); ++k)
       if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
+  }
+
+  void damp(double factor) override {
+    for (auto const& body : bodies_) body->damp(factor);
+  }
+  double kinetic_energy() const override {
+    double sum = 0;
+    for (auto const& body : bodies_) sum += body->kinetic_energy();
+    return sum;
   }
 
   std::optional<Failure> failure() const override;
@@ -78,7 +93,9 @@ class Solver final : public Formulation {
       refresh(*body);
       observe(*body, all);
     }
-    return finish(all);
+    Diagnostics d = finish(all);
+    d.actions = actions_.report();
+    return d;
   }
 
   std::vector<FieldInfo> fields() const override {
@@ -130,6 +147,7 @@ class Solver final : public Formulation {
 
   ParticleSet set_;
   Machine const* machine_;
+  Actions actions_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
@@ -198,12 +216,15 @@ void Solver::save(StateWriter& writer) const {
       writer.put(name, values);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work};
+    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work,
+                           totals.damping_loss};
     writer.put(fmt::format("body{}_energy_books", k), books);
+    writer.put(fmt::format("body{}_supports", k), body.boundary().state());
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
   }
   std::array const clock{time_, last_step_};
   writer.put("time", clock);
+  writer.put("actions", actions_.state());
 }
 
 void Solver::load(StateReader& reader) {
@@ -221,9 +242,12 @@ void Solver::load(StateReader& reader) {
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < set_.dimension; ++c)
           JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
-    std::array<double, 3> books{};
+    std::array<double, 4> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
-    body.state().totals = {books[0], books[1], books[2]};
+    body.state().totals = {books[0], books[1], books[2], books[3]};
+    std::vector<double> supports = body.boundary().state();
+    reader.get(fmt::format("body{}_supports", k), supports);
+    body.boundary().restore(supports);
     if (!monitors_[k]) continue;
     std::vector<double> limit = monitors_[k]->state();
     reader.get(fmt::format("body{}_step_limit", k), limit);
@@ -231,6 +255,9 @@ void Solver::load(StateReader& reader) {
   }
   std::array<double, 2> clock{};
   reader.get("time", clock);
+  std::vector<double> actions = actions_.state();
+  reader.get("actions", actions);
+  actions_.restore(actions);
   find_largest_speeds();
   time_ = clock[0];
   last_step_ = clock[1];

@@ -37,7 +37,9 @@ enum class Biharmonic {
 struct SupportComponent {
   Index slot;
   std::int32_t component;
-  double position;  ///< where the support holds it [m]
+  double position;          ///< where the support holds it [m]
+  double removed;           ///< Verlet: the acceleration by the support at the end of the last step [m/s2]
+  double at_start, at_end;  ///< changes of velocity by it in this step, at the places of its start and end [m/s]
 };
 
 class Multipliers;
@@ -58,23 +60,27 @@ struct MultiplierCall {
 /// hold the same particles. The directions of one particle are orthonormal.
 struct HeldDirection {
   Index slot;
-  std::int32_t axis;    ///< the direction is this axis; -1: oblique
-  bool at_rest;         ///< for as long as it is held
-  double direction[3];  ///< unit vector
-  double position;      ///< of a particle that is held at rest along an axis [m]
-  double mass;          ///< of the particle [kg]
-  bool multiplied;      ///< multipliers hold the velocity that is interpolated there; the particle's own may differ
-  double start_speed;   ///< prescribed velocity at the start of the step [m/s], if multiplied
-  double speed;         ///< prescribed velocity at the end of the step [m/s]
-  double mean_speed;    ///< over the step [m/s]: the displacement is dt times it
-  double work;          ///< of the reaction in this step [J]
+  std::int32_t axis;        ///< the direction is this axis; -1: oblique
+  bool at_rest;             ///< for as long as it is held
+  double direction[3];      ///< unit vector
+  double position;          ///< of a particle that is held at rest along an axis [m]
+  double mass;              ///< of the particle [kg]
+  bool multiplied;          ///< multipliers hold the velocity that is interpolated there; the particle's own may differ
+  double start_speed;       ///< prescribed velocity at the start of the step [m/s], if multiplied
+  double speed;             ///< prescribed velocity at the end of the step [m/s]
+  double mean_speed;        ///< over the step [m/s]: the displacement is dt times it
+  double work;              ///< of the reaction in this step [J]
+  std::int32_t support;     ///< the one that holds it, in the order of the assembly
+  double at_start, at_end;  ///< changes of velocity by it in this step, at the places of its start and end [m/s]
 };
 
 /// A particle on which a load acts.
 struct LoadedParticle {
   Index slot;
   double mass;                 ///< [kg]
-  double before[3], after[3];  ///< acceleration by the loads at the start and at the end of the step [m/s2]
+  double dead[2][3];           ///< acceleration by dead loads at the start and at the end of the step [m/s2]
+  double follow[2][3];         ///< the same by pressures that follow the face, before it is deformed [m/s2]
+  double before[3], after[3];  ///< acceleration by all loads at the start and at the end of the step [m/s2]
   double work;                 ///< in this step [J]
 };
 
@@ -127,6 +133,7 @@ struct StepTotals {
   double stabilisation_loss = 0;  ///< J, energy removed by D(p)
   double projection_loss = 0;     ///< J, energy removed by the projection of T
   double external_work = 0;       ///< J, of loads and of driven supports
+  double damping_loss = 0;        ///< J, energy removed by damping
 };
 
 struct BodyState {
@@ -161,7 +168,7 @@ struct BodyState {
   // Solids in rate form, at the end of the last step: deformation gradient (3 x 3), and the rest as in SolidFields.
   FieldRef last_F, history;
 
-  SupportComponent const* supports = nullptr;
+  SupportComponent* supports = nullptr;
   Index support_count = 0;
   HeldDirection* held = nullptr;
   Index held_count = 0;

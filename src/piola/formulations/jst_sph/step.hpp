@@ -160,6 +160,7 @@ class Step {
 
   void add_loads(StageUpdate const& stage) {
     if (b_.loaded_count == 0) return;
+    exec::for_each_item(b_.loaded_count, TurnLoads<D>{stage.second, b_.loaded, read(b_.F)});
     // v^n and v*: twice the mean velocity of the step, which is known in stage 2.
     if (stage.second)
       exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{stage.dt, b_.loaded, read(b_.v_n), read(b_.v)});
@@ -167,7 +168,7 @@ class Step {
   }
 
   void hold_supports(StageUpdate const& stage) {
-    HoldSupports const pass{b_.supports, write(b_.v), write(b_.x)};
+    HoldSupports const pass{stage.second, b_.supports, read(b_.v), write(b_.v), write(b_.x)};
     exec::for_each_item(b_.support_count, pass);
     if (b_.held_count == 0) return;
     HoldDirections<D> const drive{stage, b_.held, read(b_.v), read(b_.v_n), read(b_.x), write(b_.v), write(b_.x)};

@@ -177,14 +177,22 @@ struct Kick {
   }
 };
 
-/// v_c = 0 and a_c = 0 where a support holds.
+/// v_c = 0 and a_c = 0 where a support holds; the reaction is what would have been.
 struct HoldVelocity {
-  SupportComponent const* supports;
-  WriteView v, rate;
+  double dt;
+  bool trial;  ///< keeps no reaction
+  SupportComponent* supports;
+  View v, rate;
+  WriteView v_out, rate_out;
   PIOLA_FN void operator()(Index k) const {
-    SupportComponent const& s = supports[k];
-    v.scalar(s.slot, 0.0, s.component);
-    rate.scalar(s.slot, 0.0, s.component);
+    SupportComponent& s = supports[k];
+    if (!trial) {
+      s.at_start = 0.5 * dt * s.removed;
+      s.at_end = -v.scalar<double>(s.slot, s.component);
+      s.removed = -rate.scalar<double>(s.slot, s.component);
+    }
+    v_out.scalar(s.slot, 0.0, s.component);
+    rate_out.scalar(s.slot, 0.0, s.component);
   }
 };
 

@@ -17,6 +17,7 @@ class VerletStep {
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations a^n of the state are made.
   void operator()(double dt) {
+    turn_loads(false);                                   // E at n
     drive(dt);                                           // v^(n+1/2) where it is prescribed
     RigidRate const without_rigid = kick_and_drift(dt);  // v^(n+1/2), x^(n+1)
     halo_.refresh(b_.u);
@@ -46,8 +47,11 @@ class VerletStep {
     if (b_.multipliers != nullptr) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::first_kick, dt});
   }
 
+  void turn_loads(bool at_end) { exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, read(b_.F)}); }
+
   void add_loads(double dt) {
     if (b_.loaded_count == 0) return;
+    turn_loads(true);
     exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
     exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.rate), write(b_.rate)});
   }
@@ -120,7 +124,8 @@ class VerletStep {
 
   void kick(double dt, RigidRate const& balance) {
     exec::for_each(b_.slots, Kick<D>{dt, balance, read(b_.rate), read(b_.v), read(b_.x), write(b_.rate), write(b_.v)});
-    exec::for_each_item(b_.support_count, HoldVelocity{b_.supports, write(b_.v), write(b_.rate)});
+    exec::for_each_item(b_.support_count, HoldVelocity{dt, b_.trial, b_.supports, read(b_.v), read(b_.rate),
+                                                       write(b_.v), write(b_.rate)});
     if (b_.held_count == 0 || !(dt > 0)) return;
     exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.v)});
     if (b_.multipliers != nullptr && dt > 0) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::second_kick, dt});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/prescribed.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,8 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   for (auto const& crack : set.cracks)
     if (crack.body == static_cast<int>(body)) cracks_.push_back(crack);
   state_.dimension = set.dimension;
+  of_support_.resize(assembly.supports.size());
+  of_load_.resize(assembly.loads.size());
   set_constants(assembly, body);
   double widest = 0;
   for (int c = 0; c < D(); ++c) widest = std::max(widest, body_.spacing[static_cast<std::size_t>(c)]);
@@ -144,7 +147,7 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   s.displacement.assign(s.v.size(), 0);
   s.x_of_lists = s.x_of_cells = s.x;
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
-  s.books.assign(15, 0);
+  s.books.assign(16, 0);
   restore(s);
   free_ = !boundary_.holds();
   double now[MotionSums::size];
@@ -283,7 +286,8 @@ void TaylorBody::fill_hourglass_tables() {
 }
 
 /// Everything from outside enters as a force, at half time, or as a prescribed speed: no stress is imposed.
-void TaylorBody::step_adjoint(double time, double dt) {
+void TaylorBody::step_adjoint(Impulse const& before, double time, double dt) {
+  std::vector<Push> pushes;
   if (surface_positions_.size() != X_.size()) surface_positions_ = X_;
   for (Index const i : boundary_.particles()) {
     auto const here = x(i), speed = v(i);
@@ -294,20 +298,24 @@ void TaylorBody::step_adjoint(double time, double dt) {
   if (state_.k.loaded) {
     prepare_loads(time + 0.5 * dt);
     for (double const t : {time, time + dt})
-      boundary_.each_traction(t, [&](Index i, std::array<double, 3> const& f) {
+      boundary_.each_traction(t, [&](std::size_t load, Index i, std::array<double, 3> const& f) {
+        pushes.push_back({load, i, {0.5 * dt * f[0], 0.5 * dt * f[1], 0.5 * dt * f[2]}});
         for (int c = 0; c < D(); ++c)
           acceleration_.at(slot_of_[at(i)], c) += 0.5 * f[static_cast<std::size_t>(c)] / mass_[at(i)];
       });
   }
   machine_->adjoint_step(state_, dt);
   work_ += state_.work;
+  add_impulses(time, dt, &pushes);
+  find_reactions(before, dt);
   last_step_ = dt;
   ++steps_since_triangulation_;
   if (state_.k.moving) follow_motion();
 }
 
 void TaylorBody::step(double time, double dt) {
-  if (options_.adjoint) return step_adjoint(time, dt);
+  Impulse const before_step = momentum();
+  if (options_.adjoint) return step_adjoint(before_step, time, dt);
   if (state_.k.loaded) prepare_loads(time + 0.5 * dt);
   prepare_boundary(time, dt, 0.5 * dt);
   machine_->half_step(state_, dt);
@@ -316,12 +324,52 @@ void TaylorBody::step(double time, double dt) {
   // Normals of the end of the step.
   if (state_.k.moving) prepare_boundary(time, dt, 0);
   machine_->impose(state_);
-  if (free_ && state_.k.moving && options_.conserve) conserve_momentum(time, dt);
+  add_impulses(time, dt);
+  if (free_ && state_.k.moving && options_.conserve) conserve_momentum();
+  find_reactions(before_step, dt);
   double const before = power_;
-  power_ = boundary_.power([&](Index i) { return v(i); }, [&](Index i) { return record_stress(i); });
+  power_ = boundary_power();
   work_ += 0.5 * dt * (before + power_);
   ++steps_since_triangulation_;
   if (state_.k.moving) follow_motion();
+}
+
+double TaylorBody::boundary_power() const {
+  return boundary_.power([&](Index i) { return v(i); }, [&](Index i) { return record_stress(i); });
+}
+
+void TaylorBody::damp(double factor) {
+  double const before = kinetic_energy();
+  std::vector<std::array<double, 3>> kept;
+  for (std::size_t k = 0; k < boundary_.particles().size(); ++k) {
+    BoundaryItem const& item = state_.items[k];
+    auto const velocity = v(boundary_.particles()[k]);
+    kept.push_back({});
+    for (int h = 0; h < item.held; ++h) {
+      double along = 0;
+      for (std::size_t c = 0; c < 3; ++c) along += item.direction[h][c] * velocity[c];
+      for (std::size_t c = 0; c < 3; ++c) kept.back()[c] += (1 - factor) * along * item.direction[h][c];
+    }
+  }
+  for (Index i = 0; i < particles(); ++i)
+    for (int c = 0; c < D(); ++c) {
+      record(i)[D() + 1 + c] *= factor;
+      drift_.at(slot_of_[at(i)], c) *= factor;
+    }
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    for (int c = 0; c < D(); ++c) record(boundary_.particles()[k])[D() + 1 + c] += kept[k][static_cast<std::size_t>(c)];
+  for (double& p : momentum_) p *= factor;  // of a body without supports
+  power_ = boundary_power();
+  damping_loss_ += before - kinetic_energy();
+}
+
+double TaylorBody::kinetic_energy() const {
+  double sum = 0;
+  for (Index i = 0; i < particles(); ++i) {
+    auto const velocity = v(i);
+    sum += 0.5 * mass_[at(i)] * dot(velocity, velocity);
+  }
+  return sum;
 }
 
 /// `ahead`: how far the surface has drifted on when its normals are taken [s].
@@ -343,7 +391,7 @@ std::array<double, 3> TaylorBody::place_at(Index i, double ahead) const {
 void TaylorBody::prepare_loads(double time) {
   for (Index i = 0; i < state_.boundary.last; ++i)
     for (int c = 0; c < D(); ++c) acceleration_.at(i, c) = 0;
-  boundary_.each_acceleration(time, [&](Index i, std::array<double, 3> const& a) {
+  boundary_.each_acceleration(time, [&](std::size_t, Index i, std::array<double, 3> const& a) {
     for (int c = 0; c < D(); ++c) acceleration_.at(slot_of_[at(i)], c) += a[static_cast<std::size_t>(c)];
   });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/taylor_sph/boundary.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
@@ -41,7 +42,11 @@ class TaylorBody {
 
   /// From `time` to time + dt.
   void step(double time, double dt);
-  double stable_time_step() const;  ///< cfl * spacing / c in the current configuration [s]
+  /// Multiplies the velocities that nothing prescribes, and notes the energy.
+  void damp(double factor);
+  double kinetic_energy() const;                         ///< [J]
+  double damping_loss() const { return damping_loss_; }  ///< [J]
+  double stable_time_step() const;                       ///< cfl * spacing / c in the current configuration [s]
   double next_release(double time) const { return boundary_.next_release(time); }
 
   // Particles are local: numbers from the body's first particle on.
@@ -66,6 +71,8 @@ class TaylorBody {
   Body const& body() const { return body_; }
   Options const& options() const { return options_; }
   double external_work() const { return work_; }
+  /// Adds what supports and loads did in the last step.
+  void add_actions(Actions& actions) const;
   long list_updates() const { return list_updates_; }
   long triangulations() const { return triangulations_; }
   SetupSeconds const& seconds() const { return seconds_; }
@@ -97,7 +104,7 @@ class TaylorBody {
   void fill_hourglass_tables();
   void fill_cell_memory();
   void restore_cells(Snapshot const& snapshot);
-  void step_adjoint(double time, double dt);
+  void step_adjoint(Impulse const& before, double time, double dt);
   std::vector<double> reach_of_cells(Points const& x) const;
   std::vector<double> reach_of_particles(std::vector<double> const& cells) const;
   bool sees(Index particle, Index cell) const;
@@ -107,8 +114,19 @@ class TaylorBody {
   std::array<double, 3> place_at(Index i, double ahead) const;
   void prepare_loads(double time);
   void follow_motion();
-  void add_impulses(double time, double dt);
-  void conserve_momentum(double time, double dt);
+  /// Half the impulse of a traction on a particle.
+  struct Push {
+    std::size_t load;
+    Index particle;
+    std::array<double, 3> impulse;
+  };
+  /// `tractions`: what acted on the particles; nothing: to be found from the surface of half time.
+  void add_impulses(double time, double dt, std::vector<Push> const* tractions = nullptr);
+  void turn_boundary(double ahead);
+  void conserve_momentum();
+  Impulse momentum();
+  void find_reactions(Impulse const& before, double dt);
+  double boundary_power() const;
   bool triangulate_anew();
 
   Body body_;
@@ -136,10 +154,11 @@ class TaylorBody {
   FailureSlot failure_;
   BodyState state_;
   CellMeasures measures_;
-  double first_spacing_ = 0;          ///< at the start [m]
-  bool free_ = false;                 ///< no support: momentum changes by loads alone
-  std::array<double, 6> momentum_{};  ///< linear and angular, that a free body must have
-  double work_ = 0, power_ = 0;
+  double first_spacing_ = 0;                   ///< at the start [m]
+  bool free_ = false;                          ///< no support: momentum changes by loads alone
+  std::array<double, 6> momentum_{};           ///< linear and angular, that a free body must have
+  std::vector<Impulse> of_support_, of_load_;  ///< in the last step
+  double work_ = 0, power_ = 0, damping_loss_ = 0;
   double last_step_ = 0;  ///< [s]
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
   long hasty_updates_ = 0;  ///< list updates in successive steps, up to now

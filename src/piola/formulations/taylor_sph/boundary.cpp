@@ -96,8 +96,9 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body)
     supports_.push_back(support);
     supports_.back().particles.clear();
   }
-  for (auto const& load : assembly.loads) {
-    if (!load.normal) {
+  for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
+    Load const& load = assembly.loads[number];
+    if (!load.on_face()) {
       Load mine = load;
       mine.particles.clear();
       mine.factor.clear();
@@ -106,12 +107,16 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body)
         mine.particles.push_back(load.particles[k] - first_);
         mine.factor.push_back(load.factor[k]);
       }
-      if (!mine.particles.empty()) accelerations_.push_back(mine);
+      if (mine.particles.empty()) continue;
+      accelerations_.push_back(mine);
+      acceleration_number_.push_back(number);
       continue;
     }
-    for (auto const id : load.particles)
-      if (of_body(id)) loaded_[static_cast<std::size_t>(id - first_)].push_back({tractions_.size(), *load.normal});
+    for (std::size_t k = 0; k < load.particles.size(); ++k)
+      if (of_body(load.particles[k]))
+        loaded_[static_cast<std::size_t>(load.particles[k] - first_)].push_back({tractions_.size(), load.normal_of(k)});
     tractions_.push_back(load);
+    traction_number_.push_back(number);
     tractions_.back().particles.clear();
   }
 }
@@ -208,12 +213,21 @@ std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const
   return particles_;
 }
 
+/// A pressure that does not follow keeps the normal of the start.
+Point Boundary::traction_of_load(std::size_t traction, Side const& side, Point const& X, double time) const {
+  Point t{};
+  Load const& load = tractions_[traction];
+  if (has_ended(load.until, time)) return t;
+  if (load.pressure) return acceleration_by(load.value, load.follows ? side.normal : side.reference_normal, 1, X, time);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) t[c] = load.value[c](X, time);
+  return t;
+}
+
 Point Boundary::traction_on(Side const& side, Point const& X, double time) const {
   Point t{};
   for (std::size_t const l : side.tractions) {
-    Load const& load = tractions_[l];
-    if (has_ended(load.until, time)) continue;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) t[c] += load.value[c](X, time);
+    Point const part = traction_of_load(l, side, X, time);
+    for (std::size_t c = 0; c < 3; ++c) t[c] += part[c];
   }
   return t;
 }
@@ -233,6 +247,7 @@ void Boundary::hold(Index particle, double time, double dt, Point const& velocit
       speed -= dot(held->direction, chosen[static_cast<std::size_t>(h)]) * item.speed_after[h];
     speed /= dot(held->direction, d);
     std::copy(d.begin(), d.end(), item.direction[item.held]);
+    item.support[item.held] = static_cast<int>(held->support);
     item.speed_before[item.held] = dot(velocity, d);
     item.speed_after[item.held] = speed;
     ++item.held;
@@ -300,27 +315,38 @@ double Boundary::power(std::function<Point(Index)> const& velocity, std::functio
   return sum;
 }
 
-void Boundary::each_traction(double time, std::function<void(Index, Point const&)> const& add) const {
+Point Boundary::force_on_sides(Index particle, Stress const& stress) const {
+  Point f{};
+  for (auto const& side : sides_[static_cast<std::size_t>(particle)]) {
+    Point const part = traction_of(stress, side.area, D_);
+    for (std::size_t c = 0; c < 3; ++c) f[c] += part[c];
+  }
+  return f;
+}
+
+void Boundary::each_traction(double time, AddLoad const& add) const {
   for (Index const particle : particles_)
-    for (auto const& side : sides_[static_cast<std::size_t>(particle)]) {
-      Point f = traction_on(side, X_[static_cast<std::size_t>(particle)], time);
-      for (double& c : f) c *= length(side.area);
-      add(particle, f);
-    }
+    for (auto const& side : sides_[static_cast<std::size_t>(particle)])
+      for (std::size_t const l : side.tractions) {
+        Point f = traction_of_load(l, side, X_[static_cast<std::size_t>(particle)], time);
+        for (double& c : f) c *= length(side.area);
+        add(traction_number_[l], particle, f);
+      }
 }
 
 bool Boundary::holds() const {
   return std::any_of(held_.begin(), held_.end(), [](auto const& held) { return !held.empty(); });
 }
 
-void Boundary::each_acceleration(double time, std::function<void(Index, Point const&)> const& add) const {
-  for (auto const& load : accelerations_) {
+void Boundary::each_acceleration(double time, AddLoad const& add) const {
+  for (std::size_t l = 0; l < accelerations_.size(); ++l) {
+    Load const& load = accelerations_[l];
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
       Point a{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c)
         a[c] = load.factor[k] * load.value[c](X_[static_cast<std::size_t>(load.particles[k])], time);
-      add(static_cast<Index>(load.particles[k]), a);
+      add(acceleration_number_[l], static_cast<Index>(load.particles[k]), a);
     }
   }
 }

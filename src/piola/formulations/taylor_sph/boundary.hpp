@@ -38,15 +38,20 @@ class Boundary {
   double power(std::function<std::array<double, 3>(Index)> const& velocity,
                std::function<std::array<double, 6>(Index)> const& stress) const;
 
-  /// Forces of tractions at a time, with the sides of the last preparation: add(particle, force [N per unit of missing
-  /// directions]).
-  void each_traction(double time, std::function<void(Index, std::array<double, 3> const&)> const& add) const;
+  /// add(load, particle, value): the load is numbered in the order of the assembly.
+  using AddLoad = std::function<void(std::size_t, Index, std::array<double, 3> const&)>;
+  /// Forces of tractions at a time, with the sides of the last preparation [N per unit of missing directions].
+  void each_traction(double time, AddLoad const& add) const;
+  /// Takes the normals and areas of sides from these positions.
+  void turn(Points const& x);
+  /// Force of the stress of a particle on the sides that meet there, with the normals of the last preparation [N].
+  std::array<double, 3> force_on_sides(Index particle, std::array<double, 6> const& stress) const;
   bool holds() const;  ///< there is a support on this body
 
   bool has_tractions() const { return !tractions_.empty(); }
   bool has_accelerations() const { return !accelerations_.empty(); }
-  /// Adds the accelerations of loads at a time: add(particle, acceleration [m/s2]).
-  void each_acceleration(double time, std::function<void(Index, std::array<double, 3> const&)> const& add) const;
+  /// Adds the accelerations of loads at a time [m/s2].
+  void each_acceleration(double time, AddLoad const& add) const;
 
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const;
@@ -71,7 +76,8 @@ class Boundary {
   void add_to_side(Index particle, Index facet, std::array<double, 3> const& area);
   void attach_tractions();
   std::array<double, 3> facet_area(Index facet, Points const& x) const;
-  void turn(Points const& x);
+  std::array<double, 3> traction_of_load(std::size_t traction, Side const& side, std::array<double, 3> const& X,
+                                         double time) const;
   std::array<double, 3> traction_on(Side const& side, std::array<double, 3> const& X, double time) const;
   void hold(Index particle, double time, double dt, std::array<double, 3> const& velocity, BoundaryItem& item) const;
   void load(Index particle, double time, double dt, std::array<double, 6> const& stress, BoundaryItem& item) const;
@@ -83,7 +89,8 @@ class Boundary {
   std::vector<std::vector<Traction>> loaded_;  ///< per particle
   std::vector<bool> tip_;                      ///< tips of cracks
   std::vector<Support> supports_;
-  std::vector<Load> tractions_, accelerations_;  ///< tractions: `particles` empty
+  std::vector<Load> tractions_, accelerations_;                     ///< tractions: `particles` empty
+  std::vector<std::size_t> traction_number_, acceleration_number_;  ///< in the assembly
   Surface surface_;
   std::vector<std::vector<Side>> sides_;  ///< per particle
   std::vector<Index> particles_;          ///< of items

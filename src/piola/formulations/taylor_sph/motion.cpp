@@ -206,35 +206,47 @@ void TaylorBody::note_distances(Points const& x) {
 }
 
 /// Impulse of tractions and accelerations, and its moment, with the places of half time.
-void TaylorBody::add_impulses(double time, double dt) {
-  auto const add = [&](std::array<double, 3> const& x, std::array<double, 3> const& impulse) {
+void TaylorBody::add_impulses(double time, double dt, std::vector<Push> const* tractions) {
+  of_load_.assign(of_load_.size(), {});
+  auto const add = [&](std::size_t load, std::array<double, 3> const& x, std::array<double, 3> const& impulse) {
+    of_load_[load].add(x, impulse);
     for (std::size_t c = 0; c < 3; ++c) {
       std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
       momentum_[c] += impulse[c];
       momentum_[3 + c] += x[p] * impulse[q] - x[q] * impulse[p];
     }
   };
-  boundary_.each_acceleration(time + 0.5 * dt, [&](Index i, std::array<double, 3> a) {
+  double const back = state_.k.moving ? -0.5 * dt : 0;
+  boundary_.each_acceleration(time + 0.5 * dt, [&](std::size_t load, Index i, std::array<double, 3> a) {
     for (double& c : a) c *= dt * mass_[at(i)];
-    add(place_at(i, -0.5 * dt), a);
+    add(load, place_at(i, back), a);
   });
+  if (tractions != nullptr) {
+    for (Push const& push : *tractions) add(push.load, place_at(push.particle, back), push.impulse);
+    return;
+  }
   if (!boundary_.has_tractions()) return;
-  prepare_boundary(time, dt, -0.5 * dt);
+  turn_boundary(back);
   for (double const t : {time, time + dt})
-    boundary_.each_traction(t, [&](Index i, std::array<double, 3> f) {
+    boundary_.each_traction(t, [&](std::size_t load, Index i, std::array<double, 3> f) {
       for (double& c : f) c *= 0.5 * dt;
-      add(surface_positions_[at(i)], f);
+      add(load, surface_positions_[at(i)], f);
     });
-  prepare_boundary(time, dt, 0);
+  turn_boundary(0);
+}
+
+/// Normals and areas of the surface as it is when it has drifted on for a time.
+void TaylorBody::turn_boundary(double ahead) {
+  for (Index const i : boundary_.particles()) surface_positions_[at(i)] = place_at(i, ahead);
+  boundary_.turn(surface_positions_);
 }
 
 /// Interpolation between two sets of particles keeps no momentum by itself. The rigid motion that makes up for it is
 /// found as for the projections of JST-SPH: momentum and moment of momentum at the end of the step are those of the
 /// start and the impulse of the loads.
-void TaylorBody::conserve_momentum(double time, double dt) {
+void TaylorBody::conserve_momentum() {
   double now[MotionSums::size];
   machine_->motion(state_, now);
-  add_impulses(time, dt);
   RateSums sums;
   sums.volume = now[MotionSums::mass];
   for (int c = 0; c < 3; ++c) {
@@ -336,7 +348,7 @@ Snapshot TaylorBody::snapshot() const {
              static_cast<double>(steps_since_triangulation_),
              static_cast<double>(hasty_updates_)};
   s.books.insert(s.books.end(), momentum_.begin(), momentum_.end());
-  s.books.insert(s.books.end(), {state_.exchange_loss, last_step_});
+  s.books.insert(s.books.end(), {state_.exchange_loss, last_step_, damping_loss_});
   return s;
 }
 
@@ -388,6 +400,7 @@ void TaylorBody::restore(Snapshot const& s) {
   std::copy_n(s.books.begin() + 7, 6, momentum_.begin());
   state_.exchange_loss = s.books[13];
   last_step_ = s.books[14];
+  damping_loss_ = s.books[15];
   if (options_.adjoint) restore_cells(s);
   make_lists(points_of(s.x_of_lists, D()));
   measures_ = machine_->place(state_);

@@ -64,17 +64,19 @@ void observe(TaylorBody const& body, ParticleSet const& set, Observation& o) {
   std::vector<double> pressure;
   auto const& k = body.state().k;
   double const of_particles = k.adjoint ? 1 - k.memory : 1;
+  o.open_body(body.body().name);
   for (Index i = 0; i < body.particles(); ++i) {
     SymMat<3> const s = body.stress(i);
     double const J = body.volume_ratio(i), V = body.volume(i);
     pressure.push_back(pressure_of(s));
     o.add_state(J, pressure.back(), V);
     o.add_motion(body.x(i), body.v(i), body.mass(i));
-    o.totals.strain_energy += of_particles * V * J * stored_energy(body, s);
+    o.add_strain_energy(of_particles * V * J * stored_energy(body, s));
   }
   CellEnergy const cells = body.cell_energy();
-  o.totals.strain_energy += k.memory * cells.stored + cells.hourglass;
+  o.add_strain_energy(k.memory * cells.stored + cells.hourglass);
   o.totals.external_work += body.external_work();
+  o.totals.damping_loss += body.damping_loss();
   o.add_oscillation(set, body.body(), pressure);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/observation.hpp"
 #include "piola/formulations/prescribed.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
@@ -40,7 +41,8 @@ Machine const* choose(std::string const& name) {
 /// Taylor-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
  public:
-  explicit Solver(Assembly const& assembly) : particles_(assembly.particles.size()), D_(assembly.particles.dimension) {
+  explicit Solver(Assembly const& assembly)
+      : particles_(assembly.particles.size()), D_(assembly.particles.dimension), actions_(assembly) {
     Machine const* machine = choose(assembly.machine);
     for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
       bool const whole = is_whole_lattice(assembly.particles, assembly.particles.bodies[k]);
@@ -68,8 +70,21 @@ class Solver final : public Formulation {
     return rule;
   }
   void step(double time, double dt) override {
-    for (auto const& body : bodies_) body->step(time, dt);
+    actions_.begin(dt);
+    for (auto const& body : bodies_) {
+      body->step(time, dt);
+      body->add_actions(actions_);
+    }
     time_ = time + dt;
+  }
+
+  void damp(double factor) override {
+    for (auto const& body : bodies_) body->damp(factor);
+  }
+  double kinetic_energy() const override {
+    double sum = 0;
+    for (auto const& body : bodies_) sum += body->kinetic_energy();
+    return sum;
   }
 
   std::optional<Failure> failure() const override;
@@ -85,6 +100,7 @@ class Solver final : public Formulation {
     }
     Diagnostics d = all.finish();
     d.stabilisation_loss = more[0];
+    d.actions = actions_.report();
     d.more = {{"list_updates", more[1]}, {"triangulations", more[2]}, {"centred_energy", d.total_energy() - more[3]}};
     return d;
   }
@@ -117,6 +133,7 @@ class Solver final : public Formulation {
   std::int64_t particles_;
   int D_;
   ParticleSet set_;
+  Actions actions_;
   std::vector<std::unique_ptr<TaylorBody>> bodies_;
   double time_ = 0;  ///< at the end of the last step [s]
 };
@@ -172,6 +189,7 @@ void Solver::save(StateWriter& writer) const {
                [&](std::string const& name, std::vector<double> const& values) { writer.put(name, values); });
   }
   writer.put("time", std::array{time_});
+  writer.put("actions", actions_.state());
 }
 
 /// Numbers of particles are used as places in memory.
@@ -200,6 +218,9 @@ void Solver::load(StateReader& reader) {
   std::array<double, 1> time{};
   reader.get("time", time);
   time_ = time[0];
+  std::vector<double> actions = actions_.state();
+  reader.get("actions", actions);
+  actions_.restore(actions);
 }
 
 }  // namespace

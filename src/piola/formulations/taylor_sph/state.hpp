@@ -49,6 +49,7 @@ constexpr int record_stride(int dimension) { return dimension == 3 ? Record<3>::
 struct BoundaryItem {
   int held = 0;                            ///< velocity: orthonormal directions with a prescribed speed
   double direction[3][3];                  ///< unit vectors
+  int support[3];                          ///< that holds it, in the order of the assembly
   double speed_before[3], speed_after[3];  ///< at the start and at the end of the step [m/s]
   int rows = 0;                            ///< stress: combinations with a prescribed value
   double row[6][6];

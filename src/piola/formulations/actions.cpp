@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/actions.hpp"
+#include <algorithm>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point cross(Point const& a, Point const& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Action action_of(std::string const& name, Point const& about, Impulse const& impulse, double dt) {
+  Action a{name, {}, {}};
+  if (!(dt > 0)) return a;
+  Point const moved = cross(about, impulse.linear);
+  for (std::size_t c = 0; c < 3; ++c) {
+    a.force[c] = impulse.linear[c] / dt;
+    a.moment[c] = (impulse.angular[c] - moved[c]) / dt;
+  }
+  return a;
+}
+
+}  // namespace
+
+void Impulse::add(Point const& x, Point const& p) {
+  Point const moment = cross(x, p);
+  for (std::size_t c = 0; c < 3; ++c) {
+    linear[c] += p[c];
+    angular[c] += moment[c];
+  }
+}
+
+void Impulse::add(Impulse const& other) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    linear[c] += other.linear[c];
+    angular[c] += other.angular[c];
+  }
+}
+
+Actions::Actions(Assembly const& assembly) {
+  for (Support const& s : assembly.supports) named_supports_.push_back({s.name, s.about});
+  for (Load const& l : assembly.loads) named_loads_.push_back({l.name, l.about});
+  for (RigidShape const& r : assembly.rigid_shapes) {
+    named_rigids_.push_back({r.name, {}});
+    rigid_about.push_back(r.centre);
+  }
+  begin(0);
+}
+
+void Actions::begin(double dt) {
+  dt_ = dt;
+  supports.assign(named_supports_.size(), {});
+  loads.assign(named_loads_.size(), {});
+  rigids.assign(named_rigids_.size(), {});
+}
+
+std::vector<Action> Actions::report() const {
+  std::vector<Action> r;
+  for (std::size_t k = 0; k < supports.size(); ++k)
+    r.push_back(action_of(named_supports_[k].name, named_supports_[k].about, supports[k], dt_));
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    if (!named_loads_[k].name.empty())
+      r.push_back(action_of(named_loads_[k].name, named_loads_[k].about, loads[k], dt_));
+  for (std::size_t k = 0; k < rigids.size(); ++k)
+    r.push_back(action_of(named_rigids_[k].name, rigid_about[k], rigids[k], dt_));
+  return r;
+}
+
+std::vector<double> Actions::state() const {
+  std::vector<double> r{dt_};
+  for (auto const* list : {&supports, &loads, &rigids})
+    for (Impulse const& i : *list) {
+      r.insert(r.end(), i.linear.begin(), i.linear.end());
+      r.insert(r.end(), i.angular.begin(), i.angular.end());
+    }
+  for (Point const& p : rigid_about) r.insert(r.end(), p.begin(), p.end());
+  return r;
+}
+
+void Actions::restore(std::span<double const> state) {
+  auto from = state.begin();
+  dt_ = *from++;
+  auto const take = [&](Point& to) {
+    std::copy_n(from, 3, to.begin());
+    from += 3;
+  };
+  for (auto* list : {&supports, &loads, &rigids})
+    for (Impulse& i : *list) {
+      take(i.linear);
+      take(i.angular);
+    }
+  for (Point& p : rigid_about) take(p);
+}
+
+}  // namespace piola

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include <array>
+#include <span>
+#include <vector>
+
+/// What acts on the bodies from outside in one step, for every formulation.
+namespace piola {
+
+/// What a support, a load or a rigid shape gave to the bodies.
+struct Impulse {
+  std::array<double, 3> linear{};   ///< [N s]
+  std::array<double, 3> angular{};  ///< about the origin [N m s]
+  /// The impulse p [N s] of a force at x [m].
+  void add(std::array<double, 3> const& x, std::array<double, 3> const& p);
+  void add(Impulse const& other);
+};
+
+/// Impulses of the step that was taken last, which become forces and moments: impulse over dt. The force of a support
+/// is the mass of its particles times the acceleration that it made up for, so that the forces of supports, loads and
+/// rigid shapes sum to the rate of the linear momentum. Test: tests/formulations/actions_test.cpp.
+class Actions {
+ public:
+  explicit Actions(Assembly const& assembly);
+
+  std::vector<Impulse> supports, loads, rigids;    ///< in the order of the assembly
+  std::vector<std::array<double, 3>> rigid_about;  ///< points of the moments of rigid shapes now [m]
+
+  /// Forgets the step before.
+  void begin(double dt);
+  /// Names, forces and moments: all supports, the loads that have names, all rigid shapes. Zero before the first step.
+  std::vector<Action> report() const;
+
+  /// What a checkpoint holds: rows of history.csv may follow before the next step.
+  std::vector<double> state() const;
+  void restore(std::span<double const> state);
+
+ private:
+  struct Named {
+    std::string name;
+    std::array<double, 3> about;
+  };
+  std::vector<Named> named_supports_, named_loads_, named_rigids_;
+  double dt_ = 0;
+};
+
+}  // namespace piola
