@@ -79,14 +79,8 @@ void for_each_block(Range r, Pass const& pass) {
   if (r.last > r.first) each_block<<<grid(block_count(r)), threads_per_block>>>(r, pass);
 }
 #else
-/// Threads for the particles of r: a thread is worth its start and its barrier only with some thousand particles to
-/// work on.
-inline int team(Range r) {
-  constexpr Index least = 2048;
-  Index const worth = (r.last - r.first) / least + 1;
-  int const most = exec_host::threads();
-  return worth < most ? static_cast<int>(worth) : most;
-}
+/// Threads for the particles of r.
+inline int team(Range r) { return exec_host::team(r.last - r.first); }
 
 /// pass(i) for every group of lanes in r. Ranges start and end at multiples of the lane count.
 template <class Pass>

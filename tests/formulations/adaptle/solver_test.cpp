@@ -84,17 +84,16 @@ TEST_P(AdaptleRuns, GoOnFromACheckpointAsIfTheyHadNotStopped) {
         << field.name;
 }
 
-TEST_P(AdaptleRuns, AreTheSameWithOneThreadAndWithTwo) {
+TEST_P(AdaptleRuns, AreTheSameWithAnyNumberOfThreads) {
   Assembly const a = assembly();
   std::map<std::string, Values, std::less<>> first;
-  for (int const threads : {1, 2}) {
+  for (int const threads : testing::thread_counts) {
     Threads const set(threads);
+    ASSERT_EQ(exec::team(Range{0, static_cast<Index>(a.particles.X.size())}), threads);
     auto const f = make_formulation(a);
     run(*f, 0, 25);
-    if (threads == 1)
-      first = saved(*f).values;
-    else
-      EXPECT_EQ(saved(*f).values, first);
+    if (threads == 1) first = saved(*f).values;
+    EXPECT_EQ(saved(*f).values, first) << threads;
   }
 }
 

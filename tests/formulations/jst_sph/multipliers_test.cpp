@@ -174,7 +174,7 @@ TEST_P(WithMultipliers, RunsContinueAndRepeatWithTheSameBits) {
   Assembly a = plate(6);
   a.supports.back().until = 5e-4;
   std::vector<Values> ends;
-  for (int const threads : {1, 2, 2}) {
+  for (int const threads : {1, 1, 2, 3, 7}) {
     Threads const keep(threads);
     auto f = make_formulation(a);
     double t = 0;
