@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/expression.hpp"
+#include "piola/base/text.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -144,6 +145,68 @@ TEST(Expression, BrokenFormulasSayWhere) {
                                  "X;Y", "min()", "1..2", "2e", "X Y", "\xc3\xa9", "0x12"}) {
     EXPECT_NE(error_of(text).column, -1) << text;
   }
+}
+
+// The manual: what is not zero is true; the value is 1 or 0. For constants, named constants and variables alike.
+TEST(Expression, LogicHasTheDocumentedValueForConstantsAndVariables) {
+  for (double const a : {0.0, 0.5, -0.25, 1.0, 3.0})
+    for (double const b : {0.0, 0.75, -1.0, 1e-300}) {
+      Names const names{{{"a", a}, {"b", b}}, {{"d", "X"}}};
+      std::string const A = exact_text(a), B = exact_text(b);
+      double const both = a != 0 && b != 0 ? 1 : 0, either = a != 0 || b != 0 ? 1 : 0, neither = a == 0 ? 1 : 0;
+      for (auto const& [left, right] : {std::pair{A, B}, {"a", "b"}, {"X", "Y"}, {"X", B}, {A, "Y"}, {"d", "b"}}) {
+        auto const value = [&, l = left, r = right](std::string const& middle) {
+          return Expression("(" + l + ")" + middle + "(" + r + ")", names)({a, b, 0});
+        };
+        EXPECT_EQ(value("&&"), both) << left << right;
+        EXPECT_EQ(value(" || "), either) << left << right;
+        EXPECT_EQ(Expression("!(" + left + ")", names)({a, b, 0}), neither);
+        EXPECT_EQ(Expression("(" + left + ") ? 2 : 3", names)({a, b, 0}), a != 0 ? 2 : 3);
+      }
+    }
+}
+
+TEST(Expression, LogicBindsAsInC) {
+  EXPECT_EQ(value_of("1 || 0 && 0"), 1);
+  EXPECT_EQ(value_of("0.5&&0.5||0"), 1);
+  EXPECT_EQ(value_of("X>0&&X<1||X==7"), value_of("((X>0)&&(X<1))||(X==7)"));
+  EXPECT_EQ(value_of("1+1&&0"), 0);
+  EXPECT_EQ(value_of("1 && !0 && -0.5"), 1);
+  EXPECT_EQ(value_of("0.2 && 0.2 ? 5 : 6"), 5);
+  EXPECT_EQ(error_of("1 &&").text, "the formula ends too early");
+  EXPECT_EQ(error_of("&& 1").text, "the operator \"&&\" has nothing to work on");
+  EXPECT_EQ(error_of("X && $").column, 6);
+}
+
+TEST(Expression, OtherTonguesAreTranslated) {
+  EXPECT_EQ(error_of("5*y").text,
+            "\"y\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Y\"?");
+  EXPECT_EQ(error_of("5*y").column, 3);
+  EXPECT_NE(error_of("2*T").text.find("did you mean \"t\"?"), std::string::npos);
+  EXPECT_EQ(error_of("X > 0 and X < 1").text, "\"and\" is not an operator - write &&");
+  EXPECT_EQ(error_of("X > 0 or X < 1").text, "\"or\" is not an operator - write ||");
+  EXPECT_EQ(error_of("not X").text, "\"not\" is not an operator - write !");
+  EXPECT_EQ(error_of("X**2").text, "\"**\" is not an operator - write ^ for powers");
+  EXPECT_EQ(error_of("X**2").column, 2);
+  EXPECT_EQ(error_of("X > 0 & X < 1").text, "\"&\" is not an operator - write &&");
+  EXPECT_EQ(error_of("X|1").text, "\"|\" is not an operator - write ||");
+  EXPECT_EQ(error_of("X*T", {{{"T", 1}}, {}}).text, "no error") << "a name of the case means what the case says";
+  EXPECT_EQ(error_of("y", {{}, {{"y", "Y-1"}}}).text, "no error");
+}
+
+TEST(Expression, UnitsInAFormulaAreNamed) {
+  std::string const advice =
+      "which cannot stand in a formula (numbers are in SI) - write the number in SI, or name the quantity in "
+      "constants, "
+      "e.g. a = \"5 mm\"";
+  for (char const* const text : {"X <= 5 mm", "X <= 5mm", "X <= 5*mm", "X/mm", "(X + 2) mm", "2.5e3mm"}) {
+    EXPECT_EQ(error_of(text).text, "\"mm\" is a unit, " + advice) << text;
+  }
+  EXPECT_EQ(error_of("X <= 5 mm").column, 8);
+  EXPECT_EQ(error_of("X <= 5mm").column, 7);
+  EXPECT_NE(error_of("3 m/s").text.find("\"m\" is a unit"), std::string::npos);
+  EXPECT_EQ(error_of("m*X").text.find("is a unit"), std::string::npos) << "a single letter is more often a name";
+  EXPECT_EQ(error_of("2*mm", {{{"mm", 1e-3}}, {}}).text, "no error");
 }
 
 TEST(Expression, NestingAndLengthAreBounded) {

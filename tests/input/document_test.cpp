@@ -55,6 +55,22 @@ TEST(Document, SyntaxErrorsHaveAPlace) {
   EXPECT_NE(problems_of("a = \"\xff\"\n"), "");
 }
 
+TEST(Document, QuantitiesWithoutQuotesAreNamed) {
+  auto const advice = [](std::string const& quantity) {
+    return "this is not TOML: a quantity with a unit stands in quotes - write \"" + quantity + "\"";
+  };
+  EXPECT_EQ(problems_of("[run]\nend = 5 ms\n").substr(7), advice("5 ms"));
+  EXPECT_EQ(problems_of("[run]\nend = 5 ms\n").substr(0, 4), "f:2:");
+  for (auto const& [line, quantity] :
+       std::initializer_list<std::pair<std::string, std::string>>{{"a = 5ms", "5ms"},
+                                                                  {"a = -2.5e3 kg/m^3  # dense", "-2.5e3 kg/m^3"},
+                                                                  {"a = [0, 1 m, 2]", "1 m"},
+                                                                  {"a = { b = \"x = 3 s\", c = 17 MPa }", "17 MPa"}})
+    EXPECT_NE(problems_of(line + "\n").find(advice(quantity)), std::string::npos) << problems_of(line + "\n");
+  for (char const* const line : {"a = 5 bananas", "a = = 5", "a = \"5 ms\" b", "a = 5 6", "a = b # 5 ms"})
+    EXPECT_EQ(problems_of(std::string(line) + "\n").find("stands in quotes"), std::string::npos) << line;
+}
+
 TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
   EXPECT_EQ(problems_of(std::string("a = 1\n b\0", 9)),
             "f:2:3: a NUL byte, which no text file holds - is this a case file?");

@@ -2,6 +2,7 @@
 #include "piola/base/expression.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include <algorithm>
 #include <cmath>
 #include <muParser.h>
@@ -26,6 +27,8 @@ constexpr std::array<std::string_view, 5> variables{"X", "Y", "Z", "t", "pi"};
 double minimum(double const* values, int count) { return *std::min_element(values, values + count); }
 double maximum(double const* values, int count) { return *std::max_element(values, values + count); }
 double negation(double value) { return value == 0 ? 1 : 0; }
+double conjunction(double a, double b) { return a != 0 && b != 0 ? 1 : 0; }
+double disjunction(double a, double b) { return a != 0 || b != 0 ? 1 : 0; }
 
 // Only what the manual lists: muParser's own set is larger, and differs between its versions.
 void define_functions(mu::Parser& parser) {
@@ -58,6 +61,17 @@ void define_functions(mu::Parser& parser) {
   parser.DefineFun("min", minimum);
   parser.DefineFun("max", maximum);
   parser.DefineInfixOprt("!", negation);
+  parser.DefineOprt("&", conjunction, mu::prLAND, mu::oaLEFT, true);
+  parser.DefineOprt("|", disjunction, mu::prLOR, mu::oaLEFT, true);
+}
+
+// Of two constants, muParser's own && and || see whole numbers only: 0.5 && 1 is 0 to it. Ours have names that it does
+// not know; the blank keeps the columns of what follows.
+std::string with_own_operators(std::string text) {
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if ((text[i] == '&' || text[i] == '|') && text[i + 1] == text[i]) text[++i] = ' ';
+  }
+  return text;
 }
 
 [[noreturn]] void fail(std::string text, std::size_t position) {
@@ -111,8 +125,47 @@ std::vector<std::string> known_names(Names const& names) {
   return known;
 }
 
-[[noreturn]] void fail_unknown(Word const& word, Names const& names) {
-  if (word.text == "if") fail("\"if\" is not a function - write condition ? value : other_value", word.position);
+struct Meant {
+  std::string_view written, advice;
+};
+/// What people write who think of another language.
+constexpr std::array other_tongues{
+    Meant{"if", "\"if\" is not a function - write condition ? value : other_value"},
+    Meant{"and", "\"and\" is not an operator - write &&"},
+    Meant{"or", "\"or\" is not an operator - write ||"},
+    Meant{"not", "\"not\" is not an operator - write !"},
+    Meant{"x", "\"x\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"X\"?"},
+    Meant{"y", "\"y\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Y\"?"},
+    Meant{"z", "\"z\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Z\"?"},
+    Meant{"T", "\"T\" is not known (the time is t) - did you mean \"t\"?"},
+};
+
+/// The character before a position that is not blank; a blank if there is none.
+char before(std::string const& text, std::size_t position) {
+  std::size_t const found = position == 0 ? std::string::npos : text.find_last_not_of(" \t", position - 1);
+  return found == std::string::npos ? ' ' : text[found];
+}
+
+[[noreturn]] void fail_unit(std::string const& unit, std::size_t position) {
+  fail(in_quotes(unit) +
+           " is a unit, which cannot stand in a formula (numbers are in SI) - write the number in SI, or " +
+           "name the quantity in constants, e.g. a = \"5 " + unit + "\"",
+       position);
+}
+
+/// A word right after a number, or a factor of two letters or more, that can be read as a unit.
+void refuse_unit(std::string const& text, Word const& word) {
+  char const left = before(text, word.position);
+  bool const after_number = left == ')' || left == '.' || (left >= '0' && left <= '9');
+  bool const factor = (left == '*' || left == '/') && word.text.size() > 1;
+  if ((after_number || factor) && is_unit(word.text)) fail_unit(word.text, word.position);
+}
+
+[[noreturn]] void fail_unknown(std::string const& text, Word const& word, Names const& names) {
+  for (Meant const& meant : other_tongues) {
+    if (word.text == meant.written) fail(std::string(meant.advice), word.position);
+  }
+  refuse_unit(text, word);
   std::vector<std::string> const known = known_names(names);
   auto const near = nearest_name(word.text, known);
   std::string const advice =
@@ -145,6 +198,33 @@ void refuse_assignment(std::string const& text) {
   }
 }
 
+// Operators that look right and are not.
+void refuse_operators(std::string const& text) {
+  if (std::size_t const at = text.find("**"); at != std::string::npos)
+    fail("\"**\" is not an operator - write ^ for powers", at);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '&' && text[i] != '|') continue;
+    bool const twice = i + 1 < text.size() && text[i + 1] == text[i];
+    std::string const one(1, text[i]);
+    if (!twice) fail(in_quotes(one) + " is not an operator - write " + one + one, i);
+    ++i;
+  }
+}
+
+// A unit that sticks to its number, as in 5mm.
+void refuse_glued_units(std::string const& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    bool const number = text[i] == '.' || (text[i] >= '0' && text[i] <= '9');
+    if (!number && !is_word_character(text[i])) continue;
+    std::size_t const end = end_of_token(text, i);
+    std::string const token = text.substr(i, end - i);
+    std::size_t const letters = token.find_last_of("0123456789.") + 1;
+    if (number && letters < token.size() && is_unit(token.substr(letters)))
+      fail_unit(token.substr(letters), i + letters);
+    i = end - 1;
+  }
+}
+
 void refuse_characters(std::string const& text) {
   constexpr std::string_view marks = " \t+-*/^().,<>=!&|?:";
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -161,15 +241,22 @@ void check_text(std::string const& text, Names const& names) {
   if (text.size() > longest_text) throw ExpressionError{"the formula is too long (at most 4000 characters)", 0};
   refuse_characters(text);
   refuse_assignment(text);
+  refuse_operators(text);
+  refuse_glued_units(text);
   std::vector<std::string> const known = known_names(names);
   for (Word const& word : words_of(text)) {
-    if (std::find(known.begin(), known.end(), word.text) == known.end()) fail_unknown(word, names);
+    if (std::find(known.begin(), known.end(), word.text) == known.end()) fail_unknown(text, word, names);
     refuse_two_meanings(word, names);
   }
 }
 
 std::string explain(mu::Parser::exception_type const& error) {
-  std::string const token = in_quotes(error.GetToken());
+  std::string text = error.GetToken();
+  bool const logical = text.starts_with('&') || text.starts_with('|');
+  if (logical) text = std::string(2, text[0]);  // what was typed; see with_own_operators
+  std::string const token = in_quotes(text);
+  if (logical && error.GetCode() == mu::ecUNASSIGNABLE_TOKEN)
+    return "the operator " + token + " has nothing to work on";
   switch (error.GetCode()) {
     case mu::ecUNEXPECTED_OPERATOR: return "the operator " + token + " has nothing to work on";
     case mu::ecUNEXPECTED_EOF: return "the formula ends too early";
@@ -262,7 +349,7 @@ struct Expression::Compiled {
     target.DefineVar("Z", &Z);
     target.DefineVar("t", &t);
     for (std::size_t i = 0; i < values.size(); ++i) target.DefineVar(names.variables[i], &values[i]);
-    target.SetExpr(formula);
+    target.SetExpr(with_own_operators(formula));
   }
 
   // The first evaluation compiles; muParser reports errors only then.

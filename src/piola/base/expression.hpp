@@ -24,7 +24,8 @@ struct Names {
 };
 
 /// A formula in X, Y, Z, t, compiled once (muParser). Copies are independent and share nothing mutable; one object must
-/// not be evaluated by two threads at once. Conditions are expressions whose value is not zero.
+/// not be evaluated by two threads at once. Conditions are expressions whose value is not zero;
+/// comparisons and logical operators give 1 or 0.
 /// Functions: sin cos tan asin acos atan atan2 exp log (natural) sqrt abs min max pow; operators: + - * / ^, == != < <=
 /// > >=, && || !, condition ? value : other. Assignments are refused.
 class Expression {

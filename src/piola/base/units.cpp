@@ -248,6 +248,11 @@ Quantity read_any_quantity(std::string_view text) {
   return convert(text, parts, from, to, base);
 }
 
+bool is_unit(std::string_view text) {
+  std::lock_guard const lock(library_lock());
+  return parse_unit(text).unit != nullptr;
+}
+
 bool same_dimension(std::string_view a, std::string_view b) {
   std::lock_guard const lock(library_lock());
   return static_cast<bool>(Conversion(parse_unit(a), parse_unit(b)));

@@ -20,6 +20,9 @@ Quantity read_quantity(std::string_view text, std::string_view si_unit);
 /// Reads "number unit" with any unit and converts to the SI base units it is made of ("17 MPa" -> 1.7e7).
 Quantity read_any_quantity(std::string_view text);
 
+/// Whether a text is a unit, e.g. "mm".
+bool is_unit(std::string_view text);
+
 /// Whether both texts are units and one can be converted to the other.
 bool same_dimension(std::string_view a, std::string_view b);
 

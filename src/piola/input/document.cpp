@@ -2,6 +2,7 @@
 // The only file that knows toml++; its header comes first because it sets how the parser fails.
 #include "piola/input/document.hpp"
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include "piola/input/document_guard.hpp"
 #include "piola/input/toml_library.hpp"
 #include <algorithm>
@@ -125,6 +126,31 @@ std::string lower_start(std::string_view text) {
   return lowered;
 }
 
+/// The first number with a unit on a line that stands where a value begins, outside quotes; empty if there is none.
+std::string unquoted_quantity(std::string_view line) {
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    char const c = line[i];
+    if (quote != 0 || c == '"' || c == '\'') {
+      quote = quote == 0 ? c : quote == c ? '\0' : quote;
+      continue;
+    }
+    if (c == '#') return {};
+    if (c != '=' && c != ',' && c != '[') continue;
+    std::string_view value = line.substr(i + 1, line.find_first_of(",]}#\"'", i + 1) - i - 1);
+    value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
+    value = value.substr(0, value.find_last_not_of(" \t\r") + 1);
+    bool const has_unit = value.find_first_not_of("0123456789+-._eE") != std::string_view::npos;
+    if (has_unit && !read_any_quantity(value).problem) return std::string(value);
+  }
+  return {};
+}
+
+std::string line_of(std::string_view text, unsigned line) {
+  for (unsigned k = 1; k < line; ++k) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return std::string(text.substr(0, text.find('\n')));
+}
+
 }  // namespace
 
 std::optional<Document> parse_document(std::string_view text, std::string const& name, Problems& problems) {
@@ -139,8 +165,12 @@ std::optional<Document> parse_document(std::string_view text, std::string const&
     return document;
   } catch (toml::parse_error const& error) {
     auto const& begin = error.source().begin;
+    std::string const quantity = unquoted_quantity(line_of(text, begin.line));
+    std::string const what = "this is not TOML: " + lower_start(error.description());
     problems.add({name, static_cast<int>(begin.line), static_cast<int>(begin.column)},
-                 "this is not TOML: " + lower_start(error.description()) + " - see docs/user/case-file.md");
+                 quantity.empty()
+                     ? what + " - see docs/user/case-file.md"
+                     : "this is not TOML: a quantity with a unit stands in quotes - write " + in_quotes(quantity));
   } catch (std::logic_error const&) {
     problems.add({name, line_of_giving_up(text), 0},
                  "this is not TOML: a stray character in a key or a [header] - see docs/user/case-file.md");
