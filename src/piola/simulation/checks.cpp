@@ -8,6 +8,7 @@
 #include "piola/simulation/verify.hpp"
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace piola {
@@ -55,18 +56,44 @@ class Entry {
   Problems& problems_;
 };
 
-CheckVariant read_variant(Node const& table, Problems& problems) {
+/// Names of variants become names of folders (folder_of): what cannot be one is refused.
+bool can_be_a_folder(std::string const& name) {
+  constexpr std::size_t longest = 100;
+  bool const plain = std::none_of(
+      name.begin(), name.end(), [](char c) { return c == '\\' || static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
+  bool const bare = name.empty() || name.front() == ' ' || name.back() == ' ' || name == "." || name == "..";
+  return plain && !bare && name.size() <= longest;
+}
+
+void check_name(Entry& entry, Node const* node, std::vector<CheckVariant> const& before) {
+  if (node == nullptr || !node->is_text()) return;
+  if (!can_be_a_folder(node->text)) {
+    entry.complain(*node, fmt::format("'name' is {}, which cannot name a folder (allowed: 1 to 100 characters without "
+                                      "backslashes, line breaks or blanks at the ends, not . or ..) - choose another",
+                                      in_quotes(node->text)));
+  }
+  bool const taken = std::any_of(before.begin(), before.end(),
+                                 [&](CheckVariant const& v) { return folder_of(v.name) == folder_of(node->text); });
+  if (taken)
+    entry.complain(
+        *node, fmt::format("the name {} gives the folder of a variant above - choose another", in_quotes(node->text)));
+}
+
+void read_override(Entry& entry, Node const& item, CheckVariant& variant) {
+  if (item.is_text() && item.text.find('=', 1) != std::string::npos)
+    variant.set.push_back(item.text);
+  else
+    entry.wrong(item, "set", "a list of \"key=value\"");
+}
+
+CheckVariant read_variant(Node const& table, std::vector<CheckVariant> const& before, Problems& problems) {
   Entry entry(table, "variant", problems);
   entry.only({"name", "set", "short"});
   CheckVariant variant{entry.text("name", true), {}, entry.flag("short")};
+  check_name(entry, entry.find("name", false), before);
   if (Node const* set = entry.find("set", false)) {
     if (!set->is_array()) entry.wrong(*set, "set", "a list of \"key=value\"");
-    for (Node const& item : set->items) {
-      if (item.is_text())
-        variant.set.push_back(item.text);
-      else
-        entry.wrong(item, "set", "a list of \"key=value\"");
-    }
+    for (Node const& item : set->items) read_override(entry, item, variant);
   }
   return variant;
 }
@@ -77,16 +104,21 @@ void read_tolerance(Entry& entry, Check& check) {
   if (!node) return;
   if (node->is_number()) {
     check.tolerance = node->number();
-    return;
+  } else {
+    std::string_view text = node->text;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), check.tolerance);
+    std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+    while (rest.starts_with(' ')) rest.remove_prefix(1);
+    check.relative = true;
+    check.tolerance /= 100;
+    if (!node->is_text() || error != std::errc() || rest != "%")
+      return entry.wrong(*node, "tolerance", "a number, or \"1 %\" of the reference");
   }
-  std::string_view text = node->text;
-  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), check.tolerance);
-  std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  while (rest.starts_with(' ')) rest.remove_prefix(1);
-  if (!node->is_text() || error != std::errc() || rest != "%")
-    entry.wrong(*node, "tolerance", "a number, or \"1 %\" of the reference");
-  check.relative = true;
-  check.tolerance /= 100;
+  if (!(check.tolerance >= 0) || std::isinf(check.tolerance)) {
+    entry.complain(*node, fmt::format("'tolerance' is {}, with which no check could {} (allowed: 0 or more, finite) - "
+                                      "give what the source grants",
+                                      number_text(check.tolerance), check.tolerance > 0 ? "fail" : "pass"));
+  }
 }
 
 void read_kind(Entry& entry, Check& check) {
@@ -118,7 +150,7 @@ void read_comparison(Entry& entry, Check& check) {
   check.refinement = node->is_number() ? node->number() : 0;
   if (check.as != Check::As::order)
     entry.complain(*node, "'ratio' is only for as = \"order\" - remove it");
-  else if (!(check.refinement > 1))
+  else if (!(check.refinement > 1) || std::isinf(check.refinement))
     entry.wrong(*node, "ratio", "a number above 1: the spacing of the other variant by that of this one");
 }
 
@@ -150,10 +182,10 @@ void read_field(Entry& entry, Check& check) {
 }
 
 std::string reference_text(Entry& entry, Node const& node) {
-  if (node.is_number()) return exact_text(node.number());
-  if (node.is_text()) return node.text;
+  if (node.is_number() && std::isfinite(node.number())) return exact_text(node.number());
+  if (node.is_text() && !read_any_quantity(node.text).problem) return node.text;
   entry.wrong(node, "reference", "a number, or a number with unit in quotes");
-  return "0";
+  return {};
 }
 
 void read_reference(Entry& entry, Check& check) {
@@ -222,6 +254,20 @@ Check read_check(Node const& table, CheckFile const& file, Problems& problems) {
   return check;
 }
 
+/// The tables of [[key]]; complains about anything else under that key.
+std::vector<Node const*> tables_of(Node const& root, std::string const& key, Problems& problems) {
+  std::vector<Node const*> tables;
+  Node const* const list = root.find(key);
+  if (list == nullptr) return tables;
+  for (Node const& item : list->items) {
+    if (item.is_table()) tables.push_back(&item);
+  }
+  if (!list->is_array() || tables.size() != list->items.size())
+    problems.add(list->place, fmt::format("'{}' is {} (a list of tables is needed) - write [[{}]] in double brackets",
+                                          key, list->is_table() ? "one table" : "a value", key));
+  return tables;
+}
+
 }  // namespace
 
 std::vector<std::string> const& evidence_words() {
@@ -232,6 +278,11 @@ std::vector<std::string> const& evidence_words() {
 
 std::string const& evidence_word(Evidence evidence) { return evidence_words()[static_cast<std::size_t>(evidence)]; }
 
+std::string folder_of(std::string variant) {
+  std::replace(variant.begin(), variant.end(), '/', '_');
+  return variant;
+}
+
 CheckFile read_checks(std::filesystem::path const& path) {
   Problems problems;
   CheckFile file;
@@ -241,13 +292,14 @@ CheckFile read_checks(std::filesystem::path const& path) {
     if (e.key != "variant" && e.key != "check")
       problems.add(e.place, fmt::format("checks do not know '{}' (known: variant, check) - remove it", e.key));
   }
-  if (Node const* list = document->root.find("variant")) {
-    for (Node const& table : list->items) file.variants.push_back(read_variant(table, problems));
-  }
+  for (Node const* table : tables_of(document->root, "variant", problems))
+    file.variants.push_back(read_variant(*table, file.variants, problems));
   if (file.variants.empty()) file.variants.push_back({"as is", {}, true});
-  if (Node const* list = document->root.find("check")) {
-    for (Node const& table : list->items) file.checks.push_back(read_check(table, file, problems));
-  }
+  for (Node const* table : tables_of(document->root, "check", problems))
+    file.checks.push_back(read_check(*table, file, problems));
+  Node const* const list = document->root.find("check");
+  if (list == nullptr || (list->is_array() && list->items.empty()))
+    problems.add({path.string(), 0, 0}, "holds no check, so that it could never fail - add a [[check]]");
   problems.raise_if_any();
   return file;
 }

@@ -280,6 +280,21 @@ std::vector<FieldSampler::Wish> wishes_of(std::vector<Check> const& checks, std:
   return wishes;
 }
 
+/// Reads all files of checks before anything runs. Throws InputError with the problems of all of them.
+std::vector<Plan> all_plans(VerifyOptions const& options) {
+  std::vector<Plan> plans;
+  std::string problems;
+  for (fs::path const& folder : find_cases(options.cases, options.names)) {
+    try {
+      plans.push_back(plan_of(folder, options));
+    } catch (InputError const& error) {
+      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return plans;
+}
+
 double work_of(Plan const& plan, CheckVariant const& variant, Weigh const& weigh) {
   if (!weigh) return 1;
   try {
@@ -341,13 +356,10 @@ std::vector<fs::path> find_cases(fs::path const& cases, std::vector<std::string>
 
 std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
                                      std::atomic<int> const& stop) {
-  std::vector<Plan> plans;
+  std::vector<Plan> const plans = all_plans(options);
   std::vector<double> work;
-  for (fs::path const& folder : find_cases(options.cases, options.names)) {
-    plans.push_back(plan_of(folder, options));
-    for (CheckVariant const& variant : plans.back().variants)
-      work.push_back(work_of(plans.back(), variant, options.weigh));
-  }
+  for (Plan const& plan : plans)
+    for (CheckVariant const& variant : plan.variants) work.push_back(work_of(plan, variant, options.weigh));
   Watch watch(announce, std::move(work));
   std::vector<CaseVerification> cases;
   for (Plan const& plan : plans) {
@@ -356,7 +368,7 @@ std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const
     for (CheckVariant const& variant : plan.variants) {
       if (stop.load() != 0) break;
       watch.start(plan.name, variant.name);
-      result.runs.push_back(run_variant(plan.file, variant, options.out / plan.name / variant.name,
+      result.runs.push_back(run_variant(plan.file, variant, options.out / plan.name / folder_of(variant.name),
                                         wishes_of(plan.checks, variant.name), prepare, watch, stop));
     }
     result.rows = compare(plan.name, plan.checks, result.runs);

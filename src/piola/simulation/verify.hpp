@@ -69,6 +69,9 @@ struct CheckFile {
   std::vector<Check> checks;
 };
 
+/// The folder of a variant below that of its case: its name, with _ in place of each slash, so that no name leads out.
+std::string folder_of(std::string variant);
+
 /// Reads checks.toml. Throws InputError with all that is wrong in it.
 CheckFile read_checks(std::filesystem::path const& path);
 
