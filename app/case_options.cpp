@@ -8,7 +8,9 @@ void CaseOptions::add_to(CLI::App& command, bool with_file) {
   command.add_option("--set", set, "Change a value of the case: key=value, e.g. run.end=\"0.1 s\"; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);
-  command.add_option("--threads", threads, "Number of threads (default: as the case says, else all cores)");
+  command.add_option(
+      "--threads", threads,
+      "Number of threads (default: as the case says, else OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)");
   command.add_option("--machine", machine, "Instruction set: auto, scalar, v2, v3, v4 (default: as the case says)");
 }
 

@@ -4,6 +4,7 @@
 #include "piola/simulation/bench_adaptle.hpp"
 #include "piola/simulation/bench_taylor.hpp"
 #include "commands.hpp"
+#include "streams.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -21,8 +22,8 @@ struct Options {
 
 template <class Report>
 int print(Report const& report, bool json) {
-  fmt::print("{}", json ? to_json(report) : to_text(report));
-  return completed;
+  write_out(json ? to_json(report) : to_text(report));
+  return with_output(completed);
 }
 
 int bench_jst(Options const& options) {

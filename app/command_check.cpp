@@ -8,6 +8,8 @@
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/warnings.hpp"
 #include "commands.hpp"
+#include "run_support.hpp"
+#include "streams.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -71,14 +73,14 @@ void print_body(BodySpec const& body, BodyFacts const& facts) {
   constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};
   int const dimension = body.shape.dimension;
   std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
-  fmt::print("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name,
-             body.shape.inner_radius > 0 ? "hollow " : "", kinds[static_cast<std::size_t>(body.shape.kind)],
-             count_text(facts.particles), arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
-  fmt::print("  {}\n", material_text(body));
-  fmt::print("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
-  if (facts.s_wave > 0) fmt::print(", shear waves {:.4g} m/s", facts.s_wave);
-  fmt::print("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
-  fmt::print("  {}{}\n", body.formulation.name, settings_text(body.formulation));
+  say("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name, body.shape.inner_radius > 0 ? "hollow " : "",
+      kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
+      arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
+  say("  {}\n", material_text(body));
+  say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
+  if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);
+  say("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
+  say("  {}{}\n", body.formulation.name, settings_text(body.formulation));
 }
 
 Body const& body_named(ParticleSet const& particles, std::string const& name) {
@@ -112,9 +114,8 @@ std::string held_text(SupportSpec const& support, int dimension) {
 void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
   for (SupportSpec const& support : spec.supports) {
     auto const count = select_particles(particles, body_named(particles, support.body), &support.where).size();
-    fmt::print("support of \"{}\": {} particles where {}, {}{}\n", support.body,
-               count_text(static_cast<std::int64_t>(count)), support.where.text(),
-               held_text(support, particles.dimension), until_text(support.until));
+    say("support of \"{}\": {} particles where {}, {}{}\n", support.body, count_text(static_cast<std::int64_t>(count)),
+        support.where.text(), held_text(support, particles.dimension), until_text(support.until));
   }
 }
 
@@ -126,14 +127,14 @@ void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
     auto const count = loaded_particles(particles, body_named(particles, load.body), load).size();
     std::string const face = load.on_face() ? " of face " + face_text(load.face) : "";
     bool const pressure = load.kind == LoadSpec::Kind::pressure;
-    fmt::print("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)),
+    say("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)),
                face, kinds[kind], pressure ? load.value[0].text() : vector_text(load.value, particles.dimension),
                units[kind], until_text(load.until));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const count = face_particles(particles, body_named(particles, mirror.body), mirror.face).size();
-    fmt::print("mirror of \"{}\": {} particles on face {}\n", mirror.body, count_text(static_cast<std::int64_t>(count)),
-               face_text(mirror.face));
+    say("mirror of \"{}\": {} particles on face {}\n", mirror.body, count_text(static_cast<std::int64_t>(count)),
+        face_text(mirror.face));
   }
 }
 
@@ -142,8 +143,8 @@ void print_cracks(ParticleSet const& particles) {
     auto const point = [](std::array<double, 3> const& X, bool tip) {
       return fmt::format("({}, {}){}", quantity_text(X[0], "m"), quantity_text(X[1], "m"), tip ? " (tip)" : "");
     };
-    fmt::print("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
-               point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
+    say("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
+        point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
   }
 }
 
@@ -172,8 +173,8 @@ void print_contact(CaseSpec const& spec, int dimension) {
   for (RigidSpec const& rigid : spec.rigids) {
     bool const moves = std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
                                    [](Expression const& component) { return component.text() != "0"; });
-    fmt::print("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension),
-               moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
+    say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension),
+        moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
   }
   auto const info = find_formulation(spec.bodies.front().formulation.name);
   if (!info || !info->contact) return;
@@ -184,17 +185,17 @@ void print_contact(CaseSpec const& spec, int dimension) {
   if (rule.law == ContactRule::Law::printed)
     text += ", stiffness " + quantity_text(rule.stiffness, "Pa/m^" + std::to_string(dimension));
   if (std::isfinite(rule.closing_speed)) text += ", closing speed " + quantity_text(rule.closing_speed, "m/s");
-  fmt::print("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
+  say("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
 }
 
 void print_output(CaseSpec const& spec) {
   auto const every = [&](std::string_view what, double interval) {
     if (interval > 0) {
-      fmt::print("  {} every {} ({} in all)\n", what, quantity_text(interval, "s"),
-                 count_text(static_cast<std::int64_t>(std::min(spec.run.end / interval, 1e15)) + 1));
+      say("  {} every {} ({} in all)\n", what, quantity_text(interval, "s"),
+          count_text(static_cast<std::int64_t>(std::min(spec.run.end / interval, 1e15)) + 1));
     }
   };
-  fmt::print("output:\n");
+  say("output:\n");
   every("a row of history.csv", spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / 500);
   every("a frame", spec.output.frames_every);
   every("a picture of " + spec.output.picture_field, spec.output.pictures_every);
@@ -204,8 +205,8 @@ void print_output(CaseSpec const& spec) {
     for (std::string const& quantity : probe.quantities) probes.push_back(probe.name + "." + quantity);
   }
   for (QuantitySpec const& quantity : spec.quantities) quantities.push_back(quantity.name);
-  if (!probes.empty()) fmt::print("  probes: {}\n", joined(probes));
-  if (!quantities.empty()) fmt::print("  quantities: {}\n", joined(quantities));
+  if (!probes.empty()) say("  probes: {}\n", joined(probes));
+  if (!quantities.empty()) say("  quantities: {}\n", joined(quantities));
 }
 
 /// What a run would take, and what looks odd.
@@ -231,21 +232,21 @@ void print_cost(CaseSpec const& spec, Estimate const& cost) {
   bool const bounded = spec.run.max_step < cost.rule.settled;
   std::string const first =
       cost.rule.first < cost.step ? fmt::format(", from {} at the start", quantity_text(cost.rule.first, "s", 3)) : "";
-  fmt::print("step: about {}{}, about {} {}\n", quantity_text(cost.step, "s", 3), first, count_text(cost.steps),
+  say("step: about {}{}, about {} {}\n", quantity_text(cost.step, "s", 3), first, count_text(cost.steps),
              cost.steps == 1 ? "step" : "steps");
-  fmt::print("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
-  fmt::print("needs, estimated: {} to set up and {} to run with {} {}, {} of memory, {} of disk\n",
+  say("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
+  say("needs, estimated: {} to set up and {} to run with {} {}, {} of memory, {} of disk\n",
              duration_text(cost.setup_seconds), duration_text(cost.run_seconds), cost.threads,
              cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
 }
 
 int check(CaseOptions const& options) {
-  CaseSpec const spec = read_case(options.file, options.overrides());
+  CaseSpec const spec = read_case(case_file(options.file), options.overrides());
   ParticleSet const particles = make_particles(spec);
   std::vector<BodyFacts> const facts = body_facts(spec, particles);
   Look const look = look_at(spec, particles.size());
-  fmt::print("{}\n", spec.title);
-  fmt::print("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
+  say("{}\n", spec.title);
+  say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
              quantity_text(spec.run.end, "s"));
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
   print_supports(spec, particles);
@@ -255,10 +256,10 @@ int check(CaseOptions const& options) {
   print_cost(spec, look.cost);
   print_output(spec);
   std::vector<std::string> const& warnings = look.warnings;
-  for (std::string const& warning : warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("{}\n",
+  for (std::string const& warning : warnings) say("warning: {}\n", warning);
+  say("{}\n",
              warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
-  return completed;
+  return with_output(completed);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "commands.hpp"
 #include "manual.hpp"
+#include "streams.hpp"
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -27,14 +28,14 @@ constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", desc
 int describe(Options const& options) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
   if (options.kind.empty()) {
-    fmt::print("{}", options.markdown ? manual_page() : overview());
-    return completed;
+    write_out(options.markdown ? manual_page() : overview());
+    return with_output(completed);
   }
   std::vector<std::string> known;
   for (Topic const& topic : topics) {
     if (topic.kind == options.kind) {
-      fmt::print("{}", topic.describe(options.name, layout));
-      return completed;
+      write_out(topic.describe(options.name, layout));
+      return with_output(completed);
     }
     known.emplace_back(topic.kind);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/render.hpp"
 #include "commands.hpp"
+#include "streams.hpp"
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -22,8 +23,8 @@ int render(Options const& options) {
                      .height = options.size[1]};
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   auto const paths = render_frames(options.folder, what);
-  fmt::print("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
-             paths.empty() ? "none" : paths.back().string());
+  say("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
+      paths.empty() ? "none" : paths.back().string());
   return completed;
 }
 

@@ -3,6 +3,7 @@
 #include "piola/input/read_case.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "signals.hpp"
 #include <fmt/format.h>
 #include <memory>
 
@@ -11,19 +12,24 @@ namespace {
 
 struct Options {
   CaseOptions from;
-  std::string folder;
+  std::string folder, wall_time;
   bool quiet = false;
 };
 
 int resume(Options const& options) {
+  catch_checkpoint_signals();
+  double const wall_time = read_wall_time(options.wall_time);
   std::filesystem::path const file = std::filesystem::path(options.folder) / "case.toml";
-  if (!std::filesystem::exists(file)) {
+  std::error_code unusable;
+  if (!std::filesystem::exists(file, unusable)) {
+    refuse_link_loop(options.folder, unusable);
     throw InputError(fmt::format(
         "{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to",
         options.folder));
   }
   Simulation simulation = build(read_case(file, options.from.overrides()));
-  return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false}, options.quiet);
+  return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
+                        options.quiet);
 }
 
 }  // namespace
@@ -33,6 +39,7 @@ void add_resume(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("resume", "Continue a run from its newest checkpoint, bit for bit");
   command->add_option("folder", options->folder, "The results folder of the run")->required();
   options->from.add_to(*command, false);
+  add_wall_time(*command, options->wall_time);
   command->add_flag("--quiet,-q", options->quiet, "Say nothing unless something is wrong");
   command->callback([options, &action] { action = [options] { return resume(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include "piola/simulation/results_folder.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "signals.hpp"
 #include <memory>
 
 namespace piola::app {
@@ -10,11 +11,13 @@ namespace {
 
 struct Options {
   CaseOptions from;
-  std::string out;
+  std::string out, wall_time;
   bool force = false, quiet = false, no_pictures = false;
 };
 
 int run(Options const& options) {
+  catch_checkpoint_signals();
+  double const wall_time = read_wall_time(options.wall_time);
   auto const file = case_file(options.from.file);
   CaseSpec spec = read_case(file, options.from.overrides());
   if (options.no_pictures) spec.output.pictures_every = 0;
@@ -22,7 +25,8 @@ int run(Options const& options) {
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
                          .resume = false,
                          .force = options.force,
-                         .case_file = file};
+                         .case_file = file,
+                         .wall_time = wall_time};
   return run_and_report(simulation, where, options.quiet);
 }
 
@@ -35,6 +39,7 @@ void add_run(CLI::App& program, Action& action) {
   options->from.add_to(*command);
   command->add_option("--out,-o", options->out, "Folder for the results (default: NAME-results in this folder)");
   command->add_flag("--force", options->force, "Use the folder even if it holds other things");
+  add_wall_time(*command, options->wall_time);
   command->add_flag("--no-pictures", options->no_pictures, "Draw no pictures");
   command->add_flag("--quiet,-q", options->quiet, "Say nothing unless something is wrong");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

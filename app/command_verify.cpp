@@ -7,9 +7,11 @@
 #include "piola/output/files.hpp"
 #include "piola/simulation/verification_report.hpp"
 #include "commands.hpp"
-#include "run_support.hpp"
+#include "signals.hpp"
+#include "streams.hpp"
 #include <algorithm>
-#include <cstdio>
+#include <cerrno>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
 #include <unistd.h>
@@ -39,11 +41,13 @@ fs::path find_case_folder() {
   return "cases";
 }
 
-/// A folder that is removed in the end.
+/// A new folder, of a name that nobody else has or guesses, that is removed in the end.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("piola-verify-{}", ::getpid())) {
-    make_folder(path_);
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "piola-verify-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw FileError(cannot_write(name, errno));
+    path_ = name;
   }
   TemporaryFolder(TemporaryFolder const&) = delete;
   TemporaryFolder& operator=(TemporaryFolder const&) = delete;
@@ -64,7 +68,7 @@ class ProgressLine {
   ProgressLine(ProgressLine const&) = delete;
   ProgressLine& operator=(ProgressLine const&) = delete;
   ~ProgressLine() {
-    if (shown_ > 0) fmt::print(stderr, "\r{:{}}\r", "", shown_);
+    if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
   }
 
   void show(VerifyProgress const& at) {
@@ -72,11 +76,10 @@ class ProgressLine {
     if (terminal_) line += fmt::format("  {:.0f} %", 100 * std::clamp(at.share, 0.0, 1.0));
     if (at.seconds_left) line += fmt::format("  about {} left", duration_text(*at.seconds_left));
     if (terminal_) {
-      fmt::print(stderr, "\r{:<{}}", line, shown_);
-      std::fflush(stderr);
+      tell("\r{:<{}}", line, shown_);
       shown_ = std::max(shown_, line.size());
     } else if (at.number != number_) {
-      fmt::print(stderr, "{}\n", line);
+      tell("{}\n", line);
     }
     number_ = at.number;
   }
@@ -132,10 +135,10 @@ int run_verify(Options const& options) {
     cases = verify(
         what, prepare, [&](VerifyProgress const& at) { line.show(at); }, stop_signal);
   }
-  fmt::print("{}", options.json ? verification_json(cases) : verification_table(cases));
+  write_out(options.json ? verification_json(cases) : verification_table(cases));
   if (!options.markdown.empty()) write_verification_page(options.markdown, cases);
   if (stop_signal != 0) return stopped_by_signal;
-  return all_accepted(cases) ? completed : internal_error;
+  return with_output(all_accepted(cases) ? completed : internal_error);
 }
 
 }  // namespace

@@ -2,16 +2,20 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/version.hpp"
 #include "commands.hpp"
-#include <cstdio>
+#include "hints.hpp"
+#include "streams.hpp"
+#include "waiting.hpp"
 #include <exception>
-#include <fmt/format.h>
+#include <filesystem>
+#include <sstream>
 
 namespace {
 
 using namespace piola;
+using app::tell;
 
 int report(char const* kind, std::exception const& error, int code) {
-  fmt::print(stderr, "piola: {}{}\n", kind, error.what());
+  tell("piola: {}{}\n", kind, error.what());
   return code;
 }
 
@@ -25,6 +29,9 @@ int perform(app::Action const& action) {
     return report("", error, app::physics_failed);
   } catch (FileError const& error) {
     return report("", error, app::internal_error);
+  } catch (std::filesystem::filesystem_error const& error) {
+    tell("piola: {}: cannot be used, {} - check the path\n", error.path1().string(), error.code().message());
+    return app::internal_error;
   } catch (std::bad_alloc const& error) {
     return report("not enough memory for this many particles - choose fewer ('piola check' tells how much is needed): ",
                   error, app::internal_error);
@@ -33,9 +40,21 @@ int perform(app::Action const& action) {
   }
 }
 
+/// What the user typed asks for help, or is wrong.
+int explain(CLI::App const& program, CLI::ParseError const& error, std::span<char const* const> arguments) {
+  std::ostringstream out, err;
+  bool const asked = program.exit(error, out, err) == 0;
+  std::string const hints = asked ? "" : app::name_hints(program, arguments);
+  app::write_out(out.str());
+  app::write_err(hints.empty() ? err.str() : hints + "Run with --help for more information.\n");
+  return asked ? app::with_output(app::completed) : app::bad_input;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::secure_streams();
+  app::sleep_while_waiting(argv);
   CLI::App program("Piola: smoothed particle hydrodynamics for solids at large strain");
   program.set_version_flag("--version", std::string(piola::version()));
   program.require_subcommand(1);
@@ -50,7 +69,7 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
-    return program.exit(error) == 0 ? app::completed : app::bad_input;
+    return explain(program, error, std::span<char const* const>(argv, static_cast<std::size_t>(argc)).subspan(1));
   }
   return perform(action);
 }

@@ -2,33 +2,18 @@
 #include "run_support.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include "commands.hpp"
+#include "signals.hpp"
+#include "streams.hpp"
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <fmt/format.h>
 #include <unistd.h>
 
 namespace piola::app {
 namespace {
 
-static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-
-std::atomic<long> second_of_first_signal{0};
-
-/// Tools that stop programs often signal twice, the process and its group: only a signal that comes later means
-/// impatience.
-extern "C" void on_stop_signal(int signal) {
-  constexpr long patience = 2;
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (stop_signal.exchange(signal) == 0)
-    second_of_first_signal = now.tv_sec;
-  else if (now.tv_sec - second_of_first_signal >= patience)
-    std::_Exit(128 + signal);
-}
+WallLimit::Clock::time_point const program_start = WallLimit::Clock::now();
 
 std::string percent(double share) { return fmt::format("{:3.0f} %", 100 * std::clamp(share, 0.0, 1.0)); }
 
@@ -53,20 +38,12 @@ std::string body_line(Body const& body, BodySpec const& spec, int dimension) {
 
 }  // namespace
 
-std::atomic<int> stop_signal{0};
-
-void catch_stop_signals() {
-  std::signal(SIGINT, on_stop_signal);
-  std::signal(SIGTERM, on_stop_signal);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an ordinary write error with a message
-}
-
 Console::Console(bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
 Console::~Console() { clear(); }
 
 void Console::clear() {
-  if (shown_ > 0) fmt::print(stderr, "\r{:{}}\r", "", shown_);
+  if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
   shown_ = 0;
 }
 
@@ -74,20 +51,19 @@ void Console::progress(Progress const& progress) {
   if (quiet_) return;
   std::string const line = progress_line(progress);
   if (terminal_) {
-    fmt::print(stderr, "\r{:<{}}", line, shown_);
-    std::fflush(stderr);
+    tell("\r{:<{}}", line, shown_);
     shown_ = std::max(shown_, line.size());
     return;
   }
   auto const now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::seconds(10)) return;
   last_ = now;
-  fmt::print(stderr, "{}\n", line);
+  tell("{}\n", line);
 }
 
 void Console::warning(std::string const& text) {
   clear();
-  fmt::print(stderr, "warning: {}\n", text);
+  tell("warning: {}\n", text);
 }
 
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
@@ -120,21 +96,39 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
         s.warnings.size() == 1 ? "1 warning" : count_text(static_cast<std::int64_t>(s.warnings.size())) + " warnings");
   if (!outcome.last_picture.empty()) text += fmt::format("  picture: {}\n", outcome.last_picture.string());
   if (!outcome.index.empty()) text += fmt::format("  for ParaView: {}\n", outcome.index.string());
+  if (outcome.out_of_time) text += "  the wall time is used up\n";
   if (outcome.ending == Ending::stopped)
     text += fmt::format("  a checkpoint was written; continue with: piola resume {}\n", folder.string());
   return text;
 }
 
-int run_and_report(Simulation& simulation, RunOptions const& options, bool quiet) {
+void add_wall_time(CLI::App& command, std::string& text) {
+  command
+      .add_option("--wall-time", text,
+                  "Stop with a checkpoint before so much time has passed, e.g. \"2 h\" (exit code 4)")
+      ->check([](std::string const& given) { return given.empty() ? "a time such as \"2 h\" is needed" : ""; }, "TIME");
+}
+
+double read_wall_time(std::string const& text) {
+  if (text.empty()) return WallLimit::none;
+  Quantity const time = read_quantity(text, "s");
+  if (time.problem) throw InputError("--wall-time: " + *time.problem + " - give a time such as \"2 h\"");
+  if (!(time.value > 0))
+    throw InputError("--wall-time: " + in_quotes(text) +
+                     " leaves no time (above 0 is allowed) - give one such as \"2 h\"");
+  return time.value;
+}
+
+int run_and_report(Simulation& simulation, RunOptions options, bool quiet) {
   catch_stop_signals();
-  if (!quiet) fmt::print("{}", start_report(simulation, options.folder));
-  std::fflush(stdout);
+  options.started = program_start;
+  options.checkpoint_request = &checkpoint_signal;
+  if (!quiet) write_out(start_report(simulation, options.folder));
   Console console(quiet);
   CaseOutcome const outcome = run_case(simulation, options, console, stop_signal);
   console.clear();
-  if (!quiet) fmt::print("{}", end_report(outcome, options.folder));
-  std::fflush(stdout);
-  if (outcome.ending == Ending::failed) fmt::print(stderr, "piola: {}\n", outcome.failure);
+  if (!quiet) write_out(end_report(outcome, options.folder));
+  if (outcome.ending == Ending::failed) tell("piola: {}\n", outcome.failure);
   switch (outcome.ending) {
     case Ending::failed: return physics_failed;
     case Ending::stopped: return stopped_by_signal;
@@ -142,11 +136,22 @@ int run_and_report(Simulation& simulation, RunOptions const& options, bool quiet
   }
 }
 
+void refuse_link_loop(std::filesystem::path const& path, std::error_code const& error) {
+  if (error != std::errc::too_many_symbolic_link_levels) return;
+  throw InputError(
+      fmt::format("{}: is a link that leads back to itself (a file or folder is needed) - correct the link "
+                  "('readlink' shows where it leads)",
+                  path.string()));
+}
+
 std::filesystem::path case_file(std::filesystem::path const& given) {
-  std::filesystem::path const file = std::filesystem::is_directory(given) ? given / "case.toml" : given;
-  if (!std::filesystem::exists(file))
-    throw InputError(fmt::format("{}: there is no such case file - check the path", file.string()));
-  return file;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path const file = fs::is_directory(given, error) ? given / "case.toml" : given;
+  if (fs::exists(file, error)) return file;
+  refuse_link_loop(file, error);
+  if (error) throw InputError(fmt::format("{}: cannot be used, {} - check the path", file.string(), error.message()));
+  throw InputError(fmt::format("{}: there is no such case file - check the path", file.string()));
 }
 
 }  // namespace piola::app

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/simulation/run_case.hpp"
-#include <atomic>
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <string>
+#include <system_error>
 
 namespace piola::app {
-
-/// Set by SIGINT and SIGTERM to the number of the signal. Another one two seconds later ends the program at once.
-extern std::atomic<int> stop_signal;
-void catch_stop_signals();
 
 /// Shows progress on stderr: one line that is renewed on a terminal, otherwise a line about every ten seconds. Warnings
 /// always.
@@ -32,8 +29,17 @@ std::string start_report(Simulation const& simulation, std::filesystem::path con
 /// What came out.
 std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& folder);
 
-/// Runs a prepared simulation with reports, progress and signals; returns the exit code.
-int run_and_report(Simulation& simulation, RunOptions const& options, bool quiet);
+/// --wall-time, and what it says [s]: a time such as "2 h", without a unit in seconds; nothing if it is not given.
+/// Throws InputError for anything else.
+void add_wall_time(CLI::App& command, std::string& text);
+double read_wall_time(std::string const& text);
+
+/// Runs a prepared simulation with reports, progress and signals; the wall time counts from the start of the program.
+/// Returns the exit code.
+int run_and_report(Simulation& simulation, RunOptions options, bool quiet);
+
+/// Throws InputError if an error says that the links at a path lead in a circle.
+void refuse_link_loop(std::filesystem::path const& path, std::error_code const& error);
 
 /// case.toml itself, or the one in a folder. Throws InputError if there is none.
 std::filesystem::path case_file(std::filesystem::path const& given);

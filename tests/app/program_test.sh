@@ -1,71 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs the program as a user does: exit codes, results, signals, resume.
-set -u
-program="${PIOLA_PROGRAM:-}"
-if [ ! -x "$program" ]; then
-  echo "skipped: the program is not built"
-  exit 77
-fi
-work=$(mktemp -d)
-trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export OMP_WAIT_POLICY=passive
-failures=0
-
-cat > bar.toml <<'CASE'
-title = "Short bar"
-[run]
-end = "20 ms"
-threads = 1
-[[body]]
-name = "bar"
-shape = { box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "2 m"] }, particles = [5, 5, 9] }
-material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 }
-formulation = { name = "jst_sph" }
-initial_velocity = ["5*Z", "0", "0"]
-[[support]]
-body = "bar"
-where = "Z <= 0"
-fix = "xyz"
-[[probe]]
-name = "top"
-body = "bar"
-kind = "average"
-where = "Z >= 2"
-quantities = ["displacement_x"]
-[[quantity]]
-name = "sway"
-column = "top.displacement_x"
-take = "maximum"
-unit = "mm"
-[output.frames]
-every = "5 ms"
-[output.pictures]
-every = "10 ms"
-[output.checkpoints]
-every = "5 ms"
-CASE
-
-# expect CODE TEXT COMMAND...: the command ends with this code and says this text.
-expect() {
-  local code=$1 text=$2 said got
-  shift 2
-  said=$("$@" 2>&1)
-  got=$?
-  if [ $got -ne "$code" ]; then
-    echo "FAILED: exit code $got instead of $code: $*"
-    echo "$said"
-    failures=$((failures + 1))
-  fi
-  case "$said" in
-    *"$text"*) ;;
-    *) echo "FAILED: '$text' is missing in: $*"; echo "$said"; failures=$((failures + 1)) ;;
-  esac
-}
-check() {
-  "$@" || { echo "FAILED: $*"; failures=$((failures + 1)); }
-}
+source "${PIOLA_SOURCE_DIR:-$(dirname "$0")/../..}/tests/app/helpers.sh"
 
 expect 0 "run" "$program" --help
 expect 0 "." "$program" --version
@@ -172,5 +108,4 @@ expect 1 "cannot be written" "$program" run bar.toml --out /proc/piola
 )
 failures=$?
 
-[ $failures -eq 0 ] && echo "all good"
-exit $((failures > 0))
+finish

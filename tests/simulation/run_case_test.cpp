@@ -169,6 +169,53 @@ TEST(RunCase, ContinuesBitForBitFromAnEarlierCheckpoint) {
   expect_same_results(folder / "whole", folder / "parts");
 }
 
+TEST(RunCase, WritesACheckpointWhenAskedAndGoesOn) {
+  TemporaryFolder const folder;
+  Simulation quiet = probed(), asked = probed();
+  quiet.spec.output.checkpoints_every = asked.spec.output.checkpoints_every = 0;
+  run(quiet, folder / "quiet");
+  std::atomic<int> request{0}, none{0};
+  springs(asked).stop = &request;
+  springs(asked).stop_at = 37;
+  Listener listener;
+  struct Look : Observer {
+    std::filesystem::path folder;
+    std::vector<std::filesystem::path> found;
+    void see(Formulation const&, Moment const& moment) override {
+      if (moment.step == 38) found = list_checkpoints(folder);
+    }
+  } look;
+  look.folder = folder / "asked";
+  CaseOutcome const outcome =
+      run_case(asked, {.folder = look.folder, .also = &look, .checkpoint_request = &request}, listener, none);
+  EXPECT_EQ(outcome.ending, Ending::completed);
+  EXPECT_EQ(request, 0);
+  EXPECT_EQ(look.found, std::vector{checkpoint_path(look.folder, 37)});
+  EXPECT_NE(text_of(folder / "asked/log.txt").find("checkpoint at step 37"), std::string::npos);
+  expect_same_results(folder / "quiet", folder / "asked");
+}
+
+TEST(RunCase, StopsBeforeItsWallTimeIsOver) {
+  TemporaryFolder const folder;
+  Simulation s = probed(), whole = probed();
+  run(whole, folder / "whole");
+  std::atomic<int> none{0};
+  Listener listener;
+  auto const now = WallLimit::Clock::now();
+  RunOptions options{.folder = folder / "parts", .wall_time = 60, .started = now - std::chrono::seconds(61)};
+  CaseOutcome const outcome = run_case(s, options, listener, none);
+  EXPECT_EQ(outcome.ending, Ending::stopped);
+  EXPECT_TRUE(outcome.out_of_time);
+  EXPECT_EQ(outcome.summary.steps, 1);
+  EXPECT_EQ(read_checkpoint(list_checkpoints(folder / "parts").at(0)).step, 1);
+  EXPECT_NE(text_of(folder / "parts/log.txt").find("the wall time is used up"), std::string::npos);
+  options.resume = true;
+  options.started = now;
+  Simulation again = probed();
+  EXPECT_EQ(run_case(again, options, listener, none).ending, Ending::completed);
+  expect_same_results(folder / "whole", folder / "parts");
+}
+
 TEST(RunCase, LeavesACompletedRunAsItIsWhenResumed) {
   TemporaryFolder const folder;
   Simulation first = probed(), second = probed();

@@ -85,7 +85,7 @@ constexpr std::array keys{
             whole,
             "",
             {1, 4096, false, false},
-            "\"auto\" (all cores)",
+            "\"auto\" (OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)",
             "number of threads, or \"auto\"",
             {}},
     KeyInfo{"run", "machine", word, "", {}, "\"auto\"", "instruction set of the processor", machine_words},

@@ -183,8 +183,11 @@ void PictureObserver::load(NamedState& reader, Moment const& moment) {
   window_ = {v[2] != 0, v[3], v[4], v[5], v[6]};
 }
 
-CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others)
-    : results_(std::move(results)), schedule_(results_.spec.output.checkpoints_every), others_(std::move(others)) {
+CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointOrders orders)
+    : results_(std::move(results)),
+      schedule_(results_.spec.output.checkpoints_every),
+      others_(std::move(others)),
+      orders_(orders) {
   schedule_.due(0);  // the state at the start is the case itself
 }
 
@@ -207,12 +210,18 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
 }
 
 void CheckpointObserver::keep(Formulation const& formulation, Moment const& moment) {
+  auto const start = WallLimit::Clock::now();
   for (Observer* other : others_) other->sync();
   keep_checkpoint(results_.folder, take(formulation, moment));
+  if (orders_.wall != nullptr)
+    orders_.wall->checkpoint_took(std::chrono::duration<double>(WallLimit::Clock::now() - start).count());
 }
 
 void CheckpointObserver::see(Formulation const& formulation, Moment const& moment) {
-  if (schedule_.due(moment.time)) keep(formulation, moment);
+  bool const due = schedule_.due(moment.time);
+  bool const asked = orders_.request != nullptr && moment.step > 0 && orders_.request->exchange(0) != 0;
+  if (due || asked) keep(formulation, moment);
+  if (asked) results_.journal.note(fmt::format("checkpoint at step {}, t = {} s, as asked", moment.step, moment.time));
 }
 
 void CheckpointObserver::before_cut(Formulation const& formulation, Moment const& moment) { keep(formulation, moment); }

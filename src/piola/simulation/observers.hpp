@@ -10,6 +10,8 @@
 #include "piola/simulation/moment.hpp"
 #include "piola/simulation/probes.hpp"
 #include "piola/simulation/schedule.hpp"
+#include "piola/simulation/wall_limit.hpp"
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -104,12 +106,18 @@ class PictureObserver : public Observer {
   std::filesystem::path last_;
 };
 
-/// checkpoints/*.h5 at each due time, at the end and when stopped. Keeps what the other observers need, too. Before a
-/// last step that is cut to the end of the run there is one more: a run that is extended later continues from there as
-/// if it had never had that end.
+/// Who asks for checkpoints besides the case, and who wants to know how long they take; nullptr: nobody.
+struct CheckpointOrders {
+  std::atomic<int>* request = nullptr;  ///< not 0: a checkpoint is wanted; put back to 0 when taken up
+  WallLimit* wall = nullptr;
+};
+
+/// checkpoints/*.h5 at each due time, when asked for, at the end and when stopped. Keeps what the other observers need,
+/// too. Before a last step that is cut to the end of the run there is one more: a run that is extended later continues
+/// from there as if it had never had that end.
 class CheckpointObserver : public Observer {
  public:
-  CheckpointObserver(Results results, std::vector<Observer*> others);
+  CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointOrders orders);
   void see(Formulation const& formulation, Moment const& moment) override;
   void before_cut(Formulation const& formulation, Moment const& moment) override;
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
@@ -121,6 +129,7 @@ class CheckpointObserver : public Observer {
   Results results_;
   Schedule schedule_;
   std::vector<Observer*> others_;
+  CheckpointOrders orders_;
 };
 
 /// Tells the listener how far the run is, a few times per second.

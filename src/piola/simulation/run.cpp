@@ -39,7 +39,7 @@ Step choose_step(double stable, RunSpec const& run, Moment& moment) {
 }  // namespace
 
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
-            std::atomic<int> const& stop, Relaxation* relaxation) {
+            Stops const& stops, Relaxation* relaxation) {
   auto const start = Clock::now();
   double const wall_before = moment.wall_seconds;
   if (relaxation != nullptr && moment.step == 0) relaxation->start(formulation);
@@ -48,7 +48,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     auto const step_start = Clock::now();
     double const stable = formulation.stable_time_step();
     if (moment.step == 0) moment.first_dt = std::min(stable, run.max_step);
-    if (collapsed(stable, run, moment)) return {Ending::failed, collapse(stable)};
+    if (collapsed(stable, run, moment)) return {.ending = Ending::failed, .failure = collapse(stable)};
 
     auto const [dt, cut_to_end] = choose_step(stable, run, moment);
     if (cut_to_end) {
@@ -64,9 +64,12 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     moment.stepping_seconds += seconds_since(step_start);
     moment.wall_seconds = wall_before + seconds_since(start);
 
-    if (auto failure = formulation.failure()) return {Ending::failed, std::move(failure)};
+    if (auto failure = formulation.failure()) return {.ending = Ending::failed, .failure = std::move(failure)};
     for (Observer* observer : observers) observer->see(formulation, moment);
-    if (stop.load(std::memory_order_relaxed) != 0 && moment.time < run.end && !at_rest) return {Ending::stopped, {}};
+    stops.wall.step_took(seconds_since(step_start));
+    if (moment.time >= run.end || at_rest) continue;
+    if (stops.asked.load(std::memory_order_relaxed) != 0) return {.ending = Ending::stopped};
+    if (stops.wall.reached()) return {.ending = Ending::stopped, .out_of_time = true};
   }
   return {};
 }

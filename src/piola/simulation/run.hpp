@@ -5,6 +5,7 @@
 #include "piola/simulation/moment.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/relaxation.hpp"
+#include "piola/simulation/wall_limit.hpp"
 #include <atomic>
 #include <optional>
 #include <span>
@@ -14,13 +15,20 @@ namespace piola {
 /// How the main loop ended.
 struct March {
   Ending ending = Ending::completed;
-  std::optional<Failure> failure;  ///< set if ending is failed
+  std::optional<Failure> failure = {};  ///< set if ending is failed
+  bool out_of_time = false;             ///< stopped because the wall time is used up
+};
+
+/// What ends the main loop before the end time of the run.
+struct Stops {
+  std::atomic<int> const& asked;  ///< by a signal, when it is not zero
+  WallLimit& wall;
 };
 
 /// The main loop: from `moment` to the end time of `run`, or until the bodies are at rest if `relaxation` looks for
-/// that, or until the physics fails, or until `stop` is not zero. Observers see the const state after each step; they
-/// never change the step.
+/// that, or until the physics fails, or until one of `stops` says so. Observers see the const state after each step;
+/// they never change the step.
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
-            std::atomic<int> const& stop, Relaxation* relaxation = nullptr);
+            Stops const& stops, Relaxation* relaxation = nullptr);
 
 }  // namespace piola

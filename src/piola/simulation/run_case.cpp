@@ -32,12 +32,12 @@ struct Watch {
 
   Observer* also;
 
-  Watch(Results const& results, Listener& listener, Observer* last)
+  Watch(Results const& results, Listener& listener, CheckpointOrders const& orders, Observer* last)
       : history(results),
         frames(results),
         pictures(results),
         relaxation(results.spec.run),
-        checkpoints(results, {&history, &frames, &pictures, &relaxation}),
+        checkpoints(results, {&history, &frames, &pictures, &relaxation}, orders),
         progress(listener, results.spec.run.end, results.particles.size(), history),
         also(last) {}
   std::vector<Observer*> all() {
@@ -133,6 +133,18 @@ std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder
   for (std::string const& warning : warnings) journal.warn(warning);
   for (std::string const& change : changes) journal.note("changed: " + change);
   return moment;
+}
+
+/// Bytes of what a formulation saves.
+std::int64_t size_of_state(Formulation const& formulation) {
+  struct Counter : StateWriter {
+    std::int64_t bytes = 0;
+    void put(std::string_view, std::span<double const> values) override {
+      bytes += static_cast<std::int64_t>(values.size_bytes());
+    }
+  } counter;
+  formulation.save(counter);
+  return counter.bytes;
 }
 
 /// A resumed run: everything as it was when the newest good checkpoint was written, but for the changes that the user
@@ -282,15 +294,26 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
   for (std::string const& warning : s.warnings) journal.warn(warning);
-  Watch watch({options.folder, s.spec, s.particles, journal}, listener, options.also);
+  WallLimit wall(options.wall_time, options.started);
+  Watch watch({options.folder, s.spec, s.particles, journal}, listener, {options.checkpoint_request, &wall},
+              options.also);
+  auto const before = WallLimit::Clock::now();
   Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
+  if (wall.exists()) {
+    wall.step_took(std::chrono::duration<double>(WallLimit::Clock::now() - before).count());
+    wall.checkpoint_has(size_of_state(*s.formulation));
+  }
   std::vector<Observer*> const observers = watch.all();
-  March const end = march(*s.formulation, s.spec.run, moment, observers, stop, &watch.relaxation);
+  March const end = march(*s.formulation, s.spec.run, moment, observers, {stop, wall}, &watch.relaxation);
   report_rest(s, watch.relaxation, end.ending, journal);
   for (Observer* observer : observers) observer->finish(*s.formulation, moment, end.ending);
 
-  CaseOutcome outcome{
-      end.ending, summarise(s, moment, end.ending, watch.history.table(), journal), {}, watch.pictures.last(), {}};
+  CaseOutcome outcome{.ending = end.ending,
+                      .summary = summarise(s, moment, end.ending, watch.history.table(), journal),
+                      .failure = {},
+                      .out_of_time = end.out_of_time,
+                      .last_picture = watch.pictures.last(),
+                      .index = {}};
   if (end.failure) outcome.failure = failure_text(*end.failure, moment, s.spec.run.cfl, options.folder);
   if (std::filesystem::exists(options.folder / "frames.hdf.series"))
     outcome.index = options.folder / "frames.hdf.series";
@@ -302,6 +325,7 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
   journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time,
                            duration_text(moment.wall_seconds)));
   if (end.failure) journal.note(outcome.failure);
+  if (end.out_of_time) journal.note("the wall time is used up");
   return outcome;
 }
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "signals.hpp"
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+#include <unistd.h>
+
+namespace piola::app {
+namespace {
+
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
+
+std::atomic<std::int64_t> first_signal{0};  ///< when it came [ms]; 0: not yet
+
+std::int64_t milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{1000} * now.tv_sec + now.tv_nsec / 1'000'000 + 1;
+}
+
+extern "C" void on_stop_signal(int signal, siginfo_t* info, void*) {
+  constexpr std::int64_t patience = 500;
+  std::int64_t const now = milliseconds();
+  std::int64_t before = 0;
+  if (first_signal.compare_exchange_strong(before, now)) {
+    stop_signal = signal;
+    return;
+  }
+  bool const from_keyboard = info != nullptr && info->si_code == SI_KERNEL && signal == SIGINT;
+  if (from_keyboard || now - before >= patience) ::_exit(128 + signal);
+}
+
+extern "C" void on_checkpoint_signal(int signal, siginfo_t*, void*) {
+  int none = 0;
+  if (signal == SIGUSR1)
+    checkpoint_signal = signal;
+  else
+    stop_signal.compare_exchange_strong(none, signal);
+}
+
+void on(int signal, void (*handler)(int, siginfo_t*, void*)) {
+  struct sigaction action {};
+  action.sa_sigaction = handler;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction now {};
+  return sigaction(signal, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+std::atomic<int> stop_signal{0}, checkpoint_signal{0};
+
+void catch_stop_signals() {
+  on(SIGINT, on_stop_signal);
+  on(SIGTERM, on_stop_signal);
+  if (!is_ignored(SIGHUP)) on(SIGHUP, on_stop_signal);
+}
+
+void catch_checkpoint_signals() {
+  on(SIGUSR1, on_checkpoint_signal);
+  on(SIGUSR2, on_checkpoint_signal);
+}
+
+}  // namespace piola::app
