@@ -127,9 +127,9 @@ void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
     auto const count = loaded_particles(particles, body_named(particles, load.body), load).size();
     std::string const face = load.on_face() ? " of face " + face_text(load.face) : "";
     bool const pressure = load.kind == LoadSpec::Kind::pressure;
-    say("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)),
-               face, kinds[kind], pressure ? load.value[0].text() : vector_text(load.value, particles.dimension),
-               units[kind], until_text(load.until));
+    say("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)), face,
+        kinds[kind], pressure ? load.value[0].text() : vector_text(load.value, particles.dimension), units[kind],
+        until_text(load.until));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const count = face_particles(particles, body_named(particles, mirror.body), mirror.face).size();
@@ -233,11 +233,11 @@ void print_cost(CaseSpec const& spec, Estimate const& cost) {
   std::string const first =
       cost.rule.first < cost.step ? fmt::format(", from {} at the start", quantity_text(cost.rule.first, "s", 3)) : "";
   say("step: about {}{}, about {} {}\n", quantity_text(cost.step, "s", 3), first, count_text(cost.steps),
-             cost.steps == 1 ? "step" : "steps");
+      cost.steps == 1 ? "step" : "steps");
   say("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
   say("needs, estimated: {} to set up and {} to run with {} {}, {} of memory, {} of disk\n",
-             duration_text(cost.setup_seconds), duration_text(cost.run_seconds), cost.threads,
-             cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
+      duration_text(cost.setup_seconds), duration_text(cost.run_seconds), cost.threads,
+      cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
 }
 
 int check(CaseOptions const& options) {
@@ -247,7 +247,7 @@ int check(CaseOptions const& options) {
   Look const look = look_at(spec, particles.size());
   say("{}\n", spec.title);
   say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
-             quantity_text(spec.run.end, "s"));
+      quantity_text(spec.run.end, "s"));
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
   print_supports(spec, particles);
   print_loads(spec, particles);
@@ -257,8 +257,7 @@ int check(CaseOptions const& options) {
   print_output(spec);
   std::vector<std::string> const& warnings = look.warnings;
   for (std::string const& warning : warnings) say("warning: {}\n", warning);
-  say("{}\n",
-             warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
+  say("{}\n", warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
   return with_output(completed);
 }
 

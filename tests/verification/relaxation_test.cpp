@@ -59,7 +59,8 @@ Relaxed relax(Assembly const& a, double end = 10, double limit = 1e-4) {
   run.rest = limit;
   Relaxation relaxation(run);
   std::atomic<int> const stop{0};
-  march(*r.formulation, run, r.moment, {}, stop, &relaxation);
+  WallLimit wall(WallLimit::none, WallLimit::Clock::now());
+  march(*r.formulation, run, r.moment, {}, {stop, wall}, &relaxation);
   r.rest = relaxation.rest();
   return r;
 }
