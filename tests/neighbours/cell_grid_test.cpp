@@ -3,6 +3,7 @@
 #include "math/random.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -87,12 +88,57 @@ TEST(CellGrid, OfNoPointsFindsNothing) {
   grid.visit({0, 0, 0}, [](Index) { ADD_FAILURE(); });
 }
 
+/// Points looked at for all places together: what the grid costs.
+std::size_t visits(CellGrid const& grid, Points const& places) {
+  std::size_t count = 0;
+  for (auto const& x : places) grid.visit(x, [&](Index) { ++count; });
+  return count;
+}
+
+TEST(CellGrid, StaysFineBesidePointsFarAway) {
+  Points points = cloud(2000, 1, 1, 6);
+  std::size_t const alone = visits(CellGrid(points, 0.2), points);
+  for (double const far : {1e3, 1e30, -1e30, 1e300}) {
+    points.resize(2000);
+    points.insert(points.begin(), {far, 0, 0});
+    points.push_back({0, far, far});
+    EXPECT_EQ(expect_all_found(points, 0.2), expect_all_found(Points(points.begin() + 1, points.end()), 0.2) + 1);
+    EXPECT_LT(visits(CellGrid(points, 0.2), points), alone + alone / 2) << far;
+  }
+}
+
+TEST(CellGrid, LeavesOutPointsWithoutAFinitePlace) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  Points const good = cloud(300, 1, 1, 7);
+  for (double const bad : {infinity, -infinity, nan}) {
+    Points points = good;
+    points.push_back({0, bad, 0});
+    points[0] = points[1] = {bad, bad, bad};
+    CellGrid const grid(points, 0.3);
+    std::vector<int> seen(points.size(), 0);
+    for (auto const& x : points) grid.visit(x, [&](Index p) { ++seen[static_cast<std::size_t>(p)]; });
+    for (std::size_t p = 0; p < points.size(); ++p) EXPECT_EQ(seen[p] == 0, p < 2 || p == 300) << p;
+    for (std::size_t p = 2; p < 300; ++p)
+      EXPECT_EQ(within(grid, points, points[p], 0.3), one_by_one(points, points[p], 0.3));
+  }
+}
+
+TEST(CellGrid, TakesAnyWidthOfCells) {
+  Points const points = cloud(50, 1, 1, 8);
+  EXPECT_EQ(visits(CellGrid(points, 1e-9), points), 50U);
+  EXPECT_EQ(visits(CellGrid(points, 1e300), points), 2500U);
+  EXPECT_EQ(visits(CellGrid(points, std::numeric_limits<double>::infinity()), points), 2500U);
+  for (double const cell : {0.0, 1e-300, 1e-30}) EXPECT_GE(visits(CellGrid(points, cell), points), 50U);
+}
+
 TEST(CellGrid, VisitsEachPointAtMostOnce) {
   Points const points = cloud(300, 1, 1, 5);
-  CellGrid const grid(points, 0.4);
-  for (auto const& x : points) {
-    std::vector<int> seen(points.size(), 0);
-    grid.visit(x, [&](Index p) { EXPECT_EQ(++seen[static_cast<std::size_t>(p)], 1); });
+  for (double const cell : {0.4, 0.01}) {  // stored one after the other, and in a hash table
+    CellGrid const grid(points, cell);
+    for (auto const& x : points) {
+      std::vector<int> seen(points.size(), 0);
+      grid.visit(x, [&](Index p) { EXPECT_EQ(++seen[static_cast<std::size_t>(p)], 1); });
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -127,6 +128,17 @@ TEST(MovingPairs, AreAllPairsWithParticlesFarAway) {
   }
 }
 
+TEST(MovingPairs, AreAllPairsWithParticlesAtTheEndOfTheWorld) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (int const dimension : {2, 3})
+    for (double const far : {1e30, -1e30, 1e300, infinity, nan}) {
+      Points x = cloud(dimension, 500, 7);
+      x.push_back({far, 5.5, 0});
+      x[0] = {far, far, dimension == 3 ? far : 0};
+      expect_all_pairs({dimension, x, dimension == 2 ? 0.13 : 0.25}, 0.2);
+    }
+}
+
 TEST(MovingPairs, KeepToTheirGroupOrCrossIt) {
   for (int const dimension : {2, 3})
     for (bool const across : {false, true}) {
@@ -173,6 +185,24 @@ TEST(MovingPairs, TellHowMuchRoomALongListNeeds) {
   EXPECT_EQ(found[0], 199);
   EXPECT_GE(length[0], 199);
   EXPECT_EQ(list, std::vector<Index>(32, -1)) << "a list that is too long is not stored";
+}
+
+TEST(MovingGrid, StaysFineBesideAParticleFarAway) {
+  auto const fullest = [](Points const& x) {
+    MovingGrid grid;
+    grid.sort(x[0].data(), 3, static_cast<Index>(x.size()), 3, 0.05);
+    Index most = 0;
+    for (Index c = 0; c < grid.cell_count(); ++c) most = std::max(most, grid.begins()[c + 1] - grid.begins()[c]);
+    EXPECT_LT(grid.slack(), 0.1);
+    EXPECT_LT(grid.cell_count(), 8 * std::ssize(x) + 200000);
+    return most;
+  };
+  Points x = cloud(3, 3000, 11);
+  Index const alone = fullest(x);
+  x.push_back({1e30, 0, 0});
+  EXPECT_LE(fullest(x), alone + 1);
+  x.push_back({-1e25, 1e30, std::numeric_limits<double>::quiet_NaN()});
+  EXPECT_LE(fullest(x), alone + 2);
 }
 
 TEST(MovingGrid, SortsByCellsAndWithinACellByNumber) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <string>
@@ -192,6 +193,21 @@ TEST(SetPairs, RefuseATargetThatHasTooFewAroundIt) {
     EXPECT_EQ(std::string(error.what()),
               "neighbours: the particle at (0, 0, 0) m has 3 of the other set around it (5 are needed) - make the body "
               "wider or the spacing smaller");
+  }
+}
+
+/// A particle whose cells are all gone has the length zero: no multiple of it reaches anything.
+TEST(SetPairs, RefuseATargetWithoutASmoothingLength) {
+  for (double const h : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    Sets sets(3, 12, 2);
+    sets.least.assign(3, 1);
+    sets.h[1] = h;
+    try {
+      (void)sets.pairs();
+      FAIL() << "was accepted";
+    } catch (TooFewSources const& error) {
+      EXPECT_EQ(error.target, 1);
+    }
   }
 }
 

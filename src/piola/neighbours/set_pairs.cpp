@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/set_pairs.hpp"
-#include "piola/base/problems.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,8 @@ class Search {
     bool const enough = within(h) >= request_.least[t];
     while (!enough && within(h, weighty) < request_.least[t]) {
       h *= growth;
-      if (h > largest_growth * request_.h[t]) refuse(target, within(h, weighty));
+      // Written so that a length of zero, or one that is not a number, is refused, too.
+      if (!(h <= largest_growth * request_.h[t] && h > 0)) refuse(target, within(h, weighty));
       if (!far_) far_.emplace(request_.sources, largest_growth * request_.support * widest_ * (1 + request_.skin));
       collect(*far_, target, h);
     }
@@ -69,10 +69,11 @@ class Search {
   [[noreturn]] void refuse(Index target, int has) const {
     auto const t = static_cast<std::size_t>(target);
     Point const& x = request_.targets[t];
-    throw InputError(
+    throw TooFewSources(
         fmt::format("neighbours: the particle at ({:.4g}, {:.4g}, {:.4g}) m has {} of the other set around it ({} are "
                     "needed) - make the body wider or the spacing smaller",
-                    x[0], x[1], x[2], has, request_.least[t]));
+                    x[0], x[1], x[2], has, request_.least[t]),
+        target);
   }
 
   SetPairRequest const& request_;

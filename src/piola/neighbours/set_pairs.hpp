@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/problems.hpp"
 #include "piola/math/lanes.hpp"
 #include <array>
 #include <functional>
@@ -31,10 +32,17 @@ struct SetPairRequest {
   std::function<bool(Index, Index)> visible;
 };
 
+/// A target cannot get enough sources.
+class TooFewSources : public InputError {
+ public:
+  TooFewSources(std::string const& text, Index which) : InputError(text), target(which) {}
+  Index target;
+};
+
 /// Lists of one pair of sets.
 class SetPairs {
  public:
-  /// `filler`: a source record that is far away. Slots without a target get an empty list. Throws InputError if a
+  /// `filler`: a source record that is far away. Slots without a target get an empty list. Throws TooFewSources if a
   /// target cannot get enough sources within four times its h.
   void build(SetPairRequest const& request, int lanes, Index filler);
 

@@ -66,6 +66,12 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
 
     if (auto failure = formulation.failure()) return {.ending = Ending::failed, .failure = std::move(failure)};
     for (Observer* observer : observers) observer->see(formulation, moment);
+    for (Observer const* observer : observers) {
+      if (auto objection = observer->objection())
+        return {.ending = Ending::failed,
+                .failure = std::move(objection->failure),
+                .causes = std::move(objection->causes)};
+    }
     stops.wall.step_took(seconds_since(step_start));
     if (moment.time >= run.end || at_rest) continue;
     if (stops.asked.load(std::memory_order_relaxed) != 0) return {.ending = Ending::stopped};

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace piola {
 
@@ -16,6 +17,7 @@ namespace piola {
 struct March {
   Ending ending = Ending::completed;
   std::optional<Failure> failure = {};  ///< set if ending is failed
+  std::string causes = {};              ///< likely ones, where more is known than the failure says
   bool out_of_time = false;             ///< stopped because the wall time is used up
 };
 
@@ -26,8 +28,8 @@ struct Stops {
 };
 
 /// The main loop: from `moment` to the end time of `run`, or until the bodies are at rest if `relaxation` looks for
-/// that, or until the physics fails, or until one of `stops` says so. Observers see the const state after each step;
-/// they never change the step.
+/// that, or until the physics fails or an observer objects, or until one of `stops` says so. Observers see the const
+/// state after each step; they never change the step.
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
             Stops const& stops, Relaxation* relaxation = nullptr);
 

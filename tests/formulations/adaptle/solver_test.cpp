@@ -148,6 +148,18 @@ TEST(AdaptleSolver, TellsOfABodyThatIsInverted) {
   EXPECT_EQ(f->failure()->body, "box");
 }
 
+/// Whatever becomes of a particle, steps end, and what is not finite is a failure.
+TEST(AdaptleSolver, ComesToAnEndWithAParticleThatFliesOff) {
+  for (int const dimension : {2, 3})
+    for (double const speed : {1e12, 1e25, 1e30, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+      Assembly a = collision(dimension, "none", "auto", 1.5);
+      a.initial_velocity[3] = {-speed, speed, 0};
+      auto const f = make_formulation(a);
+      for (int k = 0; k < 3 && !f->failure(); ++k) f->step(1e-6 * k, 1e-6);
+      EXPECT_TRUE(speed < 1e30 || f->failure()) << speed;
+    }
+}
+
 TEST(AdaptleSolver, HoldsSupportsAndCountsTheirWork) {
   Assembly a = adaptle_assembly(unit_box(2, 9));
   support(a, {true, true, false}, [](Point const& X) { return X[0] < 0.01; });
