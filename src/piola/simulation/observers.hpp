@@ -5,7 +5,6 @@
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/history.hpp"
-#include "piola/output/picture.hpp"
 #include "piola/simulation/journal.hpp"
 #include "piola/simulation/moment.hpp"
 #include "piola/simulation/probes.hpp"
@@ -82,26 +81,6 @@ class FrameObserver : public Observer {
   Results results_;
   Schedule schedule_;
   FrameWriter writer_;
-};
-
-/// pictures/FIELD-000000.png at each due time and at the end.
-class PictureObserver : public Observer {
- public:
-  explicit PictureObserver(Results results);
-  void see(Formulation const& formulation, Moment const& moment) override;
-  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
-  void save(StateWriter& writer) const override;
-  void load(NamedState& reader, Moment const& moment) override;
-  std::filesystem::path const& last() const { return last_; }
-
- private:
-  void draw(Formulation const& formulation, double time);
-  Results results_;
-  Schedule schedule_;
-  Window window_;
-  std::vector<double> radii_;
-  double count_ = 0, last_time_ = -1;
-  std::filesystem::path last_;
 };
 
 /// checkpoints/*.h5 at each due time, at the end and when stopped. Keeps what the other observers need, too. Before a
