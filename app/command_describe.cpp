@@ -10,7 +10,7 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct DescribeArguments {
   std::string kind, name;
   bool markdown = false;
 };
@@ -24,7 +24,7 @@ struct Topic {
 constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", describe_materials},
                             Topic{"kernel", describe_kernels}, Topic{"formulation", describe_formulations}};
 
-int describe(Options const& options) {
+int describe(DescribeArguments const& options) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
   if (options.kind.empty()) {
     fmt::print("{}", options.markdown ? manual_page() : overview());
@@ -45,7 +45,7 @@ int describe(Options const& options) {
 }  // namespace
 
 void add_describe(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<DescribeArguments>();
   CLI::App* command =
       program.add_subcommand("describe", "Explain materials, kernels, formulations and the keys of a case file");
   command->add_option("kind", options->kind, "material, kernel, formulation or case; all in short if left out");

@@ -9,13 +9,13 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct ResumeArguments {
   CaseOptions from;
   std::string folder;
   bool quiet = false;
 };
 
-int resume(Options const& options) {
+int resume(ResumeArguments const& options) {
   std::filesystem::path const file = std::filesystem::path(options.folder) / "case.toml";
   if (!std::filesystem::exists(file)) {
     throw InputError(fmt::format(
@@ -29,7 +29,7 @@ int resume(Options const& options) {
 }  // namespace
 
 void add_resume(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<ResumeArguments>();
   CLI::App* command = program.add_subcommand("resume", "Continue a run from its newest checkpoint, bit for bit");
   command->add_option("folder", options->folder, "The results folder of the run")->required();
   options->from.add_to(*command, false);

@@ -8,13 +8,13 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct RunArguments {
   CaseOptions from;
   std::string out;
   bool force = false, quiet = false, no_pictures = false;
 };
 
-int run(Options const& options) {
+int run(RunArguments const& options) {
   auto const file = case_file(options.from.file);
   CaseSpec spec = read_case(file, options.from.overrides());
   if (options.no_pictures) spec.output.pictures_every = 0;
@@ -29,7 +29,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_run(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<RunArguments>();
   CLI::App* command =
       program.add_subcommand("run", "Run a case: frames, history, pictures and checkpoints go to a results folder");
   options->from.add_to(*command);
