@@ -26,7 +26,6 @@ foreach(source IN LISTS _sources)
 endforeach()
 
 add_library(piola STATIC ${_sources})
-set_target_properties(piola PROPERTIES UNITY_BUILD OFF)  # files have names of their own in unnamed namespaces
 add_library(Piola::piola ALIAS piola)
 target_include_directories(piola PUBLIC
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>" "$<INSTALL_INTERFACE:include>")
