@@ -12,7 +12,7 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct BenchArguments {
   std::string formulation = "jst_sph", machine = "auto";
   std::vector<std::string> parts;
   std::vector<int> threads{1, 2};
@@ -26,7 +26,7 @@ int print(Report const& report, bool json) {
   return with_output(completed);
 }
 
-int bench_jst(Options const& options) {
+int bench_jst(BenchArguments const& options) {
   BenchOptions bench;
   bench.machine = options.machine;
   bench.threads = options.threads;
@@ -46,13 +46,13 @@ int bench_jst(Options const& options) {
   return print(bench_jst_sph(bench), options.json);
 }
 
-void refuse_parts(Options const& options) {
+void refuse_parts(BenchArguments const& options) {
   if (options.parts.empty()) return;
   throw InputError(fmt::format("--only: the benchmark of {} has one part (only jst_sph has several) - leave it out",
                                options.formulation));
 }
 
-int bench_taylor(Options const& options) {
+int bench_taylor(BenchArguments const& options) {
   refuse_parts(options);
   TaylorBenchOptions bench;
   bench.machine = options.machine;
@@ -68,7 +68,7 @@ int bench_taylor(Options const& options) {
   return print(bench_taylor_sph(bench), options.json);
 }
 
-int bench_impact(Options const& options) {
+int bench_impact(BenchArguments const& options) {
   refuse_parts(options);
   AdaptleBenchOptions bench;
   bench.machine = options.machine;
@@ -79,7 +79,7 @@ int bench_impact(Options const& options) {
   return print(bench_adaptle(bench), options.json);
 }
 
-int bench(Options const& options) {
+int bench(BenchArguments const& options) {
   if (options.formulation == "jst_sph") return bench_jst(options);
   if (options.formulation == "taylor_sph") return bench_taylor(options);
   if (options.formulation == "adaptle") return bench_impact(options);
@@ -90,7 +90,7 @@ int bench(Options const& options) {
 }  // namespace
 
 void add_bench(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<BenchArguments>();
   CLI::App* command = program.add_subcommand("bench", "Measure the speed of the solver on this computer");
   command->add_option("formulation", options->formulation, "What to measure: jst_sph (default), taylor_sph or adaptle");
   command

@@ -11,7 +11,7 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct DescribeArguments {
   std::string kind, name;
   bool markdown = false;
 };
@@ -25,7 +25,7 @@ struct Topic {
 constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", describe_materials},
                             Topic{"kernel", describe_kernels}, Topic{"formulation", describe_formulations}};
 
-int describe(Options const& options) {
+int describe(DescribeArguments const& options) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
   if (options.kind.empty()) {
     write_out(options.markdown ? manual_page() : overview());
@@ -46,7 +46,7 @@ int describe(Options const& options) {
 }  // namespace
 
 void add_describe(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<DescribeArguments>();
   CLI::App* command =
       program.add_subcommand("describe", "Explain materials, kernels, formulations and the keys of a case file");
   command->add_option("kind", options->kind, "material, kernel, formulation or case; all in short if left out");

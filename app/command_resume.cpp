@@ -10,13 +10,13 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct ResumeArguments {
   CaseOptions from;
   std::string folder, wall_time;
   bool quiet = false;
 };
 
-int resume(Options const& options) {
+int resume(ResumeArguments const& options) {
   catch_checkpoint_signals();
   double const wall_time = read_wall_time(options.wall_time);
   std::filesystem::path const file = std::filesystem::path(options.folder) / "case.toml";
@@ -35,7 +35,7 @@ int resume(Options const& options) {
 }  // namespace
 
 void add_resume(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<ResumeArguments>();
   CLI::App* command = program.add_subcommand("resume", "Continue a run from its newest checkpoint, bit for bit");
   command->add_option("folder", options->folder, "The results folder of the run")->required();
   options->from.add_to(*command, false);

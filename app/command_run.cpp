@@ -9,13 +9,13 @@
 namespace piola::app {
 namespace {
 
-struct Options {
+struct RunArguments {
   CaseOptions from;
   std::string out, wall_time;
   bool force = false, quiet = false, no_pictures = false;
 };
 
-int run(Options const& options) {
+int run(RunArguments const& options) {
   catch_checkpoint_signals();
   double const wall_time = read_wall_time(options.wall_time);
   auto const file = case_file(options.from.file);
@@ -33,7 +33,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_run(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<RunArguments>();
   CLI::App* command =
       program.add_subcommand("run", "Run a case: frames, history, pictures and checkpoints go to a results folder");
   options->from.add_to(*command);

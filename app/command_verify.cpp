@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct VerifyArguments {
   CaseOptions with;
   std::vector<std::string> names;
   std::string cases, out, markdown;
@@ -106,7 +106,7 @@ void keep_the_last_picture(OutputSpec& output, double end) {
   output.picture_width = width;
 }
 
-int run_verify(Options const& options) {
+int run_verify(VerifyArguments const& options) {
   catch_stop_signals();
   std::unique_ptr<TemporaryFolder> scratch;
   if (options.out.empty()) scratch = std::make_unique<TemporaryFolder>();
@@ -144,7 +144,7 @@ int run_verify(Options const& options) {
 }  // namespace
 
 void add_verify(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<Options>();
+  auto const options = std::make_shared<VerifyArguments>();
   CLI::App* command = program.add_subcommand(
       "verify", "Run cases and compare with published numbers; exit code 1 if one falls short unexpectedly");
   command->add_option("names", options->names, "Cases, or folders of cases (default: all)");

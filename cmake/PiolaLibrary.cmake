@@ -18,6 +18,13 @@ if(NOT _sources)
   set(_sources "${_empty}")
 endif()
 
+# Reading a case is no hot loop, and compiles a third faster with little optimisation.
+foreach(source IN LISTS _sources)
+  if(source MATCHES "/src/piola/input/")
+    set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+  endif()
+endforeach()
+
 add_library(piola STATIC ${_sources})
 add_library(Piola::piola ALIAS piola)
 target_include_directories(piola PUBLIC
@@ -26,6 +33,6 @@ target_include_directories(piola SYSTEM PRIVATE "${PIOLA_TOML_INCLUDE}")
 target_compile_definitions(piola PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
 target_link_libraries(piola
   PUBLIC piola_options
-  PRIVATE $<BUILD_INTERFACE:piola_warnings> $<BUILD_INTERFACE:piola_host>
+  PRIVATE $<BUILD_INTERFACE:piola_warnings> $<BUILD_INTERFACE:piola_host> $<BUILD_INTERFACE:piola_hardened>
           Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2
           muparser::muparser nlohmann_json::nlohmann_json)

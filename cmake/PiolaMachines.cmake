@@ -2,8 +2,9 @@
 # Machines: the hot files, src/piola/formulations/*/machine.cpp, are compiled once per instruction set and chosen from
 # when the program starts. Everything they define lives in an inline namespace named PIOLA_MACHINE.
 
+include(PiolaNativeMachine)
 set(PIOLA_MACHINES "all" CACHE STRING
-    "Instruction sets to build: all, quick (the portable one and one with SIMD), or a list such as scalar;v3")
+    "Instruction sets to build: all, quick (portable and SIMD), native (best of this processor), or a list: scalar;v3")
 set(PIOLA_MACHINE_OPTIMISATION "-O3" CACHE STRING "Optimisation level of the hot files")
 
 set(_flags_scalar "-DPIOLA_SCALAR_LANES=1")
@@ -28,12 +29,14 @@ if(PIOLA_MACHINES STREQUAL "all")
   set(PIOLA_MACHINES_BUILT ${_known})
 elseif(PIOLA_MACHINES STREQUAL "quick")
   set(PIOLA_MACHINES_BUILT ${_quick})
+elseif(PIOLA_MACHINES STREQUAL "native" AND NOT "native" IN_LIST _known)
+  piola_native_machine(PIOLA_MACHINES_BUILT)
 else()
   set(PIOLA_MACHINES_BUILT ${PIOLA_MACHINES})
   foreach(machine IN LISTS PIOLA_MACHINES_BUILT)
     if(NOT machine IN_LIST _known)
       list(JOIN _known ", " _names)
-      message(FATAL_ERROR "PIOLA_MACHINES: unknown machine '${machine}' (known here: ${_names}, or all, quick)")
+      message(FATAL_ERROR "PIOLA_MACHINES: unknown machine '${machine}' (known here: ${_names}, or all, quick, native)")
     endif()
   endforeach()
 endif()
@@ -67,7 +70,7 @@ function(piola_add_machine source machine)
   # undefined operand of its own AVX-512 intrinsics for a mistake (GCC bug 105593), and packs filled lane by lane.
   target_compile_options(${target} PRIVATE -ffp-contract=fast $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized>
                                            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  target_link_libraries(${target} PRIVATE piola_options piola_warnings)
+  target_link_libraries(${target} PRIVATE piola_options piola_warnings piola_pie)
   if(NOT PIOLA_SEAL)
     target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
     return()

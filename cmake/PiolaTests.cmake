@@ -26,6 +26,10 @@ endif()
 set(PIOLA_PYTHON "/usr/bin/python3" CACHE FILEPATH "Python that sees Debian's packages (numpy, h5py)")
 file(GLOB_RECURSE _scripts CONFIGURE_DEPENDS
   "${PROJECT_SOURCE_DIR}/tests/*_test.sh" "${PROJECT_SOURCE_DIR}/tests/*_test.py")
+set(_environment
+  "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
+  "PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>"
+  "PIOLA_HARDENED=$<AND:$<BOOL:${PIOLA_HARDENING}>,$<CONFIG:Release>>")
 foreach(script IN LISTS _scripts)
   file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/tests" "${script}")
   if(script MATCHES "\\.py$")
@@ -34,7 +38,7 @@ foreach(script IN LISTS _scripts)
     add_test(NAME "${name}" COMMAND bash "${script}")
   endif()
   set_tests_properties("${name}" PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT
-    "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR};PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>")
+    "${_environment}")
 endforeach()
 
 # The stored inputs of every fuzz target are ordinary tests; finding new ones needs clang (PiolaFuzz.cmake).

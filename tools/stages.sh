@@ -43,10 +43,16 @@ build() {
     check "build $preset" quietly "build/$preset/build.log" cmake --build --preset "$preset" -- -k 0 -j"$jobs"
 }
 
-# run_ctest PRESET: every test counts.
+# run_ctest PRESET [COMMAND...]: every test counts; ctest runs under the command, if there is one. PIOLA_TEST_FILTER, a
+# regular expression, chooses tests by name.
 run_ctest() {
   local preset=$1 log=build/$1/ctest.log summary bad all left_out
-  ctest --preset "$preset" -j"$jobs" --timeout 600 --no-tests=error >"$log" 2>&1 </dev/null || true
+  shift
+  local chosen=(--preset "$preset" -j"$jobs" --timeout 600 --no-tests=error)
+  if [[ -n ${PIOLA_TEST_FILTER:-} ]]; then
+    chosen+=(-R "$PIOLA_TEST_FILTER")
+  fi
+  "$@" ctest "${chosen[@]}" >"$log" 2>&1 </dev/null || true
   summary=$(grep -E 'tests passed, [0-9]+ tests? failed out of [0-9]+' "$log" || true)
   if [[ -z $summary ]]; then
     tail -n 20 "$log"

@@ -44,6 +44,17 @@ TEST(MachineChoice, FindsByNameAndTakesTheFirstForAuto) {
   EXPECT_EQ(choice.find(""), nullptr);
 }
 
+TEST(MachineChoice, SaysWhichMachinesAreUsable) {
+  char const* const names[] = {"v4", "scalar", nullptr};
+  EXPECT_EQ(not_usable("v9", names),
+            "machine 'v9' is unknown or not usable on this processor (usable: auto, v4, scalar)");
+}
+
+TEST(MachineChoice, SaysThatAProgramWasBuiltForAnotherProcessor) {
+  char const* const none[] = {nullptr};
+  EXPECT_TRUE(not_usable("auto", none).starts_with("this program was built for another processor")) << "and what to do";
+}
+
 TEST(MachineChoice, OfNothingFindsNothing) {
   MachineChoice<Fake> const choice({});
   EXPECT_EQ(choice.names()[0], nullptr);

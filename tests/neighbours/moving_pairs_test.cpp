@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <limits>
 
 namespace piola {
@@ -152,9 +153,10 @@ TEST(MovingPairs, KeepToTheirGroupOrCrossIt) {
 }
 
 TEST(MovingPairs, ComeInTheSameOrderFromEveryMachine) {
+  if (*std::next(adaptle::machine_names()) == nullptr) GTEST_SKIP() << "this build has one machine";
   for (int const dimension : {2, 3}) {
     Search const s{dimension, cloud(dimension, 1500, 8), dimension == 2 ? 0.11 : 0.2};
-    auto const first = s.lists("scalar");
+    auto const first = s.lists("auto");
     for (auto names = adaptle::machine_names(); *names != nullptr; ++names) EXPECT_EQ(s.lists(*names), first) << *names;
   }
 }

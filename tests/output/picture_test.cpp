@@ -176,6 +176,45 @@ TEST(PictureValues, LeaveExtremesOutOfTheTypicalRange) {
   EXPECT_EQ(typical_range({}), (std::array{0.0, 0.0}));
 }
 
+TEST(PictureValues, AreTheComponentAskedFor) {
+  std::array const two{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+  EXPECT_EQ(picture_values(two, 3, *find_component("y", 3)), (std::vector<double>{2, 5}));
+  EXPECT_EQ(picture_values(two, 6, *find_component("XY", 6)), std::vector<double>{4});
+  EXPECT_EQ(find_component("magnitude", 3), whole_field);
+  EXPECT_EQ(find_component("zy", 9), 7);
+  EXPECT_EQ(find_component("", 1), whole_field);
+  for (char const* word : {"w", "xx", "xy z", "X ", "-x"}) EXPECT_FALSE(find_component(word, 3)) << word;
+  EXPECT_FALSE(find_component("yx", 6)) << "symmetric tensors have xy alone";
+  EXPECT_FALSE(find_component("x", 1));
+  EXPECT_FALSE(find_component("magnitude", 6));
+  EXPECT_EQ(picture_label("CauchyStress", 6, 0), "Cauchy stress xx");
+  EXPECT_EQ(picture_name("Velocity", 3, 2, 7), "Velocity-z-000007.png");
+  EXPECT_EQ(picture_name("PrincipalStress", 3, *find_component("1", 3), 7), "PrincipalStress-1-000007.png");
+}
+
+TEST(Picture, HidesParticlesBehindARigidShapeAndTheShapeBehindParticles) {
+  std::vector<std::array<double, 3>> const points{{0, 0, 0}};
+  std::vector<double> const radius{0.5}, values{1};
+  for (double const z : {-2.0, 2.0}) {
+    RigidShape ball;
+    ball.kind = RigidShape::Kind::sphere;
+    ball.centre = {0, 0, z};
+    ball.radius = 1;
+    PictureStyle const style{600, 500, {0, 0}, std::array{0.0, 1.0}};
+    Window window;
+    window.include(style.view, points, 1.2);
+    PictureData data{points, radius, values, "", "1", "", 0, 3};
+    data.rigid_shapes = std::span(&ball, 1);
+    Image const image = draw_picture(data, style, window);
+    auto const grey = [&](int x) {
+      Colour const c = image.at(x, 250);
+      return std::abs(c[0] - c[2]) < 15 && c[0] < 240;
+    };
+    EXPECT_EQ(grey((20 + 490) / 2), z > 0) << z;
+    EXPECT_TRUE(grey((20 + 490) / 2 + 130)) << "beside the particle";
+  }
+}
+
 TEST(PictureValues, ReduceVectorsAndStressesToOneNumber) {
   EXPECT_EQ(picture_values(std::array{3.0, 4.0, 0.0}, 3), std::vector<double>{5});
   EXPECT_DOUBLE_EQ(picture_values(std::array{0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, 6)[0], std::sqrt(3.0));

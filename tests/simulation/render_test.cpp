@@ -25,6 +25,73 @@ TEST(Render, DrawsOnePictureForEachFrame) {
   EXPECT_THROW(render_frames(folder / "r", {.field = "Colour"}), InputError);
 }
 
+struct Drawn {
+  testing::TemporaryFolder folder;
+  RenderOptions options{.field = "Velocity", .width = 300, .height = 250};
+  Drawn() {
+    Simulation s = testing::make_springs();
+    Listener listener;
+    std::atomic<int> const none{0};
+    run_case(s, {.folder = folder / "r"}, listener, none);
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> r;
+    for (auto const& path : render_frames(folder / "r", options)) r.push_back(path.filename().string());
+    return r;
+  }
+  std::string refusal() const {
+    try {
+      names();
+    } catch (InputError const& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST(Render, DrawsTheFramesAskedForInTheFolderAskedFor) {
+  using Names = std::vector<std::string>;
+  Drawn d;
+  d.options.out = d.folder / "elsewhere/deep";
+  d.options.last = true;
+  EXPECT_EQ(d.names(), Names{"Velocity-000004.png"});
+  EXPECT_TRUE(std::filesystem::exists(d.folder / "elsewhere/deep/Velocity-000004.png"));
+  EXPECT_FALSE(std::filesystem::exists(d.folder / "r/pictures"));
+  d.options.last = false;
+  d.options.only = {3, 1};
+  EXPECT_EQ(d.names(), (Names{"Velocity-000003.png", "Velocity-000001.png"}));
+  d.options.only = {5};
+  EXPECT_EQ(d.refusal(), "--frame: there is no frame 5 (allowed: 0 to 4) - choose one of these");
+  d.options.only = {};
+  d.options.every = 3;
+  EXPECT_EQ(d.names(), (Names{"Velocity-000000.png", "Velocity-000003.png"}));
+}
+
+TEST(Render, DrawsComponentsWithTheRangeOfAllFrames) {
+  Drawn d;
+  d.options.component = "y";
+  auto const all = d.names();
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[2], "Velocity-y-000002.png");
+  Image const together = read_png(d.folder / "r/pictures/Velocity-y-000002.png");
+  d.options.only = {2};
+  d.options.out = d.folder / "alone";
+  d.names();
+  EXPECT_EQ(read_png(d.folder / "alone/Velocity-y-000002.png").rgb, together.rgb);
+  d.options.component = "xy";
+  EXPECT_NE(d.refusal().find("Velocity has no component 'xy' (allowed: x, y, z)"), std::string::npos) << d.refusal();
+}
+
+TEST(Render, TurnsThePictureSoThatTheAxisAskedForPointsUp) {
+  Drawn d;
+  d.options.only = {0};
+  d.names();
+  Image const upright = read_png(d.folder / "r/pictures/Velocity-000000.png");
+  d.options.up = "-y";
+  d.names();
+  EXPECT_NE(read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
+}
+
 TEST(Render, SaysWhenThereAreNoFrames) {
   testing::TemporaryFolder const folder;
   EXPECT_THROW(render_frames(folder.path(), {}), InputError);

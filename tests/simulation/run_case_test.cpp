@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/image.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -115,6 +116,65 @@ TEST(RunCase, WritesAllThatAUserExpects) {
   EXPECT_GT(summary["stages_per_second"], 0.0);
   EXPECT_TRUE(text_of(folder / "r/log.txt").starts_with("Piola "));
   EXPECT_EQ(list_frames(folder / "r").back().first, 1.0);
+}
+
+/// The colour bar with its numbers.
+std::vector<Colour> bar_of(Image const& image) {
+  std::vector<Colour> pixels;
+  for (int y = image.height / 5; y < image.height; ++y)
+    for (int x = image.width - 100; x < image.width; ++x) pixels.push_back(image.at(x, y));
+  return pixels;
+}
+
+Simulation pictured() {
+  Simulation s = probed();
+  s.spec.output.pictures_every = 0.25;
+  s.spec.output.picture_field = "Displacement";  // starts at zero: the first range is not that of the run
+  return s;
+}
+
+TEST(RunCase, DrawsAllPicturesWithTheColoursOfTheWholeRun) {
+  TemporaryFolder const folder;
+  Simulation s = pictured();
+  run(s, folder / "r");
+  Image const first = read_png(folder / "r/pictures/Displacement-000000.png");
+  EXPECT_EQ(bar_of(first), bar_of(read_png(folder / "r/pictures/Displacement-000003.png")));
+  for (auto const& entry : std::filesystem::directory_iterator(folder / "r/pictures"))
+    EXPECT_EQ(entry.path().extension(), ".png") << "what was kept for the colours is gone";
+
+  Simulation given = pictured();
+  given.spec.output.picture_range = std::array{0.0, 1.0};
+  run(given, folder / "given");
+  EXPECT_NE(bar_of(first), bar_of(read_png(folder / "given/pictures/Displacement-000000.png")));
+}
+
+TEST(RunCase, DrawsTheSamePicturesAfterAStop) {
+  TemporaryFolder const folder;
+  Simulation whole = pictured(), first = pictured(), second = pictured();
+  run(whole, folder / "whole");
+  std::atomic<int> stop{0};
+  springs(first).stop_at = 57;
+  springs(first).stop = &stop;
+  run(first, folder / "parts", false, &stop);
+  EXPECT_TRUE(std::filesystem::exists(folder / "parts/pictures/Displacement-000001.png")) << "none waits for the end";
+  run(second, folder / "parts", true);
+  for (char const* name : {"000000", "000002", "000004"}) {
+    auto const picture = std::string("pictures/Displacement-") + name + ".png";
+    EXPECT_TRUE(text_of(folder / "whole" / picture) == text_of(folder / "parts" / picture)) << name;
+  }
+}
+
+TEST(RunCase, DrawsAComponent) {
+  TemporaryFolder const folder;
+  Simulation s = pictured();
+  s.spec.output.picture_component = "x";
+  run(s, folder / "r");
+  EXPECT_TRUE(std::filesystem::exists(folder / "r/pictures/Displacement-x-000004.png"));
+  Simulation none = pictured();
+  none.spec.output.picture_component = "xx";
+  CaseOutcome const outcome = run(none, folder / "none");
+  ASSERT_EQ(outcome.summary.warnings.size(), 1u);
+  EXPECT_NE(outcome.summary.warnings[0].find("no field 'Displacement' with a component 'xx'"), std::string::npos);
 }
 
 TEST(RunCase, HitsTheEndTimeAndWritesRowsAtDueTimes) {

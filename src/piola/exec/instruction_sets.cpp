@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/instruction_sets.hpp"
+#include <fmt/format.h>
 
 namespace piola::exec_host {
 namespace {
@@ -41,6 +42,15 @@ bool processor_can_run(std::string_view machine) {
 
 std::string machine_text(std::string_view asked) {
   return std::string(find_machine(asked)) + " of a processor with " + std::string(best_of_processor());
+}
+
+std::string not_usable(std::string_view machine, char const* const* usable) {
+  if (*usable == nullptr)
+    return "this program was built for another processor (it has no instruction set that this one can run) - build it "
+           "here with tools/quickstart, or for every processor of the family with cmake --preset release";
+  std::string known = "auto";
+  for (auto name = usable; *name != nullptr; ++name) known += fmt::format(", {}", *name);
+  return fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", machine, known);
 }
 
 }  // namespace piola::exec_host

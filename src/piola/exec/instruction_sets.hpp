@@ -14,6 +14,9 @@ bool processor_can_run(std::string_view machine);
 /// the system choose by processor.
 std::string machine_text(std::string_view asked);
 
+/// What is wrong with asking for a machine that is not among `usable` (names that end with nullptr), for an InputError.
+std::string not_usable(std::string_view machine, char const* const* usable);
+
 /// The machines of one formulation that are in this program, and how one is chosen. `Machine` has a member `name`.
 template <class Machine>
 class MachineChoice {

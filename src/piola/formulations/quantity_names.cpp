@@ -3,6 +3,7 @@
 #include "piola/math/symmetric_eigen.hpp"
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -44,19 +45,15 @@ constexpr std::array bodies{PartQuantity{"kinetic_energy", "J"}, PartQuantity{"s
                             PartQuantity{"linear_momentum_x", "kg m/s"}, PartQuantity{"linear_momentum_y", "kg m/s"},
                             PartQuantity{"linear_momentum_z", "kg m/s"}};
 
-constexpr std::array<std::string_view, 3> vector_suffix{"_x", "_y", "_z"};
-constexpr std::array<std::string_view, 6> symmetric_suffix{"_xx", "_yy", "_zz", "_xy", "_yz", "_xz"};
-constexpr std::array<std::string_view, 9> tensor_suffix{"_xx", "_xy", "_xz", "_yx", "_yy", "_yz", "_zx", "_zy", "_zz"};
+constexpr std::array<std::string_view, 3> of_vectors{"x", "y", "z"};
+constexpr std::array<std::string_view, 6> of_symmetric{"xx", "yy", "zz", "xy", "yz", "xz"};
+constexpr std::array<std::string_view, 9> of_tensors{"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
+constexpr std::array<std::string_view, 3> of_principals{"1", "2", "3"};
 
-constexpr std::array<std::string_view, 3> principal_suffix{"_1", "_2", "_3"};
-
-std::string_view suffix(std::string_view word, int components, int c) {
-  auto const i = static_cast<std::size_t>(c);
-  if (word.starts_with("principal_")) return principal_suffix[i];
-  if (components == 3) return vector_suffix[i];
-  if (components == 6) return symmetric_suffix[i];
-  if (components == 9) return tensor_suffix[i];
-  return "";
+std::string suffix(std::string_view word, int components, int c) {
+  std::span<std::string_view const> words = component_words(components);
+  if (word.starts_with("principal_")) words = of_principals;
+  return words.empty() ? "" : "_" + std::string(words[static_cast<std::size_t>(c)]);
 }
 
 void put_falling(SymMat<3> const& A, double* out) {
@@ -88,8 +85,8 @@ std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;
   for (FieldWord const& f : fields) {
     for (int c = 0; c < f.components; ++c) {
-      table.push_back({std::string(f.word) + std::string(suffix(f.word, f.components, c)), std::string(f.field), c,
-                       std::string(f.unit)});
+      table.push_back(
+          {std::string(f.word) + suffix(f.word, f.components, c), std::string(f.field), c, std::string(f.unit)});
     }
     if (f.components == 3 && !f.word.starts_with("principal_")) {
       table.push_back(
@@ -112,6 +109,24 @@ std::span<PartQuantity const> body_quantities() { return bodies; }
 std::vector<FieldQuantity> const& all_quantities() {
   static std::vector<FieldQuantity> const table = make_table();
   return table;
+}
+
+std::span<std::string_view const> component_words(int components) {
+  if (components == 3) return of_vectors;
+  if (components == 6) return of_symmetric;
+  if (components == 9) return of_tensors;
+  return {};
+}
+
+std::optional<int> find_component(std::string_view word, int components) {
+  if (word.empty() || (components == 3 && word == "magnitude")) return whole_field;
+  auto const same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  auto const words = component_words(components);
+  for (std::size_t c = 0; c < words.size(); ++c)
+    if (std::equal(word.begin(), word.end(), words[c].begin(), words[c].end(), same)) return static_cast<int>(c);
+  for (std::size_t c = 0; components == 3 && c < of_principals.size(); ++c)
+    if (word == of_principals[c]) return static_cast<int>(c);
+  return std::nullopt;
 }
 
 std::optional<FieldQuantity> find_quantity(std::string_view name) {

@@ -46,6 +46,14 @@ std::span<PartQuantity const> action_quantities();
 /// Of every body where there are several, in the order of BodyShare.
 std::span<PartQuantity const> body_quantities();
 
+/// The names of the components of a field with so many: x y z, xx yy zz xy yz xz, or xx xy xz yx ...; none of a scalar.
+std::span<std::string_view const> component_words(int components);
+
+/// The component of a field that a word names, in small or capital letters, of three also "1", "2", "3" (principal
+/// values); whole_field for "" and, of a vector, "magnitude". Nothing if the field has no such component.
+inline constexpr int whole_field = -1;
+std::optional<int> find_component(std::string_view word, int components);
+
 /// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
 /// "stress_intensity" [Pa m^0.5].
 inline constexpr std::string_view twist_quantity = "twist_angle";

@@ -183,6 +183,8 @@ struct OutputSpec {
   double checkpoints_every = 0;           ///< also written at the end, on a signal, on failure
   double pictures_every = 0;
   std::string picture_field = "Pressure";
+  std::string picture_component = {};                  ///< of that field, e.g. "x"; empty: see picture_values
+  std::string picture_up = "auto";                     ///< auto, x, y, z, -x, -y, -z
   std::optional<std::array<double, 2>> picture_range;  ///< SI; otherwise from the data
   std::array<double, 2> picture_view{30, 20};          ///< azimuth, elevation [deg]
   int picture_width = 1000, picture_height = 800;

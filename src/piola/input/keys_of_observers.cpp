@@ -8,6 +8,7 @@ namespace {
 using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
+constexpr std::array<std::string_view, 7> up_words{"auto", "x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 12> probe_words{"point",   "average",  "maximum", "minimum",
                                                        "twist",   "extent",   "error",   "stress_intensity",
                                                        "spacing", "fragment", "rim",     "hole"};
@@ -256,20 +257,32 @@ constexpr std::array keys{
     KeyInfo{"output.frames", "compress", flag, "", {}, "true", "smaller files, a little more time", {}},
     KeyInfo{"output.history", "every", quantity, "s", not_negative, "", "time between two rows", {}},
     KeyInfo{"output.pictures", "every", quantity, "s", not_negative, "", "time between two pictures; 0 for none", {}},
+    KeyInfo{"output.pictures", "field", text, "", {}, "\"Pressure\"", "field that gives the colour", {}},
     KeyInfo{"output.pictures",
-            "field",
+            "component",
             text,
             "",
             {},
-            "\"Pressure\"",
-            "field that gives the colour; the length of a vector",
+            "magnitude",
+            "x, y, z of a vector, xx, yy, zz, xy, yz, xz (and yx, zy, zx) of a tensor; without it vectors give their "
+            "length, symmetric tensors the von Mises stress, others their largest component",
             {}},
+    KeyInfo{
+        "output.pictures",
+        "up",
+        word,
+        "",
+        {},
+        "\"auto\"",
+        "axis that points upwards; auto: against gravity (a constant acceleration of a whole body), else the normal of "
+        "a resting rigid plane, else y",
+        up_words},
     KeyInfo{"output.pictures",
             "range",
             list,
             "",
             any_value,
-            "from the data",
+            "that of the whole run",
             "values at the two ends of the colour bar, in the field's unit",
             {}},
     KeyInfo{"output.pictures",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "piola/formulations/quantity_names.hpp"
 #include "piola/input/history_names.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
@@ -120,11 +121,29 @@ void read_size(Section const& section, OutputSpec& output) {
   if (height) output.picture_height = static_cast<int>(*height);
 }
 
+void check_component(Section const& section, OutputSpec const& output) {
+  for (FieldName const& field : field_names()) {
+    if (field.name != output.picture_field || find_component(output.picture_component, field.components)) continue;
+    std::string known;
+    for (std::string_view const word : component_words(field.components)) {
+      known += known.empty() ? "" : ", ";
+      known += word;
+    }
+    section.problems().add(section.place_of("component"),
+                           "output.pictures.component is " + in_quotes(output.picture_component) + " (" +
+                               std::string(field.name) + " has " + (known.empty() ? "no components" : known) + ")" +
+                               (known.empty() ? " - leave it out" : ""));
+  }
+}
+
 void read_pictures(Section const& section, OutputSpec& output) {
   section.read("every", output.pictures_every);
   if (auto const field = section.find("field")) {
     if (auto const word = read_word(*field, known_fields(), section.problems())) output.picture_field = *word;
   }
+  section.read("component", output.picture_component);
+  check_component(section, output);
+  section.read("up", output.picture_up);
   output.picture_range = read_pair(section, "range", unit_of_field(output.picture_field));
   if (output.picture_range && (*output.picture_range)[0] >= (*output.picture_range)[1]) {
     section.problems().add(section.place_of("range"),

@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/output/colour_map.hpp"
 #include "piola/output/lettering.hpp"
+#include "piola/output/rigid_picture.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -20,7 +21,6 @@ using Pixel = std::array<double, 2>;
 constexpr int fine = 2;  // pixels are the mean of fine x fine samples
 constexpr Colour background{255, 255, 255}, ink{40, 44, 52}, faint_ink{110, 116, 126};
 
-double dot(Point const& a, Point const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 /// All sizes follow the height of the picture, so that a large one is not one with tiny letters.
@@ -35,34 +35,14 @@ struct Layout {
         bottom(style.height - 40 * unit) {}
 };
 
-/// From metres to pixels: the window is centred in the free area.
-struct Projection {
-  Point right, up, towards;
-  double scale, x_shift, y_shift;
-  Projection(View const& view, Window const& w, Layout const& area)
-      : right(view.right()), up(view.up()), towards(view.towards_viewer()) {
-    double const wide = std::max(w.x1 - w.x0, 1e-300), high = std::max(w.y1 - w.y0, 1e-300);
-    scale = std::min((area.right - area.left) / wide, (area.bottom - area.top) / high);
-    x_shift = (area.left + area.right) / 2 - scale * (w.x0 + w.x1) / 2;
-    y_shift = (area.top + area.bottom) / 2 + scale * (w.y0 + w.y1) / 2;
-  }
-  Pixel operator()(Point const& p) const { return {x_shift + scale * dot(p, right), y_shift - scale * dot(p, up)}; }
-};
-
-/// The nearest surface of each fine pixel.
-struct DepthImage {
-  Image colour;
-  std::vector<float> depth;
-  DepthImage(int width, int height)
-      : colour(width, height, background),
-        depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-              -std::numeric_limits<float>::infinity()) {}
-};
-
-/// Light of a ball's surface with this normal (x right, y down, z to the viewer): 1 keeps the colour of the value.
-double light(double nx, double ny, double nz) {
-  double const lamp = std::max(0.0, -0.42 * nx - 0.56 * ny + 0.714 * nz);  // from the upper left, behind the viewer
-  return 0.42 + 0.46 * lamp + 0.17 * nz;
+/// The window is centred in the free area.
+Projection make_projection(View const& view, Window const& w, Layout const& area) {
+  Projection p{view.right(), view.up(), view.towards_viewer()};
+  double const wide = std::max(w.x1 - w.x0, 1e-300), high = std::max(w.y1 - w.y0, 1e-300);
+  p.scale = std::min((area.right - area.left) / wide, (area.bottom - area.top) / high);
+  p.x_shift = (area.left + area.right) / 2 - p.scale * (w.x0 + w.x1) / 2;
+  p.y_shift = (area.top + area.bottom) / 2 + p.scale * (w.y0 + w.y1) / 2;
+  return p;
 }
 
 void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colour colour, bool flat) {
@@ -77,21 +57,22 @@ void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colou
       double const inside = 1 - nx * nx - ny * ny;
       if (inside < 0) continue;
       double const nz = std::sqrt(inside);
-      auto const here = static_cast<float>(depth + radius * nz);
-      auto const at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width) + static_cast<std::size_t>(x);
-      if (here <= out.depth[at]) continue;
-      out.depth[at] = here;
-      double const shade = flat ? 0.9 + 0.1 * nz : light(nx, ny, nz);
-      Colour lit{};
-      for (std::size_t c = 0; c < 3; ++c) lit[c] = static_cast<std::uint8_t>(std::clamp(colour[c] * shade, 0.0, 255.0));
-      out.colour.set(x, y, lit);
+      out.put(x, y, depth + radius * nz, colour, flat ? 0.9 + 0.1 * nz : light(nx, ny, nz));
     }
   }
 }
 
-Image draw_balls(PictureData const& data, PictureStyle const& style, Projection const& project, ColourMap const& map) {
-  DepthImage out(style.width * fine, style.height * fine);
+Image draw_scene(PictureData const& data, PictureStyle const& style, Layout const& layout, Projection const& project,
+                 ColourMap const& map) {
+  DepthImage out(style.width * fine, style.height * fine, background);
+  Stage const stage{data.stage_low, data.stage_high};
+  RigidCanvas{project,
+              stage,
+              data.dimension,
+              fine,
+              static_cast<int>(0.8 * layout.top * fine),
+              static_cast<int>(layout.right * fine)}
+      .draw(out, data.rigid_shapes);
   double const least = (data.dimension == 1 ? 5.0 : 1.2) * fine;  // a line of particles would be too thin to see
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Pixel const p = project(data.points[i]);
@@ -150,6 +131,18 @@ void draw_axes(Image& image, View const& view, int dimension, Layout const& layo
   }
 }
 
+/// A direction given for y upwards, turned so that another axis points upwards.
+Point turned(Up up, Point const& d) {
+  switch (up) {
+    case Up::z: return {d[0], -d[2], d[1]};
+    case Up::x: return {d[1], -d[0], d[2]};
+    case Up::minus_y: return {-d[0], -d[1], d[2]};
+    case Up::minus_z: return {d[0], d[2], -d[1]};
+    case Up::minus_x: return {-d[1], d[0], d[2]};
+    default: return d;
+  }
+}
+
 /// The part of a title that fits, with dots if some is left out.
 std::string shortened(std::string text, double height, double width) {
   if (text_width(text, height) <= width) return text;
@@ -159,16 +152,24 @@ std::string shortened(std::string text, double height, double width) {
 
 }  // namespace
 
-std::array<double, 3> View::right() const { return {std::cos(radians(azimuth)), 0, -std::sin(radians(azimuth))}; }
+View View::in(int dimension) const {
+  if (dimension == 3) return *this;
+  return {0, 0, upwards == Up::z ? Up::y : upwards == Up::minus_z ? Up::minus_y : upwards};
+}
+
+std::array<double, 3> View::right() const {
+  double const a = radians(azimuth);
+  return turned(upwards, {std::cos(a), 0, -std::sin(a)});
+}
 
 std::array<double, 3> View::towards_viewer() const {
   double const a = radians(azimuth), e = radians(elevation);
-  return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+  return turned(upwards, {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)});
 }
 
 std::array<double, 3> View::up() const {
   double const a = radians(azimuth), e = radians(elevation);
-  return {-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a)};
+  return turned(upwards, {-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a)});
 }
 
 void Window::include(View const& view, std::span<Point const> points, double margin) {
@@ -197,11 +198,11 @@ void Window::include(View const& view, std::span<Point const> points, double mar
 
 Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window) {
   PictureStyle style = asked;
-  if (data.dimension < 3) style.view = {0, 0};  // a plane is seen from z
+  style.view = style.view.in(data.dimension);
   Layout const layout(style);
   auto const range = style.range ? *style.range : typical_range(data.values);
   ColourMap const map(range[0], range[1]);
-  Image image = draw_balls(data, style, Projection(style.view, window, layout), map);
+  Image image = draw_scene(data, style, layout, make_projection(style.view, window, layout), map);
   draw_colour_bar(image, data, map, layout);
   draw_axes(image, style.view, data.dimension, layout);
   std::string const time = "t = " + quantity_text(data.time, "s");
@@ -223,12 +224,14 @@ std::vector<double> ball_radii(std::span<double const> volume, std::span<int con
   return out;
 }
 
-std::vector<double> picture_values(std::span<double const> values, int components) {
+std::vector<double> picture_values(std::span<double const> values, int components, int component) {
   auto const width = static_cast<std::size_t>(components);
   std::vector<double> out(values.size() / width);
   for (std::size_t i = 0; i < out.size(); ++i) {
     double const* v = &values[i * width];
-    if (width == 1) {
+    if (component != whole_field) {
+      out[i] = v[component];
+    } else if (width == 1) {
       out[i] = v[0];
     } else if (width == 3) {
       out[i] = std::hypot(v[0], v[1], v[2]);
@@ -254,11 +257,27 @@ std::array<double, 2> typical_range(std::span<double const> values) {
   return {lowest, *high};
 }
 
-std::string picture_label(std::string const& field, int components) {
+namespace {
+
+/// "x", "xy"; of principal values "1", "2", "3".
+std::string component_word(std::string const& field, int components, int component) {
+  if (field.starts_with("Principal")) return std::to_string(component + 1);
+  return std::string(component_words(components)[static_cast<std::size_t>(component)]);
+}
+
+}  // namespace
+
+std::string picture_label(std::string const& field, int components, int component) {
   std::string const words = field_words(field);
+  if (component != whole_field) return words + " " + component_word(field, components, component);
   if (components == 3) return words + " magnitude";
   if (components == 6) return "von Mises of " + words;
   return components == 1 ? words : "largest " + words;
+}
+
+std::string picture_name(std::string const& field, int components, int component, std::size_t number) {
+  if (component == whole_field) return fmt::format("{}-{:06}.png", field, number);
+  return fmt::format("{}-{}-{:06}.png", field, component_word(field, components, component), number);
 }
 
 }  // namespace piola

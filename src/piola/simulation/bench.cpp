@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/bench.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/instruction_sets.hpp"
 #include "piola/exec/memory.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/formulations/make.hpp"
@@ -151,7 +152,9 @@ void measure_rates(BenchReport& report, BenchOptions const& options) {
                                   {"paper, jittered (lists)", "paper", 0.2, false, false},
                                   {"robust, regular lattice", "robust", 0, false, false},
                                   {"paper, plain scalar path", "paper", 0, true, false}};
+  bool const has_scalar = jst_sph::find_machine("scalar") != nullptr;
   for (auto const& subject : subjects) {
+    if (subject.scalar && !has_scalar) continue;
     auto const assembly = spinning_cube(options.particles_per_side, subject.scheme, subject.jitter,
                                         subject.scalar ? "scalar" : report.machine);
     auto const formulation = make_formulation(assembly);
@@ -184,8 +187,7 @@ void measure_rates(BenchReport& report, BenchOptions const& options) {
 
 BenchReport bench_jst_sph(BenchOptions const& options) {
   jst_sph::Machine const* const machine = jst_sph::find_machine(options.machine.c_str());
-  if (machine == nullptr)
-    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
+  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, jst_sph::machine_names()));
   BenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/bench_adaptle.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/instruction_sets.hpp"
 #include "piola/formulations/adaptle/state.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/setup/shapes.hpp"
@@ -95,8 +96,7 @@ void measure(AdaptleBenchReport& report, AdaptleBenchOptions const& options, Sub
 
 AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options) {
   adaptle::Machine const* const machine = adaptle::find_machine(options.machine.c_str());
-  if (machine == nullptr)
-    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
+  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, adaptle::machine_names()));
   AdaptleBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;
@@ -108,7 +108,8 @@ AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options) {
                               {"plate, Eulerian", 2, "eulerian", "none", 0},
                               {"plate, total-Lagrangian", 2, "total_lagrangian", "material", 0}};
   for (auto const& subject : subjects)
-    for (std::string const& name : {report.machine, std::string("scalar")}) measure(report, options, subject, name);
+    for (std::string const& name : beside_scalar(report.machine, adaptle::machine_names()))
+      measure(report, options, subject, name);
   return report;
 }
 

@@ -21,6 +21,13 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+std::vector<std::string> beside_scalar(std::string const& machine, char const* const* usable) {
+  std::vector<std::string> r{machine};
+  for (; *usable != nullptr; ++usable)
+    if (machine != "scalar" && std::string_view(*usable) == "scalar") r.emplace_back(*usable);
+  return r;
+}
+
 void pin_to(int threads) {
   exec_host::set_threads(threads);
   exec_host::pin_threads();

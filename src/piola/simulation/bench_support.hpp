@@ -2,12 +2,17 @@
 #pragma once
 #include "piola/formulations/formulation.hpp"
 #include <cstdint>
+#include <string>
+#include <vector>
 
 /// What the benchmarks of all formulations share.
 namespace piola {
 
 double wall_seconds();  ///< since some moment [s]
 double cpu_seconds();   ///< processor time of all threads of this program [s]
+
+/// The machine and, where it is another one and among the usable names (they end with nullptr), the scalar path.
+std::vector<std::string> beside_scalar(std::string const& machine, char const* const* usable);
 
 struct Timing {
   double wall, cpu;  ///< s

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/bench_taylor.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/instruction_sets.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 #include "piola/neighbours/cells.hpp"
@@ -132,8 +133,7 @@ TaylorUpkeep measure_upkeep(TaylorBenchOptions const& options, Subject const& su
 
 TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options) {
   taylor_sph::Machine const* const machine = taylor_sph::find_machine(options.machine.c_str());
-  if (machine == nullptr)
-    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor", options.machine));
+  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, taylor_sph::machine_names()));
   TaylorBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;
@@ -151,7 +151,8 @@ TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options) {
                               {"cube, moving, boxes", 3, cube, "updated", boxes, estimates, false},
                               {"cube, moving, adjoint", 3, cube, "updated", triangles, adjoint, false}};
   for (auto const& subject : subjects)
-    for (std::string const& name : {report.machine, std::string("scalar")}) measure(report, options, subject, name);
+    for (std::string const& name : beside_scalar(report.machine, taylor_sph::machine_names()))
+      measure(report, options, subject, name);
   report.upkeep = measure_upkeep(options, deforming, report.machine);
   return report;
 }

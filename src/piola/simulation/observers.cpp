@@ -126,65 +126,6 @@ void FrameObserver::load(NamedState& reader, Moment const& moment) {
                                     missing.size(), writer_.times().size(), missing.size() == 1 ? "is" : "are"));
 }
 
-PictureObserver::PictureObserver(Results results)
-    : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
-  auto const& particles = results_.particles;
-  if (schedule_.ever()) radii_ = ball_radii(particles.volume, particles.body, particles.dimension);
-}
-
-void PictureObserver::draw(Formulation const& formulation, double time) {
-  auto const& output = results_.spec.output;
-  FieldCache cache(formulation, results_.particles);
-  if (!cache.knows(output.picture_field)) {
-    results_.journal.warn(
-        fmt::format("pictures: the formulation has no field '{}', so that no picture is drawn", output.picture_field));
-    return;
-  }
-  FieldInfo const& info = cache.info(output.picture_field);
-  auto const x = cache.values("Position");
-  std::vector<std::array<double, 3>> points(radii_.size());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
-  auto const values = picture_values(cache.values(info.name), info.components);
-
-  PictureStyle style{output.picture_width,
-                     output.picture_height,
-                     {output.picture_view[0], output.picture_view[1]},
-                     output.picture_range};
-  if (results_.particles.dimension < 3) style.view = {0, 0};
-  window_.include(style.view, points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
-  PictureData const data{points,    radii_,
-                         values,    picture_label(info.name, info.components),
-                         info.unit, results_.spec.title,
-                         time,      results_.particles.dimension};
-  make_folder(results_.folder / "pictures");
-  last_ = results_.folder / "pictures" / fmt::format("{}-{:06}.png", info.name, static_cast<long>(count_));
-  write_png(last_, draw_picture(data, style, window_));
-  count_ += 1;
-  last_time_ = time;
-}
-
-void PictureObserver::see(Formulation const& formulation, Moment const& moment) {
-  if (schedule_.due(moment.time)) draw(formulation, moment.time);
-}
-
-void PictureObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
-  if (schedule_.ever() && ending != Ending::stopped && last_time_ != moment.time) draw(formulation, moment.time);
-}
-
-void PictureObserver::save(StateWriter& writer) const {
-  writer.put("pictures",
-             std::array{count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0, window_.y1});
-}
-
-void PictureObserver::load(NamedState& reader, Moment const& moment) {
-  std::array<double, 7> v{};
-  reader.get("pictures", v);
-  schedule_.start_after(moment.time);
-  count_ = v[0];
-  last_time_ = v[1];
-  window_ = {v[2] != 0, v[3], v[4], v[5], v[6]};
-}
-
 CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointOrders orders)
     : results_(std::move(results)),
       schedule_(results_.spec.output.checkpoints_every),

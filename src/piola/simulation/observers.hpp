@@ -5,7 +5,6 @@
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/history.hpp"
-#include "piola/output/picture.hpp"
 #include "piola/simulation/journal.hpp"
 #include "piola/simulation/moment.hpp"
 #include "piola/simulation/objection.hpp"
@@ -91,26 +90,6 @@ class FrameObserver : public Observer {
   Results results_;
   Schedule schedule_;
   FrameWriter writer_;
-};
-
-/// pictures/FIELD-000000.png at each due time and at the end.
-class PictureObserver : public Observer {
- public:
-  explicit PictureObserver(Results results);
-  void see(Formulation const& formulation, Moment const& moment) override;
-  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
-  void save(StateWriter& writer) const override;
-  void load(NamedState& reader, Moment const& moment) override;
-  std::filesystem::path const& last() const { return last_; }
-
- private:
-  void draw(Formulation const& formulation, double time);
-  Results results_;
-  Schedule schedule_;
-  Window window_;
-  std::vector<double> radii_;
-  double count_ = 0, last_time_ = -1;
-  std::filesystem::path last_;
 };
 
 /// Who asks for checkpoints besides the case, and who wants to know how long they take; nullptr: nobody.

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/render.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/rigid_picture.hpp"
+#include "piola/simulation/scene.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -23,48 +27,117 @@ std::string title_of(fs::path const& folder) {
   return titled ? summary["title"].get<std::string>() : folder.filename().string();
 }
 
-/// What all frames have in common: the window and the range of values.
-struct Survey {
-  Window window;
-  std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-};
-
-View view_of(Frame const& frame, View const& asked) { return frame.dimension < 3 ? View{0, 0} : asked; }
-
-void look_at(Survey& survey, Frame const& frame, View const& view) {
-  auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-  survey.window.include(view_of(frame, view), frame.points,
-                        radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
-  auto const range = typical_range(picture_values(frame.values, frame.info.components));
-  survey.range = {std::min(survey.range[0], range[0]), std::max(survey.range[1], range[1])};
+/// The case that the run was started with; nothing if it is not there or cannot be read any more.
+std::optional<CaseSpec> case_of(fs::path const& folder) {
+  if (!fs::exists(folder / "case.toml")) return std::nullopt;
+  try {
+    return read_case(folder / "case.toml");
+  } catch (InputError const&) {
+    return std::nullopt;
+  }
 }
+
+View view_of(RenderOptions const& options, std::optional<CaseSpec> const& spec, int dimension) {
+  View view = options.view;
+  for (std::size_t k = 0; k < up_words.size(); ++k)
+    if (options.up == up_words[k]) view.upwards = static_cast<Up>(k);
+  if (options.up == "auto" && spec) view.upwards = upwards(*spec);
+  return view.in(dimension);
+}
+
+std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count) {
+  if (options.last && count > 0) return {count - 1};
+  std::vector<std::size_t> numbers = options.only;
+  for (std::size_t const k : numbers) {
+    if (k < count) continue;
+    throw InputError(
+        fmt::format("--frame: there is no frame {} (allowed: 0 to {}) - choose one of these", k, count - 1));
+  }
+  for (std::size_t k = 0; options.only.empty() && k < count; k += std::max<std::size_t>(options.every, 1))
+    numbers.push_back(k);
+  return numbers;
+}
+
+/// Everything that the pictures of one run have in common.
+class Renderer {
+ public:
+  Renderer(fs::path const& folder, RenderOptions const& options)
+      : options_(options), title_(title_of(folder)), spec_(case_of(folder)), frames_(list_frames(folder)) {
+    for (auto const& entry : frames_) survey(read(entry.second));
+  }
+  std::size_t count() const { return frames_.size(); }
+
+  fs::path draw(std::size_t number, fs::path const& folder) const {
+    Frame const frame = read(frames_[number].second);
+    int const components = frame.info.components, component = component_of(frame);
+    auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
+    auto const values = picture_values(frame.values, components, component);
+    auto const shapes = shapes_of(frame);
+    PictureData const data{.points = frame.points,
+                           .radius = radii,
+                           .values = values,
+                           .label = picture_label(options_.field, components, component),
+                           .unit = frame.info.unit,
+                           .title = title_,
+                           .time = frame.time,
+                           .dimension = frame.dimension,
+                           .rigid_shapes = shapes,
+                           .stage_low = stage_.low,
+                           .stage_high = stage_.high};
+    PictureStyle const style{options_.width, options_.height, view_of(options_, spec_, frame.dimension),
+                             options_.range ? *options_.range : range_};
+    fs::path const path = folder / picture_name(options_.field, components, component, number);
+    write_png(path, draw_picture(data, style, window_));
+    return path;
+  }
+
+ private:
+  Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
+  std::vector<RigidShape> shapes_of(Frame const& frame) const {
+    return spec_ ? shapes_at(spec_->rigids, frame.time) : std::vector<RigidShape>{};
+  }
+  int component_of(Frame const& frame) const {
+    if (auto const found = find_component(options_.component, frame.info.components)) return *found;
+    auto const known = component_words(frame.info.components);
+    throw InputError(fmt::format("--component: {} has no component '{}' ({}) - choose one of these, or leave it out",
+                                 options_.field, options_.component,
+                                 known.empty() ? "it has none" : fmt::format("allowed: {}", fmt::join(known, ", "))));
+  }
+  void survey(Frame const& frame) {
+    if (!(stage_.size() > 0)) stage_ = Stage::around(frame.points);
+    View const view = view_of(options_, spec_, frame.dimension);
+    auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
+    window_.include(view, frame.points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
+    show_shapes(window_, view, shapes_of(frame), stage_);
+    auto const range = typical_range(picture_values(frame.values, frame.info.components, component_of(frame)));
+    range_ = {std::min(range_[0], range[0]), std::max(range_[1], range[1])};
+  }
+
+  RenderOptions const& options_;
+  std::string title_;
+  std::optional<CaseSpec> spec_;
+  std::vector<std::pair<double, fs::path>> frames_;
+  Window window_;
+  Stage stage_;
+  std::array<double, 2> range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+};
 
 }  // namespace
 
 std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const& options,
                                     std::function<void(fs::path const&)> const& drawn) {
   if (!fs::exists(folder / "frames.hdf.series")) {
-    throw InputError(
-        fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with output.frames.every set",
-                    folder.string()));
+    throw InputError(fmt::format(
+        "{}: has no frames to draw (no frames.hdf.series) - run the case with --set output.frames.every=TIME",
+        folder.string()));
   }
-  auto const frames = list_frames(folder);
-  Survey survey;
-  for (auto const& entry : frames) look_at(survey, read_frame(entry.second, options.field), options.view);
-
-  make_folder(folder / "pictures");
-  std::string const title = title_of(folder);
+  Renderer const renderer(folder, options);
+  fs::path const out = options.out.empty() ? folder / "pictures" : options.out;
+  auto const numbers = chosen(options, renderer.count());
+  make_folder(out);
   std::vector<fs::path> paths;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    Frame const frame = read_frame(frames[k].second, options.field);
-    auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-    auto const values = picture_values(frame.values, frame.info.components);
-    PictureData const data{frame.points,    radii, values,     picture_label(options.field, frame.info.components),
-                           frame.info.unit, title, frame.time, frame.dimension};
-    PictureStyle const style{options.width, options.height, view_of(frame, options.view),
-                             options.range ? *options.range : survey.range};
-    paths.push_back(folder / "pictures" / fmt::format("{}-{:06}.png", options.field, k));
-    write_png(paths.back(), draw_picture(data, style, survey.window));
+  for (std::size_t const k : numbers) {
+    paths.push_back(renderer.draw(k, out));
     if (drawn) drawn(paths.back());
   }
   return paths;

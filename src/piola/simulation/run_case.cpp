@@ -10,6 +10,7 @@
 #include "piola/simulation/failure_text.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
+#include "piola/simulation/picture_observer.hpp"
 #include "piola/simulation/quantities.hpp"
 #include "piola/simulation/relaxation.hpp"
 #include "piola/simulation/results_folder.hpp"

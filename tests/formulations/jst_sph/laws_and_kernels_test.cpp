@@ -27,10 +27,11 @@ class EveryLaw : public ::testing::TestWithParam<LawInfo> {
 };
 
 TEST_P(EveryLaw, GivesTheSameMotionOnEveryMachine) {
+  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
   for (auto const* variables : {"pF", "pFHJ"}) {
     Assembly a = tumbling(variables);
     Values reference;
-    for (std::string const machine : {"scalar", "auto"}) {
+    for (std::string const& machine : {machines().back(), std::string("auto")}) {
       a.machine = machine;
       auto const f = make_formulation(a);
       advance(*f, 5e-5, 40);

@@ -45,7 +45,8 @@ class EveryMachine : public ::testing::TestWithParam<Setting> {
 };
 
 TEST_P(EveryMachine, GivesTheSameMotion) {
-  Values const reference = end_state(assembly("scalar"));
+  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
+  Values const reference = end_state(assembly(machines().back()));
   ASSERT_GT(largest(reference), 0.5);
   for (auto const& machine : machines())
     EXPECT_LT(largest_difference(end_state(assembly(machine)), reference), 1e-10) << machine;

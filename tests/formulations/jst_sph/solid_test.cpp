@@ -208,6 +208,7 @@ TEST(Solids, GiveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Solids, GiveTheSameMotionOnEveryMachine) {
+  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
   for (auto const* scheme : {"filtered", "paper"})
     for (int const dimension : {1, 2, 3}) {
       Assembly a = yielding(dimension, dimension == 1 ? 21 : 7, scheme, "johnson_cook");
@@ -218,7 +219,7 @@ TEST(Solids, GiveTheSameMotionOnEveryMachine) {
         EXPECT_FALSE(f->failure().has_value());
         return sample(*f, "Velocity", a.particles.X.size());
       };
-      Values const reference = run("scalar");
+      Values const reference = run(machines().back());
       for (auto const& machine : machines())
         EXPECT_LT(largest_difference(run(machine), reference), 1e-9 * largest(reference)) << machine << scheme;
     }

@@ -52,7 +52,8 @@ class EveryTaylorMachine : public ::testing::TestWithParam<Setting> {
 };
 
 TEST_P(EveryTaylorMachine, GivesTheSameMotion) {
-  Values const reference = end_state(assembly("scalar"), 15);
+  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
+  Values const reference = end_state(assembly(machines().back()), 15);
   ASSERT_GT(largest(reference), 0.3);
   for (auto const& machine : machines())
     EXPECT_LT(largest_difference(end_state(assembly(machine), 15), reference), 1e-10) << machine;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/instruction_sets.hpp"
 #include "piola/formulations/actions.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
@@ -123,9 +124,7 @@ class Solver final : public Formulation {
  private:
   static Machine const* choose(std::string const& name) {
     if (Machine const* machine = find_machine(name.c_str())) return machine;
-    std::string known = "auto";
-    for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
-    throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
+    throw InputError(exec_host::not_usable(name, machine_names()));
   }
   void find_largest_speeds() {
     largest_speed_.clear();

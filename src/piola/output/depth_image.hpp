@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/image.hpp"
+#include "piola/output/picture.hpp"
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+/// What the parts of a picture share: from metres to pixels, and the nearest surface of each pixel.
+namespace piola {
+
+inline double dot(std::array<double, 3> const& a, std::array<double, 3> const& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Parallel projection: pixels = shift + scale * metres, y downwards; depth grows towards the viewer.
+struct Projection {
+  std::array<double, 3> right, up, towards;
+  double scale = 1, x_shift = 0, y_shift = 0;
+  std::array<double, 2> operator()(std::array<double, 3> const& p) const {
+    return {x_shift + scale * dot(p, right), y_shift - scale * dot(p, up)};
+  }
+  /// The point of a pixel whose depth is 0 [m].
+  std::array<double, 3> point(double x, double y) const {
+    std::array<double, 3> p{};
+    double const a = (x - x_shift) / scale, b = (y_shift - y) / scale;
+    for (std::size_t c = 0; c < 3; ++c) p[c] = a * right[c] + b * up[c];
+    return p;
+  }
+};
+
+/// The nearest surface of each pixel.
+struct DepthImage {
+  Image colour;
+  std::vector<float> depth;
+  DepthImage(int width, int height, Colour background)
+      : colour(width, height, background),
+        depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+              -std::numeric_limits<float>::infinity()) {}
+  /// Shows a surface of this brightness (1 keeps the colour) unless a nearer one is there.
+  void put(int x, int y, double at_depth, Colour const& paint, double brightness) {
+    auto const here = static_cast<float>(at_depth);
+    auto const at = static_cast<std::size_t>(y) * static_cast<std::size_t>(colour.width) + static_cast<std::size_t>(x);
+    if (here <= depth[at]) return;
+    depth[at] = here;
+    Colour lit{};
+    for (std::size_t c = 0; c < 3; ++c)
+      lit[c] = static_cast<std::uint8_t>(std::clamp(paint[c] * brightness, 0.0, 255.0));
+    colour.set(x, y, lit);
+  }
+};
+
+/// Light of a surface with this unit normal (x right, y down, z to the viewer): 1 keeps the colour.
+inline double light(double nx, double ny, double nz) {
+  double const lamp = std::max(0.0, -0.42 * nx - 0.56 * ny + 0.714 * nz);  // from the upper left, behind the viewer
+  return 0.42 + 0.46 * lamp + 0.17 * nz;
+}
+
+}  // namespace piola

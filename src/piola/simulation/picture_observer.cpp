@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/picture_observer.hpp"
+#include "piola/output/files.hpp"
+#include "piola/output/rigid_picture.hpp"
+#include "piola/simulation/scene.hpp"
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace piola {
+
+PictureObserver::PictureObserver(Results results)
+    : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
+  auto const& particles = results_.particles;
+  auto const& output = results_.spec.output;
+  view_ = View{output.picture_view[0], output.picture_view[1], upwards(results_.spec)}.in(particles.dimension);
+  if (!schedule_.ever()) return;
+  radii_ = ball_radii(particles.volume, particles.body, particles.dimension);
+  Stage const stage = Stage::around(particles.X);
+  stage_low_ = stage.low;
+  stage_high_ = stage.high;
+}
+
+std::filesystem::path PictureObserver::path(std::size_t number) const {
+  return results_.folder / "pictures" / picture_name(field_.name, field_.components, component_, number);
+}
+
+std::filesystem::path PictureObserver::kept_path(std::size_t number) const {
+  return path(number).replace_extension(".values");
+}
+
+void PictureObserver::keep(std::size_t number, Kept const& kept) const {
+  std::vector<float> numbers;
+  numbers.reserve(4 * kept.values.size() + 2);
+  for (auto const& p : kept.points)
+    for (double const c : p) numbers.push_back(static_cast<float>(c));
+  for (double const v : kept.values) numbers.push_back(static_cast<float>(v));
+  std::vector<std::byte> bytes(sizeof kept.time + numbers.size() * sizeof(float));
+  std::memcpy(bytes.data(), &kept.time, sizeof kept.time);
+  if (!numbers.empty()) std::memcpy(bytes.data() + sizeof kept.time, numbers.data(), numbers.size() * sizeof(float));
+  write_whole_file(kept_path(number), bytes);
+}
+
+bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
+  if (!std::filesystem::exists(kept_path(number))) return false;
+  std::string const bytes = read_text_file(kept_path(number));
+  std::size_t const n = radii_.size();
+  std::vector<float> numbers(4 * n);
+  if (bytes.size() != sizeof kept.time + numbers.size() * sizeof(float)) return false;
+  std::memcpy(&kept.time, bytes.data(), sizeof kept.time);
+  if (n > 0) std::memcpy(numbers.data(), bytes.data() + sizeof kept.time, numbers.size() * sizeof(float));
+  kept.points.resize(n);
+  for (std::size_t i = 0; i < 3 * n; ++i) kept.points[i / 3][i % 3] = static_cast<double>(numbers[i]);
+  kept.values.assign(numbers.begin() + static_cast<std::ptrdiff_t>(3 * n), numbers.end());
+  return true;
+}
+
+void PictureObserver::draw(std::size_t number, Kept const& kept) {
+  auto const& output = results_.spec.output;
+  auto const shapes = shapes_at(results_.spec.rigids, kept.time);
+  PictureData const data{.points = kept.points,
+                         .radius = radii_,
+                         .values = kept.values,
+                         .label = picture_label(field_.name, field_.components, component_),
+                         .unit = field_.unit,
+                         .title = results_.spec.title,
+                         .time = kept.time,
+                         .dimension = results_.particles.dimension,
+                         .rigid_shapes = shapes,
+                         .stage_low = stage_low_,
+                         .stage_high = stage_high_};
+  PictureStyle const style{output.picture_width, output.picture_height, view_, look().range};
+  write_png(path(number), draw_picture(data, style, window_));
+  drawn_[number] = look();
+}
+
+/// What is drawn; false if the formulation has no such field.
+bool PictureObserver::prepare(Formulation const& formulation) {
+  if (impossible_ || !field_.name.empty()) return !impossible_;
+  auto const& output = results_.spec.output;
+  FieldCache const cache(formulation, results_.particles);
+  if (cache.knows(output.picture_field)) {
+    FieldInfo const& info = cache.info(output.picture_field);
+    if (auto const component = find_component(output.picture_component, info.components)) {
+      field_ = info;
+      component_ = *component;
+      return true;
+    }
+  }
+  impossible_ = true;
+  results_.journal.warn(fmt::format(
+      "pictures: the formulation has no field '{}'{}, so that no picture is drawn", output.picture_field,
+      output.picture_component.empty() ? "" : fmt::format(" with a component '{}'", output.picture_component)));
+  return false;
+}
+
+void PictureObserver::see_now(Formulation const& formulation, double time) {
+  if (!prepare(formulation)) return;
+  FieldCache cache(formulation, results_.particles);
+  Kept kept{time, std::vector<std::array<double, 3>>(radii_.size()), {}};
+  auto const x = cache.values("Position");
+  for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = x[i];
+  kept.values = picture_values(cache.values(field_.name), field_.components, component_);
+
+  window_.include(view_, kept.points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
+  show_shapes(window_, view_, shapes_at(results_.spec.rigids, time), {stage_low_, stage_high_});
+  auto const range = typical_range(kept.values);
+  range_ = {std::min(range_[0], range[0]), std::max(range_[1], range[1])};
+  make_folder(results_.folder / "pictures");
+  auto const number = static_cast<std::size_t>(count_);
+  keep(number, kept);
+  constexpr std::chrono::seconds pause(1);
+  auto const now = std::chrono::steady_clock::now();
+  if (now - last_drawn_ >= pause) {
+    last_drawn_ = now;
+    draw(number, kept);
+  }
+  last_ = path(number);
+  count_ += 1;
+  last_time_ = time;
+}
+
+PictureObserver::Look PictureObserver::look() const {
+  auto const& given = results_.spec.output.picture_range;
+  return {given ? *given : range_, {window_.x0, window_.x1, window_.y0, window_.y1}};
+}
+
+bool PictureObserver::drawn_as_now(std::size_t number) const {
+  auto const found = drawn_.find(number);
+  return found != drawn_.end() && found->second == look();
+}
+
+void PictureObserver::draw_all() {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
+    if (Kept kept; !drawn_as_now(k) && read_kept(k, kept)) draw(k, kept);
+    std::filesystem::remove(kept_path(k));
+  }
+}
+
+void PictureObserver::draw_missing() {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k)
+    if (Kept kept; !std::filesystem::exists(path(k)) && read_kept(k, kept)) draw(k, kept);
+}
+
+void PictureObserver::see(Formulation const& formulation, Moment const& moment) {
+  if (schedule_.due(moment.time)) see_now(formulation, moment.time);
+}
+
+void PictureObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+  if (!schedule_.ever() || !prepare(formulation)) return;
+  if (ending == Ending::stopped) {
+    draw_missing();
+  } else {
+    if (last_time_ != moment.time) see_now(formulation, moment.time);
+    draw_all();
+  }
+}
+
+void PictureObserver::save(StateWriter& writer) const {
+  writer.put("pictures", std::array{count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0,
+                                    window_.y1, range_[0], range_[1]});
+}
+
+void PictureObserver::load(NamedState& reader, Moment const& moment) {
+  std::array<double, 9> v{};
+  reader.get("pictures", v);
+  schedule_.start_after(moment.time);
+  count_ = v[0];
+  last_time_ = v[1];
+  window_ = {v[2] != 0, v[3], v[4], v[5], v[6]};
+  range_ = {v[7], v[8]};
+}
+
+}  // namespace piola

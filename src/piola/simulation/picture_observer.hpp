@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/picture.hpp"
+#include "piola/simulation/observers.hpp"
+#include <chrono>
+#include <limits>
+#include <map>
+
+namespace piola {
+
+/// pictures/FIELD-000000.png at each due time and at the end. When a run ends all its pictures have one range of
+/// colours (unless the case gives it) and one scale: they are drawn then, from particle positions and values that are
+/// kept until then. For those who watch a long run, a picture is also drawn at its time if a second has passed since
+/// the last one, with the colours and the scale of what was seen so far.
+class PictureObserver : public Observer {
+ public:
+  explicit PictureObserver(Results results);
+  void see(Formulation const& formulation, Moment const& moment) override;
+  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
+  void save(StateWriter& writer) const override;
+  void load(NamedState& reader, Moment const& moment) override;
+  std::filesystem::path const& last() const { return last_; }
+
+ private:
+  /// What a picture shows, as it is kept on the disk.
+  struct Kept {
+    double time = 0;
+    std::vector<std::array<double, 3>> points;
+    std::vector<double> values;
+  };
+  void see_now(Formulation const& formulation, double time);
+  void draw(std::size_t number, Kept const& kept);
+  bool prepare(Formulation const& formulation);
+  bool drawn_as_now(std::size_t number) const;
+  void draw_all();
+  void draw_missing();
+  std::filesystem::path path(std::size_t number) const;
+  std::filesystem::path kept_path(std::size_t number) const;
+  void keep(std::size_t number, Kept const& kept) const;
+  bool read_kept(std::size_t number, Kept& kept) const;
+
+  Results results_;
+  Schedule schedule_;
+  View view_;
+  Window window_;
+  std::array<double, 2> range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<double> radii_;
+  std::array<double, 3> stage_low_{}, stage_high_{};
+  FieldInfo field_{};  ///< what is drawn; no name before the first picture
+  int component_ = whole_field;
+  /// How a picture was drawn; nothing is known of those that were drawn before the run was resumed.
+  struct Look {
+    std::array<double, 2> range;
+    std::array<double, 4> window;
+    bool operator==(Look const&) const = default;
+  };
+  Look look() const;
+  std::map<std::size_t, Look> drawn_;
+  std::chrono::steady_clock::time_point last_drawn_{};
+  bool impossible_ = false;  ///< the formulation has no such field, and the user was told
+  double count_ = 0, last_time_ = -1;
+  std::filesystem::path last_;
+};
+
+}  // namespace piola

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/scene.hpp"
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace piola {
+namespace {
+
+/// The axis along which a vector points; nothing if it is oblique or zero.
+std::optional<Up> axis_of(std::array<double, 3> const& v) {
+  constexpr double oblique = 1e-6;
+  constexpr std::array plus{Up::x, Up::y, Up::z}, minus{Up::minus_x, Up::minus_y, Up::minus_z};
+  double const length = std::hypot(v[0], v[1], v[2]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (length > 0 && std::abs(v[c]) >= (1 - oblique) * length) return v[c] > 0 ? plus[c] : minus[c];
+  }
+  return std::nullopt;
+}
+
+std::optional<Up> against_gravity(CaseSpec const& spec) {
+  for (LoadSpec const& load : spec.loads) {
+    if (load.kind != LoadSpec::Kind::acceleration || load.where || std::isfinite(load.until)) continue;
+    std::array<double, 3> up{};
+    bool constant = true;
+    for (std::size_t c = 0; c < 3; ++c) {
+      up[c] = -load.value[c]({});
+      constant = constant && !load.value[c].depends_on_time();
+    }
+    if (auto const axis = axis_of(up); axis && constant) return axis;
+  }
+  return std::nullopt;
+}
+
+bool rests(RigidShape const& shape) {
+  return std::all_of(shape.velocity.begin(), shape.velocity.end(),
+                     [](Expression const& v) { return v({}) == 0 && !v.depends_on_time(); });
+}
+
+}  // namespace
+
+Up upwards(CaseSpec const& spec) {
+  for (std::size_t k = 0; k < up_words.size(); ++k)
+    if (spec.output.picture_up == up_words[k]) return static_cast<Up>(k);
+  if (auto const up = against_gravity(spec)) return *up;
+  for (RigidSpec const& rigid : spec.rigids) {
+    if (rigid.kind != RigidShape::Kind::plane || !rests(rigid)) continue;
+    if (auto const up = axis_of(rigid.axis)) return *up;
+  }
+  return Up::y;
+}
+
+std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time) {
+  // Midpoints of so many intervals: exact for the constant and linear velocities of most cases.
+  constexpr int intervals = 1000;
+  std::vector<RigidShape> shapes;
+  for (RigidSpec const& rigid : rigids) {
+    RigidShape shape = rigid;
+    for (std::size_t c = 0; c < 3; ++c) {
+      Expression const& velocity = rigid.velocity[c];
+      int const parts = velocity.depends_on_time() ? intervals : 1;
+      double sum = 0;
+      for (int k = 0; k < parts; ++k) sum += velocity({}, time * (k + 0.5) / parts);
+      shape.centre[c] += sum * time / parts;
+    }
+    shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+}  // namespace piola

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/case_spec.hpp"
+#include "piola/output/picture.hpp"
+#include <vector>
+
+namespace piola {
+
+/// What points upwards in the pictures of a case: what output.pictures.up says; else against gravity (a constant
+/// acceleration along an axis of all particles of a body); else the outward normal of a resting rigid plane across an
+/// axis; else y.
+Up upwards(CaseSpec const& spec);
+
+/// The rigid shapes of a case as they stand at a time [s].
+std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time);
+
+}  // namespace piola

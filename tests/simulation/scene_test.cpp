@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/scene.hpp"
+#include "support/sample_case.hpp"
+#include <gtest/gtest.h>
+
+namespace piola {
+namespace {
+
+constexpr char const* gravity = R"(
+[[load]]
+body = "column"
+acceleration = [0, 0, "-9.81 m/s^2"]
+)";
+
+Up of(std::string const& more) { return upwards(read_case_text(test::sample_case() + more, "case.toml")); }
+
+TEST(Upwards, IsYUnlessTheCaseSaysOtherwise) {
+  EXPECT_EQ(of(""), Up::y);
+  EXPECT_EQ(of("[output.pictures]\nevery = 1\nup = \"-x\"\n"), Up::minus_x);
+}
+
+TEST(Upwards, IsAgainstGravity) {
+  EXPECT_EQ(of(gravity), Up::z);
+  EXPECT_EQ(of("[[load]]\nbody = \"column\"\nacceleration = [\"3 m/s^2\", 0, 0]\n"), Up::minus_x);
+  EXPECT_EQ(of(std::string(gravity) + "[output.pictures]\nevery = 1\nup = \"y\"\n"), Up::y);
+}
+
+TEST(Upwards, IgnoresLoadsThatAreNoGravity) {
+  EXPECT_EQ(of("[[load]]\nbody = \"column\"\nacceleration = [0, 0, \"sin(t)\"]\n"), Up::y) << "changes in time";
+  EXPECT_EQ(of("[[load]]\nbody = \"column\"\nacceleration = [1, 0, 1]\n"), Up::y) << "oblique";
+  EXPECT_EQ(of("[[load]]\nbody = \"column\"\nacceleration = [0, 0, 0]\n"), Up::y) << "none";
+  EXPECT_EQ(of("[[load]]\nbody = \"column\"\nbody_force = [0, 0, -1]\n"), Up::y) << "a force";
+  EXPECT_EQ(of("[[load]]\nbody = \"column\"\nwhere = \"Y > 3\"\nacceleration = [0, 0, -1]\n"), Up::y) << "of a part";
+}
+
+CaseSpec with_plane(std::array<double, 3> const& normal, std::string const& velocity) {
+  CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
+  RigidSpec plane;
+  plane.axis = normal;
+  plane.velocity = {Expression(velocity), Expression("0"), Expression("2*t")};
+  spec.rigids.push_back(plane);
+  return spec;
+}
+
+TEST(Upwards, IsTheNormalOfARestingPlane) {
+  CaseSpec spec = with_plane({0, 0, 1}, "0");
+  spec.rigids[0].velocity[2] = Expression("0");
+  EXPECT_EQ(upwards(spec), Up::z);
+  spec.rigids[0].velocity[0] = Expression("1");
+  EXPECT_EQ(upwards(spec), Up::y) << "it moves";
+  spec.rigids[0].velocity[0] = Expression("0");
+  spec.rigids[0].axis = {0.6, 0, 0.8};
+  EXPECT_EQ(upwards(spec), Up::y) << "it is oblique";
+  spec.rigids[0].axis = {0, 0, 1};
+  spec.rigids[0].kind = RigidShape::Kind::box;
+  EXPECT_EQ(upwards(spec), Up::y) << "it is no plane";
+}
+
+TEST(Shapes, StandWhereTheirVelocityHasTakenThem) {
+  CaseSpec spec = with_plane({0, 1, 0}, "3");
+  spec.rigids[0].centre = {1, 2, 3};
+  auto const shapes = shapes_at(spec.rigids, 0.5);
+  ASSERT_EQ(shapes.size(), 1u);
+  EXPECT_DOUBLE_EQ(shapes[0].centre[0], 2.5);
+  EXPECT_DOUBLE_EQ(shapes[0].centre[1], 2);
+  EXPECT_NEAR(shapes[0].centre[2], 3.25, 1e-12);  // the integral of 2 t
+}
+
+}  // namespace
+}  // namespace piola
