@@ -34,6 +34,7 @@ constexpr std::array fields{
     FieldWord{"kernel_type", "KernelType", "1", 1},
     FieldWord{"principal_stress", "PrincipalStress", "Pa", 3},
     FieldWord{"principal_strain", "PrincipalStrain", "1", 3},
+    FieldWord{"parting", "Parting", "1", 1},
 };
 
 constexpr std::array actions{PartQuantity{"force_x", "N"},    PartQuantity{"force_y", "N"},

@@ -14,6 +14,8 @@ using enum KeyInfo::Kind;
 constexpr std::array sections{
     SectionInfo{"", "", "the top of the file"},
     SectionInfo{"run", "[run]", "how long and how to run"},
+    SectionInfo{"run.guards", "guards = { ... }",
+                "from where on a run warns of its answer, or stops; guards = \"off\" for none, \"off\" for one limit"},
     SectionInfo{"body", "[[body]]", "one body of particles; a case has one or more"},
     SectionInfo{"body.shape", "shape = { ... }", "what a body looks like: exactly one of box, sphere, cylinder"},
     SectionInfo{"body.shape.box", "box = { ... }", "a box; the number of components is the dimension of the case"},

@@ -3,6 +3,7 @@
 #include "piola/base/expression.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/formulations/assembly.hpp"
+#include "piola/input/guard_limits.hpp"
 #include "piola/setup/faces.hpp"
 #include <array>
 #include <limits>
@@ -27,6 +28,7 @@ struct RunSpec {
   bool relax = false;            ///< dynamic relaxation: ends at rest
   double rest = 1e-3;            ///< relax: the residual force at rest, beside the largest of the run
   std::string machine = "auto";  ///< instruction set: auto, scalar, v2, v3, v4
+  GuardLimits guards;
   Places places;
 };
 

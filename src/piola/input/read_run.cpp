@@ -4,6 +4,7 @@
 #include "piola/input/history_names.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -30,6 +31,53 @@ void read_threads(Section const& section, RunSpec& run) {
   } else if (auto const threads = section.whole("threads")) {
     run.threads = static_cast<int>(*threads);
   }
+}
+
+/// A limit, or "off".
+void read_limit(Section const& section, std::string_view key, double& limit, double off) {
+  auto const value = section.find(key);
+  if (value && value->node.is_text() && value->node.text == "off")
+    limit = off;
+  else
+    section.read(key, limit);
+}
+
+void read_jacobian(Section const& section, GuardLimits& limits) {
+  auto const value = section.find("jacobian");
+  if (!value) return;
+  if (value->node.is_text() && value->node.text == "off") {
+    limits.jacobian = {0, std::numeric_limits<double>::infinity()};
+    return;
+  }
+  auto const items = read_list(*value, 2, 2, section.problems());
+  if (!items) return;
+  Interval const allowed = section.info_of("jacobian").allowed;
+  auto const low = read_number((*items)[0], "1", allowed, section.problems());
+  auto const high = read_number((*items)[1], "1", allowed, section.problems());
+  if (!low || !high) return;
+  if (*low >= *high)
+    section.problems().add(value->node.place, "run.guards.jacobian is empty (allowed: the lower value first)");
+  limits.jacobian = {*low, *high};
+}
+
+void read_guards(Section const& run, GuardLimits& limits) {
+  Node const* const node = run.node().find("guards");
+  if (node != nullptr && node->is_text() && node->text == "off") {
+    limits.on = false;
+    return;
+  }
+  auto const section = run.table("guards");
+  if (!section) return;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  read_limit(*section, "energy_rise_warn", limits.energy_rise_warn, never);
+  read_limit(*section, "energy_rise_stop", limits.energy_rise_stop, never);
+  read_limit(*section, "dissipation", limits.dissipation, never);
+  read_jacobian(*section, limits);
+  read_limit(*section, "overlap", limits.overlap, never);
+  read_limit(*section, "strangers", limits.strangers, 0);
+  read_limit(*section, "parting_warn", limits.parting_warn, never);
+  read_limit(*section, "parting_stop", limits.parting_stop, never);
+  section->refuse_unknown();
 }
 
 void read_frames(Section const& section, OutputSpec& output) {
@@ -108,6 +156,7 @@ void read_run(Section const& section, RunSpec& run) {
   if (!run.relax) section.refuse("rest", "is used only with relax = true");
   section.read("rest", run.rest);
   read_threads(section, run);
+  read_guards(section, run.guards);
   if (run.min_step >= run.max_step) {
     section.problems().add(section.place_of("min_step"), "run.min_step is not below run.max_step (allowed: less than " +
                                                              quantity_text(run.max_step, "s") + ")");

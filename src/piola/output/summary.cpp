@@ -4,6 +4,19 @@
 #include <nlohmann/json.hpp>
 
 namespace piola {
+namespace {
+
+nlohmann::ordered_json guards_json(Summary const& s) {
+  if (!s.guards) return "off";
+  nlohmann::ordered_json all = nlohmann::ordered_json::object();
+  for (GuardNumbers const& guard : *s.guards) {
+    for (auto const& [name, value] : guard.values) all[guard.name][name] = value;
+    if (!guard.words.empty()) all[guard.name]["warning"] = guard.words;
+  }
+  return all;
+}
+
+}  // namespace
 
 std::string to_json(Summary const& s) {
   nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
@@ -31,6 +44,7 @@ std::string to_json(Summary const& s) {
   }
   for (auto const& [name, value] : s.seconds) document["seconds"][name] = value;
   document["quantities"] = quantities;
+  document["guards"] = guards_json(s);
   document["warnings"] = s.warnings;
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

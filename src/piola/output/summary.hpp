@@ -22,6 +22,13 @@ struct RelaxationReport {
   long stops = 0;       ///< how often the bodies were brought to rest
 };
 
+/// What a guard of a run has seen.
+struct GuardNumbers {
+  std::string name;
+  std::vector<std::pair<std::string, double>> values;
+  std::string words;  ///< what the user should know; empty: all is well
+};
+
 /// What summary.json says about a run.
 struct Summary {
   std::string status;  ///< "completed", "failed" or "stopped"
@@ -42,6 +49,7 @@ struct Summary {
   std::optional<RelaxationReport> relaxation;
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;
+  std::optional<std::vector<GuardNumbers>> guards;  ///< nothing: they were off
 };
 
 /// The JSON text; numbers that are not finite become null.

@@ -33,7 +33,7 @@ std::string limit_text(Moment const& m, double cfl) {
                      quantity_text(m.first_dt, "s"), by, factor);
 }
 
-std::string causes(Failure const& f, Moment const& m) {
+std::string usual_causes(Failure const& f, Moment const& m) {
   if (m.step < 5)
     return "often the initial velocity or deformation is wrong (units, sign), or a material constant is; try 'piola "
            "check'";
@@ -46,13 +46,14 @@ std::string causes(Failure const& f, Moment const& m) {
 
 }  // namespace
 
-std::string failure_text(Failure const& failure, Moment const& moment, double cfl,
+std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,
                          std::filesystem::path const& results) {
   std::string const values = values_text(failure);
+  std::string const likely = causes.empty() ? usual_causes(failure, moment) : causes;
   return fmt::format(
       "stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  last state: {} and {}; see docs/user/when-it-stops.md",
-      moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values, limit_text(moment, cfl),
-      causes(failure, moment), (results / "frames.hdf.series").string(), (results / failed_checkpoint).string());
+      moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values, limit_text(moment, cfl), likely,
+      (results / "frames.hdf.series").string(), (results / failed_checkpoint).string());
 }
 
 }  // namespace piola

@@ -8,8 +8,8 @@
 namespace piola {
 
 /// What the user is told when the physics fails: particle, place, step, values, what limits the step, likely causes,
-/// and where the last state lies.
-std::string failure_text(Failure const& failure, Moment const& moment, double cfl,
+/// and where the last state lies. `causes`: the likely ones if they are known, else those of such failures.
+std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,
                          std::filesystem::path const& results);
 
 }  // namespace piola

@@ -20,6 +20,11 @@ void Journal::start(std::string const& first_line) { write(first_line, "w"); }
 
 void Journal::note(std::string const& line) { write(line, "a"); }
 
+void Journal::tell(std::string const& text) {
+  note("warning: " + text);
+  listener_.warning(text);
+}
+
 void Journal::warn(std::string const& text) {
   if (!known_.insert(text).second) return;
   warnings_.push_back(text);

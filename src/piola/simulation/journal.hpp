@@ -34,6 +34,8 @@ class Journal {
   void note(std::string const& line);
   /// Notes a warning and tells the listener; the same text only once.
   void warn(std::string const& text);
+  /// Notes and tells the listener what is not final yet: the list of warnings has it when the run is over.
+  void tell(std::string const& text);
   std::vector<std::string> const& warnings() const { return warnings_; }
 
  private:

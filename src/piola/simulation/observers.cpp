@@ -50,7 +50,9 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
 }
 
 void HistoryObserver::write_row(Formulation const& formulation, Moment const& moment) {
-  auto row = diagnostic_values(moment.time, moment.step, moment.dt, formulation.diagnose());
+  last_ = formulation.diagnose();
+  last_step_ = moment.step;
+  auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
   FieldCache cache(formulation, results_.particles);
   for (Probe& probe : probes_) {
     auto const more = probe.evaluate(cache, moment.time);

@@ -8,6 +8,7 @@
 #include "piola/output/picture.hpp"
 #include "piola/simulation/journal.hpp"
 #include "piola/simulation/moment.hpp"
+#include "piola/simulation/objection.hpp"
 #include "piola/simulation/probes.hpp"
 #include "piola/simulation/schedule.hpp"
 #include <chrono>
@@ -32,6 +33,8 @@ class Observer {
   virtual void finish(Formulation const&, Moment const&, Ending) {}
   /// Called before a checkpoint that counts on what was written: all of it is on the disk afterwards.
   virtual void sync() {}
+  /// Set once the answer is not to be believed: the run then stops as failed.
+  virtual std::optional<Objection> objection() const { return std::nullopt; }
   /// What a resumed run needs to continue; names are unique among observers.
   virtual void save(StateWriter&) const {}
   virtual void load(NamedState&, Moment const&) {}
@@ -57,6 +60,8 @@ class HistoryObserver : public Observer {
   /// Opens the file anew, or cut off after `resume_time` (after load). Called before the first step.
   void open(Formulation const& formulation, std::optional<double> resume_time);
   HistoryTable const& table() const { return file_->table(); }
+  /// The numbers of the row of this step; null if it has none.
+  Diagnostics const* row_of(std::int64_t step) const { return last_ && last_step_ == step ? &*last_ : nullptr; }
 
  private:
   void write_row(Formulation const& formulation, Moment const& moment);
@@ -66,6 +71,8 @@ class HistoryObserver : public Observer {
   std::optional<HistoryFile> file_;
   HistoryMark mark_;              ///< of the checkpoint that the run was resumed from
   std::set<std::string> warned_;  ///< columns with cells that were not numbers
+  std::optional<Diagnostics> last_;
+  std::int64_t last_step_ = -1;
 };
 
 /// frames/*.hdf at each due time and at the end; the last state of a failed run always.

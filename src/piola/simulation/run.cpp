@@ -48,7 +48,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     auto const step_start = Clock::now();
     double const stable = formulation.stable_time_step();
     if (moment.step == 0) moment.first_dt = std::min(stable, run.max_step);
-    if (collapsed(stable, run, moment)) return {Ending::failed, collapse(stable)};
+    if (collapsed(stable, run, moment)) return {Ending::failed, collapse(stable), {}};
 
     auto const [dt, cut_to_end] = choose_step(stable, run, moment);
     if (cut_to_end) {
@@ -64,9 +64,13 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     moment.stepping_seconds += seconds_since(step_start);
     moment.wall_seconds = wall_before + seconds_since(start);
 
-    if (auto failure = formulation.failure()) return {Ending::failed, std::move(failure)};
+    if (auto failure = formulation.failure()) return {Ending::failed, std::move(failure), {}};
     for (Observer* observer : observers) observer->see(formulation, moment);
-    if (stop.load(std::memory_order_relaxed) != 0 && moment.time < run.end && !at_rest) return {Ending::stopped, {}};
+    for (Observer const* observer : observers)
+      if (auto objection = observer->objection())
+        return {Ending::failed, std::move(objection->failure), std::move(objection->causes)};
+    if (stop.load(std::memory_order_relaxed) != 0 && moment.time < run.end && !at_rest)
+      return {Ending::stopped, {}, {}};
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace piola {
 
@@ -15,11 +16,12 @@ namespace piola {
 struct March {
   Ending ending = Ending::completed;
   std::optional<Failure> failure;  ///< set if ending is failed
+  std::string causes;              ///< likely ones, where more is known than the failure says
 };
 
 /// The main loop: from `moment` to the end time of `run`, or until the bodies are at rest if `relaxation` looks for
-/// that, or until the physics fails, or until `stop` is not zero. Observers see the const state after each step; they
-/// never change the step.
+/// that, or until the physics fails or an observer objects, or until `stop` is not zero. Observers see the const state
+/// after each step; they never change the step.
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
             std::atomic<int> const& stop, Relaxation* relaxation = nullptr);
 

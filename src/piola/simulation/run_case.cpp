@@ -8,6 +8,7 @@
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/simulation/failure_text.hpp"
+#include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/quantities.hpp"
 #include "piola/simulation/relaxation.hpp"
@@ -24,6 +25,7 @@ namespace {
 /// All observers of a run, in the order in which they look.
 struct Watch {
   HistoryObserver history;
+  GuardObserver guards;
   FrameObserver frames;
   PictureObserver pictures;
   Relaxation relaxation;
@@ -32,16 +34,17 @@ struct Watch {
 
   Observer* also;
 
-  Watch(Results const& results, Listener& listener, Observer* last)
+  Watch(Results const& results, double mass, Listener& listener, Observer* last)
       : history(results),
+        guards(results, mass, history),
         frames(results),
         pictures(results),
         relaxation(results.spec.run),
-        checkpoints(results, {&history, &frames, &pictures, &relaxation}),
+        checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}),
         progress(listener, results.spec.run.end, results.particles.size(), history),
         also(last) {}
   std::vector<Observer*> all() {
-    std::vector<Observer*> list{&history, &frames, &pictures, &relaxation, &checkpoints, &progress};
+    std::vector<Observer*> list{&history, &guards, &frames, &pictures, &relaxation, &checkpoints, &progress};
     if (also != nullptr) list.push_back(also);
     return list;
   }
@@ -282,7 +285,7 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
   for (std::string const& warning : s.warnings) journal.warn(warning);
-  Watch watch({options.folder, s.spec, s.particles, journal}, listener, options.also);
+  Watch watch({options.folder, s.spec, s.particles, journal}, s.mass, listener, options.also);
   Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
   std::vector<Observer*> const observers = watch.all();
   March const end = march(*s.formulation, s.spec.run, moment, observers, stop, &watch.relaxation);
@@ -291,7 +294,8 @@ CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listene
 
   CaseOutcome outcome{
       end.ending, summarise(s, moment, end.ending, watch.history.table(), journal), {}, watch.pictures.last(), {}};
-  if (end.failure) outcome.failure = failure_text(*end.failure, moment, s.spec.run.cfl, options.folder);
+  outcome.summary.guards = watch.guards.report();
+  if (end.failure) outcome.failure = failure_text(*end.failure, end.causes, moment, s.spec.run.cfl, options.folder);
   if (std::filesystem::exists(options.folder / "frames.hdf.series"))
     outcome.index = options.folder / "frames.hdf.series";
   if (watch.relaxation.active()) {

@@ -248,6 +248,47 @@ TEST(TaylorFailure, OfACellTurnedInsideOutIsReported) {
   EXPECT_EQ(failure->what, "is at a cell that is turned inside out, crushed or torn");
 }
 
+/// Whatever becomes of a particle, the run ends soon, with a failure that is told.
+TEST(TaylorFailure, OfAParticleThatFliesOffIsReported) {
+  for (double const speed : {1e6, 1e20, 1e30, 1e300, std::numeric_limits<double>::infinity(), std::nan("")})
+    for (auto const* cells : {"lattice_cells", "delaunay"}) {
+      Assembly a = assemble_taylor(unit_box(2, 5));
+      choose(a, "virtual_particles", cells);
+      a.initial_velocity.assign(a.particles.X.size(), {0, 0, 0});
+      a.initial_velocity[7] = {speed, 0.5 * speed, 0};
+      auto const f = make_formulation(a);
+      for (int k = 0; k < 30 && !f->failure(); ++k) f->step(1e-3 * k, 1e-3);
+      EXPECT_TRUE(f->failure()) << speed << " " << cells;
+    }
+}
+
+/// The rim of a disc that turns fast creeps away until a new triangulation leaves a particle without a cell.
+TEST(TaylorFailure, OfABodyThatComesApartIsReported) {
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::sphere;
+  shape.dimension = 2;
+  shape.radius = 0.5;
+  shape.spacing = 0.1;
+  ParticleSet set;
+  set.dimension = 2;
+  fill(shape, "disc", set);
+  Assembly a = assemble_taylor(std::move(set), material("linear_elastic", 1000, 1e6, 0.3));
+  choose(a, "configuration", "updated");
+  choose(a, "exchange", "estimates");
+  give_velocity(a, [](Point const& X) { return Point{-30 * X[1], 30 * X[0], 0}; });
+  auto const f = make_formulation(a);
+  double parted = 0, time = 0;
+  int steps = 0;
+  for (; steps < 400 && !f->failure(); ++steps) {
+    if (steps == 5) parted = more(*f, "parting");
+    time = run(*f, 1, time);
+  }
+  ASSERT_TRUE(f->failure());
+  EXPECT_EQ(f->failure()->what, "has no cell left around it");
+  EXPECT_GT(more(*f, "parting"), 0.2) << "long before, positions and stress have parted";
+  EXPECT_LT(parted, 0.2);
+}
+
 // ---- several bodies
 
 TEST(TaylorTwoBodies, MoveAsEachWouldAlone) {

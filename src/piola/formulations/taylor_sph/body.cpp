@@ -149,6 +149,7 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
   s.books.assign(16, 0);
   restore(s);
+  start_ = positions();
   free_ = !boundary_.holds();
   double now[MotionSums::size];
   machine_->motion(state_, now);

@@ -8,6 +8,8 @@
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/cells.hpp"
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace piola::taylor_sph {
@@ -27,6 +29,12 @@ struct Snapshot {
 /// Wall time spent besides the steps themselves [s].
 struct SetupSeconds {
   double triangulation = 0, lists = 0;
+};
+
+/// A particle that has no place among the cells any more, and what became of it in words.
+struct Lost {
+  Index particle = 0;
+  std::string what;
 };
 
 /// Whether every point of the body's lattice is a particle (particles on cracks count once).
@@ -64,6 +72,8 @@ class TaylorBody {
   /// Adjoint: dt^2/8 sum V L:D:L [J]. The sum of energies less this only falls, but for the work from outside.
   double staggering_energy() const;
 
+  std::vector<double> parting() const;  ///< by particle: strain that the stress does not have; zeros if fixed
+
   Snapshot snapshot() const;
   void restore(Snapshot const& snapshot);
 
@@ -77,6 +87,8 @@ class TaylorBody {
   long triangulations() const { return triangulations_; }
   SetupSeconds const& seconds() const { return seconds_; }
   bool inverted() const { return measures_.inverted; }
+  /// Set once the cells or lists of a moving body cannot be made anew.
+  std::optional<Lost> const& lost() const { return lost_; }
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
@@ -114,6 +126,7 @@ class TaylorBody {
   std::array<double, 3> place_at(Index i, double ahead) const;
   void prepare_loads(double time);
   void follow_motion();
+  void renew_lists();
   /// Half the impulse of a traction on a particle.
   struct Push {
     std::size_t load;
@@ -132,7 +145,7 @@ class TaylorBody {
   Body body_;
   Options options_;
   Machine const* machine_;
-  Points X_;
+  Points X_, start_;  ///< reference positions, and where particles start without stress
   std::vector<double> mass_, kernel_volume_;
   std::vector<Crack> cracks_;
   std::vector<std::int8_t> crack_side_;
@@ -154,6 +167,7 @@ class TaylorBody {
   FailureSlot failure_;
   BodyState state_;
   CellMeasures measures_;
+  std::optional<Lost> lost_;
   double first_spacing_ = 0;                   ///< at the start [m]
   bool free_ = false;                          ///< no support: momentum changes by loads alone
   std::array<double, 6> momentum_{};           ///< linear and angular, that a free body must have

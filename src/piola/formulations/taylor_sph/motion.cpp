@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 namespace piola::taylor_sph {
@@ -280,7 +281,16 @@ void TaylorBody::follow_motion() {
   constexpr long most_hasty = 25;
   if (hasty_updates_ > most_hasty) measures_.inverted = true;
   if (measures_.inverted || failure_.index != FailureSlot::none) return;
+  try {
+    renew_lists();
+  } catch (InputError const& error) {  // what is a slip at the start is a body that came apart later on
+    lost_ = {worst_corner(), fmt::format("is in a body whose cells or lists cannot be made anew ({})", error.what())};
+  }
+}
+
+void TaylorBody::renew_lists() {
   if (measures_.quality < least_quality && steps_since_triangulation_ >= least_steps && triangulate_anew()) return;
+  if (lost_) return;
   if (options_.adjoint || measures_.strain < largest_strain) {
     if (steps_since_triangulation_ > least_steps) hasty_updates_ = 0;
     return;
@@ -304,6 +314,13 @@ bool TaylorBody::triangulate_anew() {
     Stopwatch const watch(seconds_.triangulation);
     Cells const all = delaunay(now, D(), 2 * largest_radius_);
     inside = cells_within(all, cells_, now);
+  }
+  std::vector<bool> held(X_.size());
+  for (Index const corner : inside.corner) held[at(corner)] = true;
+  auto const lonely = std::find(held.begin(), held.end(), false);
+  if (lonely != held.end()) {
+    lost_ = {static_cast<Index>(lonely - held.begin()), "has no cell left around it"};
+    return false;
   }
   ++triangulations_;
   Snapshot s = snapshot();

@@ -30,7 +30,7 @@ double stored_energy(TaylorBody const& body, SymMat<3> const& s) {
 struct Particle {
   std::array<double, 3> u, x, v;
   SymMat<3> stress;
-  double J, rho0, body, neighbours, id;
+  double J, rho0, body, neighbours, id, parting;
 };
 
 struct Observed {
@@ -54,6 +54,7 @@ constexpr std::array table{
     Observed{"Jacobian", "1", 1, [](Particle const& p, double* out) { *out = p.J; }},
     Observed{"VonMisesStress", "Pa", 1, [](Particle const& p, double* out) { *out = von_mises(p.stress); }},
     Observed{"Density", "kg/m3", 1, [](Particle const& p, double* out) { *out = p.rho0 / p.J; }},
+    Observed{"Parting", "1", 1, [](Particle const& p, double* out) { *out = p.parting; }},
     Observed{"Neighbours", "1", 1, [](Particle const& p, double* out) { *out = p.neighbours; }},
     Observed{"Body", "1", 1, [](Particle const& p, double* out) { *out = p.body; }},
     Observed{"Id", "1", 1, [](Particle const& p, double* out) { *out = p.id; }}};
@@ -89,6 +90,8 @@ std::vector<FieldInfo> observed_fields() {
 void sample(TaylorBody const& body, int body_number, std::string_view field, std::span<double> values) {
   auto const found = std::find_if(table.begin(), table.end(), [&](auto const& f) { return field == f.name; });
   if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
+  std::vector<double> const parting =
+      field == "Parting" ? body.parting() : std::vector<double>(static_cast<std::size_t>(body.particles()));
   for (Index i = 0; i < body.particles(); ++i) {
     auto const id = body.body().first + i;
     Particle const p{body.displacement(i),
@@ -99,7 +102,8 @@ void sample(TaylorBody const& body, int body_number, std::string_view field, std
                      body.state().k.rho0,
                      static_cast<double>(body_number),
                      static_cast<double>(body.neighbours(i)),
-                     static_cast<double>(id)};
+                     static_cast<double>(id),
+                     parting[static_cast<std::size_t>(i)]};
     found->put(p, &values[static_cast<std::size_t>(id * found->components)]);
   }
 }

@@ -72,7 +72,7 @@ constexpr std::array parameters{
 constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};
 
 constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"},
-                                 DiagnosticInfo{"centred_energy", "J"}};
+                                 DiagnosticInfo{"centred_energy", "J"}, DiagnosticInfo{"parting", "1"}};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 

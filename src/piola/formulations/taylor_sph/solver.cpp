@@ -90,18 +90,22 @@ class Solver final : public Formulation {
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
     Observation all;
-    std::array<double, 4> more{};
+    std::array<double, 5> more{};
     for (auto const& body : bodies_) {
       observe(*body, set_, all);
       more[0] += body->state().filter_loss + body->state().exchange_loss;
       more[1] += static_cast<double>(body->list_updates());
       more[2] += static_cast<double>(body->triangulations());
       more[3] += body->staggering_energy();
+      for (double const p : body->parting()) more[4] = std::max(more[4], p);
     }
     Diagnostics d = all.finish();
     d.stabilisation_loss = more[0];
     d.actions = actions_.report();
-    d.more = {{"list_updates", more[1]}, {"triangulations", more[2]}, {"centred_energy", d.total_energy() - more[3]}};
+    d.more = {{"list_updates", more[1]},
+              {"triangulations", more[2]},
+              {"centred_energy", d.total_energy() - more[3]},
+              {"parting", more[4]}};
     return d;
   }
 
@@ -141,12 +145,13 @@ class Solver final : public Formulation {
 std::optional<Failure> Solver::failure() const {
   for (auto const& body : bodies_) {
     FailureSlot const& slot = *body->state().failure;
-    bool const lost = slot.index != FailureSlot::none;
-    if (!lost && !body->inverted()) continue;
-    Index const i = lost ? body->local_of(slot.index) : body->worst_corner();
+    bool const wild = slot.index != FailureSlot::none;
+    if (!wild && !body->lost() && !body->inverted()) continue;
+    Index const i = wild ? body->local_of(slot.index) : body->lost() ? body->lost()->particle : body->worst_corner();
     Failure f;
-    f.what = lost ? "has a velocity or stress that is not a number"
-                  : "is at a cell that is turned inside out, crushed or torn";
+    f.what = wild           ? "has a velocity or stress that is not a number"
+             : body->lost() ? body->lost()->what
+                            : "is at a cell that is turned inside out, crushed or torn";
     f.particle = body->body().first + i;
     f.body = body->body().name;
     f.X = body->X(i);

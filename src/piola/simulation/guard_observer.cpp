@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/guard_observer.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+namespace piola {
+namespace {
+
+/// Of a run whose history has few rows; a look costs as much as a row, which is a few steps.
+constexpr double look_interval = 1000;
+
+double finest_spacing(ParticleSet const& particles) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Body const& body : particles.bodies)
+    least = std::min(least, *std::min_element(body.spacing.begin(), body.spacing.begin() + particles.dimension));
+  return particles.bodies.empty() ? 0 : least;
+}
+
+}  // namespace
+
+GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const& history)
+    : results_(std::move(results)), history_(history), scale_(mass, finest_spacing(results_.particles)) {
+  if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
+  told_.assign(guards_.size(), 0);
+  for (BodySpec const& body : results_.spec.bodies)
+    kicked_ = kicked_ || body.formulation.formulas.count("initial_pressure") > 0;
+}
+
+void GuardObserver::see(Formulation const& formulation, Moment const& moment) {
+  if (guards_.empty() || (kicked_ && moment.step == 0)) return;
+  bool const last = moment.time >= results_.spec.run.end;
+  auto const step = static_cast<double>(moment.step);
+  Diagnostics const* row = history_.row_of(moment.step);
+  if (row == nullptr && !last && step - last_look_ < look_interval) return;
+  last_look_ = step;
+  Diagnostics const own = row == nullptr ? formulation.diagnose() : *row;
+  scale_.see(own, moment);
+  FieldCache fields(formulation, results_.particles);
+  Look const look{formulation, moment, own, scale_, fields, last};
+  for (std::size_t k = 0; k < guards_.size(); ++k) {
+    guards_[k]->look(look);
+    if (told_[k] != 0 || moment.step == 0 || guards_[k]->words().empty()) continue;
+    told_[k] = 1;
+    results_.journal.tell(fmt::format("so far, at t = {:.6g} s: {}", moment.time, guards_[k]->words()));
+  }
+}
+
+void GuardObserver::finish(Formulation const&, Moment const&, Ending) {
+  for (auto const& guard : guards_) {
+    if (auto const words = guard->words(); !words.empty()) results_.journal.warn(words);
+  }
+}
+
+void GuardObserver::save(StateWriter& writer) const {
+  if (guards_.empty()) return;
+  std::vector<double> state{last_look_};
+  state.insert(state.end(), told_.begin(), told_.end());
+  writer.put("guards", state);
+  scale_.save(writer);
+  for (auto const& guard : guards_) guard->save(writer);
+}
+
+void GuardObserver::load(NamedState& reader, Moment const&) {
+  if (guards_.empty() || !reader.has("guards")) return;  // checkpoints of older versions have none
+  std::vector<double> state(1 + told_.size());
+  reader.get("guards", state);
+  last_look_ = state[0];
+  told_.assign(state.begin() + 1, state.end());
+  scale_.load(reader);
+  for (auto const& guard : guards_) guard->load(reader);
+}
+
+std::optional<Objection> GuardObserver::objection() const {
+  for (auto const& guard : guards_) {
+    if (auto objection = guard->objection()) return objection;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::vector<GuardNumbers>> GuardObserver::report() const {
+  if (guards_.empty()) return std::nullopt;
+  std::vector<GuardNumbers> all;
+  for (auto const& guard : guards_) {
+    if (auto numbers = guard->numbers()) all.push_back(std::move(*numbers));
+  }
+  return all;
+}
+
+}  // namespace piola

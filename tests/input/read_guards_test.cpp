@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/read_case.hpp"
+#include "support/sample_case.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace piola {
+namespace {
+
+using test::message_of;
+using test::sample_with;
+
+GuardLimits limits_of(std::string const& guards) {
+  return read_case_text(sample_with("end = \"0.5 s\"", "end = \"0.5 s\"\n" + guards), "case.toml", {}).run.guards;
+}
+
+TEST(ReadGuards, AreOnWithTheLimitsOfTheManual) {
+  GuardLimits const g = limits_of("");
+  EXPECT_TRUE(g.on);
+  EXPECT_EQ(g.energy_rise_warn, 0.01);
+  EXPECT_EQ(g.energy_rise_stop, 0.1);
+  EXPECT_EQ(g.dissipation, 0.1);
+  EXPECT_EQ(g.jacobian, (std::array{0.3, 3.0}));
+  EXPECT_EQ(g.overlap, 1);
+  EXPECT_EQ(g.strangers, 0.5);
+  EXPECT_EQ(g.parting_warn, 0.05);
+  EXPECT_EQ(g.parting_stop, 0.2);
+}
+
+TEST(ReadGuards, TakeLimitsAndOff) {
+  GuardLimits const g = limits_of(
+      "guards = { energy_rise_warn = \"2 %\", energy_rise_stop = \"off\", dissipation = 0.5, jacobian = [0.1, 20], "
+      "overlap = \"off\", strangers = \"off\", parting_warn = 0.1, parting_stop = 1 }");
+  EXPECT_TRUE(g.on);
+  EXPECT_DOUBLE_EQ(g.energy_rise_warn, 0.02);
+  EXPECT_TRUE(std::isinf(g.energy_rise_stop));
+  EXPECT_EQ(g.dissipation, 0.5);
+  EXPECT_EQ(g.jacobian, (std::array{0.1, 20.0}));
+  EXPECT_TRUE(std::isinf(g.overlap));
+  EXPECT_EQ(g.strangers, 0);
+  EXPECT_EQ(g.parting_warn, 0.1);
+  EXPECT_EQ(g.parting_stop, 1);
+  EXPECT_TRUE(std::isinf(limits_of("guards = { jacobian = \"off\" }").jacobian[1]));
+  EXPECT_FALSE(limits_of("guards = \"off\"").on);
+}
+
+std::string refusal(std::string const& guards) {
+  return message_of(sample_with("end = \"0.5 s\"", "end = \"0.5 s\"\n" + guards));
+}
+
+TEST(ReadGuards, RefuseWhatHasNoMeaning) {
+  EXPECT_NE(
+      refusal("guards = \"on\"").find("run.guards is the text \"on\" (allowed: a table such as guards = { ... })"),
+      std::string::npos)
+      << refusal("guards = \"on\"");
+  EXPECT_NE(refusal("guards = { jacobian = [3, 0.3] }").find("run.guards.jacobian is empty"), std::string::npos);
+  EXPECT_NE(refusal("guards = { dissipaton = 1 }").find("did you mean \"dissipation\"?"), std::string::npos);
+  EXPECT_NE(refusal("guards = { overlap = -1 }").find("run.guards.overlap is -1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piola

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: Apache-2.0
+// What guards say of runs whose energies, strains and places are written down here.
+#include "piola/output/checkpoint.hpp"
+#include "piola/simulation/run_case.hpp"
+#include "support/fake_formulation.hpp"
+#include "support/temporary_folder.hpp"
+#include <functional>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace piola {
+namespace {
+
+using testing::make_plate;
+using testing::make_springs;
+using testing::springs;
+using testing::TemporaryFolder;
+using testing::text_of;
+using Point = std::array<double, 3>;
+
+/// A run as it is written down: everything is a formula of time, steps are 1 ms.
+struct Script {
+  std::function<double(double)> kinetic = [](double) { return 0.0; }, work = kinetic, loss = kinetic;
+  std::function<Point(std::size_t, double)> displacement = [](std::size_t, double) { return Point{}; };
+  std::function<double(std::size_t, double)> speed = [](std::size_t, double) { return 0.0; },
+                                             jacobian = [](std::size_t, double) { return 1.0; };
+  std::vector<char> eulerian = {};
+  std::function<std::vector<std::pair<std::string, double>>(double)> more = [](double) {
+    return std::vector<std::pair<std::string, double>>{};
+  };
+};
+
+class Scripted : public Formulation {
+ public:
+  Scripted(Script script, std::size_t particles) : script_(std::move(script)), n_(particles) {}
+  double stable_time_step() const override { return 1e-3; }
+  void step(double time, double dt) override {
+    time_ = time + dt;
+    if (++steps_ == stop_at) *stop = 15;
+  }
+  void damp(double) override {}
+  std::optional<Failure> failure() const override { return std::nullopt; }
+  Diagnostics diagnose() const override {
+    Diagnostics d;
+    d.kinetic_energy = script_.kinetic(time_);
+    d.external_work = script_.work(time_);
+    d.stabilisation_loss = script_.loss(time_);
+    d.jacobian_min = d.jacobian_max = script_.jacobian(0, time_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      d.jacobian_min = std::min(d.jacobian_min, script_.jacobian(i, time_));
+      d.jacobian_max = std::max(d.jacobian_max, script_.jacobian(i, time_));
+    }
+    d.more = script_.more(time_);
+    return d;
+  }
+  std::vector<FieldInfo> fields() const override {
+    std::vector<FieldInfo> r{{"Displacement", "m", 3}, {"Velocity", "m/s", 3}, {"Jacobian", "1", 1}};
+    if (!script_.eulerian.empty()) r.push_back({"KernelType", "1", 1});
+    return r;
+  }
+  void sample(std::string_view field, std::span<double> values) const override {
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (field == "Jacobian") values[i] = script_.jacobian(i, time_);
+      if (field == "KernelType") values[i] = script_.eulerian[i];
+      if (field == "Velocity") values[3 * i] = script_.speed(i, time_);
+      if (field != "Displacement") continue;
+      Point const u = script_.displacement(i, time_);
+      std::copy(u.begin(), u.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+  }
+  void save(StateWriter& writer) const override { writer.put("time", std::array{time_, steps_}); }
+  void load(StateReader& reader) override {
+    std::array<double, 2> v{};
+    reader.get("time", v);
+    time_ = v[0];
+    steps_ = v[1];
+  }
+  int stages_per_step() const override { return 1; }
+  std::size_t memory_bytes() const override { return 0; }
+
+  double stop_at = -1;
+  std::atomic<int>* stop = nullptr;
+
+ private:
+  Script script_;
+  std::size_t n_;
+  double time_ = 0, steps_ = 0;
+};
+
+Simulation simulation(Script const& script, ParticleSet particles = make_plate(4)) {
+  Simulation s;
+  s.particles = std::move(particles);
+  s.formulation = std::make_unique<Scripted>(script, s.particles.X.size());
+  s.formulation_name = "script";
+  s.mass = 16;
+  s.spec.title = "Script";
+  s.spec.source = "title = \"Script\"\n";
+  s.spec.run.end = 1;
+  s.spec.output.history_every = 0.01;
+  for (Body const& body : s.particles.bodies) s.spec.bodies.emplace_back().name = body.name;
+  return s;
+}
+
+struct Told : Listener {
+  std::vector<std::string> warnings_;
+  void warning(std::string const& text) override { warnings_.push_back(text); }
+};
+
+struct Outcome {
+  CaseOutcome of;
+  nlohmann::json guards;
+  std::vector<std::string> told;
+  std::string all() const {
+    std::string text;
+    for (auto const& w : of.summary.warnings) text += w + "\n";
+    return text;
+  }
+};
+
+Outcome run(Simulation& s, std::filesystem::path const& folder, bool resume = false, std::atomic<int>* stop = nullptr) {
+  Told listener;
+  std::atomic<int> none{0};
+  Outcome o{run_case(s, {.folder = folder, .resume = resume, .force = false}, listener, stop ? *stop : none), {}, {}};
+  o.guards = nlohmann::json::parse(text_of(folder / "summary.json"))["guards"];
+  o.told = listener.warnings_;
+  return o;
+}
+
+Outcome run(Script const& script, ParticleSet particles = make_plate(4)) {
+  TemporaryFolder const folder;
+  Simulation s = simulation(script, std::move(particles));
+  return run(s, folder / "r");
+}
+
+void expect_parts(std::string const& text, std::vector<std::string> const& parts) {
+  for (auto const& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+// ---- energy
+
+/// 100 J up to 0.3 s, then a rise to `factor` at the end, all of it in particle 6.
+Script rising(double factor) {
+  Script s;
+  s.kinetic = [=](double t) { return 100 * (1 + (factor - 1) * std::max(0.0, t - 0.3) / 0.7); };
+  s.speed = [](std::size_t i, double t) { return i == 6 && t > 0.3 ? 5 * t : 1; };
+  return s;
+}
+
+TEST(EnergyGuard, SaysNothingOfARiseBelowOnePercent) {
+  Outcome const o = run(rising(1.009));
+  EXPECT_EQ(o.of.summary.warnings, std::vector<std::string>{});
+  EXPECT_NEAR(o.guards["energy_rise"]["share"].get<double>(), 0.009, 0.001);
+  EXPECT_FALSE(o.guards["energy_rise"].contains("warning"));
+}
+
+TEST(EnergyGuard, WarnsOfARiseAboveOnePercentWithNumbersAndPlace) {
+  Outcome const o = run(rising(1.05));
+  EXPECT_EQ(o.of.ending, Ending::completed);
+  ASSERT_EQ(o.of.summary.warnings.size(), 1U);
+  expect_parts(o.all(), {"energy rose without a load by 4.", " % of 10",
+                         "from t = 0 s (step 0) to t = ", "particle 6 of body 'plate' (X = (2, 1, 0) m"});
+  EXPECT_NEAR(o.guards["energy_rise"]["share"].get<double>(), 0.05 / 1.05, 0.004);
+  EXPECT_EQ(o.guards["energy_rise"]["warning"], o.of.summary.warnings[0]);
+  ASSERT_EQ(o.told.size(), 2U) << "while the run goes on, and at its end";
+  expect_parts(o.told[0], {"so far, at t = 0."});
+}
+
+TEST(EnergyGuard, StopsARiseAboveTenPercent) {
+  TemporaryFolder const folder;
+  Simulation s = simulation(rising(1.5));
+  Outcome const o = run(s, folder / "r");
+  EXPECT_EQ(o.of.ending, Ending::failed);
+  EXPECT_GT(o.of.summary.end_time, 0.455);  // from then on (E - 100) / E > 0.1
+  EXPECT_LT(o.of.summary.end_time, 0.6);
+  expect_parts(o.of.failure,
+               {"particle 6 (body 'plate', X = (2, 1, 0) m", "gains most of an energy that no load brings",
+                "rise [%] = 1", "since step = 0", "often the step is too large"});
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["status"], "failed");
+  EXPECT_TRUE(std::filesystem::exists(folder / "r" / failed_checkpoint));
+}
+
+TEST(EnergyGuard, CountsFromTheLowestEnergySoFar) {
+  Script s;
+  s.kinetic = [](double t) { return t < 0.5 ? 100 - 100 * t : 50 + 20 * (t - 0.5); };
+  Outcome const o = run(s);
+  EXPECT_EQ(o.of.ending, Ending::completed);
+  EXPECT_NEAR(o.guards["energy_rise"]["share"].get<double>(), 0.1, 0.01);
+  EXPECT_NEAR(o.guards["energy_rise"]["from_time"].get<double>(), 0.5, 0.02);
+}
+
+TEST(EnergyGuard, TakesTheWorkOfLoadsOff) {
+  Script s;
+  s.kinetic = [](double t) { return 50 * t * t; };
+  s.work = s.kinetic;
+  EXPECT_EQ(run(s).of.summary.warnings, std::vector<std::string>{});
+  s.work = [](double t) { return 40 * t * t; };  // a quarter of the work comes from nowhere
+  EXPECT_EQ(run(s).of.ending, Ending::failed);
+}
+
+/// Work and energy are booked within a step of each other.
+TEST(EnergyGuard, ForgivesTheFirstStepsOfALoad) {
+  Script s;
+  s.kinetic = [](double t) { return t > 0.5 ? std::pow(t - 0.5 + 1e-3, 2) : 0; };
+  s.work = [](double t) { return t > 0.5 ? std::pow(t - 0.5, 2) : 0; };
+  Simulation often = simulation(s);
+  often.spec.output.history_every = 1e-3;
+  TemporaryFolder const folder;
+  Outcome const o = run(often, folder / "r");
+  EXPECT_EQ(o.of.ending, Ending::completed);
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["status"], "completed");
+}
+
+TEST(EnergyGuard, LeavesABodyAtRestAlone) {
+  Script s;
+  // Speeds of 1e-11 of that of waves, which are a spacing per step here: 1 m in 1 ms.
+  s.kinetic = [](double t) { return 8 * std::pow(1e-11 * 1e3 * (1 + t), 2); };
+  EXPECT_EQ(run(s).of.summary.warnings, std::vector<std::string>{});
+}
+
+TEST(EnergyGuard, StartsBehindAPressureThatTheCaseAdds) {
+  Script s;
+  s.kinetic = [](double t) { return t > 0 ? 100 : 0; };
+  TemporaryFolder const folder;
+  Simulation alone = simulation(s), pressed = simulation(s);
+  EXPECT_EQ(run(alone, folder / "alone").of.ending, Ending::failed);
+  pressed.spec.bodies[0].formulation.formulas.emplace("initial_pressure", Expression("5"));
+  EXPECT_TRUE(run(pressed, folder / "pressed").of.summary.warnings.empty());
+}
+
+TEST(EnergyGuard, HasTheLimitsOfTheCase) {
+  TemporaryFolder const folder;
+  Simulation strict = simulation(rising(1.009)), mild = simulation(rising(1.5)), off = simulation(rising(1.5));
+  strict.spec.run.guards.energy_rise_warn = 1e-3;
+  EXPECT_EQ(run(strict, folder / "strict").of.summary.warnings.size(), 1U);
+  mild.spec.run.guards.energy_rise_stop = 0.9;
+  EXPECT_EQ(run(mild, folder / "mild").of.ending, Ending::completed);
+  off.spec.run.guards.on = false;
+  Outcome const o = run(off, folder / "off");
+  EXPECT_EQ(o.of.ending, Ending::completed);
+  EXPECT_EQ(o.guards, "off");
+  EXPECT_TRUE(o.of.summary.warnings.empty());
+}
+
+TEST(DissipationGuard, WarnsWithTheSharesOfItsParts) {
+  Script s;
+  s.kinetic = [](double t) { return 100 - 20 * t; };
+  s.loss = [](double t) { return 15 * t; };
+  s.more = [](double t) { return std::vector<std::pair<std::string, double>>{{"viscous_loss", 3 * t}}; };
+  Outcome const o = run(s);
+  expect_parts(o.all(), {"the scheme took 23 % of the energy (stabilisation 15 %, viscosity and hourglass damping 3 %, "
+                         "the time steps and averages of the scheme 5 %)"});
+  EXPECT_NEAR(o.guards["dissipation"]["share"].get<double>(), 0.23, 1e-12);
+  s.kinetic = [](double t) { return 100 - 5 * t; };
+  s.loss = [](double t) { return 5 * t; };
+  EXPECT_TRUE(run(s).of.summary.warnings.empty());
+}
+
+// ---- deformation and contact
+
+TEST(JacobianGuard, WarnsOfTheWorstParticleOfWhatDoesNotYield) {
+  Script s;
+  s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 - 0.8 * t : i == 3 ? 1 + 1.9 * t : 1; };
+  Outcome const o = run(s);
+  ASSERT_EQ(o.of.summary.warnings.size(), 1U);
+  expect_parts(o.all(), {"det F reached 0.2", "at t = ", "particle 9 of body 'plate' (X = (1, 2, 0) m"});
+  EXPECT_DOUBLE_EQ(o.guards["jacobian"]["max"].get<double>(), 2.9);
+  EXPECT_NEAR(o.guards["jacobian"]["worst"].get<double>(), 0.2, 0.003);
+  s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 - 0.69 * t : 1 + 1.99 * t; };
+  EXPECT_TRUE(run(s).of.summary.warnings.empty());
+}
+
+TEST(JacobianGuard, LetsMetalsFlow) {
+  Script s;
+  s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 + 5 * t : 1; };
+  TemporaryFolder const folder;
+  for (std::string const law : {"johnson_cook", "perfectly_plastic", "elastic", "neo_hookean"}) {
+    Simulation of = simulation(s);
+    of.spec.bodies[0].law = law;
+    of.spec.bodies[0].material.law = find_law(law).value().index;
+    EXPECT_EQ(run(of, folder / law).of.summary.warnings.empty(), law == "johnson_cook" || law == "perfectly_plastic")
+        << law;
+  }
+}
+
+TEST(OverlapGuard, WarnsAboveOneSpacing) {
+  auto const with = [](double most) {
+    Script s;
+    s.more = [=](double t) { return std::vector<std::pair<std::string, double>>{{"contact_overlap", most * t}}; };
+    return run(s);
+  };
+  Outcome const o = with(1.25);
+  expect_parts(o.all(), {"contact overlap reached 1.25 spacings (limit 1) at t = 1 s"});
+  EXPECT_TRUE(with(0.99).of.summary.warnings.empty());
+  EXPECT_DOUBLE_EQ(with(0.99).guards["overlap"]["largest"].get<double>(), 0.99);
+}
+
+TEST(PartingGuard, WarnsAndStops) {
+  auto const with = [](double most) {
+    Script s;
+    s.more = [=](double t) { return std::vector<std::pair<std::string, double>>{{"parting", most * t}}; };
+    return run(s);
+  };
+  EXPECT_TRUE(with(0.04).of.summary.warnings.empty());
+  expect_parts(with(0.1).all(), {"the strain of the cells parted from that of their stress by 0.1 (limit 0.05)"});
+  Outcome const o = with(0.5);
+  EXPECT_EQ(o.of.ending, Ending::failed);
+  EXPECT_NEAR(o.of.summary.end_time, 0.41, 0.02);
+  expect_parts(o.of.failure, {"the strain of cells has parted from their stress, strain without stress = 0.2"});
+}
+
+// ---- particles that meet
+
+/// Two plates of 3 x 3, the second to the right of the first.
+ParticleSet two_plates() {
+  ParticleSet set = make_plate(3), other = make_plate(3);
+  set.bodies[0].name = "left";
+  set.bodies.push_back({"right", 9, 18, {1, 1, 1}, {3, 3, 1}, true});
+  for (std::size_t i = 0; i < 9; ++i) {
+    set.X.push_back({other.X[i][0] + 4, other.X[i][1], 0});
+    set.lattice_index.push_back(other.lattice_index[i]);
+    set.volume.push_back(1);
+    set.kernel_volume.push_back(1);
+    set.body.push_back(1);
+  }
+  return set;
+}
+
+TEST(StrangerGuard, WarnsOfABodyThatGoesThroughAnother) {
+  Script s;
+  auto const by = [&](double far) {
+    s.displacement = [=](std::size_t i, double t) { return Point{i < 9 ? far * t : 0, 0, 0}; };
+    return run(s, two_plates());
+  };
+  Outcome const o = by(3.9);
+  expect_parts(o.all(), {"bodies go through each other: at t = 1 s particle ", "of body 'left'", "of body 'right'",
+                         "was 0.1 spacings from"});
+  EXPECT_NEAR(o.guards["strangers"]["nearest"].get<double>(), 0.1, 1e-9);
+  EXPECT_TRUE(by(1.4).of.summary.warnings.empty());  // 0.6 spacings of distance
+}
+
+/// A row of particles that is bent to a hairpin: its ends meet.
+ParticleSet row(int n) {
+  ParticleSet set = make_plate(n);
+  set.bodies[0] = {"row", 0, n, {1, 1, 1}, {n, 1, 1}, true};
+  for (auto* all : {&set.volume, &set.kernel_volume}) all->resize(static_cast<std::size_t>(n));
+  set.X.resize(static_cast<std::size_t>(n));
+  set.body.resize(static_cast<std::size_t>(n));
+  set.lattice_index.resize(static_cast<std::size_t>(n));
+  return set;
+}
+
+TEST(StrangerGuard, WarnsOfABodyThatGoesThroughItself) {
+  Script s;
+  s.displacement = [](std::size_t i, double t) {
+    auto const x = static_cast<double>(i);
+    double const radius = 9.6 / (2 * 3.14159265358979), angle = x / radius;
+    return Point{t * (radius * std::sin(angle) - x), t * radius * (1 - std::cos(angle)), 0};
+  };
+  Outcome const o = run(s, row(11));  // the ring closes 0.4 spacings behind its start
+  expect_parts(o.all(), {"a body goes through itself: at t = 1 s particle ", "of body 'row'", "(limit 0.5)"});
+  s.eulerian.assign(11, 1);
+  EXPECT_TRUE(run(s, row(11)).of.summary.warnings.empty()) << "Eulerian particles know each other";
+}
+
+TEST(StrangerGuard, LeavesBodiesThatTurnOrAreCrushedAlone) {
+  Script s;
+  ParticleSet const plate = make_plate(6);
+  s.displacement = [&](std::size_t i, double t) {
+    Point const& X = plate.X[i];
+    return Point{X[0] * (std::cos(20 * t) - 1) - X[1] * std::sin(20 * t),
+                 X[0] * std::sin(20 * t) + X[1] * (std::cos(20 * t) - 1), 0};
+  };
+  Outcome const turned = run(s, plate);
+  EXPECT_TRUE(turned.of.summary.warnings.empty());
+  EXPECT_GT(turned.guards["strangers"]["searches"].get<double>(), 0);
+  s.displacement = [&](std::size_t i, double t) {
+    return Point{30 * t * (plate.X[i][0] - 2.5), -0.95 * t * plate.X[i][1], 0};
+  };
+  EXPECT_TRUE(run(s, plate).of.summary.warnings.empty()) << "neighbours lie between";
+}
+
+// ---- runs that go on
+
+void expect_same(TemporaryFolder const& folder, std::function<Simulation()> const& make, double stop_at) {
+  Simulation whole = make(), first = make(), second = make();
+  Outcome const expected = run(whole, folder / "whole");
+  std::atomic<int> stop{0};
+  auto& formulation = static_cast<Scripted&>(*first.formulation);
+  formulation.stop_at = stop_at;
+  formulation.stop = &stop;
+  EXPECT_EQ(run(first, folder / "parts", false, &stop).of.ending, Ending::stopped);
+  Outcome const found = run(second, folder / "parts", true);
+  EXPECT_EQ(found.of.ending, expected.of.ending);
+  EXPECT_EQ(found.of.summary.steps, expected.of.summary.steps);
+  EXPECT_EQ(found.guards, expected.guards);
+  EXPECT_EQ(found.of.summary.warnings, expected.of.summary.warnings);
+}
+
+TEST(Guards, OfAResumedRunSayTheSame) {
+  Script s = rising(1.08);
+  s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 - 0.9 * t : 1; };
+  s.more = [](double t) {
+    return std::vector<std::pair<std::string, double>>{{"contact_overlap", 2 * t}, {"parting", 0.1 * t}};
+  };
+  s.displacement = [](std::size_t i, double t) { return Point{i < 9 ? 3.8 * t : 0, 0, 0}; };
+  s.loss = [](double t) { return 30 * t; };
+  for (double const stop_at : {100.0, 457.0, 905.0}) {
+    TemporaryFolder const folder;
+    expect_same(
+        folder, [&] { return simulation(s, two_plates()); }, stop_at);
+  }
+  TemporaryFolder const folder;
+  expect_same(
+      folder, [] { return simulation(rising(1.5)); }, 420);
+}
+
+TEST(Guards, DoNotTouchTheRun) {
+  TemporaryFolder const folder;
+  Simulation with = make_springs(), without = make_springs();
+  without.spec.run.guards.on = false;
+  run(with, folder / "with");
+  run(without, folder / "without");
+  EXPECT_EQ(read_checkpoint(list_checkpoints(folder / "with")[0]).state.arrays(),
+            read_checkpoint(list_checkpoints(folder / "without")[0]).state.arrays());
+  EXPECT_EQ(text_of(folder / "with/history.csv"), text_of(folder / "without/history.csv"));
+}
+
+TEST(Guards, LookBetweenTheRowsOfASparseHistory) {
+  TemporaryFolder const folder;
+  Simulation s = simulation(rising(1.5));
+  s.spec.run.end = 20;
+  s.spec.output.history_every = 20;
+  Outcome const o = run(s, folder / "r");
+  EXPECT_EQ(o.of.ending, Ending::failed);
+  EXPECT_LT(o.of.summary.steps, 6000);
+}
+
+}  // namespace
+}  // namespace piola
