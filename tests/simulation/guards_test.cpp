@@ -38,6 +38,7 @@ class Scripted : public Formulation {
     time_ = time + dt;
     if (++steps_ == stop_at) *stop = 15;
   }
+  void damp(double) override {}
   std::optional<Failure> failure() const override { return std::nullopt; }
   Diagnostics diagnose() const override {
     Diagnostics d;
