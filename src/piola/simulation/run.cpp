@@ -68,9 +68,8 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     for (Observer* observer : observers) observer->see(formulation, moment);
     for (Observer const* observer : observers) {
       if (auto objection = observer->objection())
-        return {.ending = Ending::failed,
-                .failure = std::move(objection->failure),
-                .causes = std::move(objection->causes)};
+        return {
+            .ending = Ending::failed, .failure = std::move(objection->failure), .causes = std::move(objection->causes)};
     }
     stops.wall.step_took(seconds_since(step_start));
     if (moment.time >= run.end || at_rest) continue;
