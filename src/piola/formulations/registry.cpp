@@ -12,6 +12,9 @@
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/formulations/make.hpp"
+#include "piola/formulations/nodal/doubts.hpp"
+#include "piola/formulations/nodal/options.hpp"
+#include "piola/formulations/nodal/solver.hpp"
 #include "piola/formulations/taylor_sph/doubts.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/solver.hpp"
@@ -31,9 +34,10 @@ struct Entry {
 std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::doubt},
                      Entry{jst_advection::info(), &jst_advection::make, &jst_advection::doubt},
                      Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::doubt},
-                     Entry{adaptle::info(), &adaptle::make, &adaptle::doubt}};
+                     Entry{adaptle::info(), &adaptle::make, &adaptle::doubt},
+                     Entry{nodal::info(), &nodal::make, &nodal::doubt}};
 
-std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info};
+std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4].info};
 
 bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;

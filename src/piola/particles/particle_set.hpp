@@ -2,11 +2,19 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace piola {
+
+/// The region that a body fills in its reference configuration.
+struct Outline {
+  std::array<double, 3> min{}, max{};  ///< the box around it [m]
+  /// Whether a point of that box belongs to it; nothing: all do.
+  std::function<bool(std::array<double, 3> const&)> inside = {};
+};
 
 /// A body: a contiguous range of particles of one material, born on a lattice or on rings about a centre.
 struct Body {
@@ -16,6 +24,7 @@ struct Body {
   std::array<int, 3> lattice{};      ///< lattice points per direction
   bool regular = true;               ///< positions are exactly on the lattice (no jitter)
   bool rings = false;  ///< not born on a lattice: `lattice` and the lattice indices only say who is near whom
+  Outline outline = {};
 };
 
 /// A straight crack through a two-dimensional body. The particles on it exist twice, once for each face, but for those

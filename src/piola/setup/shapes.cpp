@@ -161,6 +161,27 @@ void shake(ShapeSpec const& shape, Lattice const& lattice, bool inner, Shaker& s
   }
 }
 
+/// The exact region of a shape, whatever its particles are.
+Outline outline_of(ShapeSpec const& shape) {
+  if (shape.kind == ShapeSpec::Kind::box) return {shape.min, shape.max};
+  Outline outline;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    bool const along = along_axis(shape, d);
+    outline.min[i] = along ? shape.centre[i] : shape.centre[i] - shape.radius;
+    outline.max[i] = along ? shape.centre[i] + shape.length : shape.centre[i] + shape.radius;
+  }
+  outline.inside = [shape](Vec3 const& X) {
+    double square = 0;
+    for (int d = 0; d < shape.dimension; ++d) {
+      auto const i = static_cast<std::size_t>(d);
+      if (!along_axis(shape, d)) square += (X[i] - shape.centre[i]) * (X[i] - shape.centre[i]);
+    }
+    return square <= shape.radius * shape.radius && square >= shape.inner_radius * shape.inner_radius;
+  };
+  return outline;
+}
+
 double row_count_estimate(ShapeSpec const& shape, Lattice const& lattice) {
   double total = 1;
   for (int const n : lattice.count) total *= n;
@@ -253,6 +274,7 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   Body body;
   body.name = name;
   body.first = set.size();
+  body.outline = outline_of(shape);
   if (in_rings(shape))
     fill_rings(shape, set, body);
   else

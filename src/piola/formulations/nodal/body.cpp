@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/body.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/nodal/list_sums.hpp"
+#include "piola/materials/laws.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <tuple>
+
+namespace piola::nodal {
+namespace {
+
+/// A step is taken in at most two to this power parts.
+constexpr int most_halvings = 8;
+
+/// Sizes of Records of a dimension.
+struct RecordSizes {
+  std::ptrdiff_t motion, stress;
+  int one;
+};
+RecordSizes record_sizes(int D) {
+  auto const of = [](auto r) { return RecordSizes{r.motion_size, r.stress_size, r.one}; };
+  return D == 1 ? of(Records<1>{}) : D == 2 ? of(Records<2>{}) : of(Records<3>{});
+}
+
+}  // namespace
+
+NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
+                     Machine const& machine)
+    : body_(set.bodies[body]),
+      options_(options),
+      D_(set.dimension),
+      order_(pencil_order(set, body_)),
+      set_(&set),
+      fields_(D_) {
+  if (!assembly.initial_deformation_gradient.empty())
+    throw InputError(fmt::format(
+        "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
+        "initial_deformation_gradient",
+        body_.name));
+  set_constants(assembly.materials[body]);
+  reference_ = make_reference({set, body_, order_, assembly.loads, state_.constants.rho0, options_.least_mass});
+  allocate();
+  fill_reference();
+  fill_initial(assembly);
+  boundary_.emplace(assembly, body, Boundary::OfBody{order_, reference_.mass, reference_.shares});
+  boundary_->attach(state_);
+  machine.step(state_, 0);  // the accelerations of the start
+}
+
+void NodalBody::set_constants(MaterialParameters const& material) {
+  state_.dimension = D_;
+  state_.slots = {0, order_.slots()};
+  state_.material = material;
+  with_law(material, [&](auto const& law) {
+    state_.constants = {law.rho0, law.kappa, std::min(law.kappa, law.mu),
+                        *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_) / law.p_wave_speed()};
+  });
+  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots) + 1));
+  state_.partial = partial_.data();
+  state_.failure = &failure_;
+}
+
+void NodalBody::allocate() {
+  Index const n = order_.slots();
+  RecordSizes const size = record_sizes(D_);
+  first_ = Memory(static_cast<std::size_t>(n * size.motion));
+  second_ = Memory(static_cast<std::size_t>(n * size.stress));
+  fields_.X.place(first_.data(), 1, size.motion, 0, n, &first_version_);
+  fields_.x.place(first_.data(), 1, size.motion, D_, n, &first_version_);
+  fields_.mu.place(first_.data(), 1, size.motion, 2 * D_, n, &first_version_);
+  fields_.stress.place(second_.data(), 1, size.stress, 0, n, &second_version_);
+  for (Index i = 0; i < n; ++i) first_.data()[i * size.motion + size.one] = 1;
+  fields_.each([&](Field& f) {
+    if (f.size() > 0) return;
+    if (f.components() > 1)
+      f.allocate_tiled(n);
+    else
+      f.allocate(n, 0);
+  });
+  auto& s = state_;
+  auto const& f = fields_;
+  std::tie(s.V, s.mass, s.L, s.g, s.k, s.own) =
+      std::tuple(f.V.ref(), f.mass.ref(), f.L.ref(), f.g.ref(), f.k.ref(), f.own.ref());
+  std::tie(s.x, s.v, s.a, s.first, s.second) = std::tuple(f.x.ref(), f.v.ref(), f.a.ref(), f.X.ref(), f.stress.ref());
+  std::tie(s.F, s.P, s.cell, s.C_measured, s.change, s.kept) =
+      std::tuple(f.F.ref(), f.P.ref(), f.cell.ref(), f.C_measured.ref(), f.change.ref(), f.kept.ref());
+  s.list = reference_.list();
+}
+
+void NodalBody::fill_reference() {
+  auto const copy = [&](std::vector<double> const& from, Field& to) {
+    for (Index i = 0; i < order_.slots(); ++i)
+      for (int c = 0; c < to.components(); ++c)
+        to.at(i, c) =
+            from[static_cast<std::size_t>(i) * static_cast<std::size_t>(to.components()) + static_cast<std::size_t>(c)];
+  };
+  copy(reference_.V, fields_.V);
+  copy(reference_.mass, fields_.mass);
+  copy(reference_.L, fields_.L);
+  copy(reference_.g, fields_.g);
+  copy(reference_.k, fields_.k);
+  copy(reference_.own, fields_.own);
+  copy(reference_.mu, fields_.mu);
+  copy(reference_.X, fields_.X);
+  for (Index i = 0; i < order_.slots(); ++i)
+    for (int c = 0; c < D_; ++c) fields_.C_measured.at(i, c) = 1;
+}
+
+void NodalBody::fill_initial(Assembly const& assembly) {
+  auto const& moved = assembly.initial_displacement;
+  for (Index i = 0; i < order_.particles; ++i) {
+    auto const at = static_cast<std::size_t>(id(i));
+    for (int c = 0; c < D_; ++c) {
+      auto const k = static_cast<std::size_t>(c);
+      fields_.x.at(i, c) = set_->X[at][k] + (moved.empty() ? 0 : moved[at][k]);
+      if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
+    }
+  }
+}
+
+int NodalBody::step(Machine const& machine, double time, double dt) { return step(machine, time, dt, 0); }
+
+int NodalBody::step(Machine const& machine, double time, double dt, int halvings) {
+  machine.keep(state_);
+  boundary_->begin_step(state_, time, dt);
+  machine.step(state_, dt);
+  if (!failed() || halvings == most_halvings) {
+    boundary_->end_step(state_, time + dt);
+    return 0;
+  }
+  machine.restore(state_);
+  failure_ = {};
+  int const first = step(machine, time, 0.5 * dt, halvings + 1);
+  return 1 + first + (failed() ? 0 : step(machine, time + 0.5 * dt, 0.5 * dt, halvings + 1));
+}
+
+void NodalBody::mark_measured() {
+  static constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  for (Index i = 0; i < order_.particles; ++i)
+    for (int J = 0; J < D_; ++J)
+      for (int K = J; K < D_; ++K) {
+        double C = 0;
+        for (int c = 0; c < D_; ++c) C += value(state_.F, i, c * D_ + J) * value(state_.F, i, c * D_ + K);
+        fields_.C_measured.at(i, D_ == 2 && J != K ? 2 : place[J][K]) = C;
+      }
+}
+
+std::array<double, 3> NodalBody::x(Index slot) const {
+  std::array<double, 3> r = X(slot);
+  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.x, slot, c);
+  return r;
+}
+
+std::array<double, 3> NodalBody::v(Index slot) const {
+  std::array<double, 3> r{};
+  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.v, slot, c);
+  return r;
+}
+
+Mat<3> NodalBody::F(Index slot) const {
+  Mat<3> r = identity<3>();
+  for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
+  return r;
+}
+
+std::size_t NodalBody::bytes() const {
+  auto const& r = reference_;
+  std::size_t total = first_.bytes() + second_.bytes() + r.begin.size() * 12 + r.neighbour.size() * 12;
+  const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
+  return total;
+}
+
+}  // namespace piola::nodal

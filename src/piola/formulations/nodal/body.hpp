@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/nodal/boundary.hpp"
+#include "piola/formulations/nodal/fields.hpp"
+#include "piola/formulations/nodal/options.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/formulations/nodal/state.hpp"
+#include "piola/math/tensor.hpp"
+#include <optional>
+#include <vector>
+
+namespace piola::nodal {
+
+/// One body of a nodal run: owns its memory, hands its state to the loops, answers in Id order.
+class NodalBody {
+ public:
+  /// `set` is kept by reference. Throws InputError (too few particles across; a body without an outline).
+  NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
+            Machine const& machine);
+  NodalBody(NodalBody const&) = delete;
+  NodalBody& operator=(NodalBody const&) = delete;
+
+  BodyState& state() { return state_; }
+  BodyState const& state() const { return state_; }
+  Body const& body() const { return body_; }
+  ParticleSet const& set() const { return *set_; }
+  Options const& options() const { return options_; }
+  Boundary& boundary() { return *boundary_; }
+  Boundary const& boundary() const { return *boundary_; }
+  Index particles() const { return order_.particles; }
+  std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
+  Reference const& reference() const { return reference_; }
+  std::size_t bytes() const;
+
+  /// From `time` to time + dt, with supports and loads. Where a cell is turned inside out on the way the step is taken
+  /// again in two halves, a few times over; the failure stays if that does not help. Returns how often it was halved.
+  int step(Machine const& machine, double time, double dt);
+  /// Takes the deformation that observers see as that of the last measurement of the step.
+  void mark_measured();
+  double next_release(double time) const { return boundary_->next_release(time); }
+
+  std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
+  std::array<double, 3> x(Index slot) const;
+  std::array<double, 3> v(Index slot) const;
+  Mat<3> F(Index slot) const;  ///< at the centroid of the cell; missing directions do not deform
+  double mass(Index slot) const { return value(state_.mass, slot); }
+  double volume(Index slot) const { return value(state_.V, slot); }
+  static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
+
+ private:
+  int step(Machine const& machine, double time, double dt, int halvings);
+  void set_constants(MaterialParameters const& material);
+  void allocate();
+  void fill_reference();
+  void fill_initial(Assembly const& assembly);
+  bool failed() const { return failure_.index < order_.particles; }
+
+  Body body_;
+  Options options_;
+  int D_;
+  SlotOrder order_;
+  ParticleSet const* set_;
+  Fields fields_;
+  Memory first_, second_;  ///< records [X, values] that sweeps read of neighbours
+  FieldVersion first_version_, second_version_;
+  Reference reference_;
+  std::optional<Boundary> boundary_;
+  std::vector<double> partial_;
+  FailureSlot failure_;
+  BodyState state_;
+};
+
+}  // namespace piola::nodal

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/boundary.hpp"
+#include <algorithm>
+#include <map>
+
+namespace piola::nodal {
+
+Boundary::Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_body)
+    : body_(assembly.particles.bodies[body]),
+      D_(assembly.particles.dimension),
+      slot_of_(static_cast<std::size_t>(body_.last - body_.first)) {
+  for (Index i = 0; i < of_body.order.particles; ++i)
+    slot_of_[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
+  take_supports(assembly, of_body);
+  take_loads(assembly, of_body);
+}
+
+void Boundary::take_supports(Assembly const& assembly, OfBody const& of_body) {
+  std::map<std::int64_t, Particle> held;
+  for (auto const& support : assembly.supports) {
+    auto const directions = directions_of(support, D_);
+    for (auto const id : support.particles) {
+      if (id < body_.first || id >= body_.last) continue;
+      Index const slot = slot_of_[static_cast<std::size_t>(id - body_.first)];
+      auto& particle = held[id];
+      particle.slot = slot;
+      particle.X = assembly.particles.X[static_cast<std::size_t>(id)];
+      particle.mass = of_body.mass[static_cast<std::size_t>(slot)];
+      for (auto const& d : directions) particle.rows.insert(particle.rows.begin(), {supports_.size(), d});
+    }
+    if (support.velocity && !is_steady(*support.velocity)) steady_supports_ = false;
+    supports_.push_back(support);
+    supports_.back().particles.clear();
+  }
+  for (auto& [id, particle] : held) particles_.push_back(std::move(particle));
+}
+
+/// Acceleration per unit of the load's value, per slot; zero where it does not act.
+std::vector<double> Boundary::factors(Load const& load, std::size_t number, OfBody const& of_body) const {
+  std::vector<double> factor(of_body.mass.size(), 0);
+  if (load.normal) {
+    for (std::size_t i = 0; i < of_body.shares[number].size(); ++i)
+      factor[i] = of_body.shares[number][i] / of_body.mass[i];
+    return factor;
+  }
+  for (std::size_t k = 0; k < load.particles.size(); ++k) {
+    auto const id = load.particles[k];
+    if (id >= body_.first && id < body_.last)
+      factor[static_cast<std::size_t>(slot_of_[static_cast<std::size_t>(id - body_.first)])] = load.factor[k];
+  }
+  return factor;
+}
+
+void Boundary::take_loads(Assembly const& assembly, OfBody const& of_body) {
+  std::vector<Index> place(of_body.mass.size(), -1);
+  for (auto const& load : assembly.loads) {
+    auto const factor = factors(load, loads_.size(), of_body);
+    LoadOnBody on{{}, {}, {}, {}, load.value, load.until};
+    bool const steady = is_steady(load.value);
+    if (!steady) steady_loads_ = false;
+    for (std::size_t slot = 0; slot < factor.size(); ++slot) {
+      if (factor[slot] == 0) continue;
+      if (place[slot] < 0) {
+        place[slot] = static_cast<Index>(loaded_.size());
+        loaded_.push_back({static_cast<Index>(slot), of_body.mass[slot], {}, {}, 0});
+      }
+      on.place.push_back(place[slot]);
+      on.factor.push_back(factor[slot]);
+      on.X.push_back(assembly.particles.X[static_cast<std::size_t>(of_body.order.id[slot])]);
+      if (!steady) continue;
+      on.steady.push_back({});
+      for (std::size_t c = 0; c < 3; ++c) on.steady.back()[c] = factor[slot] * load.value[c](on.X.back());
+    }
+    loads_.push_back(std::move(on));
+  }
+}
+
+double Boundary::speed_of(Particle const& particle, Particle::Row const& row, double time) const {
+  auto const& velocity = supports_[row.support].velocity;
+  return velocity ? speed_along(*velocity, row.direction, particle.X, time) : 0;
+}
+
+/// Adds the directions in which a particle is held in a step from `time` to `end`. A direction that earlier ones partly
+/// cover keeps its rest:  d = sum_k (d.q_k) q_k + length q,  so  speed = (speed of d - sum_k (d.q_k) speed_k) / length.
+void Boundary::hold(Particle const& particle, double time, double end) {
+  std::vector<Direction> chosen;
+  std::size_t const first = held_.size();
+  for (auto const& row : particle.rows) {
+    if (has_ended(supports_[row.support].until, time)) continue;
+    Direction d = row.direction;
+    double before = speed_of(particle, row, time), after = speed_of(particle, row, end);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      double const part = dot(row.direction, chosen[k]);
+      before -= part * held_[first + k].before;
+      after -= part * held_[first + k].after;
+    }
+    if (!make_orthogonal(d, chosen)) continue;
+    double const length = dot(row.direction, d);
+    chosen.push_back(d);
+    held_.push_back({particle.slot, {d[0], d[1], d[2]}, particle.mass, before / length, after / length, 0});
+  }
+}
+
+/// Adds the loads that act in a step that begins at `time`.
+void Boundary::add_loads(double time, double evaluate_at, double (LoadedParticle::*side)[3]) {
+  for (auto const& load : loads_) {
+    if (has_ended(load.until, time)) continue;
+    for (std::size_t k = 0; k < load.place.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        (loaded_[static_cast<std::size_t>(load.place[k])].*side)[c] +=
+            load.steady.empty() ? load.factor[k] * load.value[c](load.X[k], evaluate_at) : load.steady[k][c];
+  }
+}
+
+void Boundary::attach(BodyState& state) {
+  begin_step(state, 0, 0);
+  for (auto const& h : held_) {
+    double now = 0;
+    for (int c = 0; c < D_; ++c) now += h.direction[c] * value_at(state.v, h.slot, c);
+    for (int c = 0; c < D_; ++c) value_at(state.v, h.slot, c) += (h.before - now) * h.direction[c];
+  }
+}
+
+void Boundary::begin_step(BodyState& state, double time, double dt) {
+  int released = 0;
+  for (auto const& s : supports_) released += has_ended(s.until, time) ? 1 : 0;
+  for (auto const& l : loads_) released += has_ended(l.until, time) ? 1 : 0;
+  bool const changed = released != released_;
+  released_ = released;
+  begun_ = time;
+  if (changed || !steady_supports_) {
+    held_.clear();
+    for (auto const& particle : particles_) hold(particle, time, time + dt);
+  }
+  if (changed || !steady_loads_) {
+    for (auto& p : loaded_) p = {p.slot, p.mass, {}, {}, 0};
+    add_loads(time, time, &LoadedParticle::before);
+    add_loads(time, time + dt, &LoadedParticle::after);
+  }
+  state.held = held_.data();
+  state.held_count = static_cast<Index>(held_.size());
+  state.loaded = loaded_.data();
+  state.loaded_count = static_cast<Index>(loaded_.size());
+}
+
+void Boundary::end_step(BodyState& state, double time) {
+  for (auto const& h : held_) work_ += h.work;
+  for (auto const& p : loaded_) work_ += p.work;
+  for (auto const& load : loads_) {
+    if (has_ended(load.until, begun_) || !has_ended(load.until, time)) continue;
+    for (std::size_t k = 0; k < load.place.size(); ++k)
+      for (int c = 0; c < D_; ++c) {
+        auto const at = static_cast<std::size_t>(c);
+        value_at(state.a, loaded_[static_cast<std::size_t>(load.place[k])].slot, c) -=
+            load.steady.empty() ? load.factor[k] * load.value[at](load.X[k], time) : load.steady[k][at];
+      }
+  }
+}
+
+double Boundary::next_release(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (auto const& s : supports_)
+    if (!has_ended(s.until, time)) next = std::min(next, s.until);
+  for (auto const& l : loads_)
+    if (!has_ended(l.until, time)) next = std::min(next, l.until);
+  return next;
+}
+
+}  // namespace piola::nodal

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/fit.hpp"
+#include "piola/neighbours/cell_moments.hpp"
+#include <functional>
+#include <vector>
+
+/// The divergence theorem for pair gradients. All lengths in spacings. Theory: docs/theory/nodal.md, section 3.3.
+namespace piola::nodal {
+
+/// A cell in units of the spacings.
+struct ScaledCell {
+  double volume;
+  std::array<double, 3> centroid;
+  std::array<double, 6> spread;  ///< XX YY ZZ YZ XZ XY
+};
+
+/// Corrections of the gradients,  G_ab += s_ab (mu_b - p(r_ab).coefficients_a).
+struct Closure {
+  std::vector<double> mu;            ///< D per particle
+  std::vector<double> coefficients;  ///< values x D per particle: the quadratic through mu about it
+  int iterations = 0;
+};
+
+template <int D>
+class Divergence {
+ public:
+  static constexpr int terms = Quadratic<D>::terms, values = Quadratic<D>::values;
+
+  Divergence(Fits<D> const& fits, std::vector<ScaledCell> const& cells, std::vector<SurfacePatch> const& patches);
+
+  /// Shares of the surface by which pressure and traction on the chosen patches are handed to particles, along the
+  /// outward normals, consistent with quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches.
+  std::vector<double> shares(std::function<bool(SurfacePatch const&)> const& chosen) const;
+  /// Surface vectors A_b, D per particle.
+  std::vector<double> surface_vectors() const;
+  /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.
+  std::vector<double> residual() const;
+  /// The smallest change of the gradients that brings the residual below `tolerance` times what it was.
+  Closure solve(double tolerance) const;
+
+ private:
+  void expand(std::vector<double> const& mu, std::vector<double>& coefficients) const;
+  void apply(std::vector<double> const& mu, std::vector<double>& coefficients, std::vector<double>& result) const;
+  void make_projectors();
+
+  Fits<D> const& fits_;
+  std::vector<ScaledCell> const& cells_;
+  std::vector<SurfacePatch> const& patches_;
+  std::vector<double> projector_;  ///< per particle: inverse of sum_b s_ab p p^T with b = a and the constant
+  std::vector<double> diagonal_;
+};
+
+extern template class Divergence<1>;
+extern template class Divergence<2>;
+extern template class Divergence<3>;
+
+/// First derivative along J at the centroid of the cell, from the derivatives at the particle: e_J + sum_K e_JK c_K.
+template <int D>
+double at_centroid(typename Fits<D>::Monomials const& e, ScaledCell const& cell, int J) {
+  double g = e[static_cast<std::size_t>(J)];
+  for (int K = 0; K < D; ++K)
+    g += e[static_cast<std::size_t>(D + Quadratic<D>::at(J, K))] * cell.centroid[static_cast<std::size_t>(K)];
+  return g;
+}
+
+}  // namespace piola::nodal

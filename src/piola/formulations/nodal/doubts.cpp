@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/doubts.hpp"
+#include "piola/base/text.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace piola::nodal {
+
+/// Three particles across are a little stiff in bending near incompressibility (docs/theory/nodal.md, section 5).
+void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
+  constexpr double nearly = 0.4901;
+  constexpr int few = 3;
+  auto const& lattice = assembly.particles.bodies[body].lattice;
+  int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
+  double const ratio = poissons_ratio_of(doubts.material());
+  if (across > few || !(ratio > nearly) || assembly.particles.dimension == 1) return;
+  doubts.add(
+      "material.poissons_ratio",
+      fmt::format("poissons_ratio is {}, and {} particles across are some percent too stiff in bending there - use "
+                  "more particles across",
+                  number_text(ratio, 4), across));
+}
+
+}  // namespace piola::nodal

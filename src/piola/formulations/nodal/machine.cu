@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of the nodal formulation for a GPU. Compiled, not yet run: launching them needs fields in device memory.
+// What this file proves is that the same source makes device code for every dimension and law.
+#include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/stress_points.hpp"
+
+namespace piola::nodal::inline PIOLA_MACHINE {
+namespace {
+
+/// A sweep by itself: sums go to scratch in device memory instead of a core's cache.
+template <class Sweep>
+struct WithScratch {
+  Sweep sweep;
+  exec::Scratch scratch;
+  __host__ __device__ void operator()(Index i) const { sweep(i, scratch); }
+};
+
+template <class Sweep>
+void launch_sweep(Range r, void const* passes, exec::Scratch const& scratch) {
+  exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
+}
+
+template <int D, class... Law>
+void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawList<Law...>) {
+  (launch_sweep<UpdateStress<D, Law, false>>(r, passes, scratch), ...);
+}
+
+template <class Pass>
+void launch_each(Range r, void const* passes) {
+  exec::for_each(r, *static_cast<Pass const*>(passes));
+}
+
+template <int D>
+void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
+  launch_sweep<SumMotion<D>>(r, passes, scratch);
+  launch_laws<D>(r, passes, scratch, Laws{});
+  launch_each<SumForces<D>>(r, passes);
+  launch_each<KickAndDrift<D>>(r, passes);
+  launch_each<Kick<D>>(r, passes);
+  launch_each<CopyMotion<D>>(r, passes);
+  launch_each<DriveDirections<D>>(r, passes);
+  launch_each<ArriveAlongDirections<D>>(r, passes);
+  launch_each<AddLoads<D>>(r, passes);
+}
+
+}  // namespace
+
+void launch(int dimension, Range r, void const* passes, exec::Scratch const& scratch) {
+  if (dimension == 1) launch_all<1>(r, passes, scratch);
+  if (dimension == 2) launch_all<2>(r, passes, scratch);
+  if (dimension == 3) launch_all<3>(r, passes, scratch);
+}
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/closure.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// Masses over the density, in units of the spacings: sum_b m_b (1, X, XX) is the integral over the body of (1, X, XX).
+/// Cells that would make a particle lighter than `least` of its own cell hand over less; the total is exact in any
+/// case. Theory: docs/theory/nodal.md, section 3.4.
+template <int D>
+std::vector<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, double least);
+
+extern template std::vector<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, double);
+extern template std::vector<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, double);
+extern template std::vector<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, double);
+
+}  // namespace piola::nodal

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/registry.hpp"
+#include "piola/materials/registry.hpp"
+
+namespace piola::nodal {
+
+/// What a user may choose, with every default resolved.
+struct Options {
+  double least_mass = 0.3;  ///< of a particle, over that of its cell
+  double cfl = 0;           ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
+};
+
+/// Registry entry: keys, meanings, defaults, laws.
+FormulationInfo info();
+
+/// Options of a body. Throws InputError for laws that cannot be used.
+Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl);
+
+}  // namespace piola::nodal

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/nodal/masses.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <tuple>
+
+namespace piola::nodal {
+namespace {
+
+/// Of the residual that the gradients leave in the divergence theorem; less changes no answer.
+constexpr double closure_tolerance = 1e-3;
+/// A cell smaller than this share of a spacing's volume is none.
+constexpr double least_cell = 1e-3;
+
+double since(std::chrono::steady_clock::time_point& start) {
+  auto const now = std::chrono::steady_clock::now();
+  double const seconds = std::chrono::duration<double>(now - start).count();
+  start = now;
+  return seconds;
+}
+
+/// Cells and surface of a body in slot order and in units of its spacings.
+struct ScaledBody {
+  Points X;
+  std::vector<ScaledCell> cells;
+  std::vector<SurfacePatch> patches;
+  std::array<double, 3> h{1, 1, 1};
+  double h_volume = 1;  ///< product of the spacings
+};
+
+constexpr std::size_t moment_axis[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+
+ScaledBody scaled_body(SetUp const& from) {
+  auto const& [set, body, order] = std::tie(from.set, from.body, from.order);
+  ScaledBody r;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c) {
+    r.h[c] = body.spacing[c];
+    r.h_volume *= body.spacing[c];
+  }
+  BodyCells measured = measure_cells(set, body);
+  std::vector<Index> slot_of(measured.cell.size());
+  for (Index i = 0; i < order.particles; ++i) {
+    auto const id = order.id[static_cast<std::size_t>(i)];
+    auto const local = static_cast<std::size_t>(id - body.first);
+    slot_of[local] = i;
+    r.X.push_back(set.X[static_cast<std::size_t>(id)]);
+    auto const& cell = measured.cell[local];
+    r.cells.push_back({cell.volume / r.h_volume, cell.centroid, cell.spread});
+    for (std::size_t c = 0; c < 3; ++c) {
+      r.X.back()[c] /= r.h[c];
+      r.cells.back().centroid[c] /= r.h[c];
+    }
+    for (std::size_t m = 0; m < 6; ++m) r.cells.back().spread[m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+  }
+  r.patches = std::move(measured.patch);
+  for (auto& patch : r.patches) {
+    patch.particle = slot_of[static_cast<std::size_t>(patch.particle)];
+    double const area = r.h_volume / r.h[static_cast<std::size_t>(patch.axis)];
+    patch.area /= area;
+    for (std::size_t c = 0; c < 3; ++c) patch.first[c] /= area * r.h[c];
+    for (std::size_t m = 0; m < 6; ++m) patch.second[m] /= area * r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+  }
+  return r;
+}
+
+/// Columns of the Cholesky factor of a cell's spread [m], rows first.
+template <int D>
+std::array<double, static_cast<std::size_t>(D* D)> cholesky(ScaledCell const& cell, std::array<double, 3> const& h) {
+  std::array<double, static_cast<std::size_t>(D * D)> L{};
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double rest = cell.spread[i == j ? i : 6 - i - j] * h[i] * h[j];
+      for (std::size_t k = 0; k < j; ++k) rest -= L[i * D + k] * L[j * D + k];
+      if (i == j)
+        L[i * D + i] = std::sqrt(std::max(rest, 0.0));
+      else if (L[j * D + j] > 0)
+        L[i * D + j] = rest / L[j * D + j];
+    }
+  return L;
+}
+
+/// Chosen patches of the surface: those of a traction's face next to its particles.
+auto patches_of(Load const& load, Body const& body, SlotOrder const& order) {
+  std::vector<bool> loaded(static_cast<std::size_t>(order.particles), false);
+  for (auto const id : load.particles)
+    if (id >= body.first && id < body.last) loaded[static_cast<std::size_t>(id - body.first)] = true;
+  return [loaded, &load, &body, &order](SurfacePatch const& patch) {
+    double const facing = (*load.normal)[static_cast<std::size_t>(patch.axis)];
+    return patch.outermost && facing == (patch.upper ? 1 : -1) &&
+           loaded[static_cast<std::size_t>(order.id[static_cast<std::size_t>(patch.particle)] - body.first)];
+  };
+}
+
+[[noreturn]] void refuse(SetUp const& from, Index slot, char const* what) {
+  auto const id = from.order.id[static_cast<std::size_t>(slot)];
+  auto const& X = from.set.X[static_cast<std::size_t>(id)];
+  throw InputError(fmt::format("body '{}': particle {} at ({:.4g}, {:.4g}, {:.4g}) m {}", from.body.name, id, X[0],
+                               X[1], X[2], what));
+}
+
+/// What the loops of D dimensions read, from what the fits have found.
+template <int D>
+class Tables {
+ public:
+  static constexpr auto terms = static_cast<std::size_t>(Quadratic<D>::terms);
+  static constexpr auto values = static_cast<std::size_t>(Quadratic<D>::values);
+  static constexpr auto second = static_cast<std::size_t>(Quadratic<D>::second);
+  static constexpr auto dimension = static_cast<std::size_t>(D);
+
+  Tables(SetUp const& from, ScaledBody const& scaled, Fits<D> const& fits, Reference& to)
+      : from_(from), scaled_(scaled), fits_(fits), to_(to), slots_(static_cast<std::size_t>(from.order.slots())) {}
+
+  void fill(Closure const& closure, std::vector<double> const& mass) {
+    to_.V.assign(slots_, 0);
+    to_.mass.assign(slots_, 1);
+    to_.X.assign(slots_ * dimension, 0);
+    to_.mu.assign(slots_ * dimension, 0);
+    to_.L.assign(slots_ * dimension * dimension, 0);
+    to_.g.assign(slots_ * values * dimension, 0);
+    to_.k.assign(slots_ * terms * second, 0);
+    to_.own.assign(slots_ * (values + dimension), 0);
+    for (std::size_t a = 0; a < scaled_.cells.size(); ++a) {
+      to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
+      to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0;
+      auto const L = cholesky<D>(scaled_.cells[a], scaled_.h);
+      for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
+      for (std::size_t c = 0; c < dimension; ++c) {
+        to_.X[a * dimension + c] = scaled_.X[a][c];
+        to_.mu[a * dimension + c] = closure.mu[a * dimension + c] / scaled_.h[c];
+      }
+      fill_derivatives(a, closure);
+    }
+    for (std::size_t a = 0; a < scaled_.cells.size(); ++a) fill_own(a);
+    fill_list();
+  }
+
+ private:
+  /// No handedness: the points of neighbouring cells are mirror images.
+  double parity(std::size_t a) const {
+    auto const id = from_.order.id[a];
+    auto const& at = from_.set.lattice_index[static_cast<std::size_t>(id)];
+    auto const sum = from_.body.rings ? id : static_cast<std::int64_t>(at[0] + at[1] + at[2]);
+    return sum % 2 == 0 ? 1 : -1;
+  }
+
+  /// g: the gradient at the centroid, with the correction's own quadratic; k: second derivatives.
+  void fill_derivatives(std::size_t a, Closure const& closure) {
+    double* const g = &to_.g[a * values * dimension];
+    double* const k = &to_.k[a * terms * second];
+    auto const& cell = scaled_.cells[a];
+    for (std::size_t J = 0; J < dimension; ++J) {
+      for (std::size_t m = 0; m < values; ++m)
+        g[m * dimension + J] = -closure.coefficients[(a * values + m) * dimension + J] / scaled_.h[J];
+      for (int l = 0; l < Quadratic<D>::terms; ++l) {
+        typename Fits<D>::Monomials column;
+        for (int i = 0; i < Quadratic<D>::terms; ++i) column[static_cast<std::size_t>(i)] = fits_.inverse(a, i, l);
+        g[static_cast<std::size_t>(1 + l) * dimension + J] +=
+            at_centroid<D>(column, cell, static_cast<int>(J)) / scaled_.h[J];
+      }
+    }
+    for (int J = 0; J < D; ++J)
+      for (int K = J; K < D; ++K) {
+        int const n = Quadratic<D>::at(J, K);
+        double const hh = scaled_.h[static_cast<std::size_t>(J)] * scaled_.h[static_cast<std::size_t>(K)];
+        for (int l = 0; l < Quadratic<D>::terms; ++l)
+          k[static_cast<std::size_t>(l) * second + static_cast<std::size_t>(n)] = fits_.inverse(a, D + n, l) / hh;
+      }
+  }
+
+  void fill_own(std::size_t a) {
+    double* const own = &to_.own[a * (values + dimension)];
+    auto const& pairs = fits_.pairs();
+    for (std::size_t n = pairs.first(a); n < pairs.end(a); ++n) {
+      auto const p = fits_.monomials_of(a, pairs.at(n));
+      own[0] += pairs.weight[n];
+      for (std::size_t m = 0; m < terms; ++m) own[1 + m] += pairs.weight[n] * p[m];
+      for (std::size_t J = 0; J < dimension; ++J)
+        own[values + J] += pairs.weight[n] * to_.mu[pairs.at(n) * dimension + J];
+    }
+  }
+
+  /// Slots without a particle have no neighbours.
+  void fill_list() {
+    to_.begin = fits_.pairs().begin;
+    to_.begin.resize(slots_ + 1, to_.begin.back());
+    to_.neighbour = fits_.pairs().neighbour;
+    to_.weight = fits_.pairs().weight;
+  }
+
+  SetUp const& from_;
+  ScaledBody const& scaled_;
+  Fits<D> const& fits_;
+  Reference& to_;
+  std::size_t slots_;
+};
+
+/// Shares of the faces on which tractions act.
+template <int D>
+std::vector<std::vector<double>> traction_shares(SetUp const& from, ScaledBody const& scaled,
+                                                 Divergence<D> const& divergence) {
+  std::vector<std::vector<double>> shares;
+  for (auto const& load : from.loads) {
+    shares.emplace_back();
+    if (!load.normal) continue;
+    shares.back() = divergence.shares(patches_of(load, from.body, from.order));
+    std::size_t axis = 0;
+    while (axis + 1 < 3 && (*load.normal)[axis] == 0) ++axis;
+    for (double& share : shares.back()) share *= scaled.h_volume / scaled.h[axis];
+  }
+  return shares;
+}
+
+template <int D>
+Reference make(SetUp const& from) {
+  Reference r;
+  auto clock = std::chrono::steady_clock::now();
+  ScaledBody const scaled = scaled_body(from);
+  r.costs.cells = since(clock);
+  for (std::size_t i = 0; i < scaled.cells.size(); ++i)
+    if (!(scaled.cells[i].volume > least_cell))
+      refuse(from, static_cast<Index>(i),
+             "has no part of the body to itself - move it into the body, or apart from its neighbours");
+  Fits<D> const fits(scaled.X);
+  if (fits.hopeless() >= 0)
+    refuse(from, fits.hopeless(),
+           "has neighbours that determine no quadratic field - use at least three particles across the body in every "
+           "direction");
+  r.costs.fits = since(clock);
+  Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
+  Closure const closure = divergence.solve(closure_tolerance);
+  r.closure_iterations = closure.iterations;
+  r.shares = traction_shares<D>(from, scaled, divergence);
+  r.costs.closure = since(clock);
+  auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass);
+  r.costs.masses = since(clock);
+  Tables<D>(from, scaled, fits, r).fill(closure, mass);
+  r.costs.tables = since(clock);
+  return r;
+}
+
+}  // namespace
+
+Reference make_reference(SetUp const& from) {
+  if (from.set.dimension == 1) return make<1>(from);
+  return from.set.dimension == 2 ? make<2>(from) : make<3>(from);
+}
+
+}  // namespace piola::nodal

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/neighbours/tables.hpp"
+#include "piola/particles/ordering.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// What setting up a body has cost [s].
+struct SetUpCosts {
+  double cells = 0;    ///< volumes, moments and surface
+  double fits = 0;     ///< neighbours and quadratic fits
+  double closure = 0;  ///< the divergence theorem
+  double masses = 0;
+  double tables = 0;  ///< what the loops read
+};
+
+/// What a body is set up from.
+struct SetUp {
+  ParticleSet const& set;
+  Body const& body;
+  SlotOrder const& order;
+  std::vector<Load> const& loads;
+  double rho0;        ///< [kg/m^3]
+  double least_mass;  ///< of a particle over that of its cell
+};
+
+/// The undeformed body as loops see it: values per slot, one after the other, in the order of Fields. Theory:
+/// docs/theory/nodal.md, section 3.
+struct Reference {
+  std::vector<double> V, mass, L, g, k, own, mu;
+  std::vector<double> X;                    ///< in spacings, D per slot
+  std::vector<std::vector<double>> shares;  ///< per load: of tractions the share of the face per slot [m^(D-1)]
+  std::vector<std::int64_t> begin;          ///< lists, see ListTable
+  std::vector<Index> neighbour;
+  std::vector<double> weight;
+  int closure_iterations = 0;
+  SetUpCosts costs;
+
+  ListTable list() const { return {begin.data(), nullptr, neighbour.data(), weight.data()}; }
+  int neighbours(Index slot) const {
+    auto const at = static_cast<std::size_t>(slot);
+    return static_cast<int>(begin[at + 1] - begin[at]);
+  }
+};
+
+/// Throws InputError: a particle without a cell, too few particles across.
+Reference make_reference(SetUp const& from);
+
+}  // namespace piola::nodal

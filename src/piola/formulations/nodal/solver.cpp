@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/solver.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/nodal/observe.hpp"
+#include "piola/formulations/nodal/stability.hpp"
+#include "piola/formulations/prescribed.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace piola::nodal {
+namespace {
+
+Machine const& choose(std::string const& name) {
+  if (Machine const* machine = find_machine(name.c_str())) return *machine;
+  std::string known = "auto";
+  for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
+  throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
+}
+
+/// One or more bodies that do not touch each other.
+class Solver final : public Formulation {
+ public:
+  explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
+    for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
+      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
+      bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
+      monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
+    }
+  }
+
+  double stable_time_step() const override {
+    double rest = std::numeric_limits<double>::infinity();
+    for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
+    return up_to_release(settled_time_step(), rest);
+  }
+  double settled_time_step() const override {
+    double dt = std::numeric_limits<double>::infinity();
+    for (auto const& monitor : monitors_) dt = std::min(dt, monitor->step());
+    return dt;
+  }
+
+  StepRule step_rule() const override {
+    StepRule rule;
+    rule.settled = rule.first = settled_time_step();
+    if (bodies_.front()->options().cfl > 0) {
+      rule.limit = fmt::format("run.cfl h / c with run.cfl = {}", bodies_.front()->options().cfl);
+      return rule;
+    }
+    rule.limit =
+        "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
+    rule.more_stages = StabilityMonitor::stages_per_step;
+    rule.setup_stages = StabilityMonitor::setup_stages;
+    return rule;
+  }
+
+  void step(double time, double dt) override {
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      repeated_ += bodies_[k]->step(machine_, time, dt);
+      monitors_[k]->update();
+    }
+    time_ = time + dt;
+  }
+
+  std::optional<Failure> failure() const override;
+  Diagnostics diagnose() const override {
+    NodalObservation all;
+    all.repeated_steps = repeated_;
+    for (auto const& body : bodies_) {
+      refresh(*body);
+      observe(*body, all);
+    }
+    return finish(all);
+  }
+
+  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  void sample(std::string_view field, std::span<double> values) const override {
+    int number = 0;
+    for (auto const& body : bodies_) {
+      refresh(*body);
+      nodal::sample(*body, number++, field, values);
+    }
+  }
+
+  void save(StateWriter& writer) const override;
+  void load(StateReader& reader) override;
+
+  int stages_per_step() const override { return 1; }
+  std::vector<std::pair<std::string, double>> costs() const override;
+  std::size_t memory_bytes() const override {
+    std::size_t total = 0;
+    for (auto const& body : bodies_) total += body->bytes();
+    return total;
+  }
+
+ private:
+  /// Brings the fields for observers up to date; nothing that steps read changes.
+  void refresh(NodalBody const& body) const {
+    FailureSlot failure;
+    BodyState seen = body.state();
+    seen.failure = &failure;
+    machine_.observe(seen);
+  }
+  template <class F>
+  void each_evolved(NodalBody const& body, std::size_t number, F const& f) const;
+
+  ParticleSet set_;
+  Machine const& machine_;
+  std::vector<std::unique_ptr<NodalBody>> bodies_;
+  std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
+  double time_ = 0;      ///< at the end of the last step [s]
+  double repeated_ = 0;  ///< steps that were taken again in halves
+};
+
+std::optional<Failure> Solver::failure() const {
+  for (auto const& body : bodies_) {
+    FailureSlot const& slot = *body->state().failure;
+    if (slot.index >= body->particles()) continue;
+    refresh(*body);
+    double const least = NodalBody::value(body->state().cell, slot.index, 2);
+    Failure f;
+    f.what = least <= 0 ? "is inverted" : "has a deformation that is not a number";
+    f.particle = body->id(slot.index);
+    f.body = body->body().name;
+    f.X = body->X(slot.index);
+    f.x = body->x(slot.index);
+    auto const v = body->v(slot.index);
+    f.values = {{"least det F in its cell", least},
+                {"det F", determinant(body->F(slot.index))},
+                {"neighbours", static_cast<double>(body->reference().neighbours(slot.index))},
+                {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])}};
+    return f;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::pair<std::string, double>> Solver::costs() const {
+  SetUpCosts sum;
+  for (auto const& body : bodies_) {
+    auto const& c = body->reference().costs;
+    sum = {sum.cells + c.cells, sum.fits + c.fits, sum.closure + c.closure, sum.masses + c.masses,
+           sum.tables + c.tables};
+  }
+  return {{"set_up_cells", sum.cells},
+          {"set_up_fits", sum.fits},
+          {"set_up_closure", sum.closure},
+          {"set_up_masses", sum.masses},
+          {"set_up_tables", sum.tables}};
+}
+
+/// f(name, field, components) for the evolved state of a body: what a checkpoint must hold.
+template <class F>
+void Solver::each_evolved(NodalBody const& body, std::size_t number, F const& f) const {
+  int const D = set_.dimension;
+  auto const& s = body.state();
+  f(fmt::format("body{}_position", number), s.x, D);
+  f(fmt::format("body{}_velocity", number), s.v, D);
+  f(fmt::format("body{}_acceleration", number), s.a, D);
+  f(fmt::format("body{}_measured_stretch", number), s.C_measured, D * (D + 1) / 2);
+}
+
+void Solver::save(StateWriter& writer) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    NodalBody const& body = *bodies_[k];
+    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
+      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
+      for (Index i = 0; i < body.particles(); ++i)
+        for (int c = 0; c < components; ++c)
+          values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] = value_at(field, i, c);
+      writer.put(name, values);
+    });
+    writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
+    writer.put(fmt::format("body{}_external_work", k), std::array{body.boundary().external_work()});
+  }
+  writer.put("time", std::array{time_, repeated_});
+}
+
+void Solver::load(StateReader& reader) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    NodalBody& body = *bodies_[k];
+    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
+      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
+      reader.get(name, values);
+      for (Index i = 0; i < body.particles(); ++i)
+        for (int c = 0; c < components; ++c)
+          value_at(field, i, c) = values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)];
+    });
+    std::vector<double> limit = monitors_[k]->state();
+    reader.get(fmt::format("body{}_step_limit", k), limit);
+    monitors_[k]->restore(limit);
+    std::array<double, 1> work{};
+    reader.get(fmt::format("body{}_external_work", k), work);
+    body.boundary().set_external_work(work[0]);
+  }
+  std::array<double, 2> clock{};
+  reader.get("time", clock);
+  time_ = clock[0];
+  repeated_ = clock[1];
+}
+
+}  // namespace
+
+std::unique_ptr<Formulation> make(Assembly const& assembly) { return std::make_unique<Solver>(assembly); }
+
+}  // namespace piola::nodal

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include <memory>
+
+namespace piola::nodal {
+
+/// Makes a nodal run. Throws InputError (unknown machine, too few particles across, laws that it cannot use).
+std::unique_ptr<Formulation> make(Assembly const& assembly);
+
+}  // namespace piola::nodal

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/body.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// Follows the step limit 2 / omega of one body, with omega the largest frequency of its forces about the current
+/// state: power iterations, which start from the mode found last. Measured again every 25 steps, and as soon as a
+/// strain has changed by 0.1. The state is left as it was.
+class StabilityMonitor {
+ public:
+  /// Right-hand sides for the measurement at the start, and for later ones per step of calm motion.
+  static constexpr double setup_stages = 101, stages_per_step = 0.26;
+
+  /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
+  StabilityMonitor(NodalBody& body, Machine const& machine);
+
+  /// Counts a step, and measures the frequency again if that is due.
+  void update();
+  /// The step to take [s]: a share of the limit, the smaller the faster strains change.
+  double step() const;
+  /// Largest frequency that was measured last, and never less than that of the start [1/s].
+  double frequency() const;
+
+  /// Everything that the next step depends on, but for the strains of the last measurement, which are a field.
+  std::vector<double> state() const;
+  void restore(std::vector<double> const& state);
+
+ private:
+  void measure(int rounds);
+  std::vector<double> accelerations();
+  void put_positions(std::vector<double> const& x);
+  std::vector<double> positions() const;
+  double size_of(std::vector<double> const& u) const;
+
+  NodalBody& body_;
+  Machine const& machine_;
+  std::vector<double> mode_;  ///< in slot order
+  double frequency_ = 0;      ///< 1/s, at the last measurement
+  double start_ = 0;          ///< 1/s, at the start
+  double steps_ = 0;          ///< since the last measurement
+  double pace_ = 0;           ///< steps between the last two measurements; 0: there was one alone
+};
+
+}  // namespace piola::nodal

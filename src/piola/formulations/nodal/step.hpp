@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/stress_points.hpp"
+#include "piola/parallel/halo.hpp"
+
+/// One step of the nodal formulation: kick, drift, forces, kick. Theory: docs/theory/nodal.md.
+namespace piola::nodal::inline PIOLA_MACHINE {
+
+template <int D>
+class Step {
+ public:
+  explicit Step(BodyState& body) : b_(body) {}
+
+  /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations of the state are made.
+  void operator()(double dt) {
+    if (dt > 0) drive(dt);  // v^(n+1/2) where it is prescribed
+    exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
+    accelerate();
+    exec::for_each_item(b_.loaded_count, AddLoads<D>{dt, b_.loaded, read(b_.v), read(b_.a), write(b_.a)});
+    exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
+    if (dt > 0) exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{b_.held, read(b_.v), write(b_.v)});
+  }
+
+  /// a of the internal forces at x: -dPi/dx over the masses.
+  void accelerate() {
+    sweep<false>();
+    halo_.refresh(b_.second);
+    exec::for_each(b_.slots, SumForces<D>{of_stress(), read_reference(b_.mass), read(b_.a), write(b_.a)});
+  }
+
+  /// The fields for observers, of the cells at x.
+  void observe() { sweep<true>(); }
+
+  void keep() const {
+    exec::for_each(b_.slots, CopyMotion<D>{read(b_.x), read(b_.v), read(b_.a), write(b_.kept), write(b_.kept),
+                                           write(b_.kept), 0, D});
+  }
+  void restore() const {
+    exec::for_each(b_.slots, CopyMotion<D>{read(b_.kept), read(b_.kept), read(b_.kept), write(b_.x), write(b_.v),
+                                           write(b_.a), D, 0});
+  }
+
+ private:
+  ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.first).data, nullptr}; }
+  ListSums<D> of_stress() const { return {b_.list, read_neighbours(b_.first).data, read_neighbours(b_.second).data}; }
+
+  void drive(double dt) {
+    exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.a)});
+  }
+
+  template <bool Observed>
+  void sweep() {
+    halo_.refresh(b_.first);
+    SumMotion<D> const sums{of_motion()};
+    with_law(b_.material, [&](auto const& law) {
+      using Law = std::decay_t<decltype(law)>;
+      UpdateStress<D, Law, Observed> const update{law,
+                                                  b_.constants,
+                                                  read_reference(b_.V),
+                                                  read_reference(b_.L),
+                                                  read_reference(b_.g),
+                                                  read_reference(b_.k),
+                                                  read_reference(b_.own),
+                                                  read(b_.C_measured),
+                                                  write(b_.second),
+                                                  write(b_.a),
+                                                  write(b_.change),
+                                                  write(b_.F),
+                                                  write(b_.P),
+                                                  write(b_.cell),
+                                                  b_.failure};
+      exec::for_each_then(b_.slots, sums, exec::erased(update));
+    });
+  }
+
+  BodyState& b_;
+  Halo halo_;
+};
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

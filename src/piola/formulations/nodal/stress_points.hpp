@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/passes.hpp"
+#include "piola/materials/laws.hpp"
+#include "piola/math/embedding.hpp"
+
+/// The energy of a cell, from a few points of it. Theory: docs/theory/nodal.md, section 2.
+namespace piola::nodal::inline PIOLA_MACHINE {
+
+/// What the points of a cell say of its energy:
+///   W = mean_q [ Wiso(F_q) + kappa_l ln(Jm / J_q) ] + kappa/2 (Jm - 1)^2,   Jm = mean_q J_q,
+/// for laws whose energy is an isochoric part plus kappa/2 (J - 1)^2. In small strain J = 1 + tr e, and the logarithm
+/// is kappa_l/2 (J_q - Jm)^2. For other laws the mean of W at the gradients (Jm / J_q)^(1/3) F_q takes the place of the
+/// isochoric and the volumetric part, which comes to the same for laws with a split.
+template <class Law, int Points, bool WithEnergy>
+struct CellEnergy {
+  Law law;
+  double kappa, kappa_local;
+  Mat<3, Lanes> F[Points];
+  Mat<3, Lanes> P[Points];
+  Lanes J[Points], mean_J, least_J, energy;
+
+  /// P and energy from F.
+  PIOLA_FN void operator()() {
+    mean_J = Lanes(0.0);
+    for (int q = 0; q < Points; ++q) {
+      J[q] = volume_ratio_of(Law::small_strain, F[q]);
+      mean_J = mean_J + (1.0 / Points) * J[q];
+      least_J = q == 0 ? J[q] : minimum(least_J, J[q]);
+    }
+    energy = Lanes(0.0);
+    if constexpr (Law::volumetric_split)
+      split();
+    else
+      whole();
+  }
+
+ private:
+  PIOLA_FN Mat<3, Lanes> area_map(int q) const {
+    if constexpr (Law::small_strain)
+      return identity<3, Lanes>();
+    else
+      return cofactor(F[q]);
+  }
+  /// Pressure of the logarithm at a point [Pa].
+  PIOLA_FN Lanes spread_pressure(int q) const {
+    if constexpr (Law::small_strain)
+      return kappa_local * (J[q] - mean_J);
+    else
+      return kappa_local * (1.0 / mean_J - 1.0 / J[q]);
+  }
+  PIOLA_FN Lanes spread_energy(int q) const {
+    if constexpr (Law::small_strain)
+      return (0.5 * kappa_local) * ((J[q] - mean_J) * (J[q] - mean_J));
+    else
+      return kappa_local * logarithm(mean_J / J[q]);
+  }
+
+  PIOLA_FN void split() {
+    Lanes const change = mean_J - 1.0;
+    for (int q = 0; q < Points; ++q) {
+      Mat<3, Lanes> const H = area_map(q);
+      P[q] = law.stress_with_pressure(F[q], H, J[q], Lanes(kappa * change + spread_pressure(q)));
+      if constexpr (WithEnergy)
+        energy = energy + (1.0 / Points) * (law.isochoric_energy(F[q], H, J[q]) + spread_energy(q));
+    }
+    energy = energy + (0.5 * kappa) * (change * change);
+  }
+
+  PIOLA_FN void whole() {
+    Lanes work[Points], mean_work = Lanes(0.0), scale[Points];
+    for (int q = 0; q < Points; ++q) {
+      scale[q] = power_minus_third(J[q] / mean_J);
+      Mat<3, Lanes> const even = scale[q] * F[q];
+      P[q] = law.first_piola(even);
+      work[q] = (1.0 / 3.0) * contract(P[q], even);
+      mean_work = mean_work + (1.0 / Points) * work[q];
+      if constexpr (WithEnergy) energy = energy + (1.0 / Points) * (law.energy(even) + spread_energy(q));
+    }
+    for (int q = 0; q < Points; ++q)
+      P[q] = scale[q] * P[q] + Lanes(mean_work / mean_J - work[q] / J[q] + spread_pressure(q)) * area_map(q);
+  }
+};
+
+/// Gradients at the points of a cell, F_q = F + H.z_q, and the stress resultants that do work on F and H.
+template <int D>
+struct CellPoints {
+  static constexpr int points = Quadratic<D>::points;
+  Mat<D, Lanes> F;
+  Mat<D, Lanes> along[D];  ///< H.(L e_m)
+
+  PIOLA_FN Mat<D, Lanes> at(int q) const {
+    Mat<D, Lanes> r = F;
+    for (int m = 0; m < D; ++m) r = Quadratic<D>::point(q, m) > 0 ? r + along[m] : r - along[m];
+    return r;
+  }
+};
+
+/// First sums to stress resultants: F_a, H_a, the points, P_a and Q_a, and
+///   Y_a = V_a (P_a g_a^T + Q_a k_a^T),  Z_a = V_a P_a,
+/// which the second sweep reads at neighbours, and the particle's own part of its force,
+/// Y_a sum_b s P(r) + Z_a sum_b s mu_b. Records the first particle with a point of J <= 0 or not a number.
+template <int D, class Law, bool Observed>
+struct UpdateStress {
+  static constexpr int values = Quadratic<D>::values, terms = Quadratic<D>::terms, second = Quadratic<D>::second,
+                       points = Quadratic<D>::points, used = Records<D>::used, width = Records<D>::width;
+  Law law;
+  Constants constants;
+  ReferenceView V, L, g, k, own;
+  View C_measured;
+  WriteView stress, a, change, F_out, P_out, cell;
+  FailureSlot* failure;
+
+  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+    CellPoints<D> const at = gradients(i, in);
+    CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
+    for (int q = 0; q < points; ++q) energy.F[q] = embed<D>(at.at(q));
+    energy();
+    if (any(!(energy.least_J > 0.0))) record_failure(i, energy.least_J);
+    if constexpr (Observed)
+      observe(i, at, energy);
+    else {
+      change.scalar(i, largest_change(i, at.F));
+      put_stress(i, energy);
+    }
+  }
+
+ private:
+  /// Of a component of F^T F / 2 since the step was measured.
+  PIOLA_FN Lanes largest_change(Index i, Mat<D, Lanes> const& F) const {
+    SymMat<D, Lanes> const measured = C_measured.symmetric<D, Lanes>(i);
+    Lanes most = Lanes(0.0);
+    for (int J = 0; J < D; ++J)
+      for (int K = J; K < D; ++K) {
+        Lanes C = F(0, J) * F(0, K);
+        for (int c = 1; c < D; ++c) C = C + F(c, J) * F(c, K);
+        Lanes const moved = 0.5 * (C - measured(J, K));
+        most = maximum(most, maximum(moved, 0.0 - moved));
+      }
+    return most;
+  }
+  PIOLA_FN CellPoints<D> gradients(Index i, exec::Scratch const& in) const {
+    CellPoints<D> r;
+    for (int c = 0; c < D; ++c) {
+      Lanes T[values], H[second];
+      for (int m = 0; m < values; ++m) T[m] = load<Lanes>(in.at(i, c * used + m));
+      for (int J = 0; J < D; ++J) {
+        Lanes sum = load<Lanes>(in.at(i, c * used + values + J));
+        for (int m = 0; m < values; ++m) sum = sum + T[m] * g.template scalar<Lanes>(i, m * D + J);
+        r.F(c, J) = sum;
+      }
+      for (int n = 0; n < second; ++n) {
+        H[n] = T[1] * k.template scalar<Lanes>(i, n);
+        for (int m = 1; m < terms; ++m) H[n] = H[n] + T[1 + m] * k.template scalar<Lanes>(i, m * second + n);
+      }
+      for (int m = 0; m < D; ++m)
+        for (int J = 0; J < D; ++J) {
+          Lanes sum = Lanes(0.0);
+          for (int K = m; K < D; ++K) sum = sum + H[Quadratic<D>::at(J, K)] * L.template scalar<Lanes>(i, K * D + m);
+          r.along[m](c, J) = sum;
+        }
+    }
+    return r;
+  }
+
+  PIOLA_FN void put_stress(Index i, CellEnergy<Law, points, Observed> const& energy) const {
+    Lanes const volume = V.scalar<Lanes>(i);
+    Mat<D, Lanes> mean, along[D];
+    for (int q = 0; q < points; ++q) {
+      Mat<D, Lanes> const P = (volume * (1.0 / points)) * restrict_to<D>(energy.P[q]);
+      mean = q == 0 ? P : mean + P;
+      for (int m = 0; m < D; ++m) {
+        if (q == 0)
+          along[m] = Quadratic<D>::point(q, m) * P;
+        else
+          along[m] = Quadratic<D>::point(q, m) > 0 ? along[m] + P : along[m] - P;
+      }
+    }
+    for (int c = 0; c < D; ++c) {
+      Lanes Q[second];
+      for (int J = 0; J < D; ++J)
+        for (int K = J; K < D; ++K) {
+          Lanes sum = Lanes(0.0);
+          for (int m = 0; m < D; ++m) {
+            sum = sum + along[m](c, J) * L.template scalar<Lanes>(i, K * D + m);
+            if (J != K) sum = sum + along[m](c, K) * L.template scalar<Lanes>(i, J * D + m);
+          }
+          Q[Quadratic<D>::at(J, K)] = sum;
+        }
+      Lanes row[width], own_force = Lanes(0.0);
+      for (int m = 0; m < values; ++m) {
+        row[m] = mean(c, 0) * g.template scalar<Lanes>(i, m * D);
+        for (int J = 1; J < D; ++J) row[m] = row[m] + mean(c, J) * g.template scalar<Lanes>(i, m * D + J);
+        for (int n = 0; n < second && m > 0; ++n)
+          row[m] = row[m] + Q[n] * k.template scalar<Lanes>(i, (m - 1) * second + n);
+      }
+      for (int J = 0; J < D; ++J) row[values + J] = mean(c, J);
+      for (int m = 0; m < used; ++m) own_force = own_force + row[m] * own.template scalar<Lanes>(i, m);
+      for (int m = used; m < width; ++m) row[m] = Lanes(0.0);
+      a.scalar(i, own_force, c);
+      store_records(stress.data + i * stress.particle_stride + c * width, stress.particle_stride, row);
+    }
+  }
+
+  PIOLA_FN void observe(Index i, CellPoints<D> const& at, CellEnergy<Law, points, Observed> const& energy) const {
+    F_out.matrix<D>(i, at.F);
+    Mat<3, Lanes> P = (1.0 / points) * energy.P[0];
+    for (int q = 1; q < points; ++q) P = P + (1.0 / points) * energy.P[q];
+    P_out.matrix<3>(i, P);
+    cell.scalar(i, energy.energy, 0);
+    cell.scalar(i, energy.mean_J, 1);
+    cell.scalar(i, energy.least_J, 2);
+  }
+
+  PIOLA_FN void record_failure(Index i, Lanes const& least) const {
+    for (int l = 0; l < lane_count; ++l)
+      if (!(lane(least, l) > 0)) exec::record(failure, i + l, 1);
+  }
+};
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

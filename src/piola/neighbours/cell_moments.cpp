@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/neighbours/cell_moments.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+
+constexpr std::array<std::size_t, 3> mixed_first{1, 0, 0}, mixed_second{2, 2, 1};  // YZ XZ XY
+
+/// Adds up blocks and patches, all with edges along the axes.
+class Sums {
+ public:
+  Sums(int dimension, std::size_t particles) : D_(static_cast<std::size_t>(dimension)), place_(12 * particles, -1) {
+    cells.cell.resize(particles);
+  }
+
+  /// A block of the cell of particle a: its middle relative to the particle and its edges.
+  void add_block(std::size_t a, Point const& middle, Point const& edge) {
+    double volume = 1;
+    for (std::size_t c = 0; c < D_; ++c) volume *= edge[c];
+    auto& cell = cells.cell[a];
+    cell.volume += volume;
+    for (std::size_t c = 0; c < D_; ++c) {
+      cell.centroid[c] += volume * middle[c];
+      cell.spread[c] += volume * (middle[c] * middle[c] + edge[c] * edge[c] / 12);
+    }
+    for (std::size_t m = 0; m < 3; ++m) cell.spread[3 + m] += volume * middle[mixed_first[m]] * middle[mixed_second[m]];
+  }
+
+  /// The side of such a block towards `axis`.
+  void add_side(std::size_t a, std::size_t axis, bool upper, bool outermost, Point middle, Point const& edge) {
+    double area = 1;
+    for (std::size_t c = 0; c < D_; ++c)
+      if (c != axis) area *= edge[c];
+    middle[axis] += (upper ? 0.5 : -0.5) * edge[axis];
+    auto& at = place_[12 * a + 4 * axis + (upper ? 2 : 0) + (outermost ? 1 : 0)];
+    if (at < 0) {
+      at = static_cast<Index>(cells.patch.size());
+      cells.patch.push_back({static_cast<Index>(a), static_cast<int>(axis), upper, outermost});
+    }
+    auto& patch = cells.patch[static_cast<std::size_t>(at)];
+    patch.area += area;
+    for (std::size_t c = 0; c < D_; ++c) {
+      patch.first[c] += area * middle[c];
+      double const own = c == axis ? 0 : edge[c] * edge[c] / 12;
+      patch.second[c] += 0.5 * area * (middle[c] * middle[c] + own);
+    }
+    for (std::size_t m = 0; m < 3; ++m) patch.second[3 + m] += area * middle[mixed_first[m]] * middle[mixed_second[m]];
+  }
+
+  /// From integrals to centroids and central moments.
+  void finish() {
+    for (auto& cell : cells.cell) {
+      if (!(cell.volume > 0)) continue;
+      for (double& c : cell.centroid) c /= cell.volume;
+      for (double& m : cell.spread) m /= cell.volume;
+      for (std::size_t c = 0; c < 3; ++c) cell.spread[c] -= cell.centroid[c] * cell.centroid[c];
+      for (std::size_t m = 0; m < 3; ++m)
+        cell.spread[3 + m] -= cell.centroid[mixed_first[m]] * cell.centroid[mixed_second[m]];
+    }
+  }
+
+  BodyCells cells;
+
+ private:
+  std::size_t D_;
+  std::vector<Index> place_;  ///< of the patch of a particle, an axis, a sense
+};
+
+/// A lattice in a box: each cell is one block.
+BodyCells lattice_cells(ParticleSet const& set, Body const& body) {
+  auto const D = static_cast<std::size_t>(set.dimension);
+  Sums sums(set.dimension, static_cast<std::size_t>(body.last - body.first));
+  for (auto id = body.first; id < body.last; ++id) {
+    auto const& X = set.X[static_cast<std::size_t>(id)];
+    auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
+    auto const a = static_cast<std::size_t>(id - body.first);
+    Point middle{}, edge{};
+    for (std::size_t c = 0; c < D; ++c) {
+      double const low = at[c] == 0 ? body.outline.min[c] : X[c] - 0.5 * body.spacing[c];
+      double const high = at[c] + 1 == body.lattice[c] ? body.outline.max[c] : X[c] + 0.5 * body.spacing[c];
+      middle[c] = 0.5 * (low + high) - X[c];
+      edge[c] = high - low;
+    }
+    sums.add_block(a, middle, edge);
+    for (std::size_t c = 0; c < D; ++c) {
+      if (at[c] == 0) sums.add_side(a, c, false, true, middle, edge);
+      if (at[c] + 1 == body.lattice[c]) sums.add_side(a, c, true, true, middle, edge);
+    }
+  }
+  sums.finish();
+  return std::move(sums.cells);
+}
+
+/// Finds the particle nearest to a place, distances in spacings; of several the first.
+class Nearest {
+ public:
+  Nearest(ParticleSet const& set, Body const& body) : scaled_(scaled(set, body)), near_(scaled_, 1), far_(scaled_, 3) {
+    for (std::size_t c = 0; c < 3; ++c) per_spacing_[c] = 1 / body.spacing[c];
+  }
+  std::size_t operator()(Point const& X) const {
+    Point const at{X[0] * per_spacing_[0], X[1] * per_spacing_[1], X[2] * per_spacing_[2]};
+    Found found = among(near_, at);
+    if (!(found.square <= 1)) found = among(far_, at);
+    if (found.square <= 9) return found.particle;
+    found = {};
+    for (std::size_t a = 0; a < scaled_.size(); ++a) see(a, at, found);
+    return found.particle;
+  }
+
+ private:
+  struct Found {
+    std::size_t particle = 0;
+    double square = std::numeric_limits<double>::infinity();
+  };
+  static std::vector<Point> scaled(ParticleSet const& set, Body const& body) {
+    std::vector<Point> points(set.X.begin() + body.first, set.X.begin() + body.last);
+    for (auto& p : points)
+      for (std::size_t c = 0; c < 3; ++c) p[c] /= body.spacing[c];
+    return points;
+  }
+  void see(std::size_t a, Point const& at, Found& found) const {
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c) square += (scaled_[a][c] - at[c]) * (scaled_[a][c] - at[c]);
+    if (square < found.square || (square == found.square && a < found.particle)) found = {a, square};
+  }
+  Found among(CellGrid const& grid, Point const& at) const {
+    Found found;
+    grid.visit(at, [&](Index a) { see(static_cast<std::size_t>(a), at, found); });
+    return found;
+  }
+
+  std::vector<Point> scaled_;
+  CellGrid near_, far_;
+  Point per_spacing_{};
+};
+
+/// Blocks of a sixth of the spacing.
+class Sampling {
+ public:
+  Sampling(ParticleSet const& set, Body const& body)
+      : outline_(body.outline),
+        D_(static_cast<std::size_t>(set.dimension)),
+        X_(set.X.data() + body.first),
+        nearest_(set, body),
+        sums_(set.dimension, static_cast<std::size_t>(body.last - body.first)) {
+    constexpr double per_spacing = 6;
+    for (std::size_t c = 0; c < D_; ++c) {
+      double const length = outline_.max[c] - outline_.min[c];
+      count_[c] = std::max(1L, std::lround(per_spacing * length / body.spacing[c]));
+      edge_[c] = length / static_cast<double>(count_[c]);
+    }
+  }
+
+  BodyCells operator()() {
+    fill_inside();
+    for (long k = 0; k < count_[2]; ++k)
+      for (long j = 0; j < count_[1]; ++j)
+        for (long i = 0; i < count_[0]; ++i)
+          if (is_inside({i, j, k})) take({i, j, k});
+    sums_.finish();
+    return std::move(sums_.cells);
+  }
+
+ private:
+  using Place = std::array<long, 3>;
+  Point middle(Place const& at) const {
+    Point X{};
+    for (std::size_t c = 0; c < D_; ++c) X[c] = outline_.min[c] + (static_cast<double>(at[c]) + 0.5) * edge_[c];
+    return X;
+  }
+  void fill_inside() {
+    if (!outline_.inside) return;
+    inside_.reserve(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
+    for (long k = 0; k < count_[2]; ++k)
+      for (long j = 0; j < count_[1]; ++j)
+        for (long i = 0; i < count_[0]; ++i) inside_.push_back(outline_.inside(middle({i, j, k})));
+  }
+  bool is_inside(Place const& at) const {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (at[c] < 0 || at[c] >= count_[c]) return false;
+    return inside_.empty() || inside_[static_cast<std::size_t>((at[2] * count_[1] + at[1]) * count_[0] + at[0])];
+  }
+  void take(Place const& at) {
+    Point r = middle(at);
+    std::size_t const a = nearest_(r);
+    for (std::size_t c = 0; c < 3; ++c) r[c] -= X_[a][c];
+    sums_.add_block(a, r, edge_);
+    for (std::size_t c = 0; c < D_; ++c)
+      for (bool const upper : {false, true}) {
+        Place beside = at;
+        beside[c] += upper ? 1 : -1;
+        if (is_inside(beside)) continue;
+        sums_.add_side(a, c, upper, beside[c] < 0 || beside[c] >= count_[c], r, edge_);
+      }
+  }
+
+  Outline const& outline_;
+  std::size_t D_;
+  Point const* X_;
+  Nearest nearest_;
+  Sums sums_;
+  Place count_{1, 1, 1};
+  Point edge_{};
+  std::vector<bool> inside_;
+};
+
+}  // namespace
+
+BodyCells measure_cells(ParticleSet const& set, Body const& body) {
+  if (body.regular && !body.rings && !body.outline.inside) return lattice_cells(set, body);
+  return Sampling(set, body)();
+}
+
+}  // namespace piola

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/materials/laws.hpp"
+#include "piola/neighbours/cell_moments.hpp"
+#include "formulations/small_bodies.hpp"
+
+/// Small bodies under the nodal formulation.
+namespace piola::testing {
+
+inline Assembly nodal_body(ParticleSet set, MaterialParameters const& m = rubber()) {
+  Assembly a = assemble(std::move(set), m);
+  for (auto& f : a.formulations) f = {"nodal", {}, {}};
+  return a;
+}
+
+/// A box whose edges and numbers of particles differ.
+inline ParticleSet brick(int dimension, double jitter = 0, std::array<int, 3> n = {4, 5, 6}) {
+  ShapeSpec shape;
+  shape.dimension = dimension;
+  shape.min = {-0.2, 0.1, 0};
+  shape.max = {0.7, 1.3, 1.1};
+  shape.particles = n;
+  shape.jitter = jitter;
+  for (auto c = static_cast<std::size_t>(dimension); c < 3; ++c) shape.min[c] = shape.max[c] = 0;
+  ParticleSet set;
+  fill(shape, "brick", set);
+  return set;
+}
+
+/// The undeformed body of an assembly, with its order, which it refers to.
+struct SetUpBody {
+  explicit SetUpBody(Assembly const& a, double least_mass = 0.3)
+      : set(a.particles),
+        order(pencil_order(set, set.bodies[0])),
+        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.materials[0].value[0], least_mass})) {}
+  ParticleSet set;
+  SlotOrder order;
+  nodal::Reference reference;
+  Point X(Index slot) const { return set.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])]; }
+};
+
+/// Forces that act on particles at rest: masses times accelerations, three components by id.
+inline std::vector<Point> forces(Assembly const& a) {
+  auto const D = static_cast<std::size_t>(a.particles.dimension);
+  SetUpBody const body(a);
+  auto const state = saved(*make_formulation(a)).values.at("body0_acceleration");
+  std::vector<Point> force(a.particles.X.size());
+  for (Index i = 0; i < body.order.particles; ++i) {
+    auto const id = static_cast<std::size_t>(body.order.id[static_cast<std::size_t>(i)]);
+    for (std::size_t c = 0; c < D; ++c)
+      force[id][c] = body.reference.mass[static_cast<std::size_t>(i)] * state[id * D + c];
+  }
+  return force;
+}
+
+inline double largest(std::vector<Point> const& points) {
+  double most = 0;
+  for (auto const& p : points)
+    for (double const c : p) most = std::isfinite(c) ? std::max(most, std::fabs(c)) : c;
+  return most;
+}
+
+}  // namespace piola::testing

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/neighbours/cell_moments.hpp"
+#include "particles/lattices.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace piola::testing {
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// A quadratic field and its gradient.
+double field(Point const& X) {
+  return 1 + 2 * X[0] - X[1] + 3 * X[2] + X[0] * X[0] - 2 * X[1] * X[1] + X[0] * X[1] + 4 * X[1] * X[2];
+}
+double slope(int axis, Point const& X) {
+  if (axis == 0) return 2 + 2 * X[0] + X[1];
+  return axis == 1 ? -1 - 4 * X[1] + X[0] + 4 * X[2] : 3 + 4 * X[1];
+}
+/// Integral of the field over a patch, from its moments about X and the field's derivatives there.
+double over(SurfacePatch const& p, Point const& X) {
+  double sum = field(X) * p.area;
+  for (int c = 0; c < 3; ++c) sum += slope(c, X) * p.first[static_cast<std::size_t>(c)];
+  return sum + 2 * p.second[0] - 4 * p.second[1] + p.second[5] + 4 * p.second[3];
+}
+
+void expect_divergence_theorem(ParticleSet const& set) {
+  auto const cells = measure_cells(set, set.bodies[0]);
+  double volume = 0;
+  Point inside{}, surface{};
+  for (std::size_t a = 0; a < cells.cell.size(); ++a) {
+    auto const& cell = cells.cell[a];
+    volume += cell.volume;
+    Point at = set.X[a];
+    for (std::size_t c = 0; c < 3; ++c) at[c] += cell.centroid[c];
+    for (int c = 0; c < set.dimension; ++c) inside[static_cast<std::size_t>(c)] += cell.volume * slope(c, at);
+  }
+  for (auto const& patch : cells.patch)
+    surface[static_cast<std::size_t>(patch.axis)] +=
+        (patch.upper ? 1 : -1) * over(patch, set.X[static_cast<std::size_t>(patch.particle)]);
+  for (int c = 0; c < set.dimension; ++c)
+    EXPECT_NEAR(inside[static_cast<std::size_t>(c)], surface[static_cast<std::size_t>(c)], 1e-11 * (1 + volume));
+}
+
+ParticleSet ball(int dimension, ShapeSpec::Kind kind = ShapeSpec::Kind::sphere) {
+  ShapeSpec shape;
+  shape.kind = kind;
+  shape.dimension = dimension;
+  shape.radius = 0.5;
+  shape.spacing = 0.1;
+  shape.length = 0.7;
+  ParticleSet set;
+  fill(shape, "ball", set);
+  return set;
+}
+
+TEST(CellMoments, OfALatticeAreThoseOfItsBlocksAtFacesEdgesAndCorners) {
+  auto const set = unit_box(3, 5);
+  auto const cells = measure_cells(set, set.bodies[0]);
+  double const h = 0.25;
+  auto const& corner = cells.cell[0];
+  EXPECT_NEAR(corner.volume, h * h * h / 8, 1e-16);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(corner.centroid[c], h / 4, 1e-16);
+    EXPECT_NEAR(corner.spread[c], h * h / 48, 1e-16);
+    EXPECT_NEAR(corner.spread[3 + c], 0, 1e-16);
+  }
+  auto const& middle = cells.cell[2 + 5 * 2 + 25 * 2];
+  EXPECT_NEAR(middle.volume, h * h * h, 1e-16);
+  EXPECT_NEAR(middle.spread[1], h * h / 12, 1e-16);
+  EXPECT_NEAR(middle.centroid[2], 0, 1e-16);
+}
+
+TEST(CellMoments, OfASampledLatticeAreExact) {
+  auto set = unit_box(3, 4);
+  auto const exact = measure_cells(set, set.bodies[0]);
+  set.bodies[0].regular = false;  // as if it were any cloud
+  auto const sampled = measure_cells(set, set.bodies[0]);
+  ASSERT_EQ(exact.patch.size(), sampled.patch.size());
+  for (std::size_t a = 0; a < exact.cell.size(); ++a) {
+    EXPECT_NEAR(exact.cell[a].volume, sampled.cell[a].volume, 1e-15);
+    for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(exact.cell[a].spread[c], sampled.cell[a].spread[c], 1e-15);
+  }
+}
+
+TEST(CellMoments, ObeyTheDivergenceTheoremForQuadraticFields) {
+  for (int D = 1; D <= 3; ++D) {
+    expect_divergence_theorem(unit_box(D, 6));
+    expect_divergence_theorem(unit_box(D, 6, 0.4));
+    expect_divergence_theorem(ball(D));
+  }
+  expect_divergence_theorem(ball(3, ShapeSpec::Kind::cylinder));
+}
+
+TEST(CellMoments, OfABallHaveItsVolumeAndNotThatOfItsStaircase) {
+  auto const set = ball(3);
+  double volume = 0;
+  for (auto const& cell : measure_cells(set, set.bodies[0]).cell) volume += cell.volume;
+  EXPECT_NEAR(volume, 4.0 / 3 * M_PI * 0.125, 2e-3 * volume);
+}
+
+}  // namespace
+}  // namespace piola::testing
