@@ -38,6 +38,12 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
         "initial_deformation_gradient",
         body_.name));
+  for (auto const& load : assembly.loads)
+    if (load.follows || !load.normals.empty())
+      throw InputError(fmt::format(
+          "body '{}': a load that follows the surface or acts on a curved face is not known to nodal (allowed: "
+          "dead loads on flat faces) - take jst_sph or another load",
+          body_.name));
   set_constants(assembly.materials[body]);
   reference_ = make_reference({set, body_, order_, assembly.loads, state_.constants.rho0, options_.least_mass});
   allocate();
@@ -144,6 +150,21 @@ void NodalBody::mark_measured() {
         for (int c = 0; c < D_; ++c) C += value(state_.F, i, c * D_ + J) * value(state_.F, i, c * D_ + K);
         fields_.C_measured.at(i, D_ == 2 && J != K ? 2 : place[J][K]) = C;
       }
+}
+
+double NodalBody::kinetic_energy() const {
+  double sum = 0;
+  for (Index i = 0; i < order_.particles; ++i) {
+    auto const v = this->v(i);
+    sum += 0.5 * mass(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  return sum;
+}
+
+void NodalBody::damp(double factor) {
+  double const before = kinetic_energy();
+  boundary_->damp(state_, factor);
+  damping_loss_ += before - kinetic_energy();
 }
 
 std::array<double, 3> NodalBody::x(Index slot) const {

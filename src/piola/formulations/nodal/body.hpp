@@ -38,6 +38,11 @@ class NodalBody {
   int step(Machine const& machine, double time, double dt);
   /// Takes the deformation that observers see as that of the last measurement of the step.
   void mark_measured();
+  /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
+  void damp(double factor);
+  double kinetic_energy() const;                         ///< [J]
+  double damping_loss() const { return damping_loss_; }  ///< since the start [J]
+  void set_damping_loss(double loss) { damping_loss_ = loss; }
   double next_release(double time) const { return boundary_->next_release(time); }
 
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
@@ -67,6 +72,7 @@ class NodalBody {
   Reference reference_;
   std::optional<Boundary> boundary_;
   std::vector<double> partial_;
+  double damping_loss_ = 0;
   FailureSlot failure_;
   BodyState state_;
 };

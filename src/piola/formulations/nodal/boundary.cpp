@@ -13,6 +13,8 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_
     slot_of_[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
   take_supports(assembly, of_body);
   take_loads(assembly, of_body);
+  of_supports_.resize(assembly.supports.size());
+  of_loads_.resize(assembly.loads.size());
 }
 
 void Boundary::take_supports(Assembly const& assembly, OfBody const& of_body) {
@@ -55,7 +57,8 @@ void Boundary::take_loads(Assembly const& assembly, OfBody const& of_body) {
   std::vector<Index> place(of_body.mass.size(), -1);
   for (auto const& load : assembly.loads) {
     auto const factor = factors(load, loads_.size(), of_body);
-    LoadOnBody on{{}, {}, {}, {}, load.value, load.until};
+    LoadOnBody on{{}, {}, {}, {}, load.value, std::nullopt, load.until};
+    if (load.pressure) on.normal = load.normal;
     bool const steady = is_steady(load.value);
     if (!steady) steady_loads_ = false;
     for (std::size_t slot = 0; slot < factor.size(); ++slot) {
@@ -68,8 +71,7 @@ void Boundary::take_loads(Assembly const& assembly, OfBody const& of_body) {
       on.factor.push_back(factor[slot]);
       on.X.push_back(assembly.particles.X[static_cast<std::size_t>(of_body.order.id[slot])]);
       if (!steady) continue;
-      on.steady.push_back({});
-      for (std::size_t c = 0; c < 3; ++c) on.steady.back()[c] = factor[slot] * load.value[c](on.X.back());
+      on.steady.push_back(acceleration_by(load.value, on.normal, factor[slot], on.X.back(), 0));
     }
     loads_.push_back(std::move(on));
   }
@@ -97,18 +99,24 @@ void Boundary::hold(Particle const& particle, double time, double end) {
     if (!make_orthogonal(d, chosen)) continue;
     double const length = dot(row.direction, d);
     chosen.push_back(d);
-    held_.push_back({particle.slot, {d[0], d[1], d[2]}, particle.mass, before / length, after / length, 0});
+    held_.push_back({particle.slot, {d[0], d[1], d[2]}, particle.mass, before / length, after / length, 0, 0});
+    held_by_.push_back(row.support);
   }
+}
+
+Direction Boundary::acceleration(LoadOnBody const& load, std::size_t k, double time) const {
+  return load.steady.empty() ? acceleration_by(load.value, load.normal, load.factor[k], load.X[k], time)
+                             : load.steady[k];
 }
 
 /// Adds the loads that act in a step that begins at `time`.
 void Boundary::add_loads(double time, double evaluate_at, double (LoadedParticle::*side)[3]) {
   for (auto const& load : loads_) {
     if (has_ended(load.until, time)) continue;
-    for (std::size_t k = 0; k < load.place.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        (loaded_[static_cast<std::size_t>(load.place[k])].*side)[c] +=
-            load.steady.empty() ? load.factor[k] * load.value[c](load.X[k], evaluate_at) : load.steady[k][c];
+    for (std::size_t k = 0; k < load.place.size(); ++k) {
+      Direction const a = acceleration(load, k, evaluate_at);
+      for (std::size_t c = 0; c < 3; ++c) (loaded_[static_cast<std::size_t>(load.place[k])].*side)[c] += a[c];
+    }
   }
 }
 
@@ -130,6 +138,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   begun_ = time;
   if (changed || !steady_supports_) {
     held_.clear();
+    held_by_.clear();
     for (auto const& particle : particles_) hold(particle, time, time + dt);
   }
   if (changed || !steady_loads_) {
@@ -144,16 +153,53 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
 }
 
 void Boundary::end_step(BodyState& state, double time) {
-  for (auto const& h : held_) work_ += h.work;
+  auto const place_of = [&](Index slot) {
+    std::array<double, 3> x{};
+    for (int c = 0; c < D_; ++c) x[static_cast<std::size_t>(c)] = value_at(state.x, slot, c);
+    return x;
+  };
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    auto const& h = held_[k];
+    work_ += h.work;
+    of_supports_[held_by_[k]].add(place_of(h.slot),
+                                  {h.impulse * h.direction[0], h.impulse * h.direction[1], h.impulse * h.direction[2]});
+  }
   for (auto const& p : loaded_) work_ += p.work;
-  for (auto const& load : loads_) {
-    if (has_ended(load.until, begun_) || !has_ended(load.until, time)) continue;
-    for (std::size_t k = 0; k < load.place.size(); ++k)
-      for (int c = 0; c < D_; ++c) {
-        auto const at = static_cast<std::size_t>(c);
-        value_at(state.a, loaded_[static_cast<std::size_t>(load.place[k])].slot, c) -=
-            load.steady.empty() ? load.factor[k] * load.value[at](load.X[k], time) : load.steady[k][at];
-      }
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    auto const& load = loads_[l];
+    if (has_ended(load.until, begun_)) continue;
+    bool const ends = has_ended(load.until, time);
+    for (std::size_t k = 0; k < load.place.size(); ++k) {
+      auto const& p = loaded_[static_cast<std::size_t>(load.place[k])];
+      Direction const before = acceleration(load, k, begun_), after = acceleration(load, k, time);
+      Direction impulse{};
+      for (std::size_t c = 0; c < 3; ++c) impulse[c] = 0.5 * (time - begun_) * p.mass * (before[c] + after[c]);
+      of_loads_[l].add(place_of(p.slot), impulse);
+      for (int c = 0; ends && c < D_; ++c) value_at(state.a, p.slot, c) -= after[static_cast<std::size_t>(c)];
+    }
+  }
+}
+
+void Boundary::hand_over(Actions& actions) {
+  for (std::size_t s = 0; s < of_supports_.size(); ++s) actions.supports[s].add(of_supports_[s]);
+  for (std::size_t l = 0; l < of_loads_.size(); ++l) actions.loads[l].add(of_loads_[l]);
+  of_supports_.assign(of_supports_.size(), {});
+  of_loads_.assign(of_loads_.size(), {});
+}
+
+void Boundary::damp(BodyState& state, double factor) const {
+  std::vector<double> before;
+  auto const along = [&](HeldDirection const& h) {
+    double sum = 0;
+    for (int c = 0; c < D_; ++c) sum += h.direction[c] * value_at(state.v, h.slot, c);
+    return sum;
+  };
+  for (auto const& h : held_) before.push_back(along(h));
+  for (Index i = 0; i < state.slots.last; ++i)
+    for (int c = 0; c < D_; ++c) value_at(state.v, i, c) *= factor;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    double const change = before[k] - along(held_[k]);
+    for (int c = 0; c < D_; ++c) value_at(state.v, held_[k].slot, c) += change * held_[k].direction[c];
   }
 }
 

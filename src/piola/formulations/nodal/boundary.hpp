@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/formulations/prescribed.hpp"
@@ -26,10 +27,16 @@ class Boundary {
   void attach(BodyState& state);
   /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends.
   void begin_step(BodyState& state, double time, double dt);
-  /// After it: adds the work, and takes loads that end now out of the acceleration with which the next step begins.
+  /// After it: adds the work and the impulses, and takes loads that end now out of the acceleration with which the next
+  /// step begins.
   void end_step(BodyState& state, double time);
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const;
+
+  /// Adds what supports and loads gave since the last call.
+  void hand_over(Actions& actions);
+  /// Multiplies the velocities that no support prescribes.
+  void damp(BodyState& state, double factor) const;
 
   double external_work() const { return work_; }  ///< of loads and driven supports since the start [J]
   void set_external_work(double work) { work_ = work; }
@@ -52,6 +59,7 @@ class Boundary {
     std::vector<std::array<double, 3>> X;
     std::vector<std::array<double, 3>> steady;  ///< acceleration of loads that do not depend on time
     std::array<Expression, 3> value;
+    std::optional<Direction> normal;  ///< of a pressure
     double until;
   };
 
@@ -60,6 +68,7 @@ class Boundary {
   std::vector<double> factors(Load const& load, std::size_t number, OfBody const& of_body) const;
   void hold(Particle const& particle, double time, double end);
   double speed_of(Particle const& particle, Particle::Row const& row, double time) const;
+  Direction acceleration(LoadOnBody const& load, std::size_t k, double time) const;
   void add_loads(double time, double evaluate_at, double (LoadedParticle::*side)[3]);
 
   Body body_;
@@ -69,6 +78,8 @@ class Boundary {
   bool steady_supports_ = true, steady_loads_ = true;
   std::vector<Particle> particles_;
   std::vector<HeldDirection> held_;
+  std::vector<std::size_t> held_by_;  ///< supports
+  std::vector<Impulse> of_supports_, of_loads_;
   std::vector<LoadOnBody> loads_;
   std::vector<LoadedParticle> loaded_;
   double begun_ = 0;   ///< start of the step that `held_` and `loaded_` are for

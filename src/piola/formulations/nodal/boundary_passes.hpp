@@ -36,7 +36,8 @@ struct DriveDirections {
   PIOLA_FN void operator()(Index n) const {
     HeldDirection& h = held[n];
     double const mean = 0.5 * (h.before + h.after), wanted = 2 * (mean - along<D>(v, h)) / dt;
-    h.work = h.mass * 0.5 * dt * (wanted - along<D>(a, h)) * mean;
+    h.impulse = h.mass * 0.5 * dt * (wanted - along<D>(a, h));
+    h.work = h.impulse * mean;
     set_along<D>(a, a_out, h, wanted);
   }
 };
@@ -51,7 +52,9 @@ struct ArriveAlongDirections {
 
   PIOLA_FN void operator()(Index n) const {
     HeldDirection& h = held[n];
-    h.work += h.mass * (h.after - along<D>(v, h)) * 0.5 * (h.before + h.after);
+    double const impulse = h.mass * (h.after - along<D>(v, h));
+    h.impulse += impulse;
+    h.work += impulse * 0.5 * (h.before + h.after);
     set_along<D>(v, v_out, h, h.after);
   }
 };

@@ -42,15 +42,17 @@ double pressure(NodalBody const& body, Index i) {
 
 void observe(NodalBody const& body, NodalObservation& o) {
   bool const first = !(o.volume > 0);
+  o.open_body(body.body().name);
   std::vector<double> pressures(static_cast<std::size_t>(body.particles()));
   for (Index i = 0; i < body.particles(); ++i) {
     double const V = body.volume(i), p = pressure(body, i), least = cell(body, i, least_J);
-    o.totals.strain_energy += V * cell(body, i, energy);
+    o.add_strain_energy(V * cell(body, i, energy));
     o.least_jacobian = first && i == 0 ? least : std::min(o.least_jacobian, least);
     o.add_state(cell(body, i, mean_J), p, V);
     o.add_motion(body.x(i), body.v(i), body.mass(i));
     pressures[static_cast<std::size_t>(body.id(i) - body.body().first)] = p;
   }
+  o.totals.damping_loss += body.damping_loss();
   o.totals.external_work += body.boundary().external_work();
   o.add_oscillation(body.set(), body.body(), pressures);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/actions.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/formulations/prescribed.hpp"
@@ -23,7 +24,8 @@ Machine const& choose(std::string const& name) {
 /// One or more bodies that do not touch each other.
 class Solver final : public Formulation {
  public:
-  explicit Solver(Assembly const& assembly) : set_(assembly.particles), machine_(choose(assembly.machine)) {
+  explicit Solver(Assembly const& assembly)
+      : set_(assembly.particles), machine_(choose(assembly.machine)), actions_(assembly) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
@@ -57,11 +59,22 @@ class Solver final : public Formulation {
   }
 
   void step(double time, double dt) override {
+    actions_.begin(dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       repeated_ += bodies_[k]->step(machine_, time, dt);
+      bodies_[k]->boundary().hand_over(actions_);
       monitors_[k]->update();
     }
     time_ = time + dt;
+  }
+
+  void damp(double factor) override {
+    for (auto const& body : bodies_) body->damp(factor);
+  }
+  double kinetic_energy() const override {
+    double sum = 0;
+    for (auto const& body : bodies_) sum += body->kinetic_energy();
+    return sum;
   }
 
   std::optional<Failure> failure() const override;
@@ -72,7 +85,9 @@ class Solver final : public Formulation {
       refresh(*body);
       observe(*body, all);
     }
-    return finish(all);
+    Diagnostics d = finish(all);
+    d.actions = actions_.report();
+    return d;
   }
 
   std::vector<FieldInfo> fields() const override { return observed_fields(); }
@@ -110,6 +125,7 @@ class Solver final : public Formulation {
   Machine const& machine_;
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
+  Actions actions_;
   double time_ = 0;      ///< at the end of the last step [s]
   double repeated_ = 0;  ///< steps that were taken again in halves
 };
@@ -172,8 +188,9 @@ void Solver::save(StateWriter& writer) const {
       writer.put(name, values);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
-    writer.put(fmt::format("body{}_external_work", k), std::array{body.boundary().external_work()});
+    writer.put(fmt::format("body{}_energy_books", k), std::array{body.boundary().external_work(), body.damping_loss()});
   }
+  writer.put("actions", actions_.state());
   writer.put("time", std::array{time_, repeated_});
 }
 
@@ -190,10 +207,14 @@ void Solver::load(StateReader& reader) {
     std::vector<double> limit = monitors_[k]->state();
     reader.get(fmt::format("body{}_step_limit", k), limit);
     monitors_[k]->restore(limit);
-    std::array<double, 1> work{};
-    reader.get(fmt::format("body{}_external_work", k), work);
-    body.boundary().set_external_work(work[0]);
+    std::array<double, 2> books{};
+    reader.get(fmt::format("body{}_energy_books", k), books);
+    body.boundary().set_external_work(books[0]);
+    body.set_damping_loss(books[1]);
   }
+  std::vector<double> actions = actions_.state();
+  reader.get("actions", actions);
+  actions_.restore(actions);
   std::array<double, 2> clock{};
   reader.get("time", clock);
   time_ = clock[0];

@@ -14,6 +14,7 @@ struct HeldDirection {
   double direction[3];   ///< unit vector
   double mass;           ///< of the particle [kg]
   double before, after;  ///< prescribed velocity at the ends of the step [m/s]
+  double impulse;        ///< of the reaction in this step [N s]
   double work;           ///< of the reaction in this step [J]
 };
 
