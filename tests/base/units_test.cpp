@@ -31,6 +31,10 @@ TEST(Units, QuantitiesAreConvertedToSi) {
   EXPECT_DOUBLE_EQ(value_of("  3  ", "m"), 3);
   EXPECT_DOUBLE_EQ(value_of("30 %", "1"), 0.3);
   EXPECT_DOUBLE_EQ(value_of("180 degree", "rad"), std::acos(-1.0));
+  EXPECT_DOUBLE_EQ(value_of("0.01 1/ms", "1/s"), 10);
+  EXPECT_DOUBLE_EQ(value_of("10 Hz", "1/s"), 10);
+  EXPECT_EQ(problem_of("10 s", "1/s"), "\"10 s\" is not a rate (expected a unit such as 1/s)");
+  EXPECT_EQ(problem_of("10 1/2 s", "1/s"), "\"1/2 s\" in \"10 1/2 s\" is not a unit (expected a unit such as 1/s)");
 }
 
 TEST(Units, OffsetUnitsAreConvertedWithTheirOffset) { EXPECT_DOUBLE_EQ(value_of("20 degC", "K"), 293.15); }

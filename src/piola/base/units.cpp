@@ -62,7 +62,8 @@ bool is_plain_unit(std::string_view text) {
 
 Unit whole_unit(std::string_view text) {
   if (text == "1") return Unit(ut_get_dimensionless_unit_one(unit_system()));
-  if (!is_plain_unit(text)) return nullptr;
+  // "1/s" begins with a number that scales nothing.
+  if (!is_plain_unit(text.starts_with("1/") ? text.substr(2) : text)) return nullptr;
   return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
 }
 
@@ -109,6 +110,7 @@ struct Dimension {
 constexpr std::array dimensions{
     Dimension{"m", "a length"},
     Dimension{"s", "a time"},
+    Dimension{"1/s", "a rate"},
     Dimension{"m/s", "a velocity"},
     Dimension{"kg/m^3", "a density"},
     Dimension{"Pa", "a pressure or modulus"},

@@ -101,9 +101,10 @@ bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::u
   ::ssize_t const written = ::pwrite(file.get(), text.data(), text.size(), from);
   if (written == static_cast<::ssize_t>(text.size()) && ::fdatasync(file.get()) == 0) return true;
   int const error = written < 0 ? errno : written < static_cast<::ssize_t>(text.size()) ? ENOSPC : errno;
-  static_cast<void>(::pwrite(file.get(), before.data(), old_end, from));  // these bytes have their place on the disk
-  static_cast<void>(::ftruncate(file.get(), static_cast<::off_t>(size)));
-  throw FileError(cannot_write(path, error));
+  // The bytes of before have their place on the disk.
+  bool const restored = ::pwrite(file.get(), before.data(), old_end, from) == static_cast<::ssize_t>(old_end) &&
+                        ::ftruncate(file.get(), static_cast<::off_t>(size)) == 0;
+  throw FileError(cannot_write(path, error) + (restored ? "" : " (its end is torn)"));
 }
 
 std::string read_text_file(std::filesystem::path const& path, std::uint64_t most) {
