@@ -55,6 +55,7 @@ quantity = "steps"
 reference = 0
 kind = "above"
 source = "a run has steps"
+evidence = "code"
 CHECKS
 results() {
   case $1 in

@@ -58,10 +58,11 @@ TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
             "case.toml:10:20: body.material.law is \"neo_hooke\" (allowed: linear_elastic, neo_hookean, mooney_rivlin, "
             "saint_venant_kirchhoff, compressible_neo_hookean, elastic, perfectly_plastic, isotropic_hardening, "
             "johnson_cook) - did you mean \"neo_hookean\"?");
-  EXPECT_EQ(message_of(sample_with("jst_sph", "mpm")),
-            "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph, adaptle) "
-            "- choose "
-            "one of these");
+  EXPECT_EQ(
+      message_of(sample_with("jst_sph", "mpm")),
+      "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph, adaptle, nodal) "
+      "- choose "
+      "one of these");
 }
 
 TEST(CaseMessages, RegionsThatSelectNothingSayWhereTheBodyIs) {
@@ -133,7 +134,7 @@ TEST(CaseMessages, AnEmptyBodyIsReported) {
 TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(message_of(sample_with("\"pressure\"]", "\"presure\"]")),
             "case.toml:22:33: probe.quantities[1] is \"presure\" (allowed: pressure, damage, temperature, "
-            "density, momentum_x, momentum_y, momentum_z, jacobian and 48 more) - did you mean \"pressure\"?");
+            "density, parting, momentum_x, momentum_y, momentum_z and 49 more) - did you mean \"pressure\"?");
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "
@@ -190,7 +191,7 @@ formulation = { name = "jst_sph" }
 TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(message_of(sample_case(), {"run.ens=1"}),
             "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, rest, max_step, "
-            "min_step, threads, machine) - did you "
+            "min_step, threads, machine, guards) - did you "
             "mean \"end\"?");
   EXPECT_EQ(message_of(sample_case(), {"body.colum.name=a"}),
             "--set body.colum.name=a: no body has the name \"colum\" (known: column) - did you mean \"column\"?");

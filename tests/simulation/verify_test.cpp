@@ -386,10 +386,10 @@ TEST(Verify, ComparesFieldsWithARefinedRun) {
   write(folder / "cases/springs/checks.toml", R"(
 [[variant]]
 name = "4"
-set = ["4"]
+set = ["n=4"]
 [[variant]]
 name = "8"
-set = ["8"]
+set = ["n=8"]
 [[check]]
 variant = "4"
 relative_to = "8"
@@ -413,7 +413,7 @@ evidence = "code"
 )");
   std::atomic<int> const none{0};
   auto const prepare = [](std::filesystem::path const&, std::vector<std::string> const& set) {
-    Simulation s = testing::make_springs(std::stoi(set.at(0)));
+    Simulation s = testing::make_springs(std::stoi(set.at(0).substr(2)));
     s.spec.run.max_step = 0.005;  // below the step that wanders with the particles
     return s;
   };

@@ -92,7 +92,10 @@ class Conversion {
   Conversion(Measure const& from, Measure const& to)
       : converter_(from.unit && to.unit && from.squared == to.squared ? ut_get_converter(from.unit.get(), to.unit.get())
                                                                       : nullptr),
-        squared_(from.squared) {}
+        squared_(from.squared) {
+    // To UDUNITS a time can be converted to a rate, by its inverse; here nobody means that.
+    if (converter_ && !std::isfinite(cv_convert_double(converter_.get(), 0))) converter_ = nullptr;
+  }
   explicit operator bool() const { return converter_ != nullptr; }
   double operator()(double value) const {
     auto const converted = [&](double x) { return cv_convert_double(converter_.get(), x); };

@@ -137,9 +137,11 @@ void PictureObserver::draw_all() {
   }
 }
 
-void PictureObserver::draw_missing() {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k)
-    if (Kept kept; !std::filesystem::exists(path(k)) && read_kept(k, kept)) draw(k, kept);
+/// A run that is stopped ends soon: the pictures that are missing are drawn when it is resumed and comes to its end.
+void PictureObserver::draw_last() {
+  if (!(count_ > 0)) return;
+  auto const last = static_cast<std::size_t>(count_) - 1;
+  if (Kept kept; !std::filesystem::exists(path(last)) && read_kept(last, kept)) draw(last, kept);
 }
 
 void PictureObserver::see(Formulation const& formulation, Moment const& moment) {
@@ -149,7 +151,7 @@ void PictureObserver::see(Formulation const& formulation, Moment const& moment) 
 void PictureObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
   if (!schedule_.ever() || !prepare(formulation)) return;
   if (ending == Ending::stopped) {
-    draw_missing();
+    draw_last();
   } else {
     if (last_time_ != moment.time) see_now(formulation, moment.time);
     draw_all();

@@ -11,7 +11,7 @@ namespace piola {
 /// pictures/FIELD-000000.png at each due time and at the end. When a run ends all its pictures have one range of
 /// colours (unless the case gives it) and one scale: they are drawn then, from particle positions and values that are
 /// kept until then. For those who watch a long run, a picture is also drawn at its time if a second has passed since
-/// the last one, with the colours and the scale of what was seen so far.
+/// the last one, with the colours and the scale of what was seen so far; and the last one when the run is stopped.
 class PictureObserver : public Observer {
  public:
   explicit PictureObserver(Results results);
@@ -33,7 +33,7 @@ class PictureObserver : public Observer {
   bool prepare(Formulation const& formulation);
   bool drawn_as_now(std::size_t number) const;
   void draw_all();
-  void draw_missing();
+  void draw_last();
   std::filesystem::path path(std::size_t number) const;
   std::filesystem::path kept_path(std::size_t number) const;
   void keep(std::size_t number, Kept const& kept) const;
