@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/simulation/bench.hpp"
+#include "piola/simulation/bench_accuracy.hpp"
 #include "piola/simulation/bench_adaptle.hpp"
 #include "piola/simulation/bench_taylor.hpp"
 #include "commands.hpp"
@@ -79,7 +80,19 @@ int bench_impact(BenchArguments const& options) {
   return print(bench_adaptle(bench), options.json);
 }
 
+int bench_columns(BenchArguments const& options) {
+  if (options.parts.size() > 1)
+    throw InputError(
+        "--only: accuracy compares formulations and stands alone - measure the other parts in a second run");
+  AccuracyOptions bench;
+  bench.machine = options.machine;
+  if (options.quick) bench.across = {3, 5};
+  return print(bench_accuracy(bench), options.json);
+}
+
 int bench(BenchArguments const& options) {
+  if (std::find(options.parts.begin(), options.parts.end(), "accuracy") != options.parts.end())
+    return bench_columns(options);
   if (options.formulation == "jst_sph") return bench_jst(options);
   if (options.formulation == "taylor_sph") return bench_taylor(options);
   if (options.formulation == "adaptle") return bench_impact(options);
@@ -97,8 +110,10 @@ void add_bench(CLI::App& program, Action& action) {
       ->add_option(
           "--only", options->parts,
           "jst_sph: parts to measure: rates (particle-stages per second), column (simulated time per processor time of "
-          "the twisting column), variables (cost of the filter, of J and of H); default: all")
-      ->check(CLI::IsMember({"rates", "column", "variables"}));
+          "the twisting column), variables (cost of the filter, of J and of H); default: these three. Or accuracy: "
+          "errors "
+          "of nodal and jst_sph against processor time, some minutes")
+      ->check(CLI::IsMember({"rates", "column", "variables", "accuracy"}));
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quick", options->quick, "A few seconds only: fewer particles and steps");
   command->add_option("--side", options->side, "Particles per side of the cube (default 64), of the plate (320)")

@@ -6,6 +6,8 @@ include(CheckCXXSourceCompiles)
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "Flags of a release" FORCE)
 set(CMAKE_CXX_FLAGS_DEBUG "-Og -g" CACHE STRING "Flags of a build for development" FORCE)
 
+option(PIOLA_TOGETHER "Compile several files as one: quicker from scratch, slower after a change" OFF)
+
 # piola_options: what users of the library must share with it.
 add_library(piola_options INTERFACE)
 target_compile_features(piola_options INTERFACE cxx_std_20)
@@ -16,7 +18,8 @@ target_link_libraries(piola_options INTERFACE OpenMP::OpenMP_CXX Threads::Thread
 # -Wconversion, g++ does not, and an index type with a sign makes every subscript of a standard container one.
 add_library(piola_warnings INTERFACE)
 target_compile_options(piola_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
+  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow>  # else names of files beside would count as shadowed
   -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=  # messages name files as in the repository
   $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>

@@ -7,7 +7,6 @@ if(NOT _sources)
   return()
 endif()
 find_package(CLI11 REQUIRED)
-option(PIOLA_TOGETHER "Compile the program's files together: quicker from scratch, slower after a change" OFF)
 add_executable(piola_app ${_sources})
 set_target_properties(piola_app PROPERTIES UNITY_BUILD ${PIOLA_TOGETHER})  # reads the large header of CLI11 once
 target_compile_options(piola_app PRIVATE $<$<CONFIG:Release>:-O1>)  # no hot loops here

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_keys.hpp"
+#include <array>
+#include <string_view>
 
 /// The keys of a case file, topic by topic, in the order of the manual.
 namespace piola {
+
+inline constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
 
 // Lengths outside these bounds are slips, and their volumes would leave the range of numbers.
 inline constexpr Interval place_range{-1e15, 1e15, false, false};

@@ -13,9 +13,8 @@ constexpr Interval half_open{0, 0.5, false, true};
 constexpr std::array<std::string_view, 5> machine_words{"auto", "scalar", "v2", "v3", "v4"};
 constexpr std::array<std::string_view, 2> placement_words{"on_boundary", "cell_centred"};
 constexpr std::array<std::string_view, 3> arrangement_words{"lattice", "rings", "lattice_with_rings"};
-constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
 
-constexpr std::array keys{
+constexpr std::array body_keys{
     KeyInfo{"", "title", text, "", {}, "", "what the case is called in files and pictures", {}},
     KeyInfo{"",
             "constants",
@@ -259,6 +258,6 @@ constexpr std::array keys{
 
 }  // namespace
 
-std::span<KeyInfo const> keys_of_run_and_bodies() { return keys; }
+std::span<KeyInfo const> keys_of_run_and_bodies() { return body_keys; }
 
 }  // namespace piola

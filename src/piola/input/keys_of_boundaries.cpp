@@ -11,7 +11,7 @@ constexpr std::array<std::string_view, 4> contact_words{"kernel", "linear", "pri
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 8> surface_words{"-x", "+x", "-y", "+y", "-z", "+z", "outer", "inner"};
 
-constexpr std::array keys{
+constexpr std::array boundary_keys{
     KeyInfo{"support",
             "name",
             name,
@@ -184,6 +184,6 @@ constexpr std::array keys{
 
 }  // namespace
 
-std::span<KeyInfo const> keys_of_boundaries() { return keys; }
+std::span<KeyInfo const> keys_of_boundaries() { return boundary_keys; }
 
 }  // namespace piola

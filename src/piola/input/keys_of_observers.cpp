@@ -7,7 +7,6 @@ namespace {
 
 using enum KeyInfo::Kind;
 
-constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
 constexpr std::array<std::string_view, 7> up_words{"auto", "x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 12> probe_words{"point",   "average",  "maximum", "minimum",
                                                        "twist",   "extent",   "error",   "stress_intensity",
@@ -32,7 +31,7 @@ constexpr std::array<std::string_view, 18> take_words{"maximum",
                                                       "mean",
                                                       "final"};
 
-constexpr std::array keys{
+constexpr std::array observer_keys{
     KeyInfo{"probe", "name", name, "", {}, "", "first part of the column names", {}},
     KeyInfo{"probe", "body", name, "", {}, "", "name of the body", {}},
     KeyInfo{"probe", "kind", word, "", {}, "\"point\"", "what is measured", probe_words},
@@ -313,6 +312,6 @@ constexpr std::array keys{
 
 }  // namespace
 
-std::span<KeyInfo const> keys_of_observers() { return keys; }
+std::span<KeyInfo const> keys_of_observers() { return observer_keys; }
 
 }  // namespace piola

@@ -7,7 +7,6 @@
 namespace piola {
 namespace {
 
-using Kind = RigidShape::Kind;
 using Law = ContactRule::Law;
 
 void read_point(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
@@ -79,7 +78,7 @@ void read_kind(Section const& section, int dimension, RigidShape& shape) {
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (!section.has(kinds[k])) continue;
     ++given;
-    shape.kind = static_cast<Kind>(k);
+    shape.kind = static_cast<RigidShape::Kind>(k);
     auto const part = section.table(kinds[k]);
     if (!part) continue;
     readers[k](*part, dimension, shape);

@@ -186,7 +186,7 @@ constexpr std::string_view tungsten_source =
     "taken "
     "as 293 K";
 
-constexpr std::array all{
+constexpr std::array materials{
     LibraryMaterial{
         "aluminium_adaptle_3_2", "aluminium of the disc on a plate at 3100 m/s, perfectly plastic",
         "J. Young, F. Teixeira-Dias, A. Azevedo, F. Mill, Int. J. Mech. Sci. 192 (2021) 106108, section 3.2; "
@@ -252,10 +252,10 @@ std::optional<double> LibraryMaterial::number(std::string_view parameter) const 
   return std::nullopt;
 }
 
-std::span<LibraryMaterial const> material_library() { return all; }
+std::span<LibraryMaterial const> material_library() { return materials; }
 
 std::optional<LibraryMaterial> find_material(std::string_view name) {
-  for (LibraryMaterial const& material : all)
+  for (LibraryMaterial const& material : materials)
     if (material.name == name) return material;
   return std::nullopt;
 }

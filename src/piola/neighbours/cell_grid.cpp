@@ -9,7 +9,7 @@ namespace piola {
 namespace {
 
 /// Cells further away than this from the origin are that one: whole numbers of a double are exact up to 2^53.
-constexpr double farthest = 0x1p52;
+constexpr double farthest_cell = 0x1p52;
 
 bool is_finite(std::array<double, 3> const& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
@@ -61,7 +61,7 @@ void CellGrid::find_shape(std::vector<std::array<double, 3>> const& points) {
   double total = 1;
   for (std::size_t c = 0; c < 3; ++c) {
     double const cells = std::floor((high[c] - origin_[c]) / cell_) + 1;
-    last_[c] = static_cast<std::int64_t>(cells < farthest ? cells : farthest) - 1;
+    last_[c] = static_cast<std::int64_t>(cells < farthest_cell ? cells : farthest_cell) - 1;
     total *= static_cast<double>(last_[c] + 1);
   }
   if (total > static_cast<double>(4 * points.size() + 64)) {
@@ -83,7 +83,7 @@ void CellGrid::hash(std::vector<std::array<double, 3>> const& points) {
     auto const middle = values.begin() + std::ssize(values) / 2;
     std::nth_element(values.begin(), middle, values.end());
     origin_[c] = *middle;
-    last_[c] = static_cast<std::int64_t>(farthest);
+    last_[c] = static_cast<std::int64_t>(farthest_cell);
     first_[c] = -last_[c];
   }
 }

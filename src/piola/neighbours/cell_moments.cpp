@@ -73,7 +73,7 @@ class Sums {
 };
 
 /// A lattice in a box: each cell is one block.
-BodyCells lattice_cells(ParticleSet const& set, Body const& body) {
+BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
   auto const D = static_cast<std::size_t>(set.dimension);
   Sums sums(set.dimension, static_cast<std::size_t>(body.last - body.first));
   for (auto id = body.first; id < body.last; ++id) {
@@ -213,7 +213,7 @@ class Sampling {
 }  // namespace
 
 BodyCells measure_cells(ParticleSet const& set, Body const& body) {
-  if (body.regular && !body.rings && !body.outline.inside) return lattice_cells(set, body);
+  if (body.regular && !body.rings && !body.outline.inside) return moments_of_lattice(set, body);
   return Sampling(set, body)();
 }
 

@@ -104,8 +104,8 @@ Cells between_points(std::vector<Index> const& all, Points const& points, int di
   std::vector<std::array<Index, 4>> inside;
   inside.reserve(all.size() / corners);
   for (std::size_t k = 0; k < all.size(); k += corners) {
-    constexpr Index none = std::numeric_limits<Index>::max();
-    std::array<Index, 4> corner{none, none, none, none};
+    constexpr Index unused = std::numeric_limits<Index>::max();
+    std::array<Index, 4> corner{unused, unused, unused, unused};
     std::copy_n(&all[k], corners, corner.begin());
     std::sort(corner.begin(), corner.end());
     if (corner[corners - 1] < std::ssize(points)) inside.push_back(corner);

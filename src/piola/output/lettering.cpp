@@ -8,8 +8,8 @@
 namespace piola {
 namespace {
 
-using Point = std::array<double, 2>;
-using Stroke = std::vector<Point>;
+using StrokePoint = std::array<double, 2>;
+using Stroke = std::vector<StrokePoint>;
 
 /// Strokes of the characters from '!' to '~'. A point is a digit (x) and a letter (y: 'c' the baseline, 'h' the top of
 /// small letters, 'j' that of capitals); strokes are separated by blanks; '~' before a stroke makes it the quadratic
@@ -72,15 +72,15 @@ double glyph_width(char c) {
 Stroke spline(Stroke const& control) {
   constexpr int pieces = 6;
   bool const closed = control.front() == control.back();
-  auto const middle = [](Point a, Point b) { return Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}; };
+  auto const middle = [](StrokePoint a, StrokePoint b) { return StrokePoint{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}; };
   std::size_t const n = control.size();
   Stroke out{closed ? middle(control[0], control[1]) : control[0]};
   for (std::size_t k = 1; k < n; ++k) {
     if (k + 1 == n && !closed) break;
-    Point const bend = control[k];
-    Point const from = out.back(), to = middle(bend, k + 1 < n ? control[k + 1] : control[1]);
+    StrokePoint const bend = control[k];
+    StrokePoint const from = out.back(), to = middle(bend, k + 1 < n ? control[k + 1] : control[1]);
     bool const corner_first = k == 1 && !closed;
-    Point const start = corner_first ? middle(control[0], bend) : from;
+    StrokePoint const start = corner_first ? middle(control[0], bend) : from;
     if (corner_first) out.push_back(start);
     for (int i = 1; i <= pieces; ++i) {
       double const s = static_cast<double>(i) / pieces, r = 1 - s;
@@ -110,13 +110,15 @@ std::vector<Stroke> strokes(char c) {
 }
 
 /// Coverage of one glyph is collected first, so that strokes that meet do not darken each other.
-void draw_glyph(Image& image, Point origin, char c, double unit, double pen, Colour colour) {
+void draw_glyph(Image& image, StrokePoint origin, char c, double unit, double pen, Colour colour) {
   int const left = static_cast<int>(std::floor(origin[0] - pen - 1)),
             columns = static_cast<int>(glyph_width(c) * unit + 2 * pen + 4);
   int const top = static_cast<int>(std::floor(origin[1] - cap_units * unit - pen - 1)),
             rows = static_cast<int>((cap_units + 2) * unit + 2 * pen + 4);
   Image mask(columns, rows, {0, 0, 0});
-  auto const place = [&](Point p) { return Point{origin[0] + p[0] * unit - left, origin[1] - p[1] * unit - top}; };
+  auto const place = [&](StrokePoint p) {
+    return StrokePoint{origin[0] + p[0] * unit - left, origin[1] - p[1] * unit - top};
+  };
   for (Stroke const& stroke : strokes(c)) {
     for (std::size_t k = 0; k + 1 < stroke.size(); ++k) {
       Image segment(columns, rows, {0, 0, 0});

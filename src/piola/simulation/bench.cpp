@@ -6,15 +6,14 @@
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/setup/shapes.hpp"
+#include "piola/simulation/bench_columns.hpp"
 #include "piola/simulation/bench_support.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace piola {
 namespace {
@@ -22,14 +21,6 @@ namespace {
 // Counted by hand from passes.hpp, D = 3, literal biharmonic, regular lattice; bench/README.md has the count.
 constexpr double operations_per_pair = 38;
 constexpr double doubles_per_stage = 99;
-
-MaterialParameters rubber() {
-  MaterialParameters material;
-  material.law = find_law("neo_hookean")->index;
-  std::array const values{1100.0, 17e6, 0.45};
-  std::copy(values.begin(), values.end(), material.value);
-  return material;
-}
 
 Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::string const& machine) {
   Assembly a;
@@ -64,29 +55,6 @@ void measure_peaks(BenchReport& report, jst_sph::Machine const& machine) {
   report.copy_bytes_per_second = 2.0 * sizeof(double) * n / copied;
 }
 
-/// The column of Lee et al. 2016, example 8.9: 1 m x 6 m x 1 m, foot clamped, omega = 105 sin(pi Y / 12) rad/s about Y.
-Assembly twisting_column(std::array<int, 3> const& particles, std::string const& machine) {
-  Assembly a;
-  ShapeSpec shape;
-  shape.particles = particles;
-  shape.min = {-0.5, 0, -0.5};
-  shape.max = {0.5, 6, 0.5};
-  fill(shape, "column", a.particles);
-  a.materials = {rubber()};
-  a.formulations = {FormulationSpec{"jst_sph", {}, {}}};
-  Support foot;
-  foot.fix = {true, true, true};
-  for (std::int64_t id = 0; id < a.particles.size(); ++id) {
-    auto const& X = a.particles.X[static_cast<std::size_t>(id)];
-    double const omega = 105 * std::sin(std::numbers::pi * X[1] / 12);
-    a.initial_velocity.push_back({omega * X[2], 0, -omega * X[0]});
-    if (X[1] < 1e-9) foot.particles.push_back(id);
-  }
-  a.supports.push_back(foot);
-  a.machine = machine;
-  return a;
-}
-
 void measure_column(BenchReport& report, BenchOptions const& options) {
   struct Choice {
     char const* name;
@@ -96,8 +64,8 @@ void measure_column(BenchReport& report, BenchOptions const& options) {
                             {"default", {}}};
   pin_to(1);
   for (auto const& choice : choices) {
-    Assembly assembly = twisting_column(options.column_particles, report.machine);
-    assembly.formulations[0].numbers = choice.numbers;
+    Assembly const assembly = column(Column::twisting, options.column_particles, rubber(),
+                                     FormulationSpec{"jst_sph", choice.numbers, {}}, report.machine);
     report.column_particles = static_cast<long>(assembly.particles.size());
     auto const formulation = make_formulation(assembly);
     ColumnRow row{choice.name, mean_neighbours(*formulation, assembly.particles.size()), options.column_steps};

@@ -15,9 +15,10 @@
 namespace piola {
 namespace {
 
-constexpr double density = 8000, youngs_modulus = 200e9, poissons_ratio = 0.3, yield_stress = 3e8;
+/// Density, Young's modulus, Poisson's ratio, yield stress.
+constexpr std::array steel{8000.0, 200e9, 0.3, 3e8};
 
-struct Subject {
+struct ImpactSubject {
   char const* name;
   int dimension;
   char const* description;
@@ -25,7 +26,7 @@ struct Subject {
   double artificial_stress;
 };
 
-Assembly body(Subject const& subject, int cube_side, std::string const& machine) {
+Assembly body(ImpactSubject const& subject, int cube_side, std::string const& machine) {
   Assembly a;
   int const side = subject.dimension == 3 ? cube_side : static_cast<int>(std::lround(std::pow(cube_side, 1.5)));
   ShapeSpec shape;
@@ -43,8 +44,7 @@ Assembly body(Subject const& subject, int cube_side, std::string const& machine)
   material.law = law.index;
   for (std::size_t k = 0; k < law.parameters.size(); ++k)
     if (!law.parameters[k].required()) material.value[k] = law.parameters[k].default_value;
-  std::array const values{density, youngs_modulus, poissons_ratio, yield_stress};
-  std::copy(values.begin(), values.end(), material.value);
+  std::copy(steel.begin(), steel.end(), material.value);
   a.materials = {material};
   FormulationSpec spec{"adaptle",
                        {{"smoothing_length", 1.2}, {"artificial_stress", subject.artificial_stress}, {"blend", 0}},
@@ -69,7 +69,7 @@ std::vector<std::pair<std::string, double>> shares(std::vector<std::pair<std::st
   return r;
 }
 
-void measure(AdaptleBenchReport& report, AdaptleBenchOptions const& options, Subject const& subject,
+void measure(AdaptleBenchReport& report, AdaptleBenchOptions const& options, ImpactSubject const& subject,
              std::string const& machine) {
   Assembly const assembly = body(subject, options.cube_side, machine);
   auto const particles = assembly.particles.size();
@@ -100,13 +100,13 @@ AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options) {
   AdaptleBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;
-  Subject const subjects[] = {{"cube, Eulerian", 3, "eulerian", "none", 0},
-                              {"cube, Eulerian, artificial stress", 3, "eulerian", "none", 0.3},
-                              {"cube, Eulerian, corrected", 3, "eulerian", "mixed", 0},
-                              {"cube, total-Lagrangian", 3, "total_lagrangian", "material", 0},
-                              {"cube, half and half", 3, "patch", "material", 0},
-                              {"plate, Eulerian", 2, "eulerian", "none", 0},
-                              {"plate, total-Lagrangian", 2, "total_lagrangian", "material", 0}};
+  ImpactSubject const subjects[] = {{"cube, Eulerian", 3, "eulerian", "none", 0},
+                                    {"cube, Eulerian, artificial stress", 3, "eulerian", "none", 0.3},
+                                    {"cube, Eulerian, corrected", 3, "eulerian", "mixed", 0},
+                                    {"cube, total-Lagrangian", 3, "total_lagrangian", "material", 0},
+                                    {"cube, half and half", 3, "patch", "material", 0},
+                                    {"plate, Eulerian", 2, "eulerian", "none", 0},
+                                    {"plate, total-Lagrangian", 2, "total_lagrangian", "material", 0}};
   for (auto const& subject : subjects)
     for (std::string const& name : beside_scalar(report.machine, adaptle::machine_names()))
       measure(report, options, subject, name);

@@ -18,9 +18,10 @@
 namespace piola {
 namespace {
 
-constexpr double density = 1000, youngs_modulus = 1e6, poissons_ratio = 0.3;
+/// Density, Young's modulus, Poisson's ratio.
+constexpr std::array soft_solid{1000.0, 1e6, 0.3};
 
-struct Subject {
+struct TaylorSubject {
   char const* name;
   int dimension, side;
   char const* configuration;
@@ -31,11 +32,12 @@ struct Subject {
 
 /// Speed by which shear waves of 40 spacings reach strains of 0.25: lists last for 10 to 20 steps then.
 double shear_speed(double Y, int side) {
+  auto const [density, youngs_modulus, poissons_ratio] = soft_solid;
   double const c = std::sqrt(youngs_modulus / (2 * (1 + poissons_ratio) * density)), waves = std::max(1.0, side / 40.0);
   return 0.25 * c * std::sin(2 * std::numbers::pi * waves * Y);
 }
 
-Assembly body(Subject const& subject, std::string const& machine) {
+Assembly body(TaylorSubject const& subject, std::string const& machine) {
   Assembly a;
   ShapeSpec shape;
   shape.dimension = subject.dimension;
@@ -47,8 +49,7 @@ Assembly body(Subject const& subject, std::string const& machine) {
   fill(shape, "body", a.particles);
   MaterialParameters material;
   material.law = find_law("linear_elastic")->index;
-  std::array const values{density, youngs_modulus, poissons_ratio};
-  std::copy(values.begin(), values.end(), material.value);
+  std::copy(soft_solid.begin(), soft_solid.end(), material.value);
   a.materials = {material};
   a.formulations = {FormulationSpec{"taylor_sph",
                                     {},
@@ -76,7 +77,7 @@ Timing mean_step(Formulation& formulation, int steps) {
   return {(wall_seconds() - wall) / steps, (cpu_seconds() - cpu) / steps};
 }
 
-void measure(TaylorBenchReport& report, TaylorBenchOptions const& options, Subject const& subject,
+void measure(TaylorBenchReport& report, TaylorBenchOptions const& options, TaylorSubject const& subject,
              std::string const& machine) {
   Assembly const assembly = body(subject, machine);
   auto const particles = assembly.particles.size();
@@ -99,7 +100,8 @@ void measure(TaylorBenchReport& report, TaylorBenchOptions const& options, Subje
 }
 
 /// Processor time of one thread for a step, for an update of lists and for a triangulation of the deformed plate.
-TaylorUpkeep measure_upkeep(TaylorBenchOptions const& options, Subject const& subject, std::string const& machine) {
+TaylorUpkeep measure_upkeep(TaylorBenchOptions const& options, TaylorSubject const& subject,
+                            std::string const& machine) {
   pin_to(1);
   Assembly const assembly = body(subject, machine);
   auto const formulation = make_formulation(assembly);
@@ -140,16 +142,16 @@ TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options) {
   constexpr char const *triangles = "delaunay", *boxes = "lattice_cells";
   constexpr char const *adjoint = "adjoint", *estimates = "estimates";
   int const plate = options.plate_side, cube = options.cube_side;
-  Subject const deforming{"plate, moving, lists follow", 2, plate, "updated", triangles, estimates, true};
-  Subject const subjects[] = {{"plate, fixed", 2, plate, "fixed", triangles, estimates, false},
-                              {"plate, moving", 2, plate, "updated", triangles, estimates, false},
-                              {"plate, moving, adjoint", 2, plate, "updated", triangles, adjoint, false},
-                              deforming,
-                              {"plate, moving, boxes", 2, plate, "updated", boxes, estimates, false},
-                              {"bar, fixed", 1, options.bar_particles, "fixed", triangles, estimates, false},
-                              {"cube, fixed", 3, cube, "fixed", triangles, estimates, false},
-                              {"cube, moving, boxes", 3, cube, "updated", boxes, estimates, false},
-                              {"cube, moving, adjoint", 3, cube, "updated", triangles, adjoint, false}};
+  TaylorSubject const deforming{"plate, moving, lists follow", 2, plate, "updated", triangles, estimates, true};
+  TaylorSubject const subjects[] = {{"plate, fixed", 2, plate, "fixed", triangles, estimates, false},
+                                    {"plate, moving", 2, plate, "updated", triangles, estimates, false},
+                                    {"plate, moving, adjoint", 2, plate, "updated", triangles, adjoint, false},
+                                    deforming,
+                                    {"plate, moving, boxes", 2, plate, "updated", boxes, estimates, false},
+                                    {"bar, fixed", 1, options.bar_particles, "fixed", triangles, estimates, false},
+                                    {"cube, fixed", 3, cube, "fixed", triangles, estimates, false},
+                                    {"cube, moving, boxes", 3, cube, "updated", boxes, estimates, false},
+                                    {"cube, moving, adjoint", 3, cube, "updated", triangles, adjoint, false}};
   for (auto const& subject : subjects)
     for (std::string const& name : beside_scalar(report.machine, taylor_sph::machine_names()))
       measure(report, options, subject, name);

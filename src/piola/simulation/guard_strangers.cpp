@@ -11,16 +11,16 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double boundless = std::numeric_limits<double>::infinity();
 constexpr std::int64_t search_interval = 1000;  ///< steps between two searches, which cost as much as a few steps
 /// In spacings of the reference configuration: nearer particles of one body are neighbours, further ones strangers.
 constexpr double neighbours_within = 1.8, strangers_beyond = 3;
 
-double distance(Point const& a, Point const& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double length_between(Point const& a, Point const& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 struct Pair {
   std::size_t a = 0, b = 0;
-  double distance = infinity;  ///< in spacings
+  double distance = boundless;  ///< in spacings
 };
 
 /// Particles that were far from each other at the start (or belong to different bodies) and now are so near that one
@@ -90,7 +90,7 @@ class StrangerGuard : public Guard {
     if (column_of(look.now, "deleted_particles").value_or(0) > 0 && look.fields.knows("Damage")) {
       auto const damage = look.fields.values("Damage");
       for (std::size_t i = 0; i < x_.size(); ++i)
-        if (damage[i] >= 1) x_[i] = {infinity, infinity, infinity};
+        if (damage[i] >= 1) x_[i] = {boundless, boundless, boundless};
     }
   }
 
@@ -121,15 +121,15 @@ class StrangerGuard : public Guard {
   Pair nearest_stranger(CellGrid const& grid, std::size_t a) const {
     auto const body = static_cast<std::size_t>(particles_.body[a]);
     double const finest = finest_[body], coarsest = coarsest_[body];
-    double neighbour = infinity, apart = infinity;  // [m]
-    Pair best{a, a, infinity};
+    double neighbour = boundless, apart = boundless;  // [m]
+    Pair best{a, a, boundless};
     grid.visit(x_[a], [&](Index other) {
       auto const b = static_cast<std::size_t>(other);
       if (b == a) return;
-      double const now = distance(x_[a], x_[b]);
+      double const now = length_between(x_[a], x_[b]);
       if (!(now < finest) || !(now < neighbour)) return;
       auto const its = static_cast<std::size_t>(particles_.body[b]);
-      double const before = distance(particles_.X[a], particles_.X[b]);
+      double const before = length_between(particles_.X[a], particles_.X[b]);
       bool const same = its == body, both_eulerian = !eulerian_.empty() && eulerian_[a] != 0 && eulerian_[b] != 0,
                  one_eulerian = !eulerian_.empty() && (eulerian_[a] != 0 || eulerian_[b] != 0);
       if (same && before < neighbours_within * coarsest) neighbour = now;
@@ -145,7 +145,7 @@ class StrangerGuard : public Guard {
   }
 
   struct Memory {
-    double next_step = 0, searches = 0, nearest = infinity;
+    double next_step = 0, searches = 0, nearest = boundless;
     Suspect a = {}, b = {};
   };
   double limit_;

@@ -22,7 +22,7 @@ constexpr std::array own_names{"history.csv", "summary.json", "frames", "frames.
                                "checkpoints", "case.toml",    "log.txt"};
 
 /// Title of the run whose results lie in a folder; nothing if there are none.
-std::optional<std::string> title_of(fs::path const& folder) {
+std::optional<std::string> title_in(fs::path const& folder) {
   std::ifstream log(folder / "log.txt");
   std::string line(longest_headline, '\0');
   log.read(line.data(), static_cast<std::streamsize>(line.size()));
@@ -68,7 +68,7 @@ void check_results(fs::path const& folder, ResultsOf const& run) {
   protect_case(folder, run.case_file);
   make_folder(folder);
   if (!holds_anything(folder) || run.force) return;
-  auto const there = title_of(folder);
+  auto const there = title_in(folder);
   std::string const headline = log_headline(run.title);
   if (there && *there == headline.substr(headline.find(": ") + 2)) return;
   std::string const what = there ? fmt::format("holds the results of another case, \"{}\"", *there)

@@ -194,9 +194,9 @@ std::vector<std::string> involved(Check const& c) {
 }
 
 /// Tells how far a verification is: how much work each run is, and how much of all is done.
-class Watch : public Listener {
+class VariantListener : public Listener {
  public:
-  Watch(Announce const& announce, std::vector<double> work)
+  VariantListener(Announce const& announce, std::vector<double> work)
       : announce_(announce), work_(std::move(work)), begin_(std::chrono::steady_clock::now()) {}
 
   void start(std::string const& case_name, std::string const& variant) {
@@ -360,7 +360,7 @@ std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const
   std::vector<double> work;
   for (Plan const& plan : plans)
     for (CheckVariant const& variant : plan.variants) work.push_back(work_of(plan, variant, options.weigh));
-  Watch watch(announce, std::move(work));
+  VariantListener watch(announce, std::move(work));
   std::vector<CaseVerification> cases;
   for (Plan const& plan : plans) {
     if (plan.variants.empty()) continue;

@@ -2,13 +2,12 @@
 // Total-Lagrangian particles that become Eulerian, or fail.
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include <array>
 #include <cmath>
 
 namespace piola::adaptle {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Share {
   double energy = 0, momentum[3]{};

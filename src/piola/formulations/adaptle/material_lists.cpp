@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace piola::adaptle {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr Correction plain{1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/point_passes.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/observation.hpp"
 #include <algorithm>
 #include <array>
@@ -8,8 +9,6 @@
 
 namespace piola::adaptle {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Everything an output formula may need of one particle. Pressure is positive in tension, as everywhere in output.
 struct Point {

@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <chrono>
@@ -10,8 +11,6 @@
 
 namespace piola::adaptle {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 template <int D>
 int spatial_stride(Settings const& s) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include <algorithm>
 #include <numeric>
 
 namespace piola::adaptle {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr double far_away = 1e20;
 constexpr Index most_neighbours = 4096;
 
