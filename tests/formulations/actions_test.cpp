@@ -37,6 +37,12 @@ std::vector<Kind> kinds() {
        [](ParticleSet set) {
          return with_words(assemble_taylor(std::move(set)), {{"configuration", "updated"}, {"exchange", "estimates"}});
        }},
+      {"nodal",
+       [](ParticleSet set) {
+         Assembly a = assemble(std::move(set));
+         for (auto& f : a.formulations) f = {"nodal", {}, {}};
+         return a;
+       }},
       {"adaptle", [](ParticleSet set) {
          Assembly a = assemble(std::move(set), sample_metal("elastic", "elastic"));
          for (auto& f : a.formulations) f = {"adaptle", {}, {}};

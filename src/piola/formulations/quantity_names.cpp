@@ -33,6 +33,8 @@ constexpr std::array fields{
     FieldWord{"density", "Density", "kg/m^3", 1},
     FieldWord{"specific_energy", "InternalEnergy", "J/kg", 1},
     FieldWord{"kernel_type", "KernelType", "1", 1},
+    FieldWord{"cell_pressure", "CellPressure", "Pa", 1},
+    FieldWord{"least_jacobian", "LeastJacobian", "1", 1},
     FieldWord{"principal_stress", "PrincipalStress", "Pa", 3},
     FieldWord{"principal_strain", "PrincipalStrain", "1", 3},
     FieldWord{"parting", "Parting", "1", 1},

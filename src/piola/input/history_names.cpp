@@ -45,6 +45,8 @@ constexpr std::array fields{
     FieldName{"Temperature", "K", 1},
     FieldName{"InternalEnergy", "J/kg", 1},
     FieldName{"KernelType", "1", 1},
+    FieldName{"CellPressure", "Pa", 1},
+    FieldName{"LeastJacobian", "1", 1},
     FieldName{"Neighbours", "1", 1},
     FieldName{"PrincipalStress", "Pa", 3},
     FieldName{"PrincipalStrain", "1", 3},

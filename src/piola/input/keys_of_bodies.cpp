@@ -11,7 +11,7 @@ constexpr Interval count_range{1, 2147483647, false, false};
 constexpr Interval half_open{0, 0.5, false, true};
 
 constexpr std::array<std::string_view, 5> machine_words{"auto", "scalar", "v2", "v3", "v4"};
-constexpr std::array<std::string_view, 2> placement_words{"on_boundary", "cell_centred"};
+constexpr std::array<std::string_view, 3> placement_words{"on_boundary", "cell_centred", "random"};
 constexpr std::array<std::string_view, 3> arrangement_words{"lattice", "rings", "lattice_with_rings"};
 
 constexpr std::array body_keys{
@@ -184,14 +184,16 @@ constexpr std::array body_keys{
             "from particles",
             "distance of particles; a box takes the nearest that fits",
             {}},
-    KeyInfo{"body.shape",
-            "placement",
-            word,
-            "",
-            {},
-            "\"on_boundary\", cylinder: \"cell_centred\"",
-            "box, and cylinder along its axis: particles on the faces, or in the middle of cells",
-            placement_words},
+    KeyInfo{
+        "body.shape",
+        "placement",
+        word,
+        "",
+        {},
+        "\"on_boundary\", cylinder: \"cell_centred\"",
+        "box, and cylinder along its axis: particles on the faces, or in the middle of cells; box: random within faces "
+        "as of on_boundary, then relaxed",
+        placement_words},
     KeyInfo{"body.shape",
             "jitter",
             quantity,
@@ -200,7 +202,14 @@ constexpr std::array body_keys{
             "0",
             "random shift of inner particles as a fraction of the spacing",
             {}},
-    KeyInfo{"body.shape", "seed", whole, "", {0, 4294967295.0, false, false}, "1", "seed of the jitter", {}},
+    KeyInfo{"body.shape",
+            "seed",
+            whole,
+            "",
+            {0, 4294967295.0, false, false},
+            "1",
+            "seed of the jitter or of the random places",
+            {}},
 
     KeyInfo{"body.shape.box", "min", point, "m", place_range, "", "lowest corner", {}},
     KeyInfo{"body.shape.box", "max", point, "m", place_range, "", "highest corner", {}},

@@ -154,8 +154,15 @@ ShapeSpec read_shape(Section const& section) {
   }
   using Placement = ShapeSpec::Placement;
   if (shape.kind != Kind::box) shape.placement = Placement::cell_centred;
-  if (std::string word; shape.kind != Kind::sphere && section.read("placement", word))
+  if (std::string word; shape.kind != Kind::sphere && section.read("placement", word)) {
     shape.placement = word == "cell_centred" ? Placement::cell_centred : Placement::on_boundary;
+    shape.random = word == "random";
+  }
+  if (shape.random && shape.kind != Kind::box)
+    section.problems().add(section.place_of("placement"),
+                           "body.shape.placement is \"random\" (allowed in a cylinder: on_boundary, cell_centred) - "
+                           "only a box is filled at random; jitter moves the particles of a cylinder");
+  if (shape.random) section.refuse("jitter", "is used only by particles on a lattice");
   if (shape.kind != Kind::box) {
     if (shape.kind == Kind::sphere) refuse_box_key(section, "placement");
     refuse_box_key(section, "particles");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
 #include <algorithm>
 #include <cmath>
@@ -243,7 +244,7 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   Lattice const lattice = lattice_of(shape);
   body.spacing = lattice.spacing;
   body.lattice = lattice.count;
-  body.regular = !(shape.jitter > 0);
+  body.regular = !(shape.jitter > 0) && !shape.random;
   double cell = 1;
   for (int d = 0; d < shape.dimension; ++d) cell *= lattice.spacing[static_cast<std::size_t>(d)];
   int const number = static_cast<int>(set.bodies.size());
@@ -282,6 +283,7 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   body.last = set.size();
   if (!set.crack_side.empty()) set.crack_side.resize(set.X.size());
   set.dimension = shape.dimension;
+  if (shape.random) scatter(shape, set, body);
   set.bodies.push_back(std::move(body));
 }
 

@@ -26,8 +26,9 @@ struct ShapeSpec {
                                1};  ///< box: particles per direction (already derived from spacing if that was given)
   double spacing = 0;               ///< sphere, cylinder
   Placement placement = Placement::on_boundary;  ///< box, and cylinder along its axis; the rest is cell centred
+  bool random = false;                           ///< box, on_boundary: inner particles at random, then relaxed
   double jitter = 0;                             ///< random shift of each inner particle, as a fraction of the spacing
-  std::uint32_t seed = 1;                        ///< of the jitter
+  std::uint32_t seed = 1;                        ///< of the jitter or of the random places
 };
 
 /// Number of particles that `fill` would create, without creating them: exact for a box and up to about 1e8, an

@@ -86,7 +86,8 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
     return says("virtual_particles", "lattice_cells") ||
            (body.shape.kind == ShapeSpec::Kind::box && says("exchange", "estimates") &&
             !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
-  return !mirrored && body.shape.jitter == 0 && body.shape.arrangement == ShapeSpec::Arrangement::lattice;
+  return !mirrored && body.shape.jitter == 0 && !body.shape.random &&
+         body.shape.arrangement == ShapeSpec::Arrangement::lattice;
 }
 
 /// Counts what a checkpoint holds.

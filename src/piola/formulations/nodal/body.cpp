@@ -4,6 +4,7 @@
 #include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <tuple>
 
@@ -12,6 +13,8 @@ namespace {
 
 /// A step is taken in at most two to this power parts.
 constexpr int most_halvings = 8;
+/// A point of a cell that loses more than the rest of its volume in a step is crushed faster than the step can follow.
+constexpr double least_share = 0.5;
 
 /// Sizes of Records of a dimension.
 struct RecordSizes {
@@ -33,23 +36,18 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       order_(pencil_order(set, body_)),
       set_(&set),
       fields_(D_) {
+  fields_.with_viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0;
   if (!assembly.initial_deformation_gradient.empty())
     throw InputError(fmt::format(
         "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
         "initial_deformation_gradient",
         body_.name));
-  for (auto const& load : assembly.loads)
-    if (load.follows || !load.normals.empty())
-      throw InputError(fmt::format(
-          "body '{}': a load that follows the surface or acts on a curved face is not known to nodal (allowed: "
-          "dead loads on flat faces) - take jst_sph or another load",
-          body_.name));
   set_constants(assembly.materials[body]);
   reference_ = make_reference({set, body_, order_, assembly.loads, state_.constants.rho0, options_.least_mass});
   allocate();
   fill_reference();
   fill_initial(assembly);
-  boundary_.emplace(assembly, body, Boundary::OfBody{order_, reference_.mass, reference_.shares});
+  boundary_.emplace(assembly, body, Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid});
   boundary_->attach(state_);
   machine.step(state_, 0);  // the accelerations of the start
 }
@@ -59,8 +57,19 @@ void NodalBody::set_constants(MaterialParameters const& material) {
   state_.slots = {0, order_.slots()};
   state_.material = material;
   with_law(material, [&](auto const& law) {
-    state_.constants = {law.rho0, law.kappa, std::min(law.kappa, law.mu),
-                        *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_) / law.p_wave_speed()};
+    state_.constants = {law.rho0,
+                        law.kappa,
+                        law.mu,
+                        std::min(law.kappa, law.mu),
+                        *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_) / law.p_wave_speed(),
+                        options_.stress_free,
+                        0};
+    double h = 1;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) h *= std::pow(body_.spacing[c], 1.0 / D_);
+    double const speed = std::sqrt((state_.constants.kappa_local + 4 * law.mu / 3) / law.rho0);
+    state_.viscosity = {options_.fluctuation_viscosity * law.rho0 * h * speed,
+                        options_.shock_viscosity * 0.06 * law.rho0 * h * law.p_wave_speed(),
+                        options_.shock_viscosity * 1.2 * law.rho0 * h * h};
   });
   partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots) + 1));
   state_.partial = partial_.data();
@@ -91,6 +100,8 @@ void NodalBody::allocate() {
   std::tie(s.x, s.v, s.a, s.first, s.second) = std::tuple(f.x.ref(), f.v.ref(), f.a.ref(), f.X.ref(), f.stress.ref());
   std::tie(s.F, s.P, s.cell, s.C_measured, s.change, s.kept) =
       std::tuple(f.F.ref(), f.P.ref(), f.cell.ref(), f.C_measured.ref(), f.change.ref(), f.kept.ref());
+  s.viscous = f.viscous.ref();
+  s.viscous_kept = f.viscous_kept.ref();
   s.list = reference_.list();
 }
 
@@ -109,7 +120,8 @@ void NodalBody::fill_reference() {
   copy(reference_.own, fields_.own);
   copy(reference_.mu, fields_.mu);
   copy(reference_.X, fields_.X);
-  for (Index i = 0; i < order_.slots(); ++i)
+  // Slots without a particle stay at zero, which is what they have: they never change.
+  for (Index i = 0; i < order_.particles; ++i)
     for (int c = 0; c < D_; ++c) fields_.C_measured.at(i, c) = 1;
 }
 
@@ -130,6 +142,7 @@ int NodalBody::step(Machine const& machine, double time, double dt) { return ste
 int NodalBody::step(Machine const& machine, double time, double dt, int halvings) {
   machine.keep(state_);
   boundary_->begin_step(state_, time, dt);
+  state_.constants.least_share = halvings < most_halvings ? least_share : 0;
   machine.step(state_, dt);
   if (!failed() || halvings == most_halvings) {
     boundary_->end_step(state_, time + dt);
@@ -161,6 +174,20 @@ double NodalBody::kinetic_energy() const {
   return sum;
 }
 
+double NodalBody::strain_energy() const {
+  double sum = 0;
+  for (Index i = 0; i < order_.particles; ++i) sum += volume(i) * value(state_.cell, i, 0);
+  return sum;
+}
+
+double NodalBody::viscous_loss() const {
+  double sum = 0;
+  int const loss = Fields::viscous_values(D_) - 1;
+  for (Index i = 0; fields_.with_viscosity && i < order_.particles; ++i)
+    sum += volume(i) * value(state_.viscous, i, loss);
+  return sum;
+}
+
 void NodalBody::damp(double factor) {
   double const before = kinetic_energy();
   boundary_->damp(state_, factor);
@@ -182,7 +209,13 @@ std::array<double, 3> NodalBody::v(Index slot) const {
 Mat<3> NodalBody::F(Index slot) const {
   Mat<3> r = identity<3>();
   for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
+  for (int c = D_; c < 3; ++c) r(c, c) = value(state_.cell, slot, 3);
   return r;
+}
+
+Smoothing const& NodalBody::smoothing() const {
+  if (!smoothing_) smoothing_.emplace(reference_, D_, order_.particles);
+  return *smoothing_;
 }
 
 std::size_t NodalBody::bytes() const {

@@ -5,6 +5,7 @@
 #include "piola/formulations/nodal/fields.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
+#include "piola/formulations/nodal/smoothing.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/math/tensor.hpp"
 #include <optional>
@@ -31,6 +32,8 @@ class NodalBody {
   Index particles() const { return order_.particles; }
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   Reference const& reference() const { return reference_; }
+  /// Made when it is asked for the first time.
+  Smoothing const& smoothing() const;
   std::size_t bytes() const;
 
   /// From `time` to time + dt, with supports and loads. Where a cell is turned inside out on the way the step is taken
@@ -41,14 +44,17 @@ class NodalBody {
   /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
   void damp(double factor);
   double kinetic_energy() const;                         ///< [J]
+  double strain_energy() const;                          ///< [J], of what observers see
   double damping_loss() const { return damping_loss_; }  ///< since the start [J]
+  double viscous_loss() const;                           ///< since the start [J]
+  bool viscous() const { return fields_.with_viscosity; }
   void set_damping_loss(double loss) { damping_loss_ = loss; }
   double next_release(double time) const { return boundary_->next_release(time); }
 
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
   std::array<double, 3> x(Index slot) const;
   std::array<double, 3> v(Index slot) const;
-  Mat<3> F(Index slot) const;  ///< at the centroid of the cell; missing directions do not deform
+  Mat<3> F(Index slot) const;  ///< at the centroid of the cell; of missing directions the mean over its points
   double mass(Index slot) const { return value(state_.mass, slot); }
   double volume(Index slot) const { return value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
@@ -70,6 +76,7 @@ class NodalBody {
   Memory first_, second_;  ///< records [X, values] that sweeps read of neighbours
   FieldVersion first_version_, second_version_;
   Reference reference_;
+  mutable std::optional<Smoothing> smoothing_;
   std::optional<Boundary> boundary_;
   std::vector<double> partial_;
   double damping_loss_ = 0;

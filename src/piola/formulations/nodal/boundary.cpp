@@ -40,9 +40,9 @@ void Boundary::take_supports(Assembly const& assembly, OfBody const& of_body) {
 /// Acceleration per unit of the load's value, per slot; zero where it does not act.
 std::vector<double> Boundary::factors(Load const& load, std::size_t number, OfBody const& of_body) const {
   std::vector<double> factor(of_body.mass.size(), 0);
-  if (load.normal) {
-    for (std::size_t i = 0; i < of_body.shares[number].size(); ++i)
-      factor[i] = of_body.shares[number][i] / of_body.mass[i];
+  if (load.on_face()) {
+    for (std::size_t i = 0; i < of_body.parts[number].size(); ++i)
+      factor[i] = of_body.parts[number][i].area / of_body.mass[i];
     return factor;
   }
   for (std::size_t k = 0; k < load.particles.size(); ++k) {
@@ -56,22 +56,26 @@ std::vector<double> Boundary::factors(Load const& load, std::size_t number, OfBo
 void Boundary::take_loads(Assembly const& assembly, OfBody const& of_body) {
   std::vector<Index> place(of_body.mass.size(), -1);
   for (auto const& load : assembly.loads) {
-    auto const factor = factors(load, loads_.size(), of_body);
-    LoadOnBody on{{}, {}, {}, {}, load.value, std::nullopt, load.until};
-    if (load.pressure) on.normal = load.normal;
-    bool const steady = is_steady(load.value);
-    if (!steady) steady_loads_ = false;
+    auto const number = loads_.size();
+    auto const factor = factors(load, number, of_body);
+    LoadOnBody on{{}, {}, {}, {}, load.value, {}, load.until, load.follows};
+    bool const steady = is_steady(load.value),
+               acts = std::any_of(factor.begin(), factor.end(), [](double f) { return f != 0; });
+    if (acts && (!steady || load.follows)) steady_loads_ = false;
+    if (acts && load.follows) follows_ = true;
     for (std::size_t slot = 0; slot < factor.size(); ++slot) {
       if (factor[slot] == 0) continue;
       if (place[slot] < 0) {
         place[slot] = static_cast<Index>(loaded_.size());
-        loaded_.push_back({static_cast<Index>(slot), of_body.mass[slot], {}, {}, 0});
+        loaded_.push_back({static_cast<Index>(slot), of_body.mass[slot]});
+        for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c)
+          loaded_.back().centroid[c] = of_body.centroid[slot * static_cast<std::size_t>(D_) + c];
       }
       on.place.push_back(place[slot]);
       on.factor.push_back(factor[slot]);
       on.X.push_back(assembly.particles.X[static_cast<std::size_t>(of_body.order.id[slot])]);
-      if (!steady) continue;
-      on.steady.push_back(acceleration_by(load.value, on.normal, factor[slot], on.X.back(), 0));
+      if (load.pressure) on.normal.push_back(of_body.parts[number][slot].normal);
+      if (steady) on.steady.push_back(acceleration(on, on.place.size() - 1, 0));
     }
     loads_.push_back(std::move(on));
   }
@@ -99,23 +103,36 @@ void Boundary::hold(Particle const& particle, double time, double end) {
     if (!make_orthogonal(d, chosen)) continue;
     double const length = dot(row.direction, d);
     chosen.push_back(d);
-    held_.push_back({particle.slot, {d[0], d[1], d[2]}, particle.mass, before / length, after / length, 0, 0});
+    held_.push_back({particle.slot, {d[0], d[1], d[2]}, particle.mass, before / length, after / length, 0, 0, 0});
     held_by_.push_back(row.support);
   }
 }
 
 Direction Boundary::acceleration(LoadOnBody const& load, std::size_t k, double time) const {
-  return load.steady.empty() ? acceleration_by(load.value, load.normal, load.factor[k], load.X[k], time)
-                             : load.steady[k];
+  if (k < load.steady.size()) return load.steady[k];
+  auto const normal = load.normal.empty() ? std::nullopt : std::optional(load.normal[k]);
+  return acceleration_by(load.value, normal, load.factor[k], load.X[k], time);
+}
+
+Direction Boundary::acting(LoadOnBody const& load, std::size_t k, bool at_end, double time) const {
+  Direction const a = acceleration(load, k, time);
+  if (!load.follows) return a;
+  double const* const turn = loaded_[static_cast<std::size_t>(load.place[k])].turn[at_end];
+  Direction turned{};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t d = 0; d < 3; ++d) turned[c] += turn[3 * c + d] * a[d];
+  return turned;
 }
 
 /// Adds the loads that act in a step that begins at `time`.
-void Boundary::add_loads(double time, double evaluate_at, double (LoadedParticle::*side)[3]) {
+void Boundary::add_loads(double time, double evaluate_at, bool at_end) {
   for (auto const& load : loads_) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.place.size(); ++k) {
       Direction const a = acceleration(load, k, evaluate_at);
-      for (std::size_t c = 0; c < 3; ++c) (loaded_[static_cast<std::size_t>(load.place[k])].*side)[c] += a[c];
+      auto& p = loaded_[static_cast<std::size_t>(load.place[k])];
+      double* const side = load.follows ? (at_end ? p.follow_after : p.follow_before) : at_end ? p.after : p.before;
+      for (std::size_t c = 0; c < 3; ++c) side[c] += a[c];
     }
   }
 }
@@ -142,27 +159,33 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
     for (auto const& particle : particles_) hold(particle, time, time + dt);
   }
   if (changed || !steady_loads_) {
-    for (auto& p : loaded_) p = {p.slot, p.mass, {}, {}, 0};
-    add_loads(time, time, &LoadedParticle::before);
-    add_loads(time, time + dt, &LoadedParticle::after);
+    for (auto& p : loaded_)
+      for (std::size_t c = 0; c < 3; ++c) p.before[c] = p.after[c] = p.follow_before[c] = p.follow_after[c] = 0;
+    add_loads(time, time, false);
+    add_loads(time, time + dt, true);
   }
   state.held = held_.data();
   state.held_count = static_cast<Index>(held_.size());
   state.loaded = loaded_.data();
   state.loaded_count = static_cast<Index>(loaded_.size());
+  state.follows = follows_;
 }
 
+/// Each kick acts where the particle is then, so that the moments are those that angular momentum feels.
 void Boundary::end_step(BodyState& state, double time) {
-  auto const place_of = [&](Index slot) {
+  auto const place_of = [&](FieldRef const& field, Index slot) {
     std::array<double, 3> x{};
-    for (int c = 0; c < D_; ++c) x[static_cast<std::size_t>(c)] = value_at(state.x, slot, c);
+    for (int c = 0; c < D_; ++c) x[static_cast<std::size_t>(c)] = value_at(field, slot, c);
     return x;
   };
   for (std::size_t k = 0; k < held_.size(); ++k) {
     auto const& h = held_[k];
     work_ += h.work;
-    of_supports_[held_by_[k]].add(place_of(h.slot),
-                                  {h.impulse * h.direction[0], h.impulse * h.direction[1], h.impulse * h.direction[2]});
+    auto const along = [&](double impulse) {
+      return Direction{impulse * h.direction[0], impulse * h.direction[1], impulse * h.direction[2]};
+    };
+    of_supports_[held_by_[k]].add(place_of(state.kept, h.slot), along(h.first_impulse));
+    of_supports_[held_by_[k]].add(place_of(state.x, h.slot), along(h.impulse - h.first_impulse));
   }
   for (auto const& p : loaded_) work_ += p.work;
   for (std::size_t l = 0; l < loads_.size(); ++l) {
@@ -171,11 +194,15 @@ void Boundary::end_step(BodyState& state, double time) {
     bool const ends = has_ended(load.until, time);
     for (std::size_t k = 0; k < load.place.size(); ++k) {
       auto const& p = loaded_[static_cast<std::size_t>(load.place[k])];
-      Direction const before = acceleration(load, k, begun_), after = acceleration(load, k, time);
-      Direction impulse{};
-      for (std::size_t c = 0; c < 3; ++c) impulse[c] = 0.5 * (time - begun_) * p.mass * (before[c] + after[c]);
-      of_loads_[l].add(place_of(p.slot), impulse);
-      for (int c = 0; ends && c < D_; ++c) value_at(state.a, p.slot, c) -= after[static_cast<std::size_t>(c)];
+      Direction first = acting(load, k, false, begun_), second = acting(load, k, true, time);
+      for (int c = 0; ends && c < D_; ++c) value_at(state.a, p.slot, c) -= second[static_cast<std::size_t>(c)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        double const kick = static_cast<int>(c) < D_ ? 0.5 * (time - begun_) * p.mass : 0;
+        first[c] *= kick;
+        second[c] *= kick;
+      }
+      of_loads_[l].add(place_of(state.kept, p.slot), first);
+      of_loads_[l].add(place_of(state.x, p.slot), second);
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/actions.hpp"
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/formulations/prescribed.hpp"
 #include "piola/particles/ordering.hpp"
@@ -14,12 +15,13 @@ namespace piola::nodal {
 /// boundary_passes.hpp apply them. Theory: docs/theory/boundaries.md, docs/theory/nodal.md.
 class Boundary {
  public:
-  /// What a body says of itself: masses per slot [kg], and for each load that is a traction the share of its face per
-  /// slot [m^(D-1)].
+  /// What a body says of itself: masses per slot [kg], for each load on a face the part of it per slot, and
+  /// centroids of cells.
   struct OfBody {
     SlotOrder const& order;
     std::vector<double> const& mass;
-    std::vector<std::vector<double>> const& shares;
+    std::vector<std::vector<FacePart>> const& parts;
+    std::vector<double> const& centroid;
   };
   Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_body);
 
@@ -59,8 +61,9 @@ class Boundary {
     std::vector<std::array<double, 3>> X;
     std::vector<std::array<double, 3>> steady;  ///< acceleration of loads that do not depend on time
     std::array<Expression, 3> value;
-    std::optional<Direction> normal;  ///< of a pressure
+    std::vector<Direction> normal;  ///< of a pressure
     double until;
+    bool follows;
   };
 
   void take_supports(Assembly const& assembly, OfBody const& of_body);
@@ -69,13 +72,16 @@ class Boundary {
   void hold(Particle const& particle, double time, double end);
   double speed_of(Particle const& particle, Particle::Row const& row, double time) const;
   Direction acceleration(LoadOnBody const& load, std::size_t k, double time) const;
-  void add_loads(double time, double evaluate_at, double (LoadedParticle::*side)[3]);
+  /// At an end of the step that `loaded_` is for, turned with the face where the load follows it.
+  Direction acting(LoadOnBody const& load, std::size_t k, bool at_end, double time) const;
+  void add_loads(double time, double evaluate_at, bool at_end);
 
   Body body_;
   int D_;
   std::vector<Index> slot_of_;
-  std::vector<Support> supports_;  ///< without their particles
-  bool steady_supports_ = true, steady_loads_ = true;
+  std::vector<Support> supports_;                      ///< without their particles
+  bool steady_supports_ = true, steady_loads_ = true;  ///< loads that follow a face are not
+  bool follows_ = false;
   std::vector<Particle> particles_;
   std::vector<HeldDirection> held_;
   std::vector<std::size_t> held_by_;  ///< supports

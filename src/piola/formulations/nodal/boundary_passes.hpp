@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/passes.hpp"
+#include "piola/math/embedding.hpp"
 
 /// Passes over the particles that supports hold and that loads act on, with velocity Verlet. Theory:
 /// docs/theory/boundaries.md.
@@ -37,6 +38,7 @@ struct DriveDirections {
     HeldDirection& h = held[n];
     double const mean = 0.5 * (h.before + h.after), wanted = 2 * (mean - along<D>(v, h)) / dt;
     h.impulse = h.mass * 0.5 * dt * (wanted - along<D>(a, h));
+    h.first_impulse = h.impulse;
     h.work = h.impulse * mean;
     set_along<D>(a, a_out, h, wanted);
   }
@@ -56,6 +58,42 @@ struct ArriveAlongDirections {
     h.impulse += impulse;
     h.work += impulse * 0.5 * (h.before + h.after);
     set_along<D>(v, v_out, h, h.after);
+  }
+};
+
+/// The accelerations by pressures that follow the face, at the start or at the end of a step: along n da = cof F N dA
+/// (Nanson), with F where the particle is. The shares of a face are exact for quadratic fields at particles, and so for
+/// the area vectors of a quadratic deformation.
+template <int D>
+struct TurnLoads {
+  static constexpr int values = Quadratic<D>::values, terms = Quadratic<D>::terms, second = Quadratic<D>::second,
+                       width = Records<D>::width;
+  bool at_end;
+  LoadedParticle* loaded;
+  ListSums<D> list;
+  ReferenceView g, k;
+
+  PIOLA_FN void operator()(Index n) const {
+    LoadedParticle& p = loaded[n];
+    double *const a = at_end ? p.after : p.before, *const follow = at_end ? p.follow_after : p.follow_before;
+    double rows[D * width];
+    list.of_motion(p.slot, rows);
+    Mat<D> F;
+    for (int c = 0; c < D; ++c) {
+      double const* const T = rows + c * width;
+      double H[second]{};
+      for (int m = 1; m < values; ++m)
+        for (int s = 0; s < second; ++s) H[s] += T[m] * k.template scalar<double>(p.slot, (m - 1) * second + s);
+      for (int J = 0; J < D; ++J) {
+        F(c, J) = T[values + J];
+        for (int m = 0; m < values; ++m) F(c, J) += T[m] * g.template scalar<double>(p.slot, m * D + J);
+        for (int K = 0; K < D; ++K) F(c, J) -= H[Quadratic<D>::at(J, K)] * p.centroid[K];
+      }
+    }
+    Mat<3> const turned = cofactor(embed<D>(F));
+    for (int c = 0; c < 9; ++c) p.turn[at_end][c] = turned.c[c];
+    for (int c = 0; c < D; ++c)
+      for (int d = 0; d < D; ++d) a[c] += turned(c, d) * follow[d];
   }
 };
 

@@ -46,18 +46,20 @@ Divergence<D>::Divergence(Fits<D> const& fits, std::vector<ScaledCell> const& ce
 }
 
 template <int D>
-std::vector<double> Divergence<D>::shares(std::function<bool(SurfacePatch const&)> const& chosen) const {
+std::vector<double> Divergence<D>::shares(std::function<double(SurfacePatch const&)> const& weight) const {
   std::vector<double> share(fits_.X().size(), 0);
   for (auto const& patch : patches_) {
-    if (!chosen(patch)) continue;
+    double const counts = weight(patch);
+    if (counts == 0) continue;
     auto const a = static_cast<std::size_t>(patch.particle);
-    share[a] += patch.area;
+    share[a] += counts * patch.area;
     for (std::size_t k = fits_.pairs().first(a); k < fits_.pairs().end(a); ++k) {
       auto const e = fits_.derivatives(a, k);
       double moved = 0;
       for (int i = 0; i < D; ++i) moved += patch.first[static_cast<std::size_t>(i)] * e[static_cast<std::size_t>(i)];
       for (int m = 0; m < Quadratic<D>::second; ++m)
         moved += patch.second[moment<D>(m)] * e[static_cast<std::size_t>(D + m)];
+      moved *= counts;
       share[fits_.pairs().at(k)] += moved;
       share[a] -= moved;
     }
@@ -70,7 +72,7 @@ std::vector<double> Divergence<D>::surface_vectors() const {
   std::vector<double> A(fits_.X().size() * D, 0);
   for (int axis = 0; axis < D; ++axis)
     for (bool const upper : {false, true}) {
-      auto const share = shares([&](SurfacePatch const& p) { return p.axis == axis && p.upper == upper; });
+      auto const share = shares([&](SurfacePatch const& p) { return p.axis == axis && p.upper == upper ? 1.0 : 0.0; });
       for (std::size_t b = 0; b < share.size(); ++b)
         A[b * D + static_cast<std::size_t>(axis)] += upper ? share[b] : -share[b];
     }

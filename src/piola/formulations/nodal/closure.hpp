@@ -31,7 +31,8 @@ class Divergence {
 
   /// Shares of the surface by which pressure and traction on the chosen patches are handed to particles, along the
   /// outward normals, consistent with quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches.
-  std::vector<double> shares(std::function<bool(SurfacePatch const&)> const& chosen) const;
+  /// Patches count by their weight: zero for those that are not loaded.
+  std::vector<double> shares(std::function<double(SurfacePatch const&)> const& weight) const;
   /// Surface vectors A_b, D per particle.
   std::vector<double> surface_vectors() const;
   /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.

@@ -11,6 +11,8 @@ struct Fields {
   static int second(int D) { return D * (D + 1) / 2; }
   static int terms(int D) { return D + second(D); }
   static int values(int D) { return 1 + terms(D); }
+  /// Strain and viscous stress at every point, and three numbers of the cell.
+  static int viscous_values(int D) { return 2 * (D == 3 ? 4 : 1 << D) * second(D) + 3; }
 
   explicit Fields(int D)
       : V("CellVolume", "m3", 1, Role::reference),
@@ -27,21 +29,27 @@ struct Fields {
         stress("StressOfSums", "N/m", values(D) * D + D * D, Role::derived),
         F("DeformationGradient", "1", D * D, Role::derived),
         P("FirstPiolaStress", "Pa", 9, Role::derived),
-        cell("CellState", "1", 3, Role::derived),
+        cell("CellState", "1", 4, Role::derived),
         C_measured("StretchOfLastMeasurement", "1", D * (D + 1) / 2, Role::evolved),
-        change("ChangeSinceMeasurement", "1", 1, Role::derived),
-        kept("MotionAtStepStart", "1", 3 * D, Role::derived) {}
+        change("ChangeSinceMeasurement", "1", 2, Role::derived),
+        kept("MotionAtStepStart", "1", 3 * D + 1, Role::derived),
+        viscous("ViscousHistory", "1", viscous_values(D), Role::evolved),
+        viscous_kept("ViscousHistoryAtStepStart", "1", viscous_values(D), Role::derived) {}
 
+  bool with_viscosity = false;
   Field V, mass, L, g, k, own;
   Field X, x, v, a;
   Field mu, stress;  ///< with X and x, what sweeps read of neighbours
   Field F, P, cell, C_measured, change, kept;
+  Field viscous, viscous_kept;  ///< allocated where there is viscosity
 
   template <class Visit>
   void each(Visit&& visit) {
     for (Field* f :
          {&V, &mass, &L, &g, &k, &own, &X, &x, &v, &a, &mu, &stress, &F, &P, &cell, &C_measured, &change, &kept})
       visit(*f);
+    if (with_viscosity)
+      for (Field* f : {&viscous, &viscous_kept}) visit(*f);
   }
 };
 

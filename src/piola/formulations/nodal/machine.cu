@@ -38,6 +38,9 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
   launch_each<KickAndDrift<D>>(r, passes);
   launch_each<Kick<D>>(r, passes);
   launch_each<CopyMotion<D>>(r, passes);
+  launch_each<CopyLeast>(r, passes);
+  launch_each<CopyValues>(r, passes);
+  launch_each<TurnLoads<D>>(r, passes);
   launch_each<DriveDirections<D>>(r, passes);
   launch_each<ArriveAlongDirections<D>>(r, passes);
   launch_each<AddLoads<D>>(r, passes);

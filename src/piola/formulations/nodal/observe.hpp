@@ -9,6 +9,7 @@ namespace piola::nodal {
 struct NodalObservation : Observation {
   double least_jacobian = 0;  ///< at a point of a cell
   double repeated_steps = 0;
+  Observation of_cells;  ///< of the pressure of cells, which is not smoothed
 };
 
 void observe(NodalBody const& body, NodalObservation& observation);

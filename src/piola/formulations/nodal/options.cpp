@@ -8,17 +8,43 @@
 namespace piola::nodal {
 namespace {
 
-constexpr std::array parameters{Parameter{
-    "least_mass", "1",
-    "smallest mass of a particle over that of its cell: more allows longer steps and makes the inertia of edges "
-    "less exact",
-    Interval{0.05, 1}, 0.3}};
+constexpr std::array parameters{
+    Parameter{"least_mass", "1",
+              "smallest mass of a particle over that of its cell: more allows longer steps and makes the inertia of "
+              "edges less exact",
+              Interval{0.05, 1}, 0.3},
+    Parameter{"fluctuation_viscosity", "1",
+              "viscosity against strain rates that differ within a cell, in units of density times spacing times wave "
+              "speed; damps waves of a few spacings; try 0.05",
+              Interval{0, 1}, 0},
+    Parameter{"shock_viscosity", "1",
+              "viscous pressure in compression, in shares of one that smears a shock over a few spacings; try 1",
+              Interval{0, 10}, 0}};
+
+constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
+                                                           "uniaxial_strain", "uniaxial_stress"};
+constexpr std::array choices{Choice{
+    "assumption", "about the directions that a body does not have; as_dimension: 1D uniaxial_strain, 2D plane_strain",
+    assumption_words}};
 
 /// What Diagnostics::more holds (observe.cpp).
-constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, DiagnosticInfo{"repeated_steps", "1"}};
+constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, DiagnosticInfo{"repeated_steps", "1"},
+                                 DiagnosticInfo{"cell_pressure_oscillation", "1"}};
 
 constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
                                                       "saint_venant_kirchhoff", "compressible_neo_hookean"};
+
+bool is_stress_free(FormulationSpec const& spec, int dimension) {
+  auto const assumption = word_of(spec, choices, "assumption");
+  if (assumption == "as_dimension") return false;
+  int const needed = assumption.starts_with("plane") ? 2 : 1;
+  if (dimension != needed)
+    throw InputError(
+        fmt::format("formulation: assumption = \"{}\" is for bodies in {}D, this one is in {}D - leave it "
+                    "out",
+                    assumption, needed, dimension));
+  return assumption.ends_with("stress");
+}
 
 }  // namespace
 
@@ -28,21 +54,22 @@ FormulationInfo info() {
       "conservative total-Lagrangian particles for elastic solids: quadratic fits, cells integrated at "
       "four points, exact masses; nothing is dissipated, on lattices and irregular clouds alike",
       parameters,
-      {},
+      choices,
       usable_laws,
       diagnostics};
   info.mirrors = false;
   return info;
 }
 
-Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl) {
+Options read_options(FormulationSpec const& spec, MaterialParameters const& material, int dimension, double cfl) {
   LawInfo const& law = laws()[static_cast<std::size_t>(material.law)];
   if (law.rate_form)
     throw InputError(fmt::format(
         "formulation: nodal needs a hyperelastic law, and {} is a solid in rate form, with a history - take "
         "jst_sph, taylor_sph or adaptle for it",
         law.name));
-  return {number_of(spec, "least_mass", 0.3), std::isnan(cfl) ? 0 : cfl};
+  return {number_of(spec, "least_mass", 0.3), number_of(spec, "fluctuation_viscosity", 0),
+          number_of(spec, "shock_viscosity", 0), is_stress_free(spec, dimension), std::isnan(cfl) ? 0 : cfl};
 }
 
 }  // namespace piola::nodal

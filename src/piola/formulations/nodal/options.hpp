@@ -7,14 +7,16 @@ namespace piola::nodal {
 
 /// What a user may choose, with every default resolved.
 struct Options {
-  double least_mass = 0.3;  ///< of a particle, over that of its cell
-  double cfl = 0;           ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
+  double least_mass = 0.3;                                ///< of a particle, over that of its cell
+  double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
+  bool stress_free = false;                               ///< plane stress, uniaxial stress
+  double cfl = 0;  ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
 };
 
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
 /// Options of a body. Throws InputError for laws that cannot be used.
-Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl);
+Options read_options(FormulationSpec const& spec, MaterialParameters const& material, int dimension, double cfl);
 
 }  // namespace piola::nodal

@@ -93,6 +93,26 @@ struct CopyMotion {
   }
 };
 
+/// Copies the least J, or takes it back.
+struct CopyLeast {
+  View from;
+  WriteView to;
+  int from_component, to_component;
+
+  PIOLA_FN void operator()(Index i) const { to.scalar(i, from.scalar<Lanes>(i, from_component), to_component); }
+};
+
+/// Copies all values of a field.
+struct CopyValues {
+  View from;
+  WriteView to;
+  int values;
+
+  PIOLA_FN void operator()(Index i) const {
+    for (int c = 0; c < values; ++c) to.scalar(i, from.scalar<Lanes>(i, c), c);
+  }
+};
+
 /// Largest change of a block.
 struct LargestChange {
   View change;

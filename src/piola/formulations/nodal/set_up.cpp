@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/nodal/face_parts.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include <algorithm>
 #include <chrono>
@@ -83,18 +84,6 @@ std::array<double, static_cast<std::size_t>(D* D)> cholesky(ScaledCell const& ce
   return L;
 }
 
-/// Chosen patches of the surface: those of a traction's face next to its particles.
-auto patches_of(Load const& load, Body const& body, SlotOrder const& order) {
-  std::vector<bool> loaded(static_cast<std::size_t>(order.particles), false);
-  for (auto const id : load.particles)
-    if (id >= body.first && id < body.last) loaded[static_cast<std::size_t>(id - body.first)] = true;
-  return [loaded, &load, &body, &order](SurfacePatch const& patch) {
-    double const facing = (*load.normal)[static_cast<std::size_t>(patch.axis)];
-    return patch.outermost && facing == (patch.upper ? 1 : -1) &&
-           loaded[static_cast<std::size_t>(order.id[static_cast<std::size_t>(patch.particle)] - body.first)];
-  };
-}
-
 [[noreturn]] void refuse(SetUp const& from, Index slot, char const* what) {
   auto const id = from.order.id[static_cast<std::size_t>(slot)];
   auto const& X = from.set.X[static_cast<std::size_t>(id)];
@@ -123,6 +112,7 @@ class Tables {
     to_.g.assign(slots_ * values * dimension, 0);
     to_.k.assign(slots_ * terms * second, 0);
     to_.own.assign(slots_ * (values + dimension), 0);
+    to_.centroid.assign(slots_ * dimension, 0);
     for (std::size_t a = 0; a < scaled_.cells.size(); ++a) {
       to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
       to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0;
@@ -130,6 +120,7 @@ class Tables {
       for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
       for (std::size_t c = 0; c < dimension; ++c) {
         to_.X[a * dimension + c] = scaled_.X[a][c];
+        to_.centroid[a * dimension + c] = scaled_.cells[a].centroid[c] * scaled_.h[c];
         to_.mu[a * dimension + c] = closure.mu[a * dimension + c] / scaled_.h[c];
       }
       fill_derivatives(a, closure);
@@ -198,22 +189,6 @@ class Tables {
   std::size_t slots_;
 };
 
-/// Shares of the faces on which tractions act.
-template <int D>
-std::vector<std::vector<double>> traction_shares(SetUp const& from, ScaledBody const& scaled,
-                                                 Divergence<D> const& divergence) {
-  std::vector<std::vector<double>> shares;
-  for (auto const& load : from.loads) {
-    shares.emplace_back();
-    if (!load.normal) continue;
-    shares.back() = divergence.shares(patches_of(load, from.body, from.order));
-    std::size_t axis = 0;
-    while (axis + 1 < 3 && (*load.normal)[axis] == 0) ++axis;
-    for (double& share : shares.back()) share *= scaled.h_volume / scaled.h[axis];
-  }
-  return shares;
-}
-
 template <int D>
 Reference make(SetUp const& from) {
   Reference r;
@@ -233,7 +208,7 @@ Reference make(SetUp const& from) {
   Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
   Closure const closure = divergence.solve(closure_tolerance);
   r.closure_iterations = closure.iterations;
-  r.shares = traction_shares<D>(from, scaled, divergence);
+  r.parts = face_parts<D>(from, fits, divergence, scaled.h);
   r.costs.closure = since(clock);
   auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass);
   r.costs.masses = since(clock);

@@ -26,13 +26,20 @@ struct SetUp {
   double least_mass;  ///< of a particle over that of its cell
 };
 
+/// What a particle answers for of a loaded face.
+struct FacePart {
+  double area = 0;                 ///< [m^(D-1)]; negative ones occur: parts are exact for quadratic fields as a whole
+  std::array<double, 3> normal{};  ///< outward unit vector
+};
+
 /// The undeformed body as loops see it: values per slot, one after the other, in the order of Fields. Theory:
 /// docs/theory/nodal.md, section 3.
 struct Reference {
   std::vector<double> V, mass, L, g, k, own, mu;
-  std::vector<double> X;                    ///< in spacings, D per slot
-  std::vector<std::vector<double>> shares;  ///< per load: of tractions the share of the face per slot [m^(D-1)]
-  std::vector<std::int64_t> begin;          ///< lists, see ListTable
+  std::vector<double> X;                     ///< in spacings, D per slot
+  std::vector<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
+  std::vector<std::vector<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
+  std::vector<std::int64_t> begin;           ///< lists, see ListTable
   std::vector<Index> neighbour;
   std::vector<double> weight;
   int closure_iterations = 0;

@@ -27,7 +27,8 @@ class Solver final : public Formulation {
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles), machine_(choose(assembly.machine)), actions_(assembly) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
+      Options const options =
+          read_options(assembly.formulations[k], assembly.materials[k], set_.dimension, assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }
@@ -61,9 +62,10 @@ class Solver final : public Formulation {
   void step(double time, double dt) override {
     actions_.begin(dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      repeated_ += bodies_[k]->step(machine_, time, dt);
+      int const halvings = bodies_[k]->step(machine_, time, dt);
+      repeated_ += halvings;
       bodies_[k]->boundary().hand_over(actions_);
-      monitors_[k]->update();
+      monitors_[k]->update(halvings);
     }
     time_ = time + dt;
   }
@@ -175,6 +177,8 @@ void Solver::each_evolved(NodalBody const& body, std::size_t number, F const& f)
   f(fmt::format("body{}_velocity", number), s.v, D);
   f(fmt::format("body{}_acceleration", number), s.a, D);
   f(fmt::format("body{}_measured_stretch", number), s.C_measured, D * (D + 1) / 2);
+  f(fmt::format("body{}_change", number), s.change, 2);
+  if (body.viscous()) f(fmt::format("body{}_viscous_history", number), s.viscous, Fields::viscous_values(D));
 }
 
 void Solver::save(StateWriter& writer) const {

@@ -16,8 +16,8 @@ class StabilityMonitor {
   /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
   StabilityMonitor(NodalBody& body, Machine const& machine);
 
-  /// Counts a step, and measures the frequency again if that is due.
-  void update();
+  /// Counts a step, and measures the frequency again if that is due. `halvings`: how often the step had to be halved.
+  void update(int halvings);
   /// The step to take [s]: a share of the limit, the smaller the faster strains change.
   double step() const;
   /// Largest frequency that was measured last, and never less than that of the start [1/s].
@@ -32,6 +32,7 @@ class StabilityMonitor {
   std::vector<double> accelerations();
   void put_positions(std::vector<double> const& x);
   std::vector<double> positions() const;
+  double square_of_accelerations() const;
   double size_of(std::vector<double> const& u) const;
 
   NodalBody& body_;
@@ -40,6 +41,8 @@ class StabilityMonitor {
   double frequency_ = 0;      ///< 1/s, at the last measurement
   double start_ = 0;          ///< 1/s, at the start
   double steps_ = 0;          ///< since the last measurement
+  double caution_ = 1;        ///< share of the step that is left after steps that had to be halved
+  double accurate_ = 0;       ///< step that keeps the energy as well as is wanted [s]; 0: any
   double pace_ = 0;           ///< steps between the last two measurements; 0: there was one alone
 };
 

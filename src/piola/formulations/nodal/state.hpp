@@ -15,28 +15,42 @@ struct HeldDirection {
   double mass;           ///< of the particle [kg]
   double before, after;  ///< prescribed velocity at the ends of the step [m/s]
   double impulse;        ///< of the reaction in this step [N s]
+  double first_impulse;  ///< of it that of the first kick, where the step starts [N s]
   double work;           ///< of the reaction in this step [J]
 };
 
 /// A particle on which a load acts.
 struct LoadedParticle {
   Index slot;
-  double mass;                 ///< [kg]
-  double before[3], after[3];  ///< acceleration by the loads at the ends of the step [m/s2]
-  double work;                 ///< in this step [J]
+  double mass;                                   ///< [kg]
+  double before[3]{}, after[3]{};                ///< acceleration by the loads at the ends of the step [m/s2]
+  double work = 0;                               ///< in this step [J]
+  double follow_before[3]{}, follow_after[3]{};  ///< by pressures that follow the face, where it is not deformed
+  double centroid[3]{};                          ///< of the cell, relative to the particle [m]
+  double turn[2][9]{};                           ///< cof F at the ends of the step, of particles with such a pressure
 };
 
 struct Constants {
   double rho0;         ///< reference density [kg/m^3]
   double kappa;        ///< bulk modulus [Pa]
+  double mu;           ///< shear modulus [Pa]
   double kappa_local;  ///< stiffness of the logarithmic term [Pa]
   double unit_step;    ///< smallest spacing over the p-wave speed at rest [s]
+  bool stress_free;    ///< in the directions that the body does not have; else they do not stretch
+  double least_share;  ///< of its volume ratio at the step's start that a point of a cell must keep
+};
+
+/// What viscous stresses multiply rates by, see Viscosity.
+struct ViscousConstants {
+  double fluctuation;                    ///< [Pa s]
+  double shock_linear, shock_quadratic;  ///< [Pa s], [Pa s2]
 };
 
 struct BodyState {
   int dimension = 3;
   Range slots;
   Constants constants{};
+  ViscousConstants viscosity{};
   MaterialParameters material;
   ListTable list;
 
@@ -45,17 +59,20 @@ struct BodyState {
   FieldRef V, mass, L, g, k, own;
   // Evolved: position, velocity; acceleration by all forces, of the positions.
   FieldRef x, v, a;
-  FieldRef first;               ///< what the first sweep reads of neighbours: X, x, mu
-  FieldRef second;              ///< and the second: rows (Y_i, Z_i)
-  FieldRef F, P;                ///< gradient at the centroid; mean stress, three-dimensional: for observers
-  FieldRef cell;                ///< energy per volume, mean J, least J: for observers
-  FieldRef C_measured, change;  ///< F^T F when the step was last measured; largest change of a strain since
-  FieldRef kept;                ///< x, v, a at the start of the step
+  FieldRef first;   ///< what the first sweep reads of neighbours: X, x, mu
+  FieldRef second;  ///< and the second: rows (Y_i, Z_i)
+  FieldRef F, P;    ///< gradient at the centroid; mean stress, three-dimensional: for observers
+  FieldRef cell;    ///< energy per volume, mean J, least J: for observers
+  FieldRef C_measured,
+      change;  ///< F^T F when the step was last measured; largest change of a strain since, least J now
+  FieldRef viscous, viscous_kept;  ///< see ViscousHistory, and at the start of the step; without data: no viscosity
+  FieldRef kept;                   ///< x, v, a and the least J at the start of the step
 
   HeldDirection* held = nullptr;
   Index held_count = 0;
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
+  bool follows = false;       ///< whether some load turns with the deformed face
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
 };
@@ -68,7 +85,7 @@ struct Machine {
   void (*accelerate)(BodyState& body);        ///< a of the internal forces alone, at x
   void (*observe)(BodyState& body);           ///< the fields for observers, at x
   double (*largest_change)(BodyState& body);  ///< of a strain since the step was measured
-  void (*keep)(BodyState& body);              ///< remembers x, v and a
+  void (*keep)(BodyState& body);              ///< remembers x, v, a and the least J
   void (*restore)(BodyState& body);           ///< and takes them back
 };
 

@@ -14,43 +14,60 @@ class Step {
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations of the state are made.
   void operator()(double dt) {
+    if (b_.follows) turn_loads(false);
     if (dt > 0) drive(dt);  // v^(n+1/2) where it is prescribed
     exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
-    accelerate();
+    accelerate(dt);
+    if (b_.follows) turn_loads(true);
     exec::for_each_item(b_.loaded_count, AddLoads<D>{dt, b_.loaded, read(b_.v), read(b_.a), write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
     if (dt > 0) exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{b_.held, read(b_.v), write(b_.v)});
   }
 
-  /// a of the internal forces at x: -dPi/dx over the masses.
-  void accelerate() {
-    sweep<false>();
+  /// a of the internal forces at x: -dPi/dx over the masses, and of viscous ones if `dt` [s] is what has passed since
+  /// the last step.
+  void accelerate(double dt = -1) {
+    sweep<false>(dt);
     halo_.refresh(b_.second);
     exec::for_each(b_.slots, SumForces<D>{of_stress(), read_reference(b_.mass), read(b_.a), write(b_.a)});
   }
 
   /// The fields for observers, of the cells at x.
-  void observe() { sweep<true>(); }
+  void observe() { sweep<true>(-1); }
 
   void keep() const {
     exec::for_each(b_.slots, CopyMotion<D>{read(b_.x), read(b_.v), read(b_.a), write(b_.kept), write(b_.kept),
                                            write(b_.kept), 0, D});
+    exec::for_each(b_.slots, CopyLeast{read(b_.change), write(b_.kept), 1, 3 * D});
+    copy_history(b_.viscous, b_.viscous_kept);
   }
   void restore() const {
     exec::for_each(b_.slots, CopyMotion<D>{read(b_.kept), read(b_.kept), read(b_.kept), write(b_.x), write(b_.v),
                                            write(b_.a), D, 0});
+    exec::for_each(b_.slots, CopyLeast{read(b_.kept), write(b_.change), 3 * D, 1});
+    copy_history(b_.viscous_kept, b_.viscous);
   }
 
  private:
   ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.first).data, nullptr}; }
   ListSums<D> of_stress() const { return {b_.list, read_neighbours(b_.first).data, read_neighbours(b_.second).data}; }
 
+  void copy_history(FieldRef const& from, FieldRef const& to) const {
+    if (from.data != nullptr) exec::for_each(b_.slots, CopyValues{read(from), write(to), ViscousHistory<D>::size});
+  }
+
+  void turn_loads(bool at_end) {
+    halo_.refresh(b_.first);
+    exec::for_each_item(b_.loaded_count,
+                        TurnLoads<D>{at_end, b_.loaded, of_motion(), read_reference(b_.g), read_reference(b_.k)});
+  }
+
   void drive(double dt) {
     exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.a)});
   }
 
   template <bool Observed>
-  void sweep() {
+  void sweep(double dt) {
     halo_.refresh(b_.first);
     SumMotion<D> const sums{of_motion()};
     with_law(b_.material, [&](auto const& law) {
@@ -63,6 +80,8 @@ class Step {
                                                   read_reference(b_.k),
                                                   read_reference(b_.own),
                                                   read(b_.C_measured),
+                                                  read(b_.kept),
+                                                  {dt, b_.viscosity, read(b_.viscous), write(b_.viscous)},
                                                   write(b_.second),
                                                   write(b_.a),
                                                   write(b_.change),

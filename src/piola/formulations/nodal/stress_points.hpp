@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/passes.hpp"
+#include "piola/formulations/nodal/stress_free.hpp"
+#include "piola/formulations/nodal/viscosity.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/math/embedding.hpp"
 
@@ -22,20 +24,35 @@ struct CellEnergy {
 
   /// P and energy from F.
   PIOLA_FN void operator()() {
-    mean_J = Lanes(0.0);
-    for (int q = 0; q < Points; ++q) {
-      J[q] = volume_ratio_of(Law::small_strain, F[q]);
-      mean_J = mean_J + (1.0 / Points) * J[q];
-      least_J = q == 0 ? J[q] : minimum(least_J, J[q]);
-    }
-    energy = Lanes(0.0);
+    volume_ratios();
     if constexpr (Law::volumetric_split)
       split();
     else
       whole();
   }
 
+  /// The same where directions from D on are free of stress, each point by itself: what it has of them in F is found.
+  /// Nothing locks there, so that every point has the energy of its own volume ratio.
+  template <int D>
+  PIOLA_FN void without_lateral_stress() {
+    StressFree<D, Law> const relax(law);
+    for (int q = 0; q < Points; ++q) relax(F[q]);
+    volume_ratios();
+    for (int q = 0; q < Points; ++q) {
+      P[q] = law.first_piola(F[q]);
+      if constexpr (WithEnergy) energy = energy + (1.0 / Points) * law.energy(F[q]);
+    }
+  }
+
  private:
+  PIOLA_FN void volume_ratios() {
+    mean_J = energy = Lanes(0.0);
+    for (int q = 0; q < Points; ++q) {
+      J[q] = volume_ratio_of(Law::small_strain, F[q]);
+      mean_J = mean_J + (1.0 / Points) * J[q];
+      least_J = q == 0 ? J[q] : minimum(least_J, J[q]);
+    }
+  }
   PIOLA_FN Mat<3, Lanes> area_map(int q) const {
     if constexpr (Law::small_strain)
       return identity<3, Lanes>();
@@ -82,20 +99,6 @@ struct CellEnergy {
   }
 };
 
-/// Gradients at the points of a cell, F_q = F + H.z_q, and the stress resultants that do work on F and H.
-template <int D>
-struct CellPoints {
-  static constexpr int points = Quadratic<D>::points;
-  Mat<D, Lanes> F;
-  Mat<D, Lanes> along[D];  ///< H.(L e_m)
-
-  PIOLA_FN Mat<D, Lanes> at(int q) const {
-    Mat<D, Lanes> r = F;
-    for (int m = 0; m < D; ++m) r = Quadratic<D>::point(q, m) > 0 ? r + along[m] : r - along[m];
-    return r;
-  }
-};
-
 /// First sums to stress resultants: F_a, H_a, the points, P_a and Q_a, and
 ///   Y_a = V_a (P_a g_a^T + Q_a k_a^T),  Z_a = V_a P_a,
 /// which the second sweep reads at neighbours, and the particle's own part of its force,
@@ -107,7 +110,8 @@ struct UpdateStress {
   Law law;
   Constants constants;
   ReferenceView V, L, g, k, own;
-  View C_measured;
+  View C_measured, kept;
+  Viscosity<D> viscosity;
   WriteView stress, a, change, F_out, P_out, cell;
   FailureSlot* failure;
 
@@ -115,18 +119,24 @@ struct UpdateStress {
     CellPoints<D> const at = gradients(i, in);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
     for (int q = 0; q < points; ++q) energy.F[q] = embed<D>(at.at(q));
-    energy();
-    if (any(!(energy.least_J > 0.0))) record_failure(i, energy.least_J);
+    if (D < 3 && constants.stress_free)
+      energy.template without_lateral_stress<D>();
+    else
+      energy();
+    if (!Observed && viscosity.on()) viscosity.template add<Law::small_strain>(i, at, energy);
     if constexpr (Observed)
       observe(i, at, energy);
     else {
-      change.scalar(i, largest_change(i, at.F));
+      Lanes const allowed = constants.least_share * kept.template scalar<Lanes>(i, 3 * D);
+      if (any(!(energy.least_J > maximum(allowed, Lanes(0.0))))) record_failure(i, energy.least_J, allowed);
+      change.scalar(i, largest_change(i, at.F), 0);
+      change.scalar(i, energy.least_J, 1);
       put_stress(i, energy);
     }
   }
 
  private:
-  /// Of a component of F^T F / 2 since the step was measured.
+  /// Of a component of F^T F / 2 since the step was measured, compared with where it was: 0.1 is a tenth of a stretch.
   PIOLA_FN Lanes largest_change(Index i, Mat<D, Lanes> const& F) const {
     SymMat<D, Lanes> const measured = C_measured.symmetric<D, Lanes>(i);
     Lanes most = Lanes(0.0);
@@ -134,7 +144,8 @@ struct UpdateStress {
       for (int K = J; K < D; ++K) {
         Lanes C = F(0, J) * F(0, K);
         for (int c = 1; c < D; ++c) C = C + F(c, J) * F(c, K);
-        Lanes const moved = 0.5 * (C - measured(J, K));
+        Lanes const moved = 0.5 * (C - measured(J, K)) /
+                            minimum(Lanes(1.0), maximum(Lanes(1e-12), square_root(measured(J, J) * measured(K, K))));
         most = maximum(most, maximum(moved, 0.0 - moved));
       }
     return most;
@@ -210,11 +221,14 @@ struct UpdateStress {
     cell.scalar(i, energy.energy, 0);
     cell.scalar(i, energy.mean_J, 1);
     cell.scalar(i, energy.least_J, 2);
+    Lanes lateral = energy.F[0](2, 2);
+    for (int q = 1; q < points; ++q) lateral = lateral + energy.F[q](2, 2);
+    cell.scalar(i, (1.0 / points) * lateral, 3);
   }
 
-  PIOLA_FN void record_failure(Index i, Lanes const& least) const {
+  PIOLA_FN void record_failure(Index i, Lanes const& least, Lanes const& allowed) const {
     for (int l = 0; l < lane_count; ++l)
-      if (!(lane(least, l) > 0)) exec::record(failure, i + l, 1);
+      if (!(lane(least, l) > 0) || !(lane(least, l) > lane(allowed, l))) exec::record(failure, i + l, 1);
   }
 };
 

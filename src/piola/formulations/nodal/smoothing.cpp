@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/smoothing.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::nodal {
+namespace {
+
+constexpr double support = 2.4;     ///< in spacings
+constexpr int most_sweeps = 50;     ///< each halves what rows are off by, at least
+constexpr double tolerance = 1e-4;  ///< of the sums of rows; what is left goes to the particle itself
+
+/// Wendland C2 of r in spacings, without its factor.
+double kernel(double r) {
+  double const rest = std::max(0.0, 1 - r / support), square = rest * rest;
+  return square * square * (1 + 4 * r / support);
+}
+
+}  // namespace
+
+Smoothing::Smoothing(Reference const& reference, int dimension, Index particles)
+    : begin_(reference.begin),
+      neighbour_(reference.neighbour),
+      V_(reference.V),
+      particles_(static_cast<std::size_t>(particles)) {
+  find_weights(reference, static_cast<std::size_t>(dimension));
+  balance();
+}
+
+void Smoothing::find_weights(Reference const& reference, std::size_t dimension) {
+  weight_.resize(neighbour_.size());
+  for (std::size_t a = 0; a < particles_; ++a)
+    for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
+      auto const b = static_cast<std::size_t>(neighbour_[k]);
+      double square = 0;
+      for (std::size_t c = 0; c < dimension; ++c) {
+        double const r = reference.X[b * dimension + c] - reference.X[a * dimension + c];
+        square += r * r;
+      }
+      weight_[k] = kernel(std::sqrt(square));
+    }
+}
+
+/// d <- sqrt(d / sum_b W_ab V_b d_b), b = a included, as long as a row is off. The sums of rows are exact in the end.
+void Smoothing::balance() {
+  std::vector<double> d(particles_), sum(particles_);
+  for (std::size_t a = 0; a < particles_; ++a) d[a] = 1 / std::sqrt(V_[a]);
+  double off = 1;
+  for (int sweep = 0; sweep < most_sweeps && off > tolerance; ++sweep) {
+    off = 0;
+    for (std::size_t a = 0; a < particles_; ++a) {
+      sum[a] = V_[a] * d[a];
+      for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
+        auto const b = static_cast<std::size_t>(neighbour_[k]);
+        sum[a] += weight_[k] * V_[b] * d[b];
+      }
+      off = std::max(off, std::abs(d[a] * sum[a] - 1));
+    }
+    for (std::size_t a = 0; a < particles_; ++a) d[a] = std::sqrt(d[a] / sum[a]);
+  }
+  own_.assign(particles_, 1);
+  for (std::size_t a = 0; a < particles_; ++a)
+    for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
+      auto const b = static_cast<std::size_t>(neighbour_[k]);
+      weight_[k] *= d[a] * d[b] * V_[b];
+      own_[a] -= weight_[k];
+    }
+}
+
+std::vector<double> Smoothing::once(std::vector<double> const& f) const {
+  std::vector<double> smooth(f.size());
+  for (std::size_t a = 0; a < particles_; ++a) {
+    smooth[a] = own_[a] * f[a];
+    for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k)
+      smooth[a] += weight_[k] * f[static_cast<std::size_t>(neighbour_[k])];
+  }
+  return smooth;
+}
+
+std::vector<double> Smoothing::operator()(std::vector<double> const& f) const { return once(once(f)); }
+
+}  // namespace piola::nodal

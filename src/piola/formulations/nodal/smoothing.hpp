@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/set_up.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// A smoother of values of cells for output. Symmetric, and doubly stochastic in the volumes of the cells:
+///   (S f)_a = f_a (1 - sum_b s_ab V_b) + sum_b s_ab V_b f_b,   s_ab = d_a W_ab d_b,
+/// with W of support 2.4 spacings and d such that every row sums to one: constants stay, and so does sum V f.
+/// Theory: docs/theory/nodal.md, section 7.
+class Smoothing {
+ public:
+  Smoothing(Reference const& reference, int dimension, Index particles);
+
+  /// S^2 f, values per slot.
+  std::vector<double> operator()(std::vector<double> const& f) const;
+
+ private:
+  void find_weights(Reference const& reference, std::size_t dimension);
+  void balance();
+  std::vector<double> once(std::vector<double> const& f) const;
+
+  std::vector<std::int64_t> const& begin_;
+  std::vector<Index> const& neighbour_;
+  std::vector<double> const& V_;
+  std::size_t particles_;
+  std::vector<double> weight_;  ///< W per pair, then d_a W d_b V_b
+  std::vector<double> own_;     ///< 1 - sum_b s_ab V_b
+};
+
+}  // namespace piola::nodal

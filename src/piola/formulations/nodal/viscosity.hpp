@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/view.hpp"
+#include "piola/formulations/nodal/cell_points.hpp"
+#include "piola/formulations/nodal/state.hpp"
+
+/// Dissipation of a cell, off by default. Theory: docs/theory/nodal.md, section 5.
+namespace piola::nodal::inline PIOLA_MACHINE {
+
+/// What is remembered of a cell: per point the strain E and the viscous stress S at the end of the last step; the mean
+/// volume ratio of the body's own directions and the shock pressure Q there; the energy dissipated so far per volume.
+template <int D>
+struct ViscousHistory {
+  static constexpr int strain = SymMat<D>::size, points = Quadratic<D>::points;
+  static constexpr int S = points * strain, ratio = 2 * points * strain, Q = ratio + 1, loss = ratio + 2,
+                       size = ratio + 3;
+};
+
+/// Adds to the stresses of the points
+///   F_q S_q,  S_q = eta (dE_q - mean dE) / dt,   and   -Q cof F_q,  Q = -linear r + quadratic r^2 if r = dJm/dt < 0,
+/// and what they dissipate: (S + S of the step before) : dE / 2 and the same of Q, as the motion loses it in a step.
+template <int D>
+struct Viscosity {
+  using At = ViscousHistory<D>;
+  double dt;  ///< since the last step; 0: the history begins; negative: not asked for
+  ViscousConstants constants;
+  View before;
+  WriteView after;
+
+  PIOLA_FN bool on() const { return before.data != nullptr && dt >= 0; }
+
+  template <bool SmallStrain, class Energy>
+  PIOLA_FN void add(Index i, CellPoints<D> const& at, Energy& energy) const {
+    Mat<D, Lanes> F[At::points];
+    SymMat<D, Lanes> E[At::points], mean;
+    Lanes ratio = Lanes(0.0);
+    double const rate = dt > 0 ? 1 / dt : 0;
+    for (int q = 0; q < At::points; ++q) {
+      F[q] = at.at(q);
+      E[q] = strain_of<SmallStrain>(F[q]);
+      ratio = ratio + (1.0 / At::points) * volume_ratio_of(SmallStrain, embed<D>(F[q]));
+      for (int c = 0; c < At::strain; ++c) {
+        Lanes const change = (1.0 / At::points) * (E[q].c[c] - before.scalar<Lanes>(i, q * At::strain + c));
+        mean.c[c] = q == 0 ? change : mean.c[c] + change;
+      }
+    }
+    Lanes loss = before.scalar<Lanes>(i, At::loss);
+    for (int q = 0; q < At::points; ++q) {
+      SymMat<D, Lanes> S;
+      for (int c = 0; c < At::strain; ++c) {
+        int const place = q * At::strain + c;
+        Lanes const change = E[q].c[c] - before.scalar<Lanes>(i, place);
+        S.c[c] = (constants.fluctuation * rate) * (change - mean.c[c]);
+        double const share = (c < D ? 0.5 : 1.0) * (rate > 0 ? 1.0 : 0.0) / At::points;
+        loss = loss + share * (S.c[c] + before.scalar<Lanes>(i, At::S + place)) * change;
+        after.scalar(i, E[q].c[c], place);
+        after.scalar(i, S.c[c], At::S + place);
+      }
+      add_to_corner(energy.P[q], stress_of<SmallStrain>(F[q], S));
+    }
+    Lanes const change = ratio - before.scalar<Lanes>(i, At::ratio),
+                closing = maximum((0.0 - rate) * change, Lanes(0.0));
+    Lanes const Q = closing * (constants.shock_linear + constants.shock_quadratic * closing);
+    if (rate > 0) loss = loss - 0.5 * (Q + before.scalar<Lanes>(i, At::Q)) * change;
+    for (int q = 0; q < At::points; ++q) add_to_corner(energy.P[q], (0.0 - Q) * area_map<SmallStrain>(F[q]));
+    after.scalar(i, ratio, At::ratio);
+    after.scalar(i, Q, At::Q);
+    after.scalar(i, loss, At::loss);
+  }
+
+ private:
+  template <bool SmallStrain>
+  PIOLA_FN static SymMat<D, Lanes> strain_of(Mat<D, Lanes> const& F) {
+    SymMat<D, Lanes> E;
+    for (int J = 0; J < D; ++J)
+      for (int K = J; K < D; ++K) {
+        if constexpr (SmallStrain) {
+          E(J, K) = 0.5 * (F(J, K) + F(K, J));
+        } else {
+          Lanes sum = F(0, J) * F(0, K);
+          for (int c = 1; c < D; ++c) sum = sum + F(c, J) * F(c, K);
+          E(J, K) = 0.5 * sum;
+        }
+      }
+    return E;
+  }
+  template <bool SmallStrain>
+  PIOLA_FN static Mat<D, Lanes> stress_of(Mat<D, Lanes> const& F, SymMat<D, Lanes> const& S) {
+    if constexpr (SmallStrain)
+      return identity<D, Lanes>() * S;
+    else
+      return F * S;
+  }
+  template <bool SmallStrain>
+  PIOLA_FN static Mat<D, Lanes> area_map(Mat<D, Lanes> const& F) {
+    if constexpr (SmallStrain)
+      return identity<D, Lanes>();
+    else
+      return restrict_to<D>(cofactor(embed<D>(F)));
+  }
+  PIOLA_FN static void add_to_corner(Mat<3, Lanes>& P, Mat<D, Lanes> const& more) {
+    for (int i = 0; i < D; ++i)
+      for (int J = 0; J < D; ++J) P(i, J) = P(i, J) + more(i, J);
+  }
+};
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE
