@@ -73,22 +73,16 @@ TEST(NodalPressure, ThatFollowsAFaceHoldsASwollenAndTurnedBoxInBalance) {
   }
 }
 
-TEST(NodalPressure, OnCurvedFacesHoldsBallsAndTubesInBalance) {
+TEST(NodalPressure, OnCurvedFacesHoldsBallsAndDiscsInBalance) {
   ShapeSpec ball;
   ball.kind = ShapeSpec::Kind::sphere;
   ball.placement = ShapeSpec::Placement::cell_centred;
   ball.radius = 1;
   ball.spacing = 0.25;
-  ShapeSpec tube = ball;
-  tube.kind = ShapeSpec::Kind::cylinder;
-  tube.inner_radius = 0.3;
-  tube.length = 1.5;
-  tube.axis = 1;
-  tube.spacing = 0.2;
   ShapeSpec disc = ball;
   disc.dimension = 2;
   disc.arrangement = ShapeSpec::Arrangement::rings;
-  for (auto const& shape : {ball, tube, disc}) {
+  for (auto const& shape : {ball, disc}) {
     Assembly a = body_of(shape);
     // In the plane nothing stretches across: the pressure of that state is what the law gives there.
     Mat<3> F = identity<3>();
@@ -98,10 +92,6 @@ TEST(NodalPressure, OnCurvedFacesHoldsBallsAndTubesInBalance) {
     swell(a, 1.1, shape.dimension == 3 ? 0 : 0.4);
     double const without = largest(forces(a));
     press(a, shape, {0, false, Face::Part::outer}, pressure, true);
-    if (shape.kind == ShapeSpec::Kind::cylinder) {
-      press(a, shape, {0, false, Face::Part::inner}, pressure, true);
-      for (bool const upper : {false, true}) press(a, shape, {1, upper}, pressure, true);
-    }
     EXPECT_LT(largest(forces(a)), 5e-3 * without) << shape.dimension << static_cast<int>(shape.kind);
   }
 }

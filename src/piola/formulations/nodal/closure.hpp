@@ -33,6 +33,7 @@ class Divergence {
   /// outward normals, consistent with quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches.
   /// Patches count by their weight: zero for those that are not loaded.
   std::vector<double> shares(std::function<double(SurfacePatch const&)> const& weight) const;
+  std::vector<SurfacePatch> const& patches() const { return patches_; }
   /// Surface vectors A_b, D per particle.
   std::vector<double> surface_vectors() const;
   /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.

@@ -8,15 +8,22 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// On irregular clouds a patch may be nearest to a particle behind the loaded ones: so far away [spacings].
-constexpr double behind = 0.75;
+/// A patch may be nearest to a particle behind the loaded ones. It belongs to one of these if that is not farther away
+/// than this [spacings]: where a curved surface cuts a corner off a cell, which then has less than `corner` of the
+/// surface, or on irregular clouds.
+constexpr double beside = 1.01, corner = 0.5, behind = 0.75;
 
 /// The part of a body's surface that a load acts on, patch by patch.
 template <int D>
 class LoadedFace {
  public:
-  LoadedFace(SetUp const& from, Fits<D> const& fits, Load const& load)
-      : load_(load), body_(from.body), fits_(fits), place_(static_cast<std::size_t>(from.order.particles), none) {
+  LoadedFace(SetUp const& from, Fits<D> const& fits, std::vector<SurfacePatch> const& patches, Load const& load)
+      : load_(load),
+        body_(from.body),
+        fits_(fits),
+        place_(static_cast<std::size_t>(from.order.particles), none),
+        area_(place_.size(), 0) {
+    for (auto const& patch : patches) area_[static_cast<std::size_t>(patch.particle)] += patch.area;
     std::vector<std::size_t> of_id(static_cast<std::size_t>(body_.last - body_.first), none);
     for (std::size_t k = 0; k < load.particles.size(); ++k)
       if (load.particles[k] >= body_.first && load.particles[k] < body_.last)
@@ -46,9 +53,10 @@ class LoadedFace {
 
   /// Which of the load's particles answers for what is nearest to a.
   std::size_t place_of(std::size_t a) const {
-    if (place_[a] != none || body_.regular) return place_[a];
+    if (place_[a] != none) return place_[a];
     std::size_t found = none;
-    double least = behind * behind;
+    double const reach = !load_.normal && area_[a] < corner ? beside : body_.regular ? 0 : behind;
+    double least = reach * reach;
     auto const& X = fits_.X();
     for (std::size_t n = fits_.pairs().first(a); n < fits_.pairs().end(a); ++n) {
       std::size_t const b = fits_.pairs().at(n);
@@ -66,6 +74,7 @@ class LoadedFace {
   Fits<D> const& fits_;
   std::array<bool, 3> faces_{};     ///< the surface faces along these axes
   std::vector<std::size_t> place_;  ///< of a slot among the load's particles
+  std::vector<double> area_;        ///< of all patches of a slot, in spacings
 };
 
 /// Areas times normals, added up over patches as they are.
@@ -112,7 +121,7 @@ std::vector<std::vector<FacePart>> face_parts(SetUp const& from, Fits<D> const& 
   for (auto const& load : from.loads) {
     parts.emplace_back();
     if (!load.on_face()) continue;
-    LoadedFace<D> const face(from, fits, load);
+    LoadedFace<D> const face(from, fits, divergence.patches(), load);
     parts.back() = load.normal || !load.pressure ? scalar_parts<D>(face, divergence, area, load.normal)
                                                  : vector_parts<D>(face, divergence, area);
   }
