@@ -73,16 +73,22 @@ TEST(NodalPressure, ThatFollowsAFaceHoldsASwollenAndTurnedBoxInBalance) {
   }
 }
 
-TEST(NodalPressure, OnCurvedFacesHoldsBallsAndDiscsInBalance) {
+TEST(NodalPressure, OnCurvedFacesHoldsBallsAndTubesInBalance) {
   ShapeSpec ball;
   ball.kind = ShapeSpec::Kind::sphere;
   ball.placement = ShapeSpec::Placement::cell_centred;
   ball.radius = 1;
   ball.spacing = 0.25;
+  ShapeSpec tube = ball;
+  tube.kind = ShapeSpec::Kind::cylinder;
+  tube.inner_radius = 0.3;
+  tube.length = 1.5;
+  tube.axis = 1;
+  tube.spacing = 0.2;
   ShapeSpec disc = ball;
   disc.dimension = 2;
   disc.arrangement = ShapeSpec::Arrangement::rings;
-  for (auto const& shape : {ball, disc}) {
+  for (auto const& shape : {ball, tube, disc}) {
     Assembly a = body_of(shape);
     // In the plane nothing stretches across: the pressure of that state is what the law gives there.
     Mat<3> F = identity<3>();
@@ -92,6 +98,10 @@ TEST(NodalPressure, OnCurvedFacesHoldsBallsAndDiscsInBalance) {
     swell(a, 1.1, shape.dimension == 3 ? 0 : 0.4);
     double const without = largest(forces(a));
     press(a, shape, {0, false, Face::Part::outer}, pressure, true);
+    if (shape.kind == ShapeSpec::Kind::cylinder) {
+      press(a, shape, {0, false, Face::Part::inner}, pressure, true);
+      for (bool const upper : {false, true}) press(a, shape, {1, upper}, pressure, true);
+    }
     EXPECT_LT(largest(forces(a)), 5e-3 * without) << shape.dimension << static_cast<int>(shape.kind);
   }
 }
@@ -101,14 +111,14 @@ TEST(NodalTraction, OnACurvedFaceActsOnTheAreaOfTheExactSurface) {
   tube.kind = ShapeSpec::Kind::cylinder;
   tube.placement = ShapeSpec::Placement::cell_centred;
   tube.radius = 1;
-  tube.length = 2;
-  tube.spacing = 0.1;
+  tube.length = 1;
+  tube.spacing = 0.2;
   Assembly a = body_of(tube);
   press(a, tube, {0, false, Face::Part::outer}, 1000, false);
   a.loads[0].pressure = false;  // along x, everywhere the same
   double sum = 0;
   for (auto const& f : forces(a)) sum += f[0];
-  EXPECT_NEAR(sum, 1000 * 2 * std::numbers::pi * 2, 0.02 * 1000 * 4 * std::numbers::pi);
+  EXPECT_NEAR(sum, 1000 * 2 * std::numbers::pi, 0.02 * 1000 * 2 * std::numbers::pi);
 }
 
 TEST(NodalPressure, ThatFollowsAFaceDoesTheWorkThatItBooks) {

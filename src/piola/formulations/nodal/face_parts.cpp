@@ -23,7 +23,6 @@ class LoadedFace {
         fits_(fits),
         place_(static_cast<std::size_t>(from.order.particles), none),
         area_(place_.size(), 0) {
-    for (auto const& patch : patches) area_[static_cast<std::size_t>(patch.particle)] += patch.area;
     std::vector<std::size_t> of_id(static_cast<std::size_t>(body_.last - body_.first), none);
     for (std::size_t k = 0; k < load.particles.size(); ++k)
       if (load.particles[k] >= body_.first && load.particles[k] < body_.last)
@@ -32,6 +31,8 @@ class LoadedFace {
       place_[slot] = of_id[static_cast<std::size_t>(from.order.id[slot] - body_.first)];
     for (std::size_t k = 0; k < load.particles.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) faces_[c] = faces_[c] || load.normal_of(k)[c] != 0;
+    for (auto const& patch : patches)
+      if (faces_[static_cast<std::size_t>(patch.axis)]) area_[static_cast<std::size_t>(patch.particle)] += patch.area;
   }
 
   /// Cosine between the patch and the exact surface there; zero where the load does not act.
@@ -74,7 +75,7 @@ class LoadedFace {
   Fits<D> const& fits_;
   std::array<bool, 3> faces_{};     ///< the surface faces along these axes
   std::vector<std::size_t> place_;  ///< of a slot among the load's particles
-  std::vector<double> area_;        ///< of all patches of a slot, in spacings
+  std::vector<double> area_;        ///< of a slot's patches along these axes, in spacings
 };
 
 /// Areas times normals, added up over patches as they are.
