@@ -24,6 +24,7 @@ std::vector<Kind> kinds() {
     return [words](ParticleSet set) { return with_words(assemble(std::move(set)), words); };
   };
   return {
+      {"conservative", jst({{"scheme", "conservative"}})},
       {"filtered", jst({{"scheme", "filtered"}})},
       {"robust", jst({{"scheme", "robust"}})},
       {"displacement", jst({{"variables", "displacement"}})},

@@ -63,7 +63,7 @@ TEST(Warnings, NameTheLineAndWhatToDo) {
             std::vector<std::string>{
                 "case.toml:8:51: body \"block\": filter_passes has no effect here (the volumetric energy is not "
                 "filtered; volumetric_filter = \"on\" does so, or Poisson's ratios from 0.45 on with scheme = "
-                "\"filtered\") - remove it, or change what it depends on"});
+                "\"conservative\" or \"filtered\") - remove it, or change what it depends on"});
 }
 
 TEST(Warnings, StandInTheOrderOfTheFile) {
@@ -86,18 +86,22 @@ void expect_ignored(std::vector<Setting> const& settings) {
 }
 
 TEST(Warnings, SettingsThatJstSphIgnores) {
-  std::string const baseline = ", variables = \"displacement\"", bare = ", eps4_momentum = 0";
+  std::string const baseline = ", variables = \"displacement\"", bare = ", eps4_momentum = 0",
+                    damped = ", eps4_momentum = 0.1", kept = ", scheme = \"conservative\"";
   expect_ignored({
       {"eps4_momentum", rubber(baseline + ", eps4_momentum = 0.1"), rubber(", eps4_momentum = 0.1")},
       {"eps2_momentum", rubber(baseline + ", eps2_momentum = 0.1"), rubber(baseline + ", eps2_momentum = 0")},
       {"integrator", rubber(baseline + ", integrator = \"verlet\""), rubber(baseline + ", integrator = \"tvd_rk2\"")},
       {"angular_momentum_projection", rubber(baseline + ", angular_momentum_projection = \"on\""),
        rubber(", angular_momentum_projection = \"on\"")},
+      {"scheme", rubber(baseline + ", scheme = \"conservative\""), rubber(baseline + ", scheme = \"robust\"")},
       {"scheme", rubber(baseline + ", scheme = \"filtered\""), rubber(baseline + ", scheme = \"paper\"")},
-      {"biharmonic", rubber(bare + ", biharmonic = \"literal\""), rubber(", biharmonic = \"literal\"")},
+      {"biharmonic", rubber(bare + ", biharmonic = \"literal\""), rubber(damped + ", biharmonic = \"literal\"")},
       {"stabilisation_speed", rubber(bare + ", stabilisation_speed = \"pressure\""),
-       rubber(", stabilisation_speed = \"pressure\"")},
-      {"laplacian_support", rubber(bare + ", laplacian_support = 1.3"), rubber(", laplacian_support = 1.3")},
+       rubber(damped + ", stabilisation_speed = \"pressure\"")},
+      {"laplacian_support", rubber(bare + ", laplacian_support = 1.3"), rubber(damped + ", laplacian_support = 1.3")},
+      {"local_bulk", rubber(", local_bulk = 3"), rubber(", local_bulk = 3", "", 0.48)},
+      {"bulk_viscosity", rubber(kept + ", bulk_viscosity = 0.1"), rubber(kept + ", bulk_viscosity = 0.1", "", 0.48)},
       {"filter_passes", rubber(", filter_passes = 3"), rubber(", filter_passes = 3", "", 0.48)},
       {"supports", rubber(", supports = \"multipliers\""), rubber(", supports = \"multipliers\"", support)},
       {"wave_speed",

@@ -51,6 +51,11 @@ TEST_P(Conservation, OfAngularMomentumFailsWithoutItsProjection) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, Conservation, ::testing::Values("filtered", "robust", "paper"));
+TEST(ConservativeScheme, KeepsBothMomentaOfAFreeSpinningCube) {
+  Drift const d = drift(*make_formulation(spinning_cube("conservative", "on")), 200);
+  EXPECT_LT(d.linear, 1e-12);
+  EXPECT_LT(d.angular, 1e-12);
+}
 
 TEST(Conservation, HoldsInOneAndTwoDimensionsAndOnIrregularParticles) {
   for (int dimension = 1; dimension <= 3; ++dimension)

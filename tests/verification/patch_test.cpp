@@ -98,7 +98,7 @@ std::vector<std::string> narrowest_and_widest() {
 
 INSTANTIATE_TEST_SUITE_P(All, PatchTest,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Values(0.0, 0.2),
-                                            ::testing::Values("filtered", "robust", "paper"),
+                                            ::testing::Values("conservative", "filtered", "robust", "paper"),
                                             ::testing::ValuesIn(narrowest_and_widest())));
 
 }  // namespace

@@ -20,6 +20,7 @@ namespace piola::inline PIOLA_MACHINE {
 /// Geometry of a pair, or of one pair per lane.
 template <int D, class V>
 struct PairGeometry {
+  V s;
   Vec<D, V> sr;  ///< raw gradient s r
   Vec<D, V> r;   ///< X_b - X_a
   V r2;
@@ -61,6 +62,7 @@ struct StencilLoader {
     double const* const b = body.gathered.data + (i + e.delta);
     for (int c = 0; c < fields; ++c) f[c] = load<Lanes>(b + c * body.gathered.component_stride);
     PairGeometry<D, Lanes> g;
+    g.s = Lanes(o.s);
     for (int c = 0; c < D; ++c) {
       g.sr[c] = Lanes(o.sr[c]);
       g.r[c] = Lanes(o.r[c]);
@@ -70,6 +72,7 @@ struct StencilLoader {
     if constexpr (Body::smooths) g.kernel = Lanes(table.kernel[e.offset]);
     if constexpr (Masked) {
       g.weight = load<Lanes>(table.weights + e.weights);
+      g.s = g.weight * g.s;
       g.sr = g.weight * g.sr;
     }
     if constexpr (Inner)
@@ -123,13 +126,13 @@ struct ListLoader {
     load_records(base, stride, table.neighbour + k, record);
     for (int c = 0; c < fields; ++c) f[c] = record[D + c];
     PairGeometry<D, Lanes> g;
-    Lanes const s = load<Lanes>(table.s + k);
+    g.s = load<Lanes>(table.s + k);
     for (int c = 0; c < D; ++c) {
       g.r[c] = record[c] - base[a * stride + c];
-      g.sr[c] = s * g.r[c];
+      g.sr[c] = g.s * g.r[c];
     }
     g.r2 = dot(g.r, g.r);
-    g.l = table.l != nullptr ? load<Lanes>(table.l + k) : 2.0 * s;
+    g.l = table.l != nullptr ? load<Lanes>(table.l + k) : 2.0 * g.s;
     if constexpr (Inner)
       body.template pair<false>(sums, own, g, f);
     else

@@ -79,7 +79,7 @@ void ReferencePairs::find_offsets(Body const& body) {
         bool const is_inner = r2 <= inner * inner;
         double const s = is_inner ? s_of(r2) : 0;
         lattice_offset_.push_back({i, j, k});
-        offsets_.push_back({{s * r[0], s * r[1], s * r[2]}, {r[0], r[1], r[2]}, r2, l_of(r2)});
+        offsets_.push_back({s, {s * r[0], s * r[1], s * r[2]}, {r[0], r[1], r[2]}, r2, l_of(r2)});
         offset_inner_.push_back(is_inner ? 1 : 0);
         if (options_.kernel_table) offset_kernel_.push_back(kernel_of(r2));
       }
@@ -197,6 +197,7 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body) {
     pairs_ += m.all;
     corrections_.neighbours[slot] = m.all;
     corrections_.G[slot] = {m.G[0], m.G[1], m.G[2]};
+    corrections_.largest_moment = std::max(corrections_.largest_moment, (m.M[0] + m.M[1] + m.M[2]) / dimension_);
     auto& C = corrections_.C[slot];
     bool const spans = dimension_ == 3 ? invert<3>(m, C) : dimension_ == 2 ? invert<2>(m, C) : invert<1>(m, C);
     if (!spans) refuse(set, body, a, m.inner, "gradient");

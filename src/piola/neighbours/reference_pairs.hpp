@@ -39,6 +39,7 @@ struct Corrections {
   std::vector<double> beta;
   std::vector<double> diagonal;  ///< sum (l + alpha.r + beta r.r)
   std::vector<int> neighbours;
+  double largest_moment = 0;  ///< largest trace of M_a over the dimension: with it sum s r (x) r is about I inside
 };
 
 /// Neighbours of the particles of one body in the reference configuration, and the tables that loops use.

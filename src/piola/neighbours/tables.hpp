@@ -14,6 +14,7 @@ namespace piola {
 
 /// Numbers of one lattice offset.
 struct StencilOffset {
+  double s;      ///< [m^-2]
   double sr[3];  ///< s r [m^-1 m^-1 m^-D m^D]
   double r[3];   ///< [m]
   double r2;     ///< r.r [m2]

@@ -68,7 +68,8 @@ bool is_filtered(BodySpec const& body) {
   if (spec.name != "jst_sph") return false;
   if (word("volumetric_filter", "as_scheme") != "as_scheme") return word("volumetric_filter", "") == "on";
   auto const law = find_law(body.law);
-  return word("scheme", "filtered") == "filtered" && word("variables", "pF") != "displacement" && law &&
+  std::string_view const scheme = word("scheme", "filtered");
+  return (scheme == "conservative" || scheme == "filtered") && word("variables", "pF") != "displacement" && law &&
          law->volumetric_split && poissons_ratio_of(body.material) > 0.4499;
 }
 

@@ -80,7 +80,8 @@ std::vector<Setting> settings() {
   std::vector<Setting> r;
   for (int dimension = 1; dimension <= 3; ++dimension)
     for (double const jitter : {0.0, 0.2})
-      for (auto const* scheme : {"filtered", "robust", "paper"}) r.push_back({dimension, jitter, scheme, "pF"});
+      for (auto const* scheme : {"conservative", "filtered", "robust", "paper"})
+        r.push_back({dimension, jitter, scheme, "pF"});
   for (double const jitter : {0.0, 0.2}) r.push_back({3, jitter, "robust", "displacement"});
   return r;
 }

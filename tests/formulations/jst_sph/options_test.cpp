@@ -21,9 +21,35 @@ Options options(std::map<std::string, std::string, std::less<>> words = {},
   return read_options({"jst_sph", std::move(numbers), std::move(words)}, rubber(0.3), std::nan(""));
 }
 
+TEST(JstOptions, OfTheConservativeSchemeHaveAnHourglassEnergy) {
+  Options const o = options({{"scheme", "conservative"}});
+  EXPECT_EQ(o.integrator, Integrator::verlet);
+  EXPECT_EQ(o.biharmonic, Biharmonic::none);
+  EXPECT_EQ(o.eps4, 0);
+  EXPECT_EQ(o.hourglass_stiffness, 0.5);
+  EXPECT_EQ(o.hourglass_stiffening, 3);
+  EXPECT_EQ(o.hourglass_viscosity, 1);
+  EXPECT_EQ(o.bulk_viscosity, 0.06);
+  EXPECT_EQ(o.local_bulk, 1);
+  EXPECT_TRUE(o.project);
+  EXPECT_EQ(o.cfl, 0) << "the step comes from the stability limit";
+}
+
+TEST(JstOptions, RefuseHourglassSettingsWhereTheSchemeHasNone) {
+  for (auto const* name : {"hourglass_stiffness", "hourglass_stiffening", "hourglass_viscosity", "bulk_viscosity"}) {
+    EXPECT_NO_THROW((void)options({{"scheme", "conservative"}}, {{name, 0.1}})) << name;
+    for (auto const* scheme : {"filtered", "robust", "paper"})
+      EXPECT_THROW((void)options({{"scheme", scheme}}, {{name, 0.1}}), InputError) << name << scheme;
+  }
+  EXPECT_THROW((void)options({{"scheme", "conservative"}, {"integrator", "tvd_rk2"}}), InputError);
+  EXPECT_THROW((void)options({{"scheme", "conservative"}}, {{"eps2_momentum", 0.1}}), InputError);
+}
+
 TEST(JstOptions, AreTheFilteredSchemeByDefault) {
   Options const o = options();
   EXPECT_EQ(o.integrator, Integrator::verlet);
+  EXPECT_FALSE(o.hourglass());
+  EXPECT_EQ(o.eps4, 0.125);
   EXPECT_EQ(o.biharmonic, Biharmonic::adjoint);
   EXPECT_TRUE(o.shear_speed);
   EXPECT_TRUE(o.project);
@@ -98,6 +124,14 @@ TEST(JstOptions, TakeTheExactWaveSpeedForLawsThatStiffenInTension) {
   }
 }
 
+TEST(JstOptions, OfSolidsInRateFormKeepTheBiharmonicTerm) {
+  MaterialParameters metal = rubber(0.3);
+  metal.law = find_law("elastic")->index;
+  Options const o = read_options({"jst_sph", {}, {{"scheme", "conservative"}}}, metal, std::nan(""));
+  EXPECT_FALSE(o.hourglass());
+  EXPECT_EQ(o.eps4, 0.125);
+}
+
 TEST(JstOptions, OfTheRobustSchemeAreTheCompactSet) {
   Options const o = options({{"scheme", "robust"}});
   EXPECT_EQ(o.integrator, Integrator::tvd_rk2);
@@ -141,8 +175,9 @@ TEST(JstOptions, OfDisplacementVariablesHaveNoStabilisationAndNoProjection) {
 }
 
 TEST(JstOptions, WithoutStabilisationNeedNoLaplacian) {
-  EXPECT_EQ(options({}, {{"eps4_momentum", 0}}).biharmonic, Biharmonic::none);
-  EXPECT_EQ(options({}, {{"eps4_momentum", 0}, {"eps2_momentum", 0.1}}).biharmonic, Biharmonic::adjoint);
+  EXPECT_EQ(options({{"scheme", "filtered"}}, {{"eps4_momentum", 0}}).biharmonic, Biharmonic::none);
+  EXPECT_EQ(options({{"scheme", "filtered"}}, {{"eps4_momentum", 0}, {"eps2_momentum", 0.1}}).biharmonic,
+            Biharmonic::adjoint);
 }
 
 TEST(JstOptions, TakeTheCourantNumberThatIsGiven) {
@@ -151,7 +186,7 @@ TEST(JstOptions, TakeTheCourantNumberThatIsGiven) {
 
 TEST(JstOptions, RefuseALaplacianThatReachesLessFarThanTheGradient) {
   try {
-    (void)options({}, {{"gradient_support", 1.5}});
+    (void)options({{"scheme", "filtered"}}, {{"gradient_support", 1.5}});
     FAIL() << "accepted";
   } catch (InputError const& e) {
     std::string const text = e.what();

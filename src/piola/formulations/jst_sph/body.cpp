@@ -43,6 +43,9 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   state_.starting = true;
   machine.step(state_, 0);  // the accelerations of the start
   state_.starting = false;
+  if (!options_.hourglass()) return;
+  machine.observe_energy(state_);
+  state_.totals.viscous_work = hourglass_energy() + filtered_energy();
 }
 
 void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
@@ -78,7 +81,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   double const speed_ratio = options_.shear_speed ? std::min(1.0, std::sqrt((7.0 / 3.0) * mu / k.rho0) / k.c_p0) : 1.0;
   k.eps2 = options_.eps2 * speed_ratio;
   k.eps4 = options_.eps4 * speed_ratio;
-  k.kappa_local = options_.filter ? std::min(kappa, mu) : kappa;
+  k.kappa_local = options_.filter ? std::min(kappa, options_.local_bulk * mu) : kappa;
   k.kappa_filtered = kappa - k.kappa_local;
   k.filter_passes = options_.filter_passes;
   k.eps2_J = options_.eps2_J * speed_ratio;
@@ -92,6 +95,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   k.mirrored = !images_.empty();
   k.project = options_.project && !k.mirrored;
   k.without_rigid = options_.without_rigid() && !k.mirrored;
+  if (options_.hourglass()) set_hourglass(mu);
   for (auto id = body_.first; id < body_.last; ++id) {
     auto const at = static_cast<std::size_t>(id);
     k.total_volume += set.volume[at];
@@ -109,15 +113,31 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
     state_.list = pairs_->list();
 }
 
+void JstBody::set_hourglass(double mu) {
+  auto& k = state_.constants;
+  double const c = std::min(k.c_p0, std::sqrt((7.0 / 3.0) * mu / k.rho0));
+  k.hourglass.modulus = 0.25 * mu / pairs_->corrections().largest_moment;
+  k.hourglass.stiffness = options_.hourglass_stiffness;
+  k.hourglass.stiffening = is_solid(state_.material) ? 0 : options_.hourglass_stiffening / mu;
+  // Never quite zero: what is ahead also tells the rate of deformation to the books.
+  constexpr double least = 1e-6;
+  k.hourglass.ahead = std::max(options_.hourglass_viscosity, least) * k.h_min / c;
+  if (k.kappa_filtered > 0) k.hourglass.bulk_ahead = options_.bulk_viscosity * k.h_min / k.c_p0;
+}
+
 bool JstBody::wanted(Field const& f) const {
-  bool const displacement = options_.variables == Variables::displacement,
-             verlet = options_.integrator == Integrator::verlet, area = options_.variables == Variables::pFHJ,
-             volume = evolves_volume(options_.variables), smoothed_J = options_.smoothed_volume();
+  bool const displacement = options_.variables == Variables::displacement, verlet = this->verlet(),
+             area = options_.variables == Variables::pFHJ, volume = evolves_volume(options_.variables),
+             smoothed_J = options_.smoothed_volume();
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
   if (among({&fields_.last_F, &fields_.history})) return is_solid(state_.material);
   if (among({&fields_.stage_position})) return displacement;
+  if (among({&fields_.hourglass_force, &fields_.hourglass_stress, &fields_.viscous_work, &fields_.hourglass_energy}))
+    return options_.hourglass();
+  if (among({&fields_.filter_input, &fields_.ratio_change, &fields_.seen_ratio}))
+    return state_.constants.hourglass.bulk_ahead > 0;
   if (among({&fields_.v_n, &fields_.F_star, &fields_.wave_speed_next})) return !verlet;
   if (among({&fields_.volume_ratio})) return verlet || options_.filter;
   if (among({&fields_.H})) return area;
@@ -167,6 +187,10 @@ void JstBody::allocate() {
       std::tuple(f.full_correction.ref(), f.gamma.ref(), f.kernel_difference.ref(), f.kernel_force.ref(),
                  f.kernel_force_sum.ref());
   std::tie(s.last_F, s.history) = std::tuple(f.last_F.ref(), f.history.ref());
+  std::tie(s.filter_input, s.ratio_change, s.seen_ratio) =
+      std::tuple(f.filter_input.ref(), f.ratio_change.ref(), f.seen_ratio.ref());
+  std::tie(s.hourglass_force, s.hourglass_stress, s.viscous_work, s.hourglass_energy) =
+      std::tuple(f.hourglass_force.ref(), f.hourglass_stress.ref(), f.viscous_work.ref(), f.hourglass_energy.ref());
   s.filter_source[0] = f.filter_source_a.ref();
   s.filter_source[1] = f.filter_source_b.ref();
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
@@ -178,9 +202,8 @@ void JstBody::allocate() {
 void JstBody::mark_images() {
   using Kind = MirrorImages::Kind;
   auto& s = state_;
-  bool const with_x = options_.integrator == Integrator::verlet || options_.without_rigid();
   std::vector<Kind> first{options_.variables == Variables::displacement ? Kind::position : Kind::vector};
-  if (with_x) first.push_back(Kind::position);
+  if (gathers_position()) first.push_back(Kind::position);
   if (options_.smoothed_volume()) first.push_back(Kind::scalar);  // J
   s.u.copies = images_.copies(first);
   std::vector<Kind> second;
@@ -190,6 +213,7 @@ void JstBody::mark_images() {
     second.insert(second.end(), {Kind::geometric_vector, Kind::scalar});
   second.push_back(Kind::tensor);  // A
   s.second.copies = images_.copies(second);
+  s.ahead.copies = images_.copies({Kind::position, Kind::deformation, Kind::scalar});
   s.kernel_force.copies = images_.copies({Kind::vector});
   for (FieldRef& source : s.filter_source) source.copies = images_.copies({Kind::scalar});
   weight_.allocate(order_.slots(), 0);
@@ -221,14 +245,14 @@ JstBody::Gathered JstBody::gather(int values) const {
 }
 
 void JstBody::place_gathered() {
-  bool const verlet = options_.integrator == Integrator::verlet, adjoint = options_.biharmonic == Biharmonic::adjoint;
+  bool const adjoint = options_.biharmonic == Biharmonic::adjoint;
   bool const stabilised = options_.biharmonic != Biharmonic::none;
   Index const n = order_.slots();
   auto const place = [n](Field& f, Gathered& g, std::ptrdiff_t offset) {
     f.place(g.memory.data(), g.component, g.particle, g.start + offset * g.component, n, &g.version);
   };
   bool const smoothed_J = options_.smoothed_volume();
-  bool const with_x = verlet || options_.without_rigid();
+  bool const with_x = gathers_position();
   first_ = gather(with_x ? 2 * D_ : smoothed_J ? D_ + 1 : D_);
   place(options_.variables == Variables::displacement ? fields_.stage_position : fields_.v, first_, 0);
   if (with_x) place(fields_.x, first_, D_);
@@ -236,6 +260,11 @@ void JstBody::place_gathered() {
   if (options_.corrected_kernel()) {
     kernel_ = gather(D_);
     place(fields_.kernel_force, kernel_, 0);
+  }
+  if (options_.hourglass()) {
+    ahead_ = gather(D_ + D_ * D_ + 1);
+    state_.ahead = {
+        ahead_.memory.data() + ahead_.start, ahead_.component, ahead_.particle, 0, &ahead_.version, "hourglass sweep"};
   }
 
   int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
@@ -430,6 +459,23 @@ void JstBody::damp(double factor) {
   state_.totals.damping_loss += before - kinetic_energy();
 }
 
+double JstBody::hourglass_energy() const {
+  double sum = 0;
+  if (options_.hourglass())
+    for (Index i = 0; i < order_.particles; ++i) sum += volume(i) * value(state_.hourglass_energy, i);
+  return sum;
+}
+
+double JstBody::filtered_energy() const {
+  double sum = 0;
+  if (state_.seen_ratio.data != nullptr)
+    for (Index i = 0; i < order_.particles; ++i) {
+      double const change = value(state_.seen_ratio, i) - 1;
+      sum += volume(i) * change * change;
+    }
+  return 0.5 * state_.constants.kappa_filtered * sum;
+}
+
 double JstBody::kinetic_energy() const {
   double sum = 0;
   for (Index i = 0; i < order_.particles; ++i) {
@@ -474,8 +520,8 @@ double JstBody::J(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  std::size_t total =
-      pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() + second_.memory.bytes() + kernel_.memory.bytes();
+  std::size_t total = pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() + second_.memory.bytes() +
+                      ahead_.memory.bytes() + kernel_.memory.bytes();
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

@@ -35,7 +35,9 @@ class JstBody {
   void step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that nothing prescribes, and notes the energy.
   void damp(double factor);
-  double kinetic_energy() const;  ///< [J]
+  double kinetic_energy() const;    ///< [J]
+  double hourglass_energy() const;  ///< as observed last [J]
+  double filtered_energy() const;  ///< of the filtered volume ratio as observed last, where that has a viscous part [J]
   /// The next time at which a support or a load ends.
   double next_release(double time) const { return boundary_.next_release(time); }
   Boundary& boundary() { return boundary_; }
@@ -87,6 +89,12 @@ class JstBody {
   void fill_initial(Assembly const& assembly, Machine const& machine);
   void deform_to_positions(Machine const& machine);
   void set_constants(ParticleSet const& set, MaterialParameters const& material);
+  void set_hourglass(double mu);
+  /// Whether the first sweep reads positions, too, for the Laplacian of the motion without its rigid part.
+  bool gathers_position() const {
+    return options_.biharmonic != Biharmonic::none && (verlet() || options_.shear_speed);
+  }
+  bool verlet() const { return options_.integrator == Integrator::verlet; }
 
   Body body_;
   Options options_;
@@ -97,7 +105,7 @@ class JstBody {
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
   Field weight_{"QuadratureWeight", "m3", 1, Role::reference};  ///< with mirror planes
-  Gathered first_, second_, kernel_;
+  Gathered first_, second_, ahead_, kernel_;
   std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
   Index stored_slots_ = 0;
   std::vector<Index> group_first_;  // per stored group: a slot where it begins

@@ -17,9 +17,10 @@ void doubt_displacement(Assembly const& assembly, BodyDoubts& doubts) {
     doubts.ignored("integrator", "variables = \"displacement\" are advanced by Runge-Kutta");
   if (doubts.gives("angular_momentum_projection", "on"))
     doubts.ignored("angular_momentum_projection", "variables = \"displacement\" have no projection");
-  if (doubts.gives("scheme", "filtered"))
-    doubts.ignored("scheme",
-                   "variables = \"displacement\" have neither its filter nor its stabilisation nor its steps");
+  for (std::string_view const scheme : {"conservative", "filtered"})
+    if (doubts.gives("scheme", scheme))
+      doubts.ignored("scheme",
+                     "variables = \"displacement\" have neither its filter nor its stabilisation nor its steps");
   if (!assembly.initial_deformation_gradient.empty())
     doubts.add("initial_deformation_gradient",
                "initial_deformation_gradient has no effect here (with variables = \"displacement\" the deformation is "
@@ -35,10 +36,11 @@ void doubt_operators(Options const& o, BodyDoubts& doubts) {
     doubts.ignored("stabilisation_speed", "there is no stabilisation");
   if (none && !o.filter && !o.corrected_kernel())
     doubts.ignored("laplacian_support", "there is no stabilisation, no filter and no corrected kernel");
-  if (!o.filter)
-    doubts.ignored("filter_passes",
-                   "the volumetric energy is not filtered; volumetric_filter = \"on\" does so, or Poisson's ratios "
-                   "from 0.45 on with scheme = \"filtered\"");
+  for (std::string_view const name : {"filter_passes", "local_bulk", "bulk_viscosity"})
+    if (!o.filter && number_of(doubts.spec(), name, 0) > 0)
+      doubts.ignored(name,
+                     "the volumetric energy is not filtered; volumetric_filter = \"on\" does so, or Poisson's ratios "
+                     "from 0.45 on with scheme = \"conservative\" or \"filtered\"");
   if (is_solid(doubts.material()))
     doubts.ignored("wave_speed", "solids in rate form take the speed of their current state");
   else if (o.exact_speed && doubts.gives("wave_speed", "estimate"))
@@ -67,7 +69,7 @@ void doubt_incompressible(Options const& o, BodyDoubts& doubts) {
     doubts.add("material.poissons_ratio",
                has +
                    ", where a stabilisation with the speed of pressure waves locks and takes energy (it is meant for "
-                   "0.45 and less) - take scheme = \"filtered\" or stabilisation_speed = \"shear\"");
+                   "0.45 and less) - leave scheme out, or take stabilisation_speed = \"shear\"");
   else
     doubts.add("material.poissons_ratio",
                has +
@@ -75,7 +77,7 @@ void doubt_incompressible(Options const& o, BodyDoubts& doubts) {
                    "stiff - " +
                    (doubts.gives("volumetric_filter", "off")
                         ? "leave volumetric_filter out"
-                        : "take scheme = \"filtered\" and a law with an isochoric part, such as neo_hookean"));
+                        : "leave scheme out and take a law with an isochoric part, such as neo_hookean"));
 }
 
 /// Damage is recorded here; nothing becomes of it.

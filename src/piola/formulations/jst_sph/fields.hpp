@@ -40,6 +40,13 @@ struct Fields {
         J_rate("VolumeRatioStabilisation", "1/s", 1, Role::derived),
         w_J("VolumeStabilisationArgument", "1", 1, Role::derived),
         ratio_increment("VolumeRatioIncrement", "1", 1, Role::derived),
+        filter_input("VolumeRatioAhead", "1", 1, Role::evolved),
+        ratio_change("VolumeRatioChange", "1", 1, Role::derived),
+        hourglass_force("HourglassAcceleration", "m/s2", D, Role::evolved),
+        hourglass_stress("HourglassStress", "Pa", D * D, Role::evolved),
+        viscous_work("ViscousWork", "J/m3", 1, Role::derived),
+        hourglass_energy("HourglassEnergy", "J/m3", 1, Role::derived),
+        seen_ratio("SeenVolumeRatio", "1", 1, Role::derived),
         last_F("DeformationGradientOfLastStep", "1", 9, Role::evolved),
         history("SolidHistory", "1", 12, Role::evolved),
         full_correction("FullGradientCorrection", "1", D * D, Role::reference),
@@ -53,6 +60,7 @@ struct Fields {
   Field filter_scale, filter_sum, volume_ratio, filtered_ratio, filtered_pressure, filter_source_a, filter_source_b;
   Field w, A, stage_position, v_n, F_star, wave_speed_next, rate;
   Field H, J, H_star, J_n, J_next, J_rate, w_J, ratio_increment;
+  Field filter_input, ratio_change, hourglass_force, hourglass_stress, viscous_work, hourglass_energy, seen_ratio;
   Field last_F, history;
   Field full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
 
@@ -90,6 +98,13 @@ struct Fields {
                      &J_rate,
                      &w_J,
                      &ratio_increment,
+                     &filter_input,
+                     &hourglass_force,
+                     &hourglass_stress,
+                     &viscous_work,
+                     &ratio_change,
+                     &hourglass_energy,
+                     &seen_ratio,
                      &last_F,
                      &history,
                      &full_correction,

@@ -97,9 +97,16 @@ class Filter {
                                            write(b_.filter_source[0])});
   }
   /// Jf = B J of the volume ratios, and q.
-  void smooth_ratio() const { smooth_all(b_.volume_ratio, Compression::Kind::ratio); }
+  void smooth_ratio() const {
+    smooth_all(b_.constants.hourglass.bulk_ahead > 0 ? b_.filter_input : b_.volume_ratio, Compression::Kind::ratio);
+  }
   /// Jf += B (J increment), and q: for a volume ratio that is an unknown of its own.
   void add_increment() const { smooth_all(b_.ratio_increment, Compression::Kind::increment); }
+  /// B J into `out` alone.
+  void smooth_ratio_into(FieldRef const& out) const {
+    for (int k = 0; k < b_.constants.filter_passes; ++k)
+      smooth(k, k == 0 ? b_.volume_ratio : out, out, Compression::Kind::none);
+  }
 
  private:
   /// The source of the first pass is buffer 0; every pass reads one buffer and writes the other.

@@ -63,7 +63,9 @@ class Forces {
         read(b_.rate),
         write(b_.J_rate),
         read(b_.J_rate),
-        read(b_.kernel_force_sum)};
+        read(b_.kernel_force_sum),
+        read(b_.hourglass_force),
+        read(b_.viscous_work)};
     return project(exec::reduce<At::size>(b_.slots, pass, b_.partial), time);
   }
 
@@ -79,8 +81,11 @@ class Forces {
     }
     RateSums const v = of(At::v, At::moment_v);
     double const weight = time * b_.constants.rho0;
-    b_.totals.projection_loss -= weight * power_of(on_T, v);
+    // The projection of viscous hourglass forces belongs to them, and there is nothing else in T to project.
+    (b_.constants.hourglass.modulus > 0 ? b_.totals.stabilisation_loss : b_.totals.projection_loss) -=
+        weight * power_of(on_T, v);
     b_.totals.stabilisation_loss -= weight * (sums.v[At::power_stabilisation] + power_of(on_D, v));
+    b_.totals.viscous_work -= 0.5 * sums.v[At::viscous_work];
     RigidRate both = on_T;
     for (int c = 0; c < 3; ++c) {
       both.spin[c] += on_D.spin[c];

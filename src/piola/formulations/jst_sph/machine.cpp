@@ -36,6 +36,10 @@ void update_deformation(BodyState& body) {
   with_step<Step>(body, [](auto one_step) { one_step.update_deformation(); });
 }
 
+void observe_energy(BodyState& body) {
+  with_step<VerletStep>(body, [](auto one_step) { one_step.observe_energy(); });
+}
+
 void commit(BodyState& body, double dt) {
   switch (body.dimension) {
     case 1: return commit_solid<1>(body, dt);
@@ -66,8 +70,15 @@ double largest_wave_speed(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{
-    PIOLA_NAME(PIOLA_MACHINE), lane_count, &step,      &update_wave_speed, &largest_wave_speed, &update_deformation,
-    &exec::run_fma_chains,     &commit,    &exec::copy};
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE),
+                      lane_count,
+                      &step,
+                      &update_wave_speed,
+                      &largest_wave_speed,
+                      &update_deformation,
+                      &exec::run_fma_chains,
+                      &commit,
+                      &observe_energy,
+                      &exec::copy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE

@@ -105,15 +105,30 @@ void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, 
       }
 }
 
-/// Place x' = X' + S (x - X) of an image: what its sources' sign times place lacks. S = turn * sign.
+namespace {
+
+bool is_tensor(MirrorImages::Kind kind) {
+  return kind == MirrorImages::Kind::tensor || kind == MirrorImages::Kind::deformation;
+}
+std::size_t size_of(MirrorImages::Kind kind, std::size_t D) {
+  return kind == MirrorImages::Kind::scalar ? 1 : is_tensor(kind) ? D * D : D;
+}
+
+}  // namespace
+
+/// Place x' = X' + S (x - X) of an image, and F' = I + turn S (F - I) S: what its source's sign times place (times
+/// tensor) lacks. S = turn * sign.
 void MirrorImages::add_shifts(std::vector<Kind> const& values, std::vector<double>& shifts) const {
   auto const D = static_cast<std::size_t>(D_);
   for (std::size_t k = 0; k < transform_.size(); ++k) {
     auto const& map = maps_[static_cast<std::size_t>(transform_[k])];
     for (Kind const kind : values) {
-      std::size_t const size = kind == Kind::scalar ? 1 : kind == Kind::tensor ? D * D : D;
-      for (std::size_t c = 0; c < size; ++c)
-        shifts.push_back(kind == Kind::position ? map.shift[c] + (1 - map.turn) * map.sign[c] * source_X_[k][c] : 0);
+      for (std::size_t c = 0; c < size_of(kind, D); ++c) {
+        double shift = 0;
+        if (kind == Kind::position) shift = map.shift[c] + (1 - map.turn) * map.sign[c] * source_X_[k][c];
+        if (kind == Kind::deformation && c % (D + 1) == 0) shift = 1 - map.turn;
+        shifts.push_back(shift);
+      }
     }
   }
 }
@@ -125,11 +140,10 @@ Copies const* MirrorImages::copies(std::vector<Kind> const& values) {
   for (auto const& map : maps_)
     for (Kind const kind : values) {
       double const turn = kind == Kind::scalar || kind == Kind::geometric_vector ? 1 : map.turn;
-      std::size_t const size = kind == Kind::scalar ? 1 : kind == Kind::tensor ? D * D : D;
-      for (std::size_t c = 0; c < size; ++c) {
-        double const sign = kind == Kind::scalar   ? 1
-                            : kind == Kind::tensor ? map.sign[c / D] * map.sign[c % D]
-                                                   : map.sign[c];
+      for (std::size_t c = 0; c < size_of(kind, D); ++c) {
+        double const sign = kind == Kind::scalar ? 1
+                            : is_tensor(kind)    ? map.sign[c / D] * map.sign[c % D]
+                                                 : map.sign[c];
         table->sign.push_back(turn * sign);
       }
     }

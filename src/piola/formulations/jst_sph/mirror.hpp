@@ -16,7 +16,7 @@ class MirrorImages {
  public:
   /// How values of a particle turn into those of its image: of the body's geometry, or of its motion, which a skew
   /// plane turns round.
-  enum class Kind { scalar, geometric_vector, vector, position, tensor };
+  enum class Kind { scalar, geometric_vector, vector, position, tensor, deformation };
 
   /// `reach`: of the widest kernel [m]. Throws InputError for a plane that the body cannot have.
   MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder const& order, double reach);

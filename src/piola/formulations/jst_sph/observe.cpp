@@ -14,16 +14,25 @@ using Point = std::array<double, 3>;
 
 bool evolves_volume(JstBody const& body) { return jst_sph::evolves_volume(body.options().variables); }
 
-/// Smooth pressure (kappa / kappa_f) q where the volumetric energy is filtered.
+/// Where the volumetric energy is filtered: the pressure that acts; with the biharmonic term, whose total pressure is
+/// the less accurate one, the smooth pressure (kappa / kappa_f) q.
 template <class Law>
 double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
   if constexpr (Law::volumetric_split) {
     auto const& k = body.state().constants;
+    if (k.hourglass.modulus > 0 && k.kappa_filtered > 0)
+      return k.kappa_local * (law.volume_ratio(F) - 1) + JstBody::value(body.state().filtered_pressure, i);
     if (k.kappa_filtered > 0) return law.kappa / k.kappa_filtered * JstBody::value(body.state().filtered_pressure, i);
     if (evolves_volume(body)) return law.kappa * (body.J(i) - 1);
   }
   if (evolves_volume(body)) return contract(law.stress(F, body.H(i), body.J(i)), F) / (3 * determinant(F));
   return law.pressure(F);
+}
+
+/// The filtered volume ratio, of the state as it is.
+double seen_volume_ratio(JstBody const& body, Index i) {
+  auto const& s = body.state();
+  return JstBody::value(s.seen_ratio.data != nullptr ? s.seen_ratio : s.filtered_ratio, i);
 }
 
 /// P of the momentum equation.
@@ -45,7 +54,7 @@ double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index
   if constexpr (Law::volumetric_split) {
     auto const& k = body.state().constants;
     if (k.kappa_filtered > 0) {
-      double const local = law.volume_ratio(F) - 1, filtered = JstBody::value(body.state().filtered_ratio, i) - 1;
+      double const local = law.volume_ratio(F) - 1, filtered = seen_volume_ratio(body, i) - 1;
       return law.isochoric_energy(F) + 0.5 * k.kappa_local * local * local +
              0.5 * k.kappa_filtered * filtered * filtered;
     }
@@ -85,7 +94,7 @@ void with_observed_law(MaterialParameters const& material, F const& f) {
 
 /// det F minus the volume ratio that the volumetric energy sees, where that is another one.
 double volume_mismatch(JstBody const& body, double J, Index i) {
-  if (body.state().constants.kappa_filtered > 0) return J - JstBody::value(body.state().filtered_ratio, i);
+  if (body.state().constants.kappa_filtered > 0) return J - seen_volume_ratio(body, i);
   return evolves_volume(body) ? J - body.J(i) : 0;
 }
 
@@ -111,7 +120,10 @@ void observe(JstBody const& body, JstObservation& o) {
       o.add_motion(body.x(i), body.v(i), V * law.rho0);
     }
   });
-  o.add_strain_energy(strain);
+  o.add_strain_energy(strain + body.hourglass_energy());
+  o.hourglass_energy += body.hourglass_energy();
+  if (body.options().hourglass())
+    d.stabilisation_loss += body.state().totals.viscous_work - body.hourglass_energy() - body.filtered_energy();
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
   d.external_work += body.state().totals.external_work;
@@ -124,7 +136,8 @@ Diagnostics finish(JstObservation const& o) {
   d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square / o.volume)},
             {"volume_mismatch_max", o.mismatch_max},
             {"plastic_work", o.plastic_work},
-            {"internal_energy", d.strain_energy}};
+            {"internal_energy", d.strain_energy},
+            {"hourglass_energy", o.hourglass_energy}};
   return d;
 }
 

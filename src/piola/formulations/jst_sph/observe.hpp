@@ -10,7 +10,7 @@ namespace piola::jst_sph {
 struct JstObservation : Observation {
   double mismatch_square = 0;  ///< sum V (det F - volume ratio of the volumetric energy)^2
   double mismatch_max = 0;
-  double plastic_work = 0;  ///< [J]
+  double plastic_work = 0, hourglass_energy = 0;  ///< [J]
 };
 
 void observe(JstBody const& body, JstObservation& observation);

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 4> variable_words{"pF", "pFJ", "pFHJ", "d
 constexpr std::array<std::string_view, 3> gradient_words{"corrected", "uncorrected", "corrected_kernel"};
 constexpr std::array<std::string_view, 4> force_words{"as_gradient", "corrected", "uncorrected", "corrected_kernel"};
 constexpr std::array<std::string_view, 2> wave_speed_words{"estimate", "exact"};
-constexpr std::array<std::string_view, 3> scheme_words{"filtered", "robust", "paper"};
+constexpr std::array<std::string_view, 4> scheme_words{"filtered", "conservative", "robust", "paper"};
 constexpr std::array<std::string_view, 5> kernel_words{"cubic_spline", "quartic_spline", "quintic_spline",
                                                        "wendland_c2", "wendland_c4"};
 constexpr std::array<std::string_view, 3> biharmonic_words{"as_scheme", "adjoint", "literal"};
@@ -30,7 +30,8 @@ constexpr std::array choices{
            "classical total-Lagrangian SPH, no stabilisation",
            variable_words},
     Choice{"scheme",
-           "filtered: no locking, smooth pressure, one right-hand side per step; robust: compact gradient, dissipative "
+           "conservative: an hourglass energy in place of dissipation, no locking, one right-hand side per step; "
+           "filtered: the same with biharmonic dissipation; robust: compact gradient, dissipative "
            "biharmonic, Runge-Kutta; paper: the supports and operators as printed",
            scheme_words},
     Choice{"kernel", "smoothing kernel; support 2h, quartic_spline 2.5h, quintic_spline 3h", kernel_words},
@@ -64,7 +65,22 @@ constexpr std::array choices{
 constexpr std::array parameters{
     Parameter{"eps2_momentum", "1", "harmonic stabilisation of the momentum, eq. 36", not_negative, 0.0},
     Parameter{"eps4_momentum", "1", "biharmonic stabilisation of the momentum, eq. 37; 0 for displacement variables",
-              not_negative, 0.125},
+              not_negative, no_default, "0.125; scheme = \"conservative\" 0, but for solids in rate form"},
+    Parameter{"hourglass_stiffness", "1",
+              "stiffness against motions that gradients do not see, over that of a lattice of springs; "
+              "scheme = \"conservative\"",
+              not_negative, no_default, "0.5 with scheme = \"conservative\", but for solids in rate form"},
+    Parameter{"hourglass_stiffening", "1", "its growth with the energy of the change of shape over the shear modulus",
+              not_negative, no_default, "3 with scheme = \"conservative\", but for solids in rate form"},
+    Parameter{"hourglass_viscosity", "1",
+              "damping of such motions: time in which a shear-type wave runs so many spacings",
+              Interval{0, 10, false, false}, no_default, "1 where there is such a stiffness"},
+    Parameter{"bulk_viscosity", "1",
+              "damping of volume changes in the filter: time in which a pressure wave runs so many spacings",
+              Interval{0, 1, false, false}, no_default, "0.06 with scheme = \"conservative\""},
+    Parameter{"local_bulk", "1",
+              "bulk modulus that the filter leaves to the local volume ratio, over the shear modulus",
+              Interval{0, 100, true, false}, 1.0},
     Parameter{"eps2_volume", "1", "harmonic stabilisation of the volume ratio (pFJ, pFHJ)", not_negative, 0.0},
     Parameter{"eps4_volume", "1", "biharmonic stabilisation of the volume ratio (pFJ, pFHJ), eq. 38", not_negative,
               0.0},
@@ -76,9 +92,10 @@ constexpr std::array parameters{
               Interval{0.5, 3, true, false}, no_default, "1.2"}};
 
 /// What Diagnostics::more holds (observe.cpp): det F minus the volume ratio that the volumetric energy sees; the books
-/// of solids in rate form, whose internal energy is the strain energy.
+/// of solids in rate form, whose internal energy is the strain energy; the hourglass energy, a part of that.
 constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"}, DiagnosticInfo{"volume_mismatch_max", "1"},
-                                 DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"}};
+                                 DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"},
+                                 DiagnosticInfo{"hourglass_energy", "J"}};
 
 constexpr std::array<std::string_view, 9> usable_laws{"linear_elastic",
                                                       "neo_hookean",
@@ -121,6 +138,22 @@ Variables variables_of(std::string_view word) {
 GradientForm form_of(std::string_view word) {
   if (word == "uncorrected") return GradientForm::uncorrected;
   return word == "corrected_kernel" ? GradientForm::corrected_kernel : GradientForm::corrected;
+}
+
+/// What belongs to the conservative scheme, and what it cannot have.
+void check_hourglass(Options const& o, bool conservative) {
+  if (!conservative && (o.hourglass() || o.hourglass_viscosity > 0 || o.bulk_viscosity > 0))
+    throw InputError(
+        "formulation: hourglass_stiffness, hourglass_stiffening, hourglass_viscosity and bulk_viscosity belong to "
+        "scheme = \"conservative\" - leave them out or take that scheme");
+  if (conservative && o.integrator != Integrator::verlet)
+    throw InputError(
+        "formulation: scheme = \"conservative\" needs integrator = \"verlet\" - leave integrator out, or take scheme = "
+        "\"robust\"");
+  if (o.hourglass() && o.eps2 > 0)
+    throw InputError(
+        "formulation: eps2_momentum does not go together with scheme = \"conservative\" - set it to 0 or take another "
+        "scheme");
 }
 
 void check(Options const& o) {
@@ -190,8 +223,11 @@ void check_solid(Options const& o, MaterialParameters const& material) {
 Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl) {
   Options o;
   auto const scheme = word(spec, "scheme");
-  bool const paper = scheme == "paper", filtered = scheme == "filtered";
   bool const displacement = word(spec, "variables") == "displacement";
+  bool const conservative = scheme == "conservative" && !displacement;
+  // Solids in rate form keep the biharmonic term: an energy of the whole deformation would also resist plastic flow.
+  bool const hourglass = conservative && !is_solid(material);
+  bool const paper = scheme == "paper", filtered = scheme == "filtered" || scheme == "conservative";
   o.variables = variables_of(word(spec, "variables"));
   o.gradient = form_of(word(spec, "gradient"));
   auto const force = word(spec, "internal_force");
@@ -200,7 +236,12 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.eps4_J = number_of(spec, "eps4_volume", 0);
   o.kernel = find_kernel(word(spec, "kernel"));
   o.eps2 = displacement ? 0 : number_of(spec, "eps2_momentum", 0);
-  o.eps4 = displacement ? 0 : number_of(spec, "eps4_momentum", 0.125);
+  o.eps4 = displacement ? 0 : number_of(spec, "eps4_momentum", hourglass ? 0 : 0.125);
+  o.hourglass_stiffness = number_of(spec, "hourglass_stiffness", hourglass ? 0.5 : 0);
+  o.hourglass_stiffening = number_of(spec, "hourglass_stiffening", hourglass ? 3 : 0);
+  o.hourglass_viscosity = number_of(spec, "hourglass_viscosity", o.hourglass() ? 1 : 0);
+  o.bulk_viscosity = number_of(spec, "bulk_viscosity", hourglass ? 0.06 : 0);
+  o.local_bulk = number_of(spec, "local_bulk", 1);
   o.gradient_support = number_of(spec, "gradient_support", paper ? 1.2 : 0.8);
   o.laplacian_support = number_of(spec, "laplacian_support", 1.2);
   o.multipliers = word(spec, "supports") == "multipliers";
@@ -223,6 +264,7 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.filter = chosen(spec, "volumetric_filter", by_scheme ? "on" : "off") == "on";
   o.filter_passes = static_cast<int>(number_of(spec, "filter_passes", 2));
   o.cfl = !std::isnan(cfl) ? cfl : verlet ? 0 : 0.3;
+  check_hourglass(o, conservative);
   check(o);
   check_filter(o, material);
   check_solid(o, material);

@@ -20,11 +20,15 @@ struct Options {
   bool shear_speed = true;  ///< stabilise with the shear-type wave speed instead of c_p
   bool filter = true;       ///< filter the volumetric energy of nearly incompressible materials
   int filter_passes = 2;
-  bool project = true;       ///< angular and linear momentum projection
-  bool exact_speed = false;  ///< p-wave speed from the law's tangent
-  bool multipliers = false;  ///< exact boundary values (Appendix B)
-  double cfl = 0;            ///< alpha of eq. (44); 0: from the stability limit of the scheme
+  double local_bulk = 1;                                     ///< bulk modulus on the local volume ratio over mu
+  double hourglass_stiffness = 0, hourglass_stiffening = 0;  ///< xi_0, xi_1
+  double hourglass_viscosity = 0, bulk_viscosity = 0;        ///< theta, beta
+  bool project = true;                                       ///< angular and linear momentum projection
+  bool exact_speed = false;                                  ///< p-wave speed from the law's tangent
+  bool multipliers = false;                                  ///< exact boundary values (Appendix B)
+  double cfl = 0;  ///< alpha of eq. (44); 0: from the stability limit of the scheme
 
+  bool hourglass() const { return hourglass_stiffness > 0 || hourglass_stiffening > 0; }
   bool without_rigid() const { return shear_speed && biharmonic != Biharmonic::none; }
   bool corrected_kernel() const {
     return gradient == GradientForm::corrected_kernel || force == GradientForm::corrected_kernel;

@@ -216,7 +216,8 @@ struct ForceTotals : MotionTotals<D> {
   static constexpr int power_T = moment_stabilisation + spins<D>;  // sum V v.a_T
   static constexpr int power_stabilisation = power_T + 1;          // sum V v.a_D
   static constexpr int J_rate = power_stabilisation + 1;           // sum V D(J)
-  static constexpr int size = J_rate + 1;
+  static constexpr int viscous_work = J_rate + 1;                  // of both ends of the step
+  static constexpr int size = viscous_work + 1;
 };
 
 /// Rate of velocity from internal force and stabilisation, before projection; and the sums that projections need.
@@ -239,6 +240,7 @@ struct SumForces {
   WriteView J_rate;       ///< D(J); nothing behind it unless Smoothed > D
   View J_rate_in;         ///< D2 of J
   View kernel_force_sum;  ///< corrected kernel only
+  View hourglass_force, viscous_work;
 
   PIOLA_FN void operator()(Index i, Lanes* total) const {
     Lanes sum[Body::sums];
@@ -248,7 +250,11 @@ struct SumForces {
     Vec<D, Lanes> force = k.force == GradientForm::corrected_kernel ? kernel_force_sum.vector<D, Lanes>(i)
                                                                     : A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
     for (int c = 0; c < D; ++c) force[c] = force[c] + sum[c];
-    Vec<D, Lanes> const a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
+    Vec<D, Lanes> a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
+    if (k.hourglass.modulus > 0) {
+      a_T = a_T + hourglass_force.vector<D, Lanes>(i);
+      total[At::viscous_work] = total[At::viscous_work] + weight.scalar<Lanes>(i) * viscous_work.scalar<Lanes>(i);
+    }
     Vec<D, Lanes> const a_D = stabilisation(i, sum, inverse_volume);
     rate.vector<D>(i, a_T + a_D);
     add(i, weight.scalar<Lanes>(i), a_T, a_D, total);

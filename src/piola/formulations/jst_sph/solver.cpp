@@ -15,11 +15,12 @@ namespace {
 
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
-  /// Share of the stability limit that is used: power iterations come from below.
-  static constexpr double margin = 0.85;
+  /// Share of the stability limit that is used: power iterations come from below. Less where little damping forgives.
+  static constexpr double margin = 0.85, margin_with_hourglass = 0.7;
   /// The first step takes this share of the limit and each further one may be longer by `growth`: a violent start, and
   /// jumps of the step, would shake the modes near the limit and let the energy of a sample rise above that before.
-  static constexpr double first_share = 0.05, growth = 1.08;
+  /// Near the limit that wobble counts for more, and a scheme with little damping hides less of it.
+  static constexpr double first_share = 0.05, growth = 1.08, growth_near_limit = 1.02, near_limit = 0.5;
 
  public:
   explicit Solver(Assembly const& assembly)
@@ -36,7 +37,7 @@ class Solver final : public Formulation {
   double stable_time_step() const override {
     double dt = settled_time_step();
     bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
-    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth * last_step_ : first_share * dt);
+    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth_from(last_step_ / dt) * last_step_ : first_share * dt);
     return up_to_release(dt);
   }
 
@@ -44,7 +45,8 @@ class Solver final : public Formulation {
     double dt = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
-      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
+      double const share = bodies_[k]->options().hourglass() ? margin_with_hourglass : margin;
+      dt = std::min(dt, monitors_[k] ? share * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
     }
     return dt;
   }
@@ -122,6 +124,12 @@ class Solver final : public Formulation {
   }
 
  private:
+  /// The most by which a step of this share of the limit may be followed.
+  double growth_from(double share) const {
+    bool const hourglass =
+        std::any_of(bodies_.begin(), bodies_.end(), [](auto const& body) { return body->options().hourglass(); });
+    return hourglass && share > near_limit ? growth_near_limit : growth;
+  }
   static Machine const* choose(std::string const& name) {
     if (Machine const* machine = find_machine(name.c_str())) return machine;
     throw InputError(exec_host::not_usable(name, machine_names()));
@@ -135,11 +143,12 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
     return piola::up_to_release(dt, rest);
   }
-  /// Displacement variables keep F of the last stage; observers want that of x.
+  /// Brings what observers see up to date; nothing that steps read changes. Displacement variables keep F of the last
+  /// stage; observers want that of x.
   void refresh(JstBody const& body) const {
-    if (body.options().variables != Variables::displacement) return;
     auto& mutable_body = const_cast<JstBody&>(body);
-    machine_->update_deformation(mutable_body.state());
+    if (body.options().variables == Variables::displacement) machine_->update_deformation(mutable_body.state());
+    if (body.options().hourglass()) machine_->observe_energy(mutable_body.state());
   }
   template <class F>
   void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
@@ -197,6 +206,11 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
     f(fmt::format("body{}_solid_history", number), s.history, SolidFields::size);
   }
   if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
+  if (body.options().hourglass()) {
+    f(fmt::format("body{}_hourglass_force", number), s.hourglass_force, D);
+    f(fmt::format("body{}_hourglass_stress", number), s.hourglass_stress, D * D);
+  }
+  if (volume && s.filter_input.data != nullptr) f(fmt::format("body{}_filter_input", number), s.filter_input, 1);
   if (s.constants.kappa_filtered > 0) {
     f(fmt::format("body{}_filtered_ratio", number), s.filtered_ratio, 1);
     f(fmt::format("body{}_filtered_pressure", number), s.filtered_pressure, 1);
@@ -215,8 +229,8 @@ void Solver::save(StateWriter& writer) const {
       writer.put(name, values);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work,
-                           totals.damping_loss};
+    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work, totals.damping_loss,
+                           totals.viscous_work};
     writer.put(fmt::format("body{}_energy_books", k), books);
     writer.put(fmt::format("body{}_supports", k), body.boundary().state());
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
@@ -241,9 +255,9 @@ void Solver::load(StateReader& reader) {
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < set_.dimension; ++c)
           JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
-    std::array<double, 4> books{};
+    std::array<double, 5> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
-    body.state().totals = {books[0], books[1], books[2], books[3]};
+    body.state().totals = {books[0], books[1], books[2], books[3], books[4]};
     std::vector<double> supports = body.boundary().state();
     reader.get(fmt::format("body{}_supports", k), supports);
     body.boundary().restore(supports);

@@ -30,7 +30,10 @@ class Kept {
                                             {state.wave_speed, 1},
                                             {state.volume_ratio, 1},
                                             {state.filtered_ratio, 1},
-                                            {state.filtered_pressure, 1}})
+                                            {state.filtered_pressure, 1},
+                                            {state.filter_input, 1},
+                                            {state.hourglass_force, D},
+                                            {state.hourglass_stress, D * D}})
       if (field.data != nullptr) parts_.push_back({field, components, values_of(field, components)});
   }
   void restore() const {
@@ -69,11 +72,21 @@ double pseudo_random(std::uint64_t k) {
 /// A linear operator of the body as trial steps see it: displacements to rates of velocity, about F.
 class Operator {
  public:
-  /// `trial` shares its fields with the body; `F` per slot.
-  Operator(JstBody& body, BodyState const& trial, Machine const& machine, std::vector<double> F)
-      : body_(body), trial_(trial), machine_(machine), D_(trial.dimension), F_(std::move(F)) {
+  /// `trial` shares its fields with the body; `F` per slot, and x, which hourglass forces see.
+  Operator(JstBody& body, BodyState const& trial, Machine const& machine, std::vector<double> F,
+           std::vector<double> x = {})
+      : body_(body), trial_(trial), machine_(machine), D_(trial.dimension), F_(std::move(F)), x_(std::move(x)) {
     rest_.resize(static_cast<std::size_t>(body.particles() * D_));
     rest_ = rates_at(rest_);
+  }
+
+  /// Viscous forces act this many times as much.
+  void multiply_damping(double factor) {
+    auto& k = trial_.constants;
+    auto const& own = body_.state().constants;
+    k.eps4 = factor * own.eps4;
+    k.hourglass.ahead = factor * own.hourglass.ahead;
+    k.hourglass.bulk_ahead = factor * own.hourglass.bulk_ahead;
   }
 
   /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u.
@@ -108,6 +121,7 @@ class Operator {
       for (int c = 0; c < D_; ++c) {
         JstBody::set(trial_.v, i, c, u[static_cast<std::size_t>(i * D_ + c)]);
         JstBody::set(trial_.rate, i, c, 0);
+        if (!x_.empty()) JstBody::set(trial_.x, i, c, x_[static_cast<std::size_t>(i * D_ + c)]);
         for (int d = 0; d < D_; ++d)
           JstBody::set(trial_.F, i, c * D_ + d, F_[static_cast<std::size_t>((i * D_ + c) * D_ + d)]);
       }
@@ -125,7 +139,7 @@ class Operator {
   BodyState trial_;
   Machine const& machine_;
   int D_;
-  std::vector<double> F_, rest_;
+  std::vector<double> F_, x_, rest_;
 };
 
 std::vector<double> current_F(JstBody& body) {
@@ -135,6 +149,22 @@ std::vector<double> current_F(JstBody& body) {
   for (Index i = 0; i < body.particles(); ++i)
     for (int c = 0; c < size; ++c) F.push_back(JstBody::value(s.F, i, c));
   return F;
+}
+
+std::vector<double> current_x(JstBody& body) {
+  int const D = body.state().dimension;
+  std::vector<double> x;
+  for (Index i = 0; i < body.particles(); ++i)
+    for (int c = 0; c < D; ++c) x.push_back(JstBody::value(body.state().x, i, c));
+  return x;
+}
+
+std::vector<double> places(JstBody const& body) {
+  int const D = body.state().dimension;
+  std::vector<double> X;
+  for (Index i = 0; i < body.particles(); ++i)
+    for (int c = 0; c < D; ++c) X.push_back(body.X(i)[static_cast<std::size_t>(c)]);
+  return X;
 }
 
 std::vector<double> identities(JstBody const& body) {
@@ -189,23 +219,68 @@ double largest_step(double frequency, double damping) {
   return (-damping + std::sqrt(damping * damping + 4 * w2)) / w2;
 }
 
+double largest_step(double eigenvalue) { return largest_step(std::sqrt(eigenvalue), 0); }
+
 StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body_(body), machine_(machine) {
   Kept const kept(body.state(), body.state().dimension);
+  mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
+  if (body.options().hourglass()) {
+    measure_at_rest();
+    kept.restore();
+    measure_all_forces(first_rounds, machine.largest_wave_speed(body.state()));
+    return;
+  }
   damping_ = damping_per_speed(body, machine);
   kept.restore();
-  mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
   measure(first_rounds, machine.largest_wave_speed(body.state()));
   frequency_per_speed_ = frequency_ / wave_speed_;
 }
 
-void StabilityMonitor::measure(int rounds, double wave_speed) {
-  BodyState& state = body_.state();
-  Kept const kept(state, state.dimension);
-  wave_speed_ = wave_speed;
+void StabilityMonitor::refresh_mode() {
   double most = 0;
   for (double const value : mode_) most = std::max(most, std::abs(value));
   for (std::size_t i = 0; i < mode_.size(); ++i)
     mode_[i] = most > 0 ? mode_[i] / most + fresh * pseudo_random(i) : pseudo_random(i);
+}
+
+/// The limit of the undeformed body. The eigenvalue depends on the step in it, which a few measurements find.
+void StabilityMonitor::measure_at_rest() {
+  constexpr int repeats = 5;
+  auto const& k = body_.state().constants;
+  FailureSlot failure;
+  BodyState trial = trial_of(body_, failure);
+  trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
+  refresh_mode();
+  Operator forces(body_, trial, machine_, identities(body_), places(body_));
+  limit_at_rest_ = k.h_min / k.c_p0;
+  speed_at_rest_ = k.c_p0;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    forces.multiply_damping(2 / limit_at_rest_);
+    limit_at_rest_ = largest_step(forces.dominant(mode_, first_rounds / repeats));
+  }
+  limit_ = limit_at_rest_;
+}
+
+/// About the state as it is, with the step of the last measurement.
+void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
+  BodyState& state = body_.state();
+  Kept const kept(state, state.dimension);
+  FailureSlot failure;
+  refresh_mode();
+  Operator tangent(body_, trial_of(body_, failure), machine_, current_F(body_), current_x(body_));
+  tangent.multiply_damping(2 / limit_);
+  limit_ = largest_step(tangent.dominant(mode_, rounds));
+  kept.restore();
+  wave_speed_ = wave_speed;
+  steps_ = 0;
+}
+
+void StabilityMonitor::measure(int rounds, double wave_speed) {
+  if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
+  BodyState& state = body_.state();
+  Kept const kept(state, state.dimension);
+  wave_speed_ = wave_speed;
+  refresh_mode();
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
@@ -222,19 +297,22 @@ void StabilityMonitor::update(double wave_speed) {
 }
 
 double StabilityMonitor::step(double wave_speed) const {
+  if (body_.options().hourglass())
+    return std::min(limit_ / std::max(1.0, wave_speed / wave_speed_),
+                    limit_at_rest_ / std::max(1.0, trust * wave_speed / speed_at_rest_));
   // A wave speed that has fallen says nothing: the largest one may have been elsewhere than the fastest mode.
   double const measured = frequency_ * std::max(1.0, wave_speed / wave_speed_);
   return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
 }
 
 std::vector<double> StabilityMonitor::state() const {
-  std::vector<double> s{frequency_, wave_speed_, steps_};
+  std::vector<double> s{body_.options().hourglass() ? limit_ : frequency_, wave_speed_, steps_};
   s.insert(s.end(), mode_.begin(), mode_.end());
   return s;
 }
 
 void StabilityMonitor::restore(std::vector<double> const& state) {
-  frequency_ = state[0];
+  (body_.options().hourglass() ? limit_ : frequency_) = state[0];
   wave_speed_ = state[1];
   steps_ = state[2];
   std::copy(state.begin() + 3, state.end(), mode_.begin());

@@ -10,9 +10,15 @@ namespace piola::jst_sph {
 /// circle while  dt^2 frequency^2 + 2 dt damping <= 4.  Both in 1/s; infinity if both are zero.
 double largest_step(double frequency, double damping);
 
+/// Largest step [s] for the largest eigenvalue of K + (2 / dt) D of internal forces K and viscous ones D [1/s2]: the
+/// same rule where the two have different modes.
+double largest_step(double eigenvalue);
+
 /// Follows the step limit of one body: the largest frequency of its internal forces about the current state, by power
 /// iterations that start from the mode found last, and the largest rate of its stabilisation. Between measurements both
 /// grow with the largest wave speed, which at the start gives a bound that the measured frequency is also held against.
+/// With hourglass forces, whose viscous part is not small and grows as the elastic part does, one eigenvalue of both is
+/// followed, which never counts as less than that of the undeformed body.
 /// The state is left as it was.
 class StabilityMonitor {
  public:
@@ -27,15 +33,15 @@ class StabilityMonitor {
   /// Largest stable step for a state with this largest wave speed [s].
   double step(double wave_speed) const;
 
-  double frequency() const { return frequency_; }            ///< 1/s, at the last measurement
-  double damping() const { return damping_ * wave_speed_; }  ///< 1/s, at the last measurement
-
   /// Everything that the next step limit depends on.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 
  private:
   void measure(int rounds, double wave_speed);
+  void measure_at_rest();
+  void measure_all_forces(int rounds, double wave_speed);
+  void refresh_mode();
 
   JstBody& body_;
   Machine const& machine_;
@@ -45,6 +51,10 @@ class StabilityMonitor {
   double wave_speed_ = 0;           ///< m/s, largest one at the last measurement
   double damping_ = 0;              ///< 1/m: rate of the stabilisation per wave speed
   double steps_ = 0;                ///< since the last measurement
+  // With hourglass forces, in place of frequencies and damping.
+  double limit_ = 0;          ///< s, at the last measurement
+  double limit_at_rest_ = 0;  ///< s, of the undeformed body
+  double speed_at_rest_ = 0;  ///< m/s
 };
 
 }  // namespace piola::jst_sph

@@ -102,6 +102,15 @@ enum class Integrator {
   verlet    ///< kick, drift, kick: one right-hand side, exact angular momentum
 };
 
+/// The energy of the part of a deformation that gradients do not see (docs/theory/jst-sph-conservative.md).
+struct HourglassConstants {
+  double modulus = 0;     ///< mu / (4 m), m normalising the weights of pairs [Pa]; 0: no such energy
+  double stiffness = 0;   ///< xi_0
+  double stiffening = 0;  ///< xi_1 / mu [1/Pa]
+  double ahead = 0;       ///< the deformation acts as it will be so much later: tau [s]
+  double bulk_ahead = 0;  ///< and the volume ratio before the filter [s]
+};
+
 struct Constants {
   double rho0;            ///< reference density [kg/m^3]
   double kernel_volume;   ///< volume of a particle in kernel sums [m^D]
@@ -112,6 +121,7 @@ struct Constants {
   double kappa_local;     ///< part of the bulk modulus that acts on the local volume ratio [Pa]
   double kappa_filtered;  ///< part that acts on the filtered volume ratio [Pa]; 0: no filter
   int filter_passes;      ///< n of B = S^n
+  HourglassConstants hourglass;
   double total_volume;    ///< sum of tributary volumes [m^D]
   double centre[3];       ///< origin of arms [m], near the body: keeps sums of moments accurate
   double kernel_at_zero;  ///< V_kernel W(0) of the gradient's support, for the corrected kernel [1]
@@ -134,6 +144,7 @@ struct StepTotals {
   double projection_loss = 0;     ///< J, energy removed by the projection of T
   double external_work = 0;       ///< J, of loads and of driven supports
   double damping_loss = 0;        ///< J, energy removed by damping
+  double viscous_work = 0;        ///< J, done against forces with a viscous part, with their energy at the start
 };
 
 struct BodyState {
@@ -156,9 +167,15 @@ struct BodyState {
   FieldRef second;  ///< all that the second sweep reads: w, then for the adjoint form alpha and beta, then A
   FieldRef w;       ///< part of `second`: what the second Laplacian is applied to
   FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
+  // Hourglass energy. Read at neighbours: position and deformation gradient a little ahead, the volume times s. Of the
+  // particle: acceleration, stress, twice the work over the step of forces with a viscous part, per volume; for
+  // observers, energy per volume and filtered volume ratio.
+  FieldRef ahead, hourglass_force, hourglass_stress, viscous_work, hourglass_energy, seen_ratio;
   // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum
   // of the filter's weights without the diagonal; two buffers of d V f that sweeps read at neighbours.
   FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
+  FieldRef filter_input;     ///< what the filter takes at the particle itself, where that is not the volume ratio
+  FieldRef ratio_change;     ///< of the volume ratio in the step
   FieldRef ratio_increment;  ///< filtered {p,F,J} and {p,F,H,J}: what the step adds to the filtered ratio
   // Corrected kernel: full correction matrix, sum V grad W / sum V W; sum V W (u_b - u_a); A_b gamma_b; sum of these.
   FieldRef full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
@@ -193,6 +210,7 @@ struct Machine {
   void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
   double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak.hpp
   void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: keeps the state at the F of the body
+  void (*observe_energy)(BodyState& body);           ///< hourglass energy and filtered volume ratio of the state
   void (*copy)(double const* from, double* to, Index n);
 };
 

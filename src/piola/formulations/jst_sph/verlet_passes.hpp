@@ -47,13 +47,15 @@ struct Deform {
   View F_in, wave_speed_in;
   WriteView F, wave_speed, volume_ratio, w, rate;
   CarriedGeometry carried;
-  View filter_scale;
+  View filter_scale, filter_input_before;
   WriteView filter_source;  ///< what the first filter pass reads at neighbours: g = d V J, or d V times the increment
+  WriteView filter_input;   ///< J a little ahead in time, where the volume ratio is filtered so
+  WriteView ratio_change;   ///< and the change of J in the step, for the books
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
     Mat<D, Lanes> const old = F_in.matrix<D, Lanes>(i);
-    Mat<D, Lanes> const step = dt * (raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i));
+    Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i), step = dt * gradient;
     Mat<D, Lanes> const next = old + step;
     F.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
@@ -68,14 +70,26 @@ struct Deform {
     }
     Lanes const ratio = small_strain ? volume_ratio_of(true, full) : J;
     volume_ratio.scalar(i, ratio);
-    Lanes const filtered = evolves_volume(k.variables) ? carry(i, old, step, ratio) : ratio;
+    Lanes const seen = k.hourglass.bulk_ahead > 0 ? ratio_ahead(full, gradient, ratio) : ratio;
+    Lanes const filtered = evolves_volume(k.variables) ? carry(i, old, step, ratio, seen) : seen;
+    if (k.hourglass.bulk_ahead > 0) {
+      filter_input.scalar(i, seen);
+      ratio_change.scalar(i, ratio - volume_ratio_of(small_strain, embed<D>(old)));
+    }
     if (k.kappa_filtered > 0) filter_source.scalar(i, filter_scale.scalar<Lanes>(i) * V.scalar<Lanes>(i) * filtered);
     if constexpr (Stabilised) stabilise(i, in, c);
   }
 
  private:
-  /// The increment of J, from the volume ratio that F now has.
-  PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step, Lanes const& ratio) const {
+  /// J* = J + (time ahead) H : GRAD v.
+  PIOLA_FN Lanes ratio_ahead(Mat<3, Lanes> const& full, Mat<D, Lanes> const& gradient, Lanes const& ratio) const {
+    Mat<3, Lanes> const dF = embed_rate<D>(gradient);
+    return ratio + k.hourglass.bulk_ahead * (small_strain ? trace(dF) : contract(cofactor(full), dF));
+  }
+
+  /// The increment of J, from the volume ratio that F now has; of `seen` where the filter takes that.
+  PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step, Lanes const& ratio,
+                       Lanes const& seen) const {
     Mat<3, Lanes> const before = embed<D>(old);
     if (k.variables == Variables::pFHJ) {
       Mat<3, Lanes> const dF = embed_rate<D>(step);
@@ -83,7 +97,8 @@ struct Deform {
     }
     Lanes increment = ratio - volume_ratio_of(small_strain, before);
     if (k.kappa_filtered > 0) {
-      if (carried.starting) increment = ratio - 1.0;
+      if (k.hourglass.bulk_ahead > 0) increment = seen - filter_input_before.scalar<Lanes>(i);
+      if (carried.starting) increment = seen - 1.0;
       carried.increment.scalar(i, increment);
       return increment;
     }
@@ -118,12 +133,17 @@ struct WeightStress {
   View F, volume_ratio, filtered_pressure, H, J;
   WriteView A;
 
-  PIOLA_FN void operator()(Index i) const {
-    Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F.matrix<D, Lanes>(i))));
-    A.matrix<D>(i, (V.scalar<Lanes>(i) * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
-  }
+  PIOLA_FN void operator()(Index i) const { fold(i, law_stress(i)); }
+  /// With a stress that is added to that of the law.
+  PIOLA_FN void operator()(Index i, Mat<D, Lanes> const& more) const { fold(i, law_stress(i) + more); }
 
  private:
+  PIOLA_FN Mat<D, Lanes> law_stress(Index i) const {
+    return restrict_to<D>(stress(i, embed<D>(F.matrix<D, Lanes>(i))));
+  }
+  PIOLA_FN void fold(Index i, Mat<D, Lanes> const& P) const {
+    A.matrix<D>(i, (V.scalar<Lanes>(i) * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
+  }
   PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
     if constexpr (std::is_same_v<Law, SolidStress>)
       return law.first_piola(i, full);
