@@ -138,7 +138,7 @@ TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "
-      "pressure_max, step, strain_energy, dt and 25 more) - did you mean \"tip.pressure\"?");
+      "pressure_max, step, strain_energy, dt and 26 more) - did you mean \"tip.pressure\"?");
   EXPECT_EQ(message_of(sample_case() +
                        "[[quantity]]\nname = \"q\"\ncolumn = \"tip.pressure\"\nunit = \"m\"\nthreshold = 3\n"),
             "case.toml:26:8: quantity.unit is \"m\" (allowed: a unit of a pressure or modulus such as Pa)\n"
