@@ -160,6 +160,23 @@ TEST(NodalMotion, IsTheSameOnEveryMachineUpToRoundOff) {
   }
 }
 
+TEST(NodalMotion, MeasuresItsStepWhenStrainsHaveChangedAndElseRarely) {
+  auto const steps_between = [](double speed) {
+    Assembly a = nodal_body(unit_box(3, 5));  // 125 particles: some slots have none
+    give_velocity(a, [&](Point const& X) { return Point{speed * X[0] * X[0], 0, 0}; });
+    auto const f = make_formulation(a);
+    double time = 0;
+    for (int k = 0; k < 60; ++k) {
+      double const dt = f->stable_time_step();
+      f->step(time, dt);
+      time += dt;
+    }
+    return saved(*f).values.at("body0_step_limit")[3];
+  };
+  EXPECT_EQ(steps_between(0.01), 25);
+  EXPECT_LT(steps_between(60), 20);
+}
+
 TEST(NodalMotion, TakesStepsThatTurnCellsInsideOutAgainInHalves) {
   Assembly a = nodal_body(unit_box(3, 5));
   give_velocity(a, [](Point const& X) { return Point{X[0] > 0.9 ? -250.0 : 0.0, 0, 0}; });
