@@ -3,11 +3,13 @@
 #include "piola/simulation/bench.hpp"
 #include "piola/simulation/bench_accuracy.hpp"
 #include "piola/simulation/bench_adaptle.hpp"
+#include "piola/simulation/bench_nodal.hpp"
 #include "piola/simulation/bench_taylor.hpp"
 #include "commands.hpp"
 #include "streams.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace piola::app {
@@ -27,6 +29,18 @@ int print(Report const& report, bool json) {
   return with_output(completed);
 }
 
+bool wanted(BenchArguments const& options, char const* part) {
+  return options.parts.empty() || std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
+}
+
+/// Parts that the benchmark of this formulation does not have.
+void refuse_parts_beside(BenchArguments const& options, std::vector<std::string> const& known) {
+  for (auto const& part : options.parts)
+    if (std::find(known.begin(), known.end(), part) == known.end())
+      throw InputError(fmt::format("--only: the benchmark of {} has no part '{}' (known: {}) - give one of these",
+                                   options.formulation, part, fmt::join(known, ", ")));
+}
+
 int bench_jst(BenchArguments const& options) {
   BenchOptions bench;
   bench.machine = options.machine;
@@ -38,19 +52,18 @@ int bench_jst(BenchArguments const& options) {
     bench.column_steps = 20;
   }
   if (options.side > 0) bench.particles_per_side = options.side;
-  auto const wanted = [&](char const* part) {
-    return options.parts.empty() || std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
-  };
-  bench.rates = wanted("rates");
-  bench.column = wanted("column");
-  bench.variables = wanted("variables");
+  refuse_parts_beside(options, {"rates", "column", "variables"});
+  bench.rates = wanted(options, "rates");
+  bench.column = wanted(options, "column");
+  bench.variables = wanted(options, "variables");
   return print(bench_jst_sph(bench), options.json);
 }
 
 void refuse_parts(BenchArguments const& options) {
   if (options.parts.empty()) return;
-  throw InputError(fmt::format("--only: the benchmark of {} has one part (only jst_sph has several) - leave it out",
-                               options.formulation));
+  throw InputError(
+      fmt::format("--only: the benchmark of {} has one part (only jst_sph and nodal have several) - leave it out",
+                  options.formulation));
 }
 
 int bench_taylor(BenchArguments const& options) {
@@ -90,14 +103,29 @@ int bench_columns(BenchArguments const& options) {
   return print(bench_accuracy(bench), options.json);
 }
 
+int bench_of_nodal(BenchArguments const& options) {
+  refuse_parts_beside(options, {"rates", "set-up"});
+  NodalBenchOptions bench;
+  bench.machine = options.machine;
+  bench.threads = options.threads;
+  bench.repeats = options.quick ? 3 : options.repeats;
+  if (options.quick) bench.cube_side = 24;
+  if (options.side > 0) bench.cube_side = options.side;
+  bench.rates = wanted(options, "rates");
+  bench.set_up = wanted(options, "set-up");
+  return print(bench_nodal(bench), options.json);
+}
+
 int bench(BenchArguments const& options) {
   if (std::find(options.parts.begin(), options.parts.end(), "accuracy") != options.parts.end())
     return bench_columns(options);
   if (options.formulation == "jst_sph") return bench_jst(options);
   if (options.formulation == "taylor_sph") return bench_taylor(options);
   if (options.formulation == "adaptle") return bench_impact(options);
-  throw InputError(fmt::format("no benchmark is named '{}' (known: jst_sph, taylor_sph, adaptle) - give one of these",
-                               options.formulation));
+  if (options.formulation == "nodal") return bench_of_nodal(options);
+  throw InputError(
+      fmt::format("no benchmark is named '{}' (known: nodal, jst_sph, taylor_sph, adaptle) - give one of these",
+                  options.formulation));
 }
 
 }  // namespace
@@ -105,18 +133,21 @@ int bench(BenchArguments const& options) {
 void add_bench(CLI::App& program, Action& action) {
   auto const options = std::make_shared<BenchArguments>();
   CLI::App* command = program.add_subcommand("bench", "Measure the speed of the solver on this computer");
-  command->add_option("formulation", options->formulation, "What to measure: jst_sph (default), taylor_sph or adaptle");
+  command->add_option("formulation", options->formulation,
+                      "What to measure: jst_sph (default), nodal, taylor_sph or adaptle");
   command
       ->add_option(
           "--only", options->parts,
-          "jst_sph: parts to measure: rates (particle-stages per second), column (simulated time per processor time of "
-          "the twisting column), variables (cost of the filter, of J and of H); default: these three. Or accuracy: "
-          "errors "
-          "of nodal and jst_sph against processor time, some minutes")
-      ->check(CLI::IsMember({"rates", "column", "variables", "accuracy"}));
+          "Parts to measure: rates (particle-stages per second; jst_sph, nodal), column (simulated time per processor "
+          "time of the twisting column; jst_sph), variables (cost of the filter, of J and of H; jst_sph), set-up (part "
+          "by part; nodal); default: all of these. Or accuracy: errors of nodal and jst_sph against processor time, "
+          "some "
+          "minutes")
+      ->check(CLI::IsMember({"rates", "column", "variables", "set-up", "accuracy"}));
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quick", options->quick, "A few seconds only: fewer particles and steps");
-  command->add_option("--side", options->side, "Particles per side of the cube (default 64), of the plate (320)")
+  command
+      ->add_option("--side", options->side, "Particles per side of the cube (default 64; nodal 60), of the plate (320)")
       ->check(CLI::Range(8, 512));
   command->add_option("--repeats", options->repeats, "Time steps per measurement, the fastest counts (default 8)")
       ->check(CLI::Range(1, 1000));

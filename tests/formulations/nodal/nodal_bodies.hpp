@@ -32,8 +32,9 @@ inline ParticleSet brick(int dimension, double jitter = 0, std::array<int, 3> n 
 struct SetUpBody {
   explicit SetUpBody(Assembly const& a, double least_mass = 0.3)
       : set(a.particles),
-        order(pencil_order(set, set.bodies[0])),
-        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.materials[0].value[0], least_mass})) {}
+        order(nodal::slot_order(set, set.bodies[0])),
+        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.materials[0].value[0], least_mass,
+                                         *nodal::find_machine(a.machine.c_str())})) {}
   ParticleSet set;
   SlotOrder order;
   nodal::Reference reference;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,16 +15,6 @@ constexpr int most_halvings = 8;
 /// A point of a cell that loses more than the rest of its volume in a step is crushed faster than the step can follow.
 constexpr double least_share = 0.5;
 
-/// Sizes of Records of a dimension.
-struct RecordSizes {
-  std::ptrdiff_t motion, stress;
-  int one;
-};
-RecordSizes record_sizes(int D) {
-  auto const of = [](auto r) { return RecordSizes{r.motion_size, r.stress_size, r.one}; };
-  return D == 1 ? of(Records<1>{}) : D == 2 ? of(Records<2>{}) : of(Records<3>{});
-}
-
 }  // namespace
 
 NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
@@ -33,7 +22,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(pencil_order(set, body_)),
+      order_(slot_order(set, body_)),
       set_(&set),
       fields_(D_) {
   fields_.with_viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0;
@@ -43,7 +32,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "initial_deformation_gradient",
         body_.name));
   set_constants(assembly.materials[body]);
-  reference_ = make_reference({set, body_, order_, assembly.loads, state_.constants.rho0, options_.least_mass});
+  reference_ =
+      make_reference({set, body_, order_, assembly.loads, state_.constants.rho0, options_.least_mass, machine});
   allocate();
   fill_reference();
   fill_initial(assembly);
@@ -78,16 +68,16 @@ void NodalBody::set_constants(MaterialParameters const& material) {
 
 void NodalBody::allocate() {
   Index const n = order_.slots();
-  RecordSizes const size = record_sizes(D_);
-  first_ = Memory(static_cast<std::size_t>(n * size.motion));
-  second_ = Memory(static_cast<std::size_t>(n * size.stress));
-  fields_.X.place(first_.data(), 1, size.motion, 0, n, &first_version_);
-  fields_.x.place(first_.data(), 1, size.motion, D_, n, &first_version_);
-  fields_.mu.place(first_.data(), 1, size.motion, 2 * D_, n, &first_version_);
-  fields_.stress.place(second_.data(), 1, size.stress, 0, n, &second_version_);
-  for (Index i = 0; i < n; ++i) first_.data()[i * size.motion + size.one] = 1;
+  if (reference_.lattice)
+    gathered_.place_lattice(fields_, n, reference_.lattice->guard());
+  else
+    gathered_.place_records(fields_, D_, n);
+  if (auto const& group = reference_.group_of_k; !group.empty()) {
+    fields_.k.allocate_tiled(static_cast<Index>(reference_.k.size()) / fields_.k.components());
+    fields_.k.share(group.data());
+  }
   fields_.each([&](Field& f) {
-    if (f.size() > 0) return;
+    if (f.size() > 0 || (&f == &fields_.products && !reference_.lattice)) return;
     if (f.components() > 1)
       f.allocate_tiled(n);
     else
@@ -97,17 +87,20 @@ void NodalBody::allocate() {
   auto const& f = fields_;
   std::tie(s.V, s.mass, s.L, s.g, s.k, s.own) =
       std::tuple(f.V.ref(), f.mass.ref(), f.L.ref(), f.g.ref(), f.k.ref(), f.own.ref());
-  std::tie(s.x, s.v, s.a, s.first, s.second) = std::tuple(f.x.ref(), f.v.ref(), f.a.ref(), f.X.ref(), f.stress.ref());
+  std::tie(s.x, s.v, s.a, s.first, s.second) =
+      std::tuple(f.x.ref(), f.v.ref(), f.a.ref(), reference_.lattice ? f.products.ref() : f.X.ref(), f.stress.ref());
+  s.mu = f.mu.ref();
   std::tie(s.F, s.P, s.cell, s.C_measured, s.change, s.kept) =
       std::tuple(f.F.ref(), f.P.ref(), f.cell.ref(), f.C_measured.ref(), f.change.ref(), f.kept.ref());
   s.viscous = f.viscous.ref();
   s.viscous_kept = f.viscous_kept.ref();
   s.list = reference_.list();
+  if (reference_.lattice) s.lattice = reference_.lattice->table();
 }
 
 void NodalBody::fill_reference() {
   auto const copy = [&](std::vector<double> const& from, Field& to) {
-    for (Index i = 0; i < order_.slots(); ++i)
+    for (Index i = 0; i < to.size(); ++i)
       for (int c = 0; c < to.components(); ++c)
         to.at(i, c) =
             from[static_cast<std::size_t>(i) * static_cast<std::size_t>(to.components()) + static_cast<std::size_t>(c)];
@@ -152,17 +145,6 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
   failure_ = {};
   int const first = step(machine, time, 0.5 * dt, halvings + 1);
   return 1 + first + (failed() ? 0 : step(machine, time + 0.5 * dt, 0.5 * dt, halvings + 1));
-}
-
-void NodalBody::mark_measured() {
-  static constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-  for (Index i = 0; i < order_.particles; ++i)
-    for (int J = 0; J < D_; ++J)
-      for (int K = J; K < D_; ++K) {
-        double C = 0;
-        for (int c = 0; c < D_; ++c) C += value(state_.F, i, c * D_ + J) * value(state_.F, i, c * D_ + K);
-        fields_.C_measured.at(i, D_ == 2 && J != K ? 2 : place[J][K]) = C;
-      }
 }
 
 double NodalBody::kinetic_energy() const {
@@ -220,7 +202,7 @@ Smoothing const& NodalBody::smoothing() const {
 
 std::size_t NodalBody::bytes() const {
   auto const& r = reference_;
-  std::size_t total = first_.bytes() + second_.bytes() + r.begin.size() * 12 + r.neighbour.size() * 12;
+  std::size_t total = gathered_.bytes() + r.begin.size() * 12 + r.neighbour.size() * 12;
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

@@ -3,6 +3,7 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/nodal/boundary.hpp"
 #include "piola/formulations/nodal/fields.hpp"
+#include "piola/formulations/nodal/gathered.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/smoothing.hpp"
@@ -39,8 +40,6 @@ class NodalBody {
   /// From `time` to time + dt, with supports and loads. Where a cell is turned inside out on the way the step is taken
   /// again in two halves, a few times over; the failure stays if that does not help. Returns how often it was halved.
   int step(Machine const& machine, double time, double dt);
-  /// Takes the deformation that observers see as that of the last measurement of the step.
-  void mark_measured();
   /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
   void damp(double factor);
   double kinetic_energy() const;                         ///< [J]
@@ -73,8 +72,7 @@ class NodalBody {
   SlotOrder order_;
   ParticleSet const* set_;
   Fields fields_;
-  Memory first_, second_;  ///< records [X, values] that sweeps read of neighbours
-  FieldVersion first_version_, second_version_;
+  Gathered gathered_;
   Reference reference_;
   mutable std::optional<Smoothing> smoothing_;
   std::optional<Boundary> boundary_;

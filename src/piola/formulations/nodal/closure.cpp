@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/closure.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/projection_matrix.hpp"
+#include "piola/formulations/nodal/spline_levels.hpp"
 #include "piola/math/solve.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,16 +12,8 @@ namespace piola::nodal {
 namespace {
 
 constexpr int most_iterations = 2000;
-
-/// Monomials with the constant in front.
-template <int D>
-std::array<double, static_cast<std::size_t>(Quadratic<D>::values)> with_constant(Fits<D> const& fits, std::size_t a,
-                                                                                 std::size_t b) {
-  auto const p = fits.monomials_of(a, b);
-  std::array<double, static_cast<std::size_t>(Quadratic<D>::values)> r{1};
-  std::copy(p.begin(), p.end(), r.begin() + 1);
-  return r;
-}
+/// Fewer particles need no more iterations without the coarse levels of the preconditioner.
+constexpr std::size_t worth_levels = 300;
 
 /// Where the moments of a patch or a cell (XX YY ZZ YZ XZ XY) are for second derivative `at` of D dimensions.
 template <int D>
@@ -36,14 +32,94 @@ Columns<D> products(std::vector<double> const& u, std::vector<double> const& v) 
   return sum;
 }
 
+/// Takes from every column the quadratic that fits it best. Quadratics change no gradient, but are large in solutions
+/// and would cost digits.
+template <int D>
+void remove_quadratic(Points const& X, std::vector<double>& u) {
+  constexpr int values = Quadratic<D>::values;
+  Vec<D> middle, scale;
+  for (int c = 0; c < D; ++c) {
+    auto const at = static_cast<std::size_t>(c);
+    auto const [low, high] =
+        std::minmax_element(X.begin(), X.end(), [at](auto const& p, auto const& q) { return p[at] < q[at]; });
+    middle[c] = 0.5 * ((*low)[at] + (*high)[at]);
+    scale[c] = 2 / ((*high)[at] - (*low)[at]);
+  }
+  auto const monomials_at = [&](std::size_t a, double(&p)[values]) {
+    Vec<D> r;
+    for (int c = 0; c < D; ++c) r[c] = scale[c] * (X[a][static_cast<std::size_t>(c)] - middle[c]);
+    monomials<D>(r, p);
+  };
+  double A[values * values]{}, b[D][values]{}, p[values];
+  for (std::size_t a = 0; a < X.size(); ++a) {
+    monomials_at(a, p);
+    for (int m = 0; m < values; ++m) {
+      for (int n = 0; n < values; ++n) A[m * values + n] += p[m] * p[n];
+      for (std::size_t J = 0; J < D; ++J) b[J][m] += p[m] * u[a * D + J];
+    }
+  }
+  for (auto& column : b) {
+    double copy[values * values];
+    std::copy(std::begin(A), std::end(A), copy);
+    solve_in_place<values>(copy, column);
+  }
+  for (std::size_t a = 0; a < X.size(); ++a) {
+    monomials_at(a, p);
+    for (std::size_t J = 0; J < D; ++J)
+      for (int m = 0; m < values; ++m) u[a * D + J] -= p[m] * b[J][m];
+  }
+}
+
+/// One step of refinement of the quadratics: what they leave is orthogonal to quadratics to round-off then, however
+/// badly neighbours determine them. Forces at rest vanish to that accuracy.
+template <int D>
+void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& closure) {
+  constexpr auto values = static_cast<std::size_t>(Quadratic<D>::values);
+  auto const& pairs = fits.pairs();
+  exec_host::for_each_in_set_up(static_cast<Index>(fits.X().size()), [&](Index particle) {
+    auto const a = static_cast<std::size_t>(particle);
+    double* const c = &closure.coefficients[a * values * D];
+    double left[D][values];
+    for (std::size_t J = 0; J < D; ++J) {
+      std::fill_n(left[J], values, 0.0);
+      left[J][0] = fits.own_weight(a) * (closure.mu[a * D + J] - c[J]);
+    }
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+      auto const p = fits.monomials_of(a, pairs.at(k));
+      for (std::size_t J = 0; J < D; ++J) {
+        double rest = closure.mu[pairs.at(k) * D + J] - c[J];
+        for (std::size_t m = 1; m < values; ++m) rest -= c[m * D + J] * p[m - 1];
+        rest *= pairs.weight[k];
+        left[J][0] += rest;
+        for (std::size_t m = 1; m < values; ++m) left[J][m] += rest * p[m - 1];
+      }
+    }
+    for (std::size_t J = 0; J < D; ++J)
+      for (std::size_t m = 0; m < values; ++m)
+        for (std::size_t n = 0; n < values; ++n)
+          c[m * D + J] += matrix.inverse(particle, static_cast<int>(m), static_cast<int>(n)) * left[J][n];
+  });
+}
+
+/// The stiffness that coarse levels divide by, from the matrix itself.
+template <int D>
+void set_levels(ProjectionMatrix<D>& matrix, std::vector<ScaledCell> const& cells, SplineLevels<D>& levels) {
+  // Measured: splines overlap, of one level and of several. Three times their own energy takes the fewest iterations.
+  constexpr double overlap = 3;
+  auto const probe = levels.probe();
+  std::vector<double> image(probe.size());
+  matrix.apply(probe, image);
+  double volume = 0;
+  for (auto const& cell : cells) volume += cell.volume;
+  levels.set_stiffness(overlap * products<D>(probe, image)[0] / (volume * SplineLevels<D>::probe_square));
+}
+
 }  // namespace
 
 template <int D>
 Divergence<D>::Divergence(Fits<D> const& fits, std::vector<ScaledCell> const& cells,
                           std::vector<SurfacePatch> const& patches)
-    : fits_(fits), cells_(cells), patches_(patches) {
-  make_projectors();
-}
+    : fits_(fits), cells_(cells), patches_(patches) {}
 
 template <int D>
 std::vector<double> Divergence<D>::shares(std::function<double(SurfacePatch const&)> const& weight) const {
@@ -83,102 +159,34 @@ template <int D>
 std::vector<double> Divergence<D>::residual() const {
   auto R = surface_vectors();
   auto const& pairs = fits_.pairs();
-  for (std::size_t a = 0; a < cells_.size(); ++a)
+  for (std::size_t a = 0; a < cells_.size(); ++a) {
+    double to_gradient[D][terms];  // of sums s p (f_b - f_a)
+    for (int l = 0; l < terms; ++l) {
+      typename Fits<D>::Monomials column;
+      for (int i = 0; i < terms; ++i) column[static_cast<std::size_t>(i)] = fits_.inverse(a, i, l);
+      for (int J = 0; J < D; ++J) to_gradient[J][l] = cells_[a].volume * at_centroid<D>(column, cells_[a], J);
+    }
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-      auto const e = fits_.derivatives(a, k);
+      auto const p = fits_.monomials_of(a, pairs.at(k));
       for (int J = 0; J < D; ++J) {
-        double const G = cells_[a].volume * at_centroid<D>(e, cells_[a], J);
+        double G = 0;
+        for (int l = 0; l < terms; ++l) G += to_gradient[J][l] * p[static_cast<std::size_t>(l)];
+        G *= pairs.weight[k];
         R[pairs.at(k) * D + static_cast<std::size_t>(J)] -= G;
         R[a * D + static_cast<std::size_t>(J)] += G;
       }
     }
+  }
   return R;
 }
 
 template <int D>
-void Divergence<D>::make_projectors() {
-  auto const& pairs = fits_.pairs();
-  constexpr auto size = static_cast<std::size_t>(values * values);
-  projector_.resize(cells_.size() * size);
-  diagonal_.assign(cells_.size(), 0);
-  for (std::size_t a = 0; a < cells_.size(); ++a) {
-    double A[values * values]{}, inverse[values * values];
-    A[0] = fits_.own_weight(a);
-    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-      auto const p = with_constant<D>(fits_, a, pairs.at(k));
-      for (std::size_t i = 0; i < values; ++i)
-        for (std::size_t j = 0; j < values; ++j) A[i * values + j] += pairs.weight[k] * p[i] * p[j];
-    }
-    invert<values>(A, inverse);
-    std::copy(inverse, inverse + size, projector_.begin() + static_cast<std::ptrdiff_t>(a * size));
-    double const V = cells_[a].volume, own = fits_.own_weight(a);
-    diagonal_[a] += V * own * (1 - own * inverse[0]);
-    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-      auto const p = with_constant<D>(fits_, a, pairs.at(k));
-      double reach = 0;
-      for (std::size_t i = 0; i < values; ++i)
-        for (std::size_t j = 0; j < values; ++j) reach += p[i] * inverse[i * values + j] * p[j];
-      diagonal_[pairs.at(k)] += V * pairs.weight[k] * (1 - pairs.weight[k] * reach);
-    }
-  }
-}
-
-/// The least-squares quadratics through mu.
-template <int D>
-void Divergence<D>::expand(std::vector<double> const& mu, std::vector<double>& coefficients) const {
-  auto const& pairs = fits_.pairs();
-  for (std::size_t a = 0; a < cells_.size(); ++a) {
-    double sum[values][D]{};
-    for (int J = 0; J < D; ++J) sum[0][J] = fits_.own_weight(a) * mu[a * D + static_cast<std::size_t>(J)];
-    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-      auto const p = with_constant<D>(fits_, a, pairs.at(k));
-      for (int J = 0; J < D; ++J) {
-        double const weighted = pairs.weight[k] * mu[pairs.at(k) * D + static_cast<std::size_t>(J)];
-        for (int i = 0; i < values; ++i) sum[i][J] += weighted * p[static_cast<std::size_t>(i)];
-      }
-    }
-    double const* const inverse = &projector_[a * static_cast<std::size_t>(values * values)];
-    double* const c = &coefficients[a * static_cast<std::size_t>(values * D)];
-    for (int i = 0; i < values; ++i)
-      for (int J = 0; J < D; ++J) {
-        c[i * D + J] = 0;
-        for (int j = 0; j < values; ++j) c[i * D + J] += inverse[i * values + j] * sum[j][J];
-      }
-  }
-}
-
-/// result_b = sum_a w_ab (mu_b - (quadratic of a)(X_b)), b = a included.
-template <int D>
-void Divergence<D>::apply(std::vector<double> const& mu, std::vector<double>& coefficients,
-                          std::vector<double>& result) const {
-  expand(mu, coefficients);
-  auto const& pairs = fits_.pairs();
-  for (std::size_t b = 0; b < cells_.size(); ++b) {
-    double sum[D];
-    for (int J = 0; J < D; ++J) {
-      auto const at = static_cast<std::size_t>(J);
-      sum[J] = fits_.own_weight(b) * cells_[b].volume *
-               (mu[b * D + at] - coefficients[b * static_cast<std::size_t>(values * D) + at]);
-    }
-    for (std::size_t k = pairs.first(b); k < pairs.end(b); ++k) {
-      std::size_t const a = pairs.at(k);
-      auto const p = with_constant<D>(fits_, a, b);
-      double const w = pairs.weight[k] * cells_[a].volume;
-      double const* const c = &coefficients[a * static_cast<std::size_t>(values * D)];
-      for (int J = 0; J < D; ++J) {
-        double value = mu[b * D + static_cast<std::size_t>(J)];
-        for (int i = 0; i < values; ++i) value -= p[static_cast<std::size_t>(i)] * c[i * D + J];
-        sum[J] += w * value;
-      }
-    }
-    for (int J = 0; J < D; ++J) result[b * D + static_cast<std::size_t>(J)] = sum[J];
-  }
-}
-
-template <int D>
-Closure Divergence<D>::solve(double tolerance) const {
+Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLayout const* lattice) const {
+  ProjectionMatrix<D> matrix(fits_, cells_, machine, lattice);
   std::vector<double> r = residual(), z(r.size()), p(r.size(), 0), image(r.size());
-  Closure closure{std::vector<double>(r.size(), 0), std::vector<double>(cells_.size() * values * D, 0)};
+  Closure closure{std::vector<double>(r.size(), 0), {}};
+  std::optional<SplineLevels<D>> levels;
+  if (cells_.size() >= worth_levels) set_levels(matrix, cells_, levels.emplace(fits_.X()));
   auto const goal = products<D>(r, r);
   Columns<D> before{};
   for (closure.iterations = 0; closure.iterations < most_iterations; ++closure.iterations) {
@@ -186,11 +194,12 @@ Closure Divergence<D>::solve(double tolerance) const {
     bool done = true;
     for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
     if (done) break;
-    for (std::size_t k = 0; k < r.size(); ++k) z[k] = r[k] / diagonal_[k / D];
+    for (std::size_t k = 0; k < r.size(); ++k) z[k] = r[k] / matrix.diagonal()[k / D];
+    if (levels) levels->add(r, z);
     auto const rz = products<D>(r, z);
     for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + (before[k % D] > 0 ? rz[k % D] / before[k % D] : 0) * p[k];
     before = rz;
-    apply(p, closure.coefficients, image);
+    matrix.apply(p, image);
     auto const curvature = products<D>(p, image);
     for (std::size_t k = 0; k < p.size(); ++k) {
       double const step = curvature[k % D] > 0 ? rz[k % D] / curvature[k % D] : 0;
@@ -198,7 +207,10 @@ Closure Divergence<D>::solve(double tolerance) const {
       r[k] -= step * image[k];
     }
   }
-  expand(closure.mu, closure.coefficients);
+  remove_quadratic<D>(fits_.X(), closure.mu);
+  matrix.apply(closure.mu, image);
+  closure.coefficients = matrix.coefficients();
+  refine<D>(fits_, matrix, closure);
   return closure;
 }
 

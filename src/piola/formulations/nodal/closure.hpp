@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/cell_moments.hpp"
 #include <functional>
 #include <vector>
@@ -38,19 +39,14 @@ class Divergence {
   std::vector<double> surface_vectors() const;
   /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.
   std::vector<double> residual() const;
-  /// The smallest change of the gradients that brings the residual below `tolerance` times what it was.
-  Closure solve(double tolerance) const;
+  /// The smallest change of the gradients that brings the residual below `tolerance` times what it was; by the loops of
+  /// a machine, over lists or the lattice that the particles fill.
+  Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice) const;
 
  private:
-  void expand(std::vector<double> const& mu, std::vector<double>& coefficients) const;
-  void apply(std::vector<double> const& mu, std::vector<double>& coefficients, std::vector<double>& result) const;
-  void make_projectors();
-
   Fits<D> const& fits_;
   std::vector<ScaledCell> const& cells_;
   std::vector<SurfacePatch> const& patches_;
-  std::vector<double> projector_;  ///< per particle: inverse of sum_b s_ab p p^T with b = a and the constant
-  std::vector<double> diagonal_;
 };
 
 extern template class Divergence<1>;

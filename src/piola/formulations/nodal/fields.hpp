@@ -26,6 +26,7 @@ struct Fields {
         v("Velocity", "m/s", D, Role::evolved),
         a("Acceleration", "m/s2", D, Role::evolved),
         mu("GradientCorrection", "1/m", D, Role::reference),
+        products("CorrectedPosition", "1", D * D, Role::derived),
         stress("StressOfSums", "N/m", values(D) * D + D * D, Role::derived),
         F("DeformationGradient", "1", D * D, Role::derived),
         P("FirstPiolaStress", "Pa", 9, Role::derived),
@@ -39,14 +40,14 @@ struct Fields {
   bool with_viscosity = false;
   Field V, mass, L, g, k, own;
   Field X, x, v, a;
-  Field mu, stress;  ///< with X and x, what sweeps read of neighbours
+  Field mu, products, stress;  ///< with X and x, what sweeps read of neighbours
   Field F, P, cell, C_measured, change, kept;
   Field viscous, viscous_kept;  ///< allocated where there is viscosity
 
   template <class Visit>
   void each(Visit&& visit) {
-    for (Field* f :
-         {&V, &mass, &L, &g, &k, &own, &X, &x, &v, &a, &mu, &stress, &F, &P, &cell, &C_measured, &change, &kept})
+    for (Field* f : {&V, &mass, &L, &g, &k, &own, &X, &x, &v, &a, &mu, &products, &stress, &F, &P, &cell, &C_measured,
+                     &change, &kept})
       visit(*f);
     if (with_viscosity)
       for (Field* f : {&viscous, &viscous_kept}) visit(*f);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/fit.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -8,7 +9,6 @@
 namespace piola::nodal {
 namespace {
 
-constexpr double usual_reach = 2.4;  ///< 56 neighbours inside a cubic lattice
 constexpr double longest_reach = 5;  ///< beyond it a body has too few particles across
 constexpr double growth = 1.2;
 /// Largest admissible entry on the diagonal of A^-1: 72 in a lattice, 180 with a jitter of 0.2.
@@ -34,35 +34,113 @@ Pairs find_pairs(Points const& X, std::vector<double> const& reach) {
   pairs.begin.push_back(0);
   if (X.empty()) return pairs;
   CellGrid const grid(X, *std::max_element(reach.begin(), reach.end()));
-  std::vector<Index> near;
-  for (std::size_t a = 0; a < X.size(); ++a) {
-    near.clear();
+  std::vector<std::vector<Index>> near(X.size());
+  exec_host::for_each_in_set_up(static_cast<Index>(X.size()), [&](Index particle) {
+    auto const a = static_cast<std::size_t>(particle);
     grid.visit(X[a], [&](Index other) {
       auto const b = static_cast<std::size_t>(other);
       double const longest = edge * std::max(reach[a], reach[b]);
-      if (b != a && square_of_distance(X, a, b) < longest * longest) near.push_back(other);
+      if (b != a && square_of_distance(X, a, b) < longest * longest) near[a].push_back(other);
     });
-    std::sort(near.begin(), near.end());
-    pairs.neighbour.insert(pairs.neighbour.end(), near.begin(), near.end());
+    std::sort(near[a].begin(), near[a].end());
+  });
+  for (auto const& of : near) {
+    pairs.neighbour.insert(pairs.neighbour.end(), of.begin(), of.end());
     pairs.begin.push_back(static_cast<std::int64_t>(pairs.neighbour.size()));
   }
   return pairs;
 }
 
+Pairs lattice_pairs(LatticeShape const& shape) {
+  struct Offset {
+    std::array<int, 3> step;
+    double weight;
+  };
+  std::vector<Offset> offsets;  // in the order of slots
+  int const steps = static_cast<int>(usual_reach);
+  for (int k = -steps; k <= steps; ++k)
+    for (int j = -steps; j <= steps; ++j)
+      for (int i = -steps; i <= steps; ++i) {
+        int const square = i * i + j * j + k * k;
+        if (square > 0 && square < edge * usual_reach * usual_reach)
+          offsets.push_back({{i, j, k}, weight_of(square, usual_reach)});
+      }
+  Pairs pairs;
+  pairs.begin.push_back(0);
+  Index const particles = shape.count[0] * shape.count[1] * shape.count[2];
+  pairs.neighbour.reserve(static_cast<std::size_t>(particles) * offsets.size());
+  pairs.weight.reserve(pairs.neighbour.capacity());
+  for (Index a = 0; a < particles; ++a) {
+    auto const at = shape.place(a);
+    for (auto const& o : offsets) {
+      std::array const to{at[0] + o.step[0], at[1] + o.step[1], at[2] + o.step[2]};
+      if (!shape.has(to)) continue;
+      pairs.neighbour.push_back(shape.slot(to));
+      pairs.weight.push_back(o.weight);
+    }
+    pairs.begin.push_back(static_cast<std::int64_t>(pairs.neighbour.size()));
+  }
+  return pairs;
+}
+
+std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond) {
+  auto const most = static_cast<std::size_t>(beyond);
+  std::vector<Index> known(most * most * most * most * most * most, -1);
+  std::vector<Index> alike(static_cast<std::size_t>(shape.count[0] * shape.count[1] * shape.count[2]));
+  for (std::size_t a = 0; a < alike.size(); ++a) {
+    auto const at = shape.place(static_cast<Index>(a));
+    std::size_t kind = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (int const distance : {at[c], shape.count[c] - 1 - at[c]})
+        kind = kind * most + static_cast<std::size_t>(std::min(distance, beyond - 1));
+    if (known[kind] < 0) known[kind] = static_cast<Index>(a);
+    alike[a] = known[kind];
+  }
+  return alike;
+}
+
 template <int D>
-Fits<D>::Fits(Points const& X) : X_(X), reach_(X.size(), usual_reach) {
+Fits<D>::Fits(Points const& X, std::optional<LatticeShape> const& lattice) : X_(X), reach_(X.size(), usual_reach) {
   inverse_.resize(X.size() * static_cast<std::size_t>(terms * terms));
+  if (lattice) fit_lattice(*lattice);
+  if (!lattice || !usual_) fit_cloud();
+}
+
+/// Particles as far from all faces, or out of their reach, have the same neighbours.
+template <int D>
+void Fits<D>::fit_lattice(LatticeShape const& shape) {
+  pairs_ = lattice_pairs(shape);
+  alike_ = alike_in_lattice(shape, static_cast<int>(usual_reach) + 1);
+  constexpr auto size = static_cast<std::ptrdiff_t>(terms * terms);
+  for (std::size_t a = 0; a < X_.size() && usual_; ++a) {
+    if (alike(a) == a)
+      usual_ = fit(a);
+    else
+      std::copy_n(inverse_.begin() + static_cast<std::ptrdiff_t>(alike(a)) * size, size,
+                  inverse_.begin() + static_cast<std::ptrdiff_t>(a) * size);
+  }
+}
+
+template <int D>
+void Fits<D>::fit_cloud() {
+  usual_ = true;
+  alike_.clear();
+  auto const particles = static_cast<Index>(X_.size());
+  std::vector<char> fits(X_.size(), 0);
   for (bool complete = false; !complete && hopeless_ < 0;) {
     complete = true;
     pairs_ = find_pairs(X_, reach_);
     pairs_.weight.resize(pairs_.neighbour.size());
-    for (std::size_t a = 0; a < X_.size(); ++a)
+    exec_host::for_each_in_set_up(particles, [&](Index particle) {
+      auto const a = static_cast<std::size_t>(particle);
       for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k)
         pairs_.weight[k] =
             weight_of(square_of_distance(X_, a, pairs_.at(k)), std::max(reach_[a], reach_[pairs_.at(k)]));
+      fits[a] = fit(a) ? 1 : 0;
+    });
     for (std::size_t a = 0; a < X_.size() && hopeless_ < 0; ++a) {
-      if (fit(a)) continue;
-      complete = false;
+      if (fits[a] != 0) continue;
+      complete = usual_ = false;
       reach_[a] *= growth;
       if (reach_[a] > longest_reach) hopeless_ = static_cast<Index>(a);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/view.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/math/lanes.hpp"
 #include "piola/neighbours/records.hpp"
@@ -159,5 +160,17 @@ PIOLA_FN void store_records(double* base, std::ptrdiff_t stride, Lanes const (&f
     for (int c = 0; c < N; ++c) base[l * stride + c] = lane(f[c], l);
 }
 #endif
+
+/// Hands component c of the rows (Y, Z) of the lanes at i to the second sweep: to records for lists; component after
+/// component for lattices.
+template <int D>
+PIOLA_FN void put_row(WriteView const& stress, Index i, int c, Lanes (&row)[Records<D>::width]) {
+  if (stress.particle_stride == 1) {
+    for (int m = 0; m < Records<D>::used; ++m) stress.scalar(i, row[m], c * Records<D>::used + m);
+    return;
+  }
+  for (int m = Records<D>::used; m < Records<D>::width; ++m) row[m] = Lanes(0.0);
+  store_records(stress.data + i * stress.particle_stride + c * Records<D>::width, stress.particle_stride, row);
+}
 
 }  // namespace piola::nodal::inline PIOLA_MACHINE

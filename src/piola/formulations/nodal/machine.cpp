@@ -31,6 +31,10 @@ void restore(BodyState& body) {
   with_step(body, [](auto one_step) { one_step.restore(); });
 }
 
+void project(BodyState& body, ProjectionFields const& fields) {
+  with_step(body, [&](auto one_step) { one_step.project(fields); });
+}
+
 double largest_change(BodyState& body) {
   exec::for_each_block(body.slots, LargestChange{read(body.change), body.partial});
   double largest = 0;
@@ -45,7 +49,7 @@ double largest_change(BodyState& body) {
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &step,   &accelerate, &observe,
-                      &largest_change,           &keep,      &restore};
+Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &step,    &accelerate, &observe,
+                      &largest_change,           &keep,      &restore, &project};
 
 }  // namespace piola::nodal::inline PIOLA_MACHINE

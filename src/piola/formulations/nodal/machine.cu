@@ -2,6 +2,7 @@
 // The passes of the nodal formulation for a GPU. Compiled, not yet run: launching them needs fields in device memory.
 // What this file proves is that the same source makes device code for every dimension and law.
 #include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 
 namespace piola::nodal::inline PIOLA_MACHINE {
@@ -13,6 +14,13 @@ struct WithScratch {
   Sweep sweep;
   exec::Scratch scratch;
   __host__ __device__ void operator()(Index i) const { sweep(i, scratch); }
+};
+
+template <class Sweep>
+struct WithBlockScratch {
+  Sweep sweep;
+  exec::Scratch scratch;
+  __host__ __device__ void operator()(Range b, Index) const { sweep(b, scratch); }
 };
 
 template <class Sweep>
@@ -30,11 +38,22 @@ void launch_each(Range r, void const* passes) {
   exec::for_each(r, *static_cast<Pass const*>(passes));
 }
 
+/// Of lattices, a thread per block.
+template <int D>
+void launch_lattice(Range r, void const* passes, exec::Scratch const& scratch) {
+  exec::for_each_block(
+      r, WithBlockScratch<SumLatticeMotion<D>>{*static_cast<SumLatticeMotion<D> const*>(passes), scratch});
+  exec::for_each_block(r, *static_cast<SumLatticeForces<D> const*>(passes));
+  launch_each<MultiplyByCorrections<D>>(r, passes);
+}
+
 template <int D>
 void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
   launch_sweep<SumMotion<D>>(r, passes, scratch);
   launch_laws<D>(r, passes, scratch, Laws{});
   launch_each<SumForces<D>>(r, passes);
+  launch_lattice<D>(r, passes, scratch);
+  launch_sweep<ProjectQuadratic<D>>(r, passes, scratch);
   launch_each<KickAndDrift<D>>(r, passes);
   launch_each<Kick<D>>(r, passes);
   launch_each<CopyMotion<D>>(r, passes);

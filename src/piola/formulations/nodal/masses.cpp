@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/masses.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/math/solve.hpp"
 #include <algorithm>
 #include <cmath>
@@ -18,80 +19,162 @@ struct Exchange {
   std::vector<double> handed;  ///< V_a phi_ab, per pair of a
 };
 
-/// phi_ab = w p . A^-1 T_a: what gives the cell's moments up to the second, for fields that are exact at a itself.
+/// Integrals of the monomials over the cell, over its volume.
 template <int D>
-Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells) {
-  constexpr int terms = Quadratic<D>::terms;
-  Exchange<D> x{find_pairs(X, std::vector<double>(X.size(), reach)), {}};
-  x.handed.assign(x.pairs.neighbour.size(), 0);
-  std::vector<std::array<double, static_cast<std::size_t>(terms)>> of_pair;
-  for (std::size_t a = 0; a < X.size(); ++a) {
-    double A[terms * terms]{}, T[terms]{};
-    of_pair.clear();
-    for (std::size_t k = x.pairs.first(a); k < x.pairs.end(a); ++k) {
-      Vec<D> r;
-      for (int c = 0; c < D; ++c)
-        r[c] = X[x.pairs.at(k)][static_cast<std::size_t>(c)] - X[a][static_cast<std::size_t>(c)];
-      double p[Quadratic<D>::values];
-      monomials<D>(r, p);
-      double const square = dot(r, r), inside = 1 - square / (reach * reach);
-      x.handed[k] = inside * inside / (square * square);
-      of_pair.emplace_back();
-      for (int i = 0; i < terms; ++i) {
-        of_pair.back()[static_cast<std::size_t>(i)] = p[1 + i];
-        for (int j = 0; j < terms; ++j) A[i * terms + j] += x.handed[k] * p[1 + i] * p[1 + j];
-      }
-    }
-    auto const& cell = cells[a];
-    for (int i = 0; i < D; ++i) {
-      T[i] = cell.centroid[static_cast<std::size_t>(i)];
-      for (int j = i; j < D; ++j) {
-        auto const moment = static_cast<std::size_t>(i == j ? i : 6 - i - j);
-        double const whole = cell.spread[moment] +
-                             cell.centroid[static_cast<std::size_t>(i)] * cell.centroid[static_cast<std::size_t>(j)];
-        T[D + Quadratic<D>::at(i, j)] = i == j ? 0.5 * whole : whole;
-      }
-    }
-    bool const good = solve_in_place<terms>(A, T) > smallest_pivot;
-    for (std::size_t k = 0; k < of_pair.size(); ++k) {
-      double sum = 0;
-      for (int i = 0; i < terms; ++i) sum += of_pair[k][static_cast<std::size_t>(i)] * T[i];
-      x.handed[x.pairs.first(a) + k] *= good ? cell.volume * sum : 0;
+void cell_monomials(ScaledCell const& cell, double (&T)[Quadratic<D>::terms]) {
+  for (int i = 0; i < D; ++i) {
+    T[i] = cell.centroid[static_cast<std::size_t>(i)];
+    for (int j = i; j < D; ++j) {
+      auto const moment = static_cast<std::size_t>(i == j ? i : 6 - i - j);
+      double const whole =
+          cell.spread[moment] + cell.centroid[static_cast<std::size_t>(i)] * cell.centroid[static_cast<std::size_t>(j)];
+      T[D + Quadratic<D>::at(i, j)] = i == j ? 0.5 * whole : whole;
     }
   }
+}
+
+/// phi_ab = w p . A^-1 T_a: what gives the cell's moments up to the second, for fields that are exact at a itself.
+template <int D>
+void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exchange<D>& x) {
+  constexpr int terms = Quadratic<D>::terms;
+  double A[terms * terms]{}, T[terms];
+  std::vector<std::array<double, static_cast<std::size_t>(terms)>> of_pair;
+  for (std::size_t k = x.pairs.first(a); k < x.pairs.end(a); ++k) {
+    Vec<D> r;
+    for (int c = 0; c < D; ++c)
+      r[c] = X[x.pairs.at(k)][static_cast<std::size_t>(c)] - X[a][static_cast<std::size_t>(c)];
+    double p[Quadratic<D>::values];
+    monomials<D>(r, p);
+    double const square = dot(r, r), inside = 1 - square / (reach * reach);
+    x.handed[k] = inside * inside / (square * square);
+    of_pair.emplace_back();
+    for (int i = 0; i < terms; ++i) {
+      of_pair.back()[static_cast<std::size_t>(i)] = p[1 + i];
+      for (int j = 0; j <= i; ++j) A[i * terms + j] += x.handed[k] * p[1 + i] * p[1 + j];
+    }
+  }
+  for (int i = 0; i < terms; ++i)
+    for (int j = 0; j < i; ++j) A[j * terms + i] = A[i * terms + j];
+  cell_monomials<D>(cell, T);
+  bool const good = solve_in_place<terms>(A, T) > smallest_pivot;
+  for (std::size_t k = 0; k < of_pair.size(); ++k) {
+    double sum = 0;
+    for (int i = 0; i < terms; ++i) sum += of_pair[k][static_cast<std::size_t>(i)] * T[i];
+    x.handed[x.pairs.first(a) + k] *= good ? cell.volume * sum : 0;
+  }
+}
+
+/// What all cells hand over; of a lattice each kind of cell once.
+template <int D>
+Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells,
+                      std::optional<LatticeShape> const& lattice) {
+  Exchange<D> x{find_pairs(X, std::vector<double>(X.size(), reach)), {}};
+  x.handed.assign(x.pairs.neighbour.size(), 0);
+  std::vector<Index> const alike =
+      lattice ? alike_in_lattice(*lattice, static_cast<int>(reach)) : std::vector<Index>();  // at `reach` there is none
+  auto const is_first = [&](Index a) { return !lattice || alike[static_cast<std::size_t>(a)] == a; };
+  auto const particles = static_cast<Index>(X.size());
+  exec_host::for_each_in_set_up(particles, [&](Index a) {
+    auto const k = static_cast<std::size_t>(a);
+    if (is_first(a)) hand_over_cell<D>(X, cells[k], k, x);
+  });
+  exec_host::for_each_in_set_up(particles, [&](Index a) {
+    if (is_first(a)) return;
+    auto const from = static_cast<std::size_t>(alike[static_cast<std::size_t>(a)]);
+    std::copy(x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(from)),
+              x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.end(from)),
+              x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(static_cast<std::size_t>(a))));
+  });
   return x;
 }
+
+/// Masses from what cells hand over, and the cells that are restrained until none of them makes a particle too light.
+class Restraint {
+ public:
+  Restraint(Pairs const& pairs, std::vector<double> const& handed, std::vector<ScaledCell> const& cells, double least)
+      : pairs_(pairs), handed_(handed), cells_(cells), least_(least), theta_(cells.size(), 1), mass_(cells.size()) {
+    for (std::size_t a = 0; a < mass_.size(); ++a) mass_[a] = cells[a].volume;
+    for (std::size_t a = 0; a < mass_.size(); ++a)
+      for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+        mass_[pairs.at(k)] += handed[k];
+        mass_[a] -= handed[k];
+      }
+  }
+
+  std::vector<double> operator()() {
+    std::vector<std::size_t> light, next;
+    for (std::size_t b = 0; b < mass_.size(); ++b)
+      if (is_light(b)) light.push_back(b);
+    for (int round = 0; round < most_rounds && !light.empty(); ++round) {
+      std::vector<std::size_t> changed = restrain(light);
+      next.clear();
+      for (std::size_t const b : changed) add(b);
+      for (std::size_t const b : changed)
+        if (is_light(b)) next.push_back(b);
+      light.swap(next);
+    }
+    return std::move(mass_);
+  }
+
+ private:
+  bool is_light(std::size_t b) const { return mass_[b] < least_ * cells_[b].volume; }
+
+  /// m_b anew.
+  void add(std::size_t b) {
+    double sum = cells_[b].volume;
+    for (std::size_t k = pairs_.first(b); k < pairs_.end(b); ++k)
+      sum += theta_[pairs_.at(k)] * handed_[opposite(b, k)] - theta_[b] * handed_[k];
+    mass_[b] = sum;
+  }
+  /// Of the pair k of b the entry of the other particle. Neighbours are in increasing order.
+  std::size_t opposite(std::size_t b, std::size_t k) const {
+    auto const a = pairs_.at(k);
+    auto const first = pairs_.neighbour.begin() + static_cast<std::ptrdiff_t>(pairs_.first(a));
+    auto const last = pairs_.neighbour.begin() + static_cast<std::ptrdiff_t>(pairs_.end(a));
+    return static_cast<std::size_t>(std::lower_bound(first, last, static_cast<Index>(b)) - pairs_.neighbour.begin());
+  }
+  /// Lowers theta of the cells that draw from the light particles, their own included; returns the particles whose mass
+  /// that changes, in increasing order.
+  std::vector<std::size_t> restrain(std::vector<std::size_t> const& light) {
+    std::vector<std::size_t> cells = light;
+    for (std::size_t const b : light)
+      for (std::size_t k = pairs_.first(b); k < pairs_.end(b); ++k)
+        if (handed_[opposite(b, k)] < 0) cells.push_back(pairs_.at(k));
+    make_unique(cells);
+    std::vector<std::size_t> changed = cells;
+    for (std::size_t const a : cells) {
+      theta_[a] *= restraint;
+      for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) changed.push_back(pairs_.at(k));
+    }
+    make_unique(changed);
+    return changed;
+  }
+  static void make_unique(std::vector<std::size_t>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+  }
+
+  Pairs const& pairs_;
+  std::vector<double> const& handed_;  ///< V_a phi_ab, per pair of a
+  std::vector<ScaledCell> const& cells_;
+  double least_;
+  std::vector<double> theta_, mass_;
+};
 
 }  // namespace
 
 template <int D>
-std::vector<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, double least) {
-  auto const x = hand_over<D>(X, cells);
-  std::vector<double> theta(X.size(), 1), mass(X.size());
-  for (int round = 0; round < most_rounds; ++round) {
-    for (std::size_t a = 0; a < X.size(); ++a) mass[a] = cells[a].volume;
-    for (std::size_t a = 0; a < X.size(); ++a)
-      for (std::size_t k = x.pairs.first(a); k < x.pairs.end(a); ++k) {
-        mass[x.pairs.at(k)] += theta[a] * x.handed[k];
-        mass[a] -= theta[a] * x.handed[k];
-      }
-    auto const light = [&](std::size_t b) { return mass[b] < least * cells[b].volume; };
-    bool done = true;
-    for (std::size_t a = 0; a < X.size(); ++a) {
-      bool restrain = light(a);
-      for (std::size_t k = x.pairs.first(a); k < x.pairs.end(a) && !restrain; ++k)
-        restrain = x.handed[k] < 0 && light(x.pairs.at(k));
-      if (!restrain) continue;
-      theta[a] *= restraint;
-      done = false;
-    }
-    if (done) break;
-  }
-  return mass;
+std::vector<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, double least,
+                                 std::optional<LatticeShape> const& lattice) {
+  auto const x = hand_over<D>(X, cells, lattice);
+  return Restraint(x.pairs, x.handed, cells, least)();
 }
 
-template std::vector<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, double);
-template std::vector<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, double);
-template std::vector<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, double);
+template std::vector<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, double,
+                                             std::optional<LatticeShape> const&);
+template std::vector<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, double,
+                                             std::optional<LatticeShape> const&);
+template std::vector<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, double,
+                                             std::optional<LatticeShape> const&);
 
 }  // namespace piola::nodal

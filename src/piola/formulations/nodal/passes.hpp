@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/parallel.hpp"
 #include "piola/exec/view.hpp"
+#include "piola/formulations/nodal/lattice_sums.hpp"
 #include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/records.hpp"
@@ -33,6 +34,27 @@ struct SumMotion {
   }
 };
 
+/// The same of a lattice, a block at a time.
+template <int D>
+struct SumLatticeMotion {
+  static constexpr int sums = D * LatticeSums<D>::used;
+  LatticeSums<D> lattice;
+
+  PIOLA_FN void operator()(Range b, exec::Scratch const& out) const { lattice.of_motion(b, out); }
+};
+
+/// x_c mu_J, which the first sweep over a lattice adds up.
+template <int D>
+struct MultiplyByCorrections {
+  View x, mu;
+  WriteView products;
+
+  PIOLA_FN void operator()(Index i) const {
+    for (int c = 0; c < D; ++c)
+      for (int J = 0; J < D; ++J) products.scalar(i, Lanes(x.scalar<Lanes>(i, c) * mu.scalar<Lanes>(i, J)), c * D + J);
+  }
+};
+
 /// m_a a_a = sum_b t_ab - sum_b t_ba,  t_ab = s (Y_a P(r_ab) + Z_a mu_b). The first sum, of the particle's own stress,
 /// is in `a` already.
 template <int D>
@@ -50,6 +72,26 @@ struct SumForces {
     }
     Lanes const per_mass = 1.0 / mass.scalar<Lanes>(i);
     for (int c = 0; c < D; ++c) a_out.scalar(i, Lanes(per_mass * (a.scalar<Lanes>(i, c) - load<Lanes>(sum[c]))), c);
+  }
+};
+
+/// The same of a lattice, a block at a time.
+template <int D>
+struct SumLatticeForces {
+  LatticeSums<D> lattice;
+  ReferenceView mass;
+  View a;
+  WriteView a_out;
+
+  PIOLA_FN void operator()(Range b, Index) const {
+    alignas(64) double sums[exec::block_size];
+    for (int c = 0; c < D; ++c) {
+      lattice.of_stress(b, c, sums);
+      for (Index i = b.first; i < b.last; i += lane_count) {
+        Lanes const force = a.scalar<Lanes>(i, c) - load<Lanes>(sums + (i - b.first));
+        a_out.scalar(i, Lanes(force / mass.scalar<Lanes>(i)), c);
+      }
+    }
   }
 };
 

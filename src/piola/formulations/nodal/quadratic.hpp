@@ -5,6 +5,10 @@
 /// Quadratic polynomials about a particle, in units of the spacing: their monomials and what derivatives are of them.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
+/// Neighbours of a particle are nearer than this, in spacings, unless they determine a quadratic badly: 56 inside a
+/// cubic lattice.
+inline constexpr double usual_reach = 2.4;
+
 /// Sizes in D dimensions. Second derivatives are in the order 11 22 33 23 13 12 (2D: 11 22 12).
 template <int D>
 struct Quadratic {

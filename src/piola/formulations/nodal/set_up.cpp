@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/closure.hpp"
 #include "piola/formulations/nodal/face_parts.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <tuple>
 
 namespace piola::nodal {
@@ -110,7 +113,7 @@ class Tables {
     to_.mu.assign(slots_ * dimension, 0);
     to_.L.assign(slots_ * dimension * dimension, 0);
     to_.g.assign(slots_ * values * dimension, 0);
-    to_.k.assign(slots_ * terms * second, 0);
+    share_k();
     to_.own.assign(slots_ * (values + dimension), 0);
     to_.centroid.assign(slots_ * dimension, 0);
     for (std::size_t a = 0; a < scaled_.cells.size(); ++a) {
@@ -125,7 +128,8 @@ class Tables {
       }
       fill_derivatives(a, closure);
     }
-    for (std::size_t a = 0; a < scaled_.cells.size(); ++a) fill_own(a);
+    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.cells.size()),
+                                  [this](Index a) { fill_own(static_cast<std::size_t>(a)); });
     fill_list();
   }
 
@@ -138,10 +142,9 @@ class Tables {
     return sum % 2 == 0 ? 1 : -1;
   }
 
-  /// g: the gradient at the centroid, with the correction's own quadratic; k: second derivatives.
+  /// g: the gradient at the centroid, with the correction's own quadratic.
   void fill_derivatives(std::size_t a, Closure const& closure) {
     double* const g = &to_.g[a * values * dimension];
-    double* const k = &to_.k[a * terms * second];
     auto const& cell = scaled_.cells[a];
     for (std::size_t J = 0; J < dimension; ++J) {
       for (std::size_t m = 0; m < values; ++m)
@@ -153,6 +156,11 @@ class Tables {
             at_centroid<D>(column, cell, static_cast<int>(J)) / scaled_.h[J];
       }
     }
+  }
+
+  /// k of a particle, stored at `place`.
+  void fill_second(std::size_t a, std::size_t place) {
+    double* const k = &to_.k[place * terms * second];
     for (int J = 0; J < D; ++J)
       for (int K = J; K < D; ++K) {
         int const n = Quadratic<D>::at(J, K);
@@ -160,6 +168,28 @@ class Tables {
         for (int l = 0; l < Quadratic<D>::terms; ++l)
           k[static_cast<std::size_t>(l) * second + static_cast<std::size_t>(n)] = fits_.inverse(a, D + n, l) / hh;
       }
+  }
+
+  /// Makes k: one for each particle, or of a lattice for each kind of group of lanes.
+  void share_k() {
+    std::size_t const particles = scaled_.cells.size();
+    if (!to_.lattice) {
+      to_.k.assign(slots_ * terms * second, 0);
+      for (std::size_t a = 0; a < particles; ++a) fill_second(a, a);
+      return;
+    }
+    auto const lanes = static_cast<std::size_t>(from_.machine.lanes);
+    std::map<std::vector<std::size_t>, std::int32_t> known;
+    for (std::size_t first = 0; first < slots_; first += lanes) {
+      std::vector<std::size_t> kinds;
+      for (std::size_t a = first; a < std::min(first + lanes, particles); ++a) kinds.push_back(fits_.alike(a));
+      auto const [at, is_new] = known.try_emplace(kinds, static_cast<std::int32_t>(known.size()));
+      to_.group_of_k.push_back(at->second);
+      if (!is_new) continue;
+      to_.k.resize(known.size() * lanes * terms * second, 0);
+      for (std::size_t l = 0; l < kinds.size(); ++l)
+        fill_second(first + l, static_cast<std::size_t>(at->second) * lanes + l);
+    }
   }
 
   void fill_own(std::size_t a) {
@@ -199,18 +229,23 @@ Reference make(SetUp const& from) {
     if (!(scaled.cells[i].volume > least_cell))
       refuse(from, static_cast<Index>(i),
              "has no part of the body to itself - move it into the body, or apart from its neighbours");
-  Fits<D> const fits(scaled.X);
+  auto shape = lattice_shape(from.set, from.body, from.order);
+  // Pressures that follow a face ask for gradients particle by particle, which lists give.
+  for (auto const& load : from.loads)
+    if (load.follows) shape.reset();
+  Fits<D> const fits(scaled.X, shape);
+  if (shape && fits.usual()) r.lattice.emplace(*shape, from.order.slots(), from.machine.lanes);
   if (fits.hopeless() >= 0)
     refuse(from, fits.hopeless(),
            "has neighbours that determine no quadratic field - use at least three particles across the body in every "
            "direction");
   r.costs.fits = since(clock);
   Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
-  Closure const closure = divergence.solve(closure_tolerance);
+  Closure const closure = divergence.solve(closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr);
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
   r.costs.closure = since(clock);
-  auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass);
+  auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass, shape);
   r.costs.masses = since(clock);
   Tables<D>(from, scaled, fits, r).fill(closure, mass);
   r.costs.tables = since(clock);

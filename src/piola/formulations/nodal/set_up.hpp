@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/nodal/lattice_layout.hpp"
+#include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/tables.hpp"
 #include "piola/particles/ordering.hpp"
+#include <optional>
 #include <vector>
 
 namespace piola::nodal {
@@ -22,8 +25,9 @@ struct SetUp {
   Body const& body;
   SlotOrder const& order;
   std::vector<Load> const& loads;
-  double rho0;        ///< [kg/m^3]
-  double least_mass;  ///< of a particle over that of its cell
+  double rho0;             ///< [kg/m^3]
+  double least_mass;       ///< of a particle over that of its cell
+  Machine const& machine;  ///< whose loops solve for the divergence theorem
 };
 
 /// What a particle answers for of a loaded face.
@@ -36,12 +40,15 @@ struct FacePart {
 /// docs/theory/nodal.md, section 3.
 struct Reference {
   std::vector<double> V, mass, L, g, k, own, mu;
+  /// Where k of a group of lanes is stored, counted in groups, if groups that are alike share it: on a lattice.
+  std::vector<std::int32_t> group_of_k;
   std::vector<double> X;                     ///< in spacings, D per slot
   std::vector<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
   std::vector<std::vector<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
   std::vector<std::int64_t> begin;           ///< lists, see ListTable
   std::vector<Index> neighbour;
   std::vector<double> weight;
+  std::optional<LatticeLayout> lattice;  ///< takes the place of the lists where particles fill a lattice
   int closure_iterations = 0;
   SetUpCosts costs;
 

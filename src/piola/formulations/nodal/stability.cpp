@@ -6,9 +6,13 @@
 namespace piola::nodal {
 namespace {
 
-constexpr int first_rounds = 100;  ///< power iterations from a random start
-constexpr int later_rounds = 5;    ///< and from the mode of the last measurement
-constexpr double interval = 25;    ///< steps between measurements
+constexpr int cycle = 4;          ///< right-hand sides of a cycle of Lanczos' method
+constexpr int first_cycles = 12;  ///< at most, from a random start
+constexpr int later_cycles = 3;   ///< at most, from the mode of the last measurement
+/// Of the square of the frequency: a measurement ends when its error is known to be less.
+constexpr double accuracy = 0.05;
+constexpr double shortest = 25, longest = 50;  ///< steps between measurements
+constexpr double steady = 0.01;                ///< the interval grows where the frequency has changed by less
 /// Or this change of a strain, but not within fewer steps unless it is much.
 constexpr double change = 0.1, fewest = 4, much = 0.3;
 /// Iterations come from below: this much is added.
@@ -22,7 +26,7 @@ constexpr double brisk_pace = 20, violent_pace = 8;
 /// Energy differs from what Verlet steps keep, exactly in vibrations, by dt^2/8 sum m a^2. Steps are shortened where
 /// that would be more than this share of it, but not below the least share of the limit. At the start accelerations are
 /// not yet what they will be.
-constexpr double wobble = 3e-4, least_share = 0.25, first_share = 0.35;
+constexpr double wobble = 3e-4, least_of_limit = 0.25, first_share = 0.35;
 /// Where a cell is crushed the steps that had to be halved say more than the last measurement: each makes the next ones
 /// shorter, down to a share, and steps that went well make them longer again.
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
@@ -40,48 +44,90 @@ double largest(std::vector<double> const& u) {
   return most;
 }
 
+/// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on the signs of the pivots of T - theta; and the
+/// last component of its normalised eigenvector, with the vector.
+double largest_eigenvalue(std::vector<double> const& diagonal, std::vector<double> const& beside,
+                          std::vector<double>& vector) {
+  std::size_t const n = diagonal.size();
+  double low = diagonal[0], high = diagonal[0];
+  for (std::size_t k = 0; k < n; ++k) {
+    double const reach = (k > 0 ? std::abs(beside[k - 1]) : 0) + (k + 1 < n ? std::abs(beside[k]) : 0);
+    low = std::max(low, diagonal[k]);
+    high = std::max(high, diagonal[k] + reach);
+  }
+  auto const all_below = [&](double theta) {
+    double pivot = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      pivot = diagonal[k] - theta - (k > 0 ? beside[k - 1] * beside[k - 1] / pivot : 0);
+      if (!(pivot < 0)) return false;
+    }
+    return true;
+  };
+  constexpr int halvings = 60;
+  for (int k = 0; k < halvings; ++k) {
+    double const middle = 0.5 * (low + high);
+    (all_below(middle) ? high : low) = middle;
+  }
+  // (T - theta) y = 0 from its first row on.
+  vector.assign(n, 1);
+  double size = 1;
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    vector[k + 1] = beside[k] > 0
+                        ? ((high - diagonal[k]) * vector[k] - (k > 0 ? beside[k - 1] * vector[k - 1] : 0)) / beside[k]
+                        : 0;
+    size += vector[k + 1] * vector[k + 1];
+  }
+  for (double& y : vector) y /= std::sqrt(size);
+  return high;
+}
+
 }  // namespace
 
-StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine) : body_(body), machine_(machine) {
+StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
+    : body_(body), machine_(machine), interval_(shortest) {
   if (body.options().cfl > 0) return;
   mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
-  measure(first_rounds);
+  measure(first_cycles);
   start_ = frequency_;
 }
 
-std::vector<double> StabilityMonitor::positions() const {
+StabilityMonitor::Vector StabilityMonitor::positions() const {
   int const D = body_.state().dimension;
-  std::vector<double> x(mode_.size());
+  Vector x(mode_.size());
   for (std::size_t k = 0; k < x.size(); ++k)
     x[k] = value_at(body_.state().x, static_cast<Index>(k) / D, static_cast<int>(k) % D);
   return x;
 }
 
-void StabilityMonitor::put_positions(std::vector<double> const& x) {
+void StabilityMonitor::put_moved(Vector const& x, double scale, Vector const& mode) {
   int const D = body_.state().dimension;
   for (std::size_t k = 0; k < x.size(); ++k)
-    value_at(body_.state().x, static_cast<Index>(k) / D, static_cast<int>(k) % D) = x[k];
+    value_at(body_.state().x, static_cast<Index>(k) / D, static_cast<int>(k) % D) = x[k] + scale * mode[k];
 }
 
 /// Of the internal forces at the positions that the body has now.
-std::vector<double> StabilityMonitor::accelerations() {
+StabilityMonitor::Vector StabilityMonitor::accelerations() {
   int const D = body_.state().dimension;
   FailureSlot failure;
   BodyState trial = body_.state();
   trial.failure = &failure;
   machine_.accelerate(trial);
-  std::vector<double> a(mode_.size());
+  Vector a(mode_.size());
   for (std::size_t k = 0; k < a.size(); ++k)
     a[k] = value_at(trial.a, static_cast<Index>(k) / D, static_cast<int>(k) % D);
   return a;
 }
 
-/// Square root of sum m u.u
-double StabilityMonitor::size_of(std::vector<double> const& u) const {
+/// sum m u.v
+double StabilityMonitor::product(Vector const& u, Vector const& v) const {
   int const D = body_.state().dimension;
   double sum = 0;
-  for (std::size_t k = 0; k < u.size(); ++k) sum += body_.mass(static_cast<Index>(k) / D) * u[k] * u[k];
-  return std::sqrt(sum);
+  for (std::size_t k = 0; k < u.size();) {
+    double of_particle = 0;
+    for (int c = 0; c < D; ++c, ++k) of_particle += u[k] * v[k];
+    sum += body_.mass(static_cast<Index>(k) / D - 1) * of_particle;
+  }
+  return sum;
 }
 
 /// sum m a^2 of what moves freely.
@@ -100,30 +146,57 @@ double StabilityMonitor::square_of_accelerations() const {
   return sum;
 }
 
-void StabilityMonitor::measure(int rounds) {
+/// One cycle of Lanczos' method for -da/dx, which is symmetric in the product above, from the mode, which becomes the
+/// best approximation of an eigenvector that it finds.
+StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector const& rest, double size) {
+  std::vector<Vector> basis;
+  std::vector<double> diagonal, beside, y;
+  Vector next = mode_;
+  for (int k = 0; k < cycle; ++k) {
+    double const length = std::sqrt(product(next, next));
+    if (!(length > 0) || !std::isfinite(length)) break;
+    if (k > 0) beside.push_back(length);
+    for (double& u : next) u /= length;
+    basis.push_back(next);
+    double const scale = size / largest(next);
+    put_moved(x, scale, next);
+    next = accelerations();
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = (rest[i] - next[i]) / scale;
+    diagonal.push_back(product(next, basis.back()));
+    for (std::size_t i = 0; i < next.size(); ++i)
+      next[i] -=
+          diagonal.back() * basis.back()[i] + (k > 0 ? beside.back() * basis[static_cast<std::size_t>(k) - 1][i] : 0);
+  }
+  if (basis.empty()) return {};
+  beside.resize(basis.size() - 1);
+  Estimate found;
+  found.square = largest_eigenvalue(diagonal, beside, y);
+  found.error = std::sqrt(product(next, next)) * std::abs(y.back());
+  std::fill(mode_.begin(), mode_.end(), 0);
+  for (std::size_t k = 0; k < basis.size(); ++k)
+    for (std::size_t i = 0; i < mode_.size(); ++i) mode_[i] += y[k] * basis[k][i];
+  return found;
+}
+
+void StabilityMonitor::measure(int cycles) {
   machine_.keep(body_.state());
   machine_.observe(body_.state());
   double const energy = body_.kinetic_energy() + body_.strain_energy();
-  body_.mark_measured();
   double const most = largest(mode_);
   for (std::size_t k = 0; k < mode_.size(); ++k)
     mode_[k] = most > 0 ? mode_[k] / most + fresh * pseudo_random(k) : pseudo_random(k);
   auto const x = positions();
+  body_.state().marks = true;
   auto const rest = accelerations();
+  body_.state().marks = false;
   auto const spacing = body_.body().spacing;
   // Small against what changes the tangent, large against round-off.
   double const size = 1e-6 * *std::min_element(spacing.begin(), spacing.begin() + body_.state().dimension);
-  for (int round = 0; round < rounds; ++round) {
-    double const scale = size / largest(mode_);
-    auto moved = x;
-    for (std::size_t k = 0; k < mode_.size(); ++k) moved[k] += mode_[k] *= scale;
-    put_positions(moved);
-    double const before = size_of(mode_);
-    mode_ = accelerations();
-    for (std::size_t k = 0; k < mode_.size(); ++k) mode_[k] -= rest[k];
-    double const ratio = size_of(mode_) / before;
-    if (!(ratio > 0) || !std::isfinite(ratio)) break;
-    frequency_ = std::sqrt(ratio);
+  for (int k = 0; k < cycles; ++k) {
+    Estimate const found = iterate(x, rest, size);
+    if (!(found.square > 0) || !std::isfinite(found.square)) break;
+    frequency_ = std::sqrt(found.square + std::min(found.error, accuracy * found.square));
+    if (found.error < accuracy * found.square) break;
   }
   machine_.restore(body_.state());
   steps_ = 0;
@@ -135,10 +208,13 @@ void StabilityMonitor::update(int halvings) {
   if (body_.options().cfl > 0) return;
   ++steps_;
   caution_ = halvings > 0 ? std::max(least_caution, halved * caution_) : std::min(1.0, recovery * caution_);
-  double const moved = machine_.largest_change(body_.state());
-  if (steps_ < interval && moved < (steps_ < fewest ? much : change)) return;
+  bool const strained = machine_.largest_change(body_.state()) >= (steps_ < fewest ? much : change);
+  if (steps_ < interval_ && !strained) return;
+  double const before = frequency_;
   pace_ = steps_;
-  measure(later_rounds);
+  measure(later_cycles);
+  bool const calm = !strained && std::abs(frequency_ - before) < steady * before;
+  interval_ = calm ? std::min(2 * interval_, longest) : shortest;
 }
 
 double StabilityMonitor::frequency() const { return lift * std::max(frequency_, start_); }
@@ -153,11 +229,11 @@ double StabilityMonitor::step() const {
   auto const& s = body_.state();
   double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);
   double const limit = (std::sqrt(1 + xi * xi) - xi) * 2 / frequency(), stable = caution_ * share * limit;
-  return accurate_ > 0 ? std::min(stable, std::max(accurate_, least_share * caution_ * limit)) : stable;
+  return accurate_ > 0 ? std::min(stable, std::max(accurate_, least_of_limit * caution_ * limit)) : stable;
 }
 
 std::vector<double> StabilityMonitor::state() const {
-  std::vector<double> s{frequency_, start_, steps_, pace_, caution_, accurate_};
+  std::vector<double> s{frequency_, start_, steps_, pace_, caution_, accurate_, interval_};
   s.insert(s.end(), mode_.begin(), mode_.end());
   return s;
 }
@@ -169,7 +245,8 @@ void StabilityMonitor::restore(std::vector<double> const& state) {
   pace_ = state[3];
   caution_ = state[4];
   accurate_ = state[5];
-  std::copy(state.begin() + 6, state.end(), mode_.begin());
+  interval_ = state[6];
+  std::copy(state.begin() + 7, state.end(), mode_.begin());
 }
 
 }  // namespace piola::nodal

@@ -6,12 +6,12 @@
 namespace piola::nodal {
 
 /// Follows the step limit 2 / omega of one body, with omega the largest frequency of its forces about the current
-/// state: power iterations, which start from the mode found last. Measured again every 25 steps, and as soon as a
-/// strain has changed by 0.1. The state is left as it was.
+/// state: Lanczos' method, which starts from the mode found last. Measured again after 25 steps, after up to 50 while
+/// nothing changes, and as soon as a strain has changed by 0.1. The state is left as it was.
 class StabilityMonitor {
  public:
   /// Right-hand sides for the measurement at the start, and for later ones per step of calm motion.
-  static constexpr double setup_stages = 101, stages_per_step = 0.26;
+  static constexpr double setup_stages = 25, stages_per_step = 0.1;
 
   /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
   StabilityMonitor(NodalBody& body, Machine const& machine);
@@ -28,22 +28,29 @@ class StabilityMonitor {
   void restore(std::vector<double> const& state);
 
  private:
-  void measure(int rounds);
-  std::vector<double> accelerations();
-  void put_positions(std::vector<double> const& x);
-  std::vector<double> positions() const;
+  using Vector = std::vector<double>;  ///< D values per particle, in slot order
+  /// An approximate eigenvalue omega^2, and by how much the nearest true one differs at most.
+  struct Estimate {
+    double square = 0, error = 0;
+  };
+  void measure(int cycles);
+  Estimate iterate(Vector const& x, Vector const& rest, double size);
+  Vector accelerations();
+  Vector positions() const;
+  void put_moved(Vector const& x, double scale, Vector const& mode);
   double square_of_accelerations() const;
-  double size_of(std::vector<double> const& u) const;
+  double product(Vector const& u, Vector const& v) const;
 
   NodalBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;  ///< in slot order
-  double frequency_ = 0;      ///< 1/s, at the last measurement
-  double start_ = 0;          ///< 1/s, at the start
-  double steps_ = 0;          ///< since the last measurement
-  double caution_ = 1;        ///< share of the step that is left after steps that had to be halved
-  double accurate_ = 0;       ///< step that keeps the energy as well as is wanted [s]; 0: any
-  double pace_ = 0;           ///< steps between the last two measurements; 0: there was one alone
+  std::vector<double> mode_;
+  double frequency_ = 0;  ///< 1/s, at the last measurement
+  double start_ = 0;      ///< 1/s, at the start
+  double steps_ = 0;      ///< since the last measurement
+  double caution_ = 1;    ///< share of the step that is left after steps that had to be halved
+  double accurate_ = 0;   ///< step that keeps the energy as well as is wanted [s]; 0: any
+  double pace_ = 0;       ///< steps between the last two measurements; 0: there was one alone
+  double interval_ = 0;   ///< steps to the next measurement while strains change little
 };
 
 }  // namespace piola::nodal

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include "piola/formulations/nodal/lattice.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/tables.hpp"
 
@@ -53,13 +54,15 @@ struct BodyState {
   ViscousConstants viscosity{};
   MaterialParameters material;
   ListTable list;
+  LatticeTable lattice;  ///< takes the place of lists where particles fill a lattice
 
   // Reference: volume of the cell; mass; Cholesky factor of the cell's spread times the parity (columns of L: D x D);
   // what derivatives are of the sums: g (values x D) for F, k (terms x second) for H; sums of s P and of s mu.
   FieldRef V, mass, L, g, k, own;
   // Evolved: position, velocity; acceleration by all forces, of the positions.
   FieldRef x, v, a;
-  FieldRef first;   ///< what the first sweep reads of neighbours: X, x, mu
+  FieldRef mu;      ///< corrections of the gradients
+  FieldRef first;   ///< what the first sweep reads of neighbours: X, x, mu; of a lattice x_c mu_J
   FieldRef second;  ///< and the second: rows (Y_i, Z_i)
   FieldRef F, P;    ///< gradient at the centroid; mean stress, three-dimensional: for observers
   FieldRef cell;    ///< energy per volume, mean J, least J: for observers
@@ -73,8 +76,16 @@ struct BodyState {
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   bool follows = false;       ///< whether some load turns with the deformed face
+  bool marks = false;         ///< forces at x also leave F^T F there in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
+};
+
+/// What the system of the divergence theorem at set-up needs beside the state's volumes and sums: per particle the
+/// inverse of its normal equations (upper triangle, row by row); s V of itself, and its sum with s V of all neighbours;
+/// the quadratic found last (values x D).
+struct ProjectionFields {
+  FieldRef inverse, weights, coefficients;
 };
 
 /// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
@@ -87,6 +98,8 @@ struct Machine {
   double (*largest_change)(BodyState& body);  ///< of a strain since the step was measured
   void (*keep)(BodyState& body);              ///< remembers x, v, a and the least J
   void (*restore)(BodyState& body);           ///< and takes them back
+  /// a = the matrix of the divergence theorem times x; masses are one.
+  void (*project)(BodyState& body, ProjectionFields const& fields);
 };
 
 /// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.

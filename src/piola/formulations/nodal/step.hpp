@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 #include "piola/parallel/halo.hpp"
 
@@ -28,8 +29,16 @@ class Step {
   /// the last step.
   void accelerate(double dt = -1) {
     sweep<false>(dt);
-    halo_.refresh(b_.second);
-    exec::for_each(b_.slots, SumForces<D>{of_stress(), read_reference(b_.mass), read(b_.a), write(b_.a)});
+    sum_forces();
+  }
+
+  /// a = M x with the matrix of the divergence theorem.
+  void project(ProjectionFields const& f) {
+    ProjectQuadratic<D> const pass{read(f.inverse),       read_reference(b_.V), read(f.weights), read(b_.x),
+                                   write(f.coefficients), write(b_.second),     write(b_.a)};
+    halo_.refresh(b_.x, b_.first);
+    fused(exec::erased(pass));
+    sum_forces();
   }
 
   /// The fields for observers, of the cells at x.
@@ -49,8 +58,37 @@ class Step {
   }
 
  private:
+  bool on_lattice() const { return b_.lattice.present != nullptr; }
   ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.first).data, nullptr}; }
   ListSums<D> of_stress() const { return {b_.list, read_neighbours(b_.first).data, read_neighbours(b_.second).data}; }
+  LatticeSums<D> of_lattice() const {
+    bool const corrected = b_.mu.data != nullptr;
+    return {b_.lattice,
+            b_.slots.last,
+            read_neighbours(b_.x),
+            read(b_.first),
+            read_reference(b_.own).stored,
+            read(b_.mu),
+            read(b_.second),
+            corrected};
+  }
+
+  /// The first sweep, block by block with the pass that uses its sums.
+  void fused(exec::PointPass const& then) {
+    if (on_lattice())
+      exec::for_each_block(b_.slots, FusedBlock<SumLatticeMotion<D>>{{of_lattice()}, then});
+    else
+      exec::for_each_then(b_.slots, SumMotion<D>{of_motion()}, then);
+  }
+
+  void sum_forces() {
+    halo_.refresh(b_.second);
+    if (on_lattice())
+      exec::for_each_block(b_.slots,
+                           SumLatticeForces<D>{of_lattice(), read_reference(b_.mass), read(b_.a), write(b_.a)});
+    else
+      exec::for_each(b_.slots, SumForces<D>{of_stress(), read_reference(b_.mass), read(b_.a), write(b_.a)});
+  }
 
   void copy_history(FieldRef const& from, FieldRef const& to) const {
     if (from.data != nullptr) exec::for_each(b_.slots, CopyValues{read(from), write(to), ViscousHistory<D>::size});
@@ -68,8 +106,9 @@ class Step {
 
   template <bool Observed>
   void sweep(double dt) {
+    halo_.refresh(b_.x);
+    if (on_lattice()) exec::for_each(b_.slots, MultiplyByCorrections<D>{read(b_.x), read(b_.mu), write(b_.first)});
     halo_.refresh(b_.first);
-    SumMotion<D> const sums{of_motion()};
     with_law(b_.material, [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
       UpdateStress<D, Law, Observed> const update{law,
@@ -80,6 +119,8 @@ class Step {
                                                   read_reference(b_.k),
                                                   read_reference(b_.own),
                                                   read(b_.C_measured),
+                                                  write(b_.C_measured),
+                                                  b_.marks,
                                                   read(b_.kept),
                                                   {dt, b_.viscosity, read(b_.viscous), write(b_.viscous)},
                                                   write(b_.second),
@@ -89,7 +130,7 @@ class Step {
                                                   write(b_.P),
                                                   write(b_.cell),
                                                   b_.failure};
-      exec::for_each_then(b_.slots, sums, exec::erased(update));
+      fused(exec::erased(update));
     });
   }
 

@@ -110,7 +110,10 @@ struct UpdateStress {
   Law law;
   Constants constants;
   ReferenceView V, L, g, k, own;
-  View C_measured, kept;
+  View C_measured;
+  WriteView C_marked;
+  bool marks;
+  View kept;
   Viscosity<D> viscosity;
   WriteView stress, a, change, F_out, P_out, cell;
   FailureSlot* failure;
@@ -144,6 +147,7 @@ struct UpdateStress {
       for (int K = J; K < D; ++K) {
         Lanes C = F(0, J) * F(0, K);
         for (int c = 1; c < D; ++c) C = C + F(c, J) * F(c, K);
+        if (marks) C_marked.scalar(i, C, SymMat<D>::at(J, K));
         Lanes const moved = 0.5 * (C - measured(J, K)) /
                             minimum(Lanes(1.0), maximum(Lanes(1e-12), square_root(measured(J, J) * measured(K, K))));
         most = maximum(most, maximum(moved, 0.0 - moved));
@@ -152,22 +156,23 @@ struct UpdateStress {
   }
   PIOLA_FN CellPoints<D> gradients(Index i, exec::Scratch const& in) const {
     CellPoints<D> r;
+    LanesOfField const to_F = lanes_of(g, i), to_H = lanes_of(k, i), spread = lanes_of(L, i);
     for (int c = 0; c < D; ++c) {
       Lanes T[values], H[second];
       for (int m = 0; m < values; ++m) T[m] = load<Lanes>(in.at(i, c * used + m));
       for (int J = 0; J < D; ++J) {
         Lanes sum = load<Lanes>(in.at(i, c * used + values + J));
-        for (int m = 0; m < values; ++m) sum = sum + T[m] * g.template scalar<Lanes>(i, m * D + J);
+        for (int m = 0; m < values; ++m) sum = sum + T[m] * to_F[m * D + J];
         r.F(c, J) = sum;
       }
       for (int n = 0; n < second; ++n) {
-        H[n] = T[1] * k.template scalar<Lanes>(i, n);
-        for (int m = 1; m < terms; ++m) H[n] = H[n] + T[1 + m] * k.template scalar<Lanes>(i, m * second + n);
+        H[n] = T[1] * to_H[n];
+        for (int m = 1; m < terms; ++m) H[n] = H[n] + T[1 + m] * to_H[m * second + n];
       }
       for (int m = 0; m < D; ++m)
         for (int J = 0; J < D; ++J) {
           Lanes sum = Lanes(0.0);
-          for (int K = m; K < D; ++K) sum = sum + H[Quadratic<D>::at(J, K)] * L.template scalar<Lanes>(i, K * D + m);
+          for (int K = m; K < D; ++K) sum = sum + H[Quadratic<D>::at(J, K)] * spread[K * D + m];
           r.along[m](c, J) = sum;
         }
     }
@@ -176,6 +181,7 @@ struct UpdateStress {
 
   PIOLA_FN void put_stress(Index i, CellEnergy<Law, points, Observed> const& energy) const {
     Lanes const volume = V.scalar<Lanes>(i);
+    LanesOfField const to_F = lanes_of(g, i), to_H = lanes_of(k, i), spread = lanes_of(L, i), sums = lanes_of(own, i);
     Mat<D, Lanes> mean, along[D];
     for (int q = 0; q < points; ++q) {
       Mat<D, Lanes> const P = (volume * (1.0 / points)) * restrict_to<D>(energy.P[q]);
@@ -193,23 +199,21 @@ struct UpdateStress {
         for (int K = J; K < D; ++K) {
           Lanes sum = Lanes(0.0);
           for (int m = 0; m < D; ++m) {
-            sum = sum + along[m](c, J) * L.template scalar<Lanes>(i, K * D + m);
-            if (J != K) sum = sum + along[m](c, K) * L.template scalar<Lanes>(i, J * D + m);
+            sum = sum + along[m](c, J) * spread[K * D + m];
+            if (J != K) sum = sum + along[m](c, K) * spread[J * D + m];
           }
           Q[Quadratic<D>::at(J, K)] = sum;
         }
       Lanes row[width], own_force = Lanes(0.0);
       for (int m = 0; m < values; ++m) {
-        row[m] = mean(c, 0) * g.template scalar<Lanes>(i, m * D);
-        for (int J = 1; J < D; ++J) row[m] = row[m] + mean(c, J) * g.template scalar<Lanes>(i, m * D + J);
-        for (int n = 0; n < second && m > 0; ++n)
-          row[m] = row[m] + Q[n] * k.template scalar<Lanes>(i, (m - 1) * second + n);
+        row[m] = mean(c, 0) * to_F[m * D];
+        for (int J = 1; J < D; ++J) row[m] = row[m] + mean(c, J) * to_F[m * D + J];
+        for (int n = 0; n < second && m > 0; ++n) row[m] = row[m] + Q[n] * to_H[(m - 1) * second + n];
       }
       for (int J = 0; J < D; ++J) row[values + J] = mean(c, J);
-      for (int m = 0; m < used; ++m) own_force = own_force + row[m] * own.template scalar<Lanes>(i, m);
-      for (int m = used; m < width; ++m) row[m] = Lanes(0.0);
+      for (int m = 0; m < used; ++m) own_force = own_force + row[m] * sums[m];
       a.scalar(i, own_force, c);
-      store_records(stress.data + i * stress.particle_stride + c * width, stress.particle_stride, row);
+      put_row<D>(stress, i, c, row);
     }
   }
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/lattice.hpp"
+#include "piola/particles/ordering.hpp"
+#include <array>
+#include <optional>
+#include <vector>
+
+/// Bodies that fill a lattice: their order in memory and their neighbours.
+namespace piola::nodal {
+
+/// A lattice that a body fills without a gap, in the order of its slots: rows along the first direction, one after the
+/// other along the second, planes along the third.
+struct LatticeShape {
+  int dimension = 3;
+  std::array<std::size_t, 3> axis{0, 1, 2};  ///< of X, Y, Z, for the first, second, third direction
+  std::array<int, 3> count{1, 1, 1};         ///< particles along these directions
+
+  std::array<int, 3> place(Index slot) const {
+    return {slot % count[0], slot / count[0] % count[1], slot / (count[0] * count[1])};
+  }
+  bool has(std::array<int, 3> const& at) const {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (at[c] < 0 || at[c] >= count[c]) return false;
+    return true;
+  }
+  Index slot(std::array<int, 3> const& at) const { return (at[2] * count[1] + at[1]) * count[0] + at[0]; }
+};
+
+/// Slots of a body: row after row where it fills a lattice, else in pencils.
+SlotOrder slot_order(ParticleSet const& set, Body const& body);
+
+/// The lattice that a body fills in this order, if it does.
+std::optional<LatticeShape> lattice_shape(ParticleSet const& set, Body const& body, SlotOrder const& order);
+
+/// What loops need of a lattice, for a machine of so many lanes.
+class LatticeLayout {
+ public:
+  LatticeLayout(LatticeShape const& shape, Index slots, int lanes);
+  /// Valid as long as the layout.
+  LatticeTable table() const {
+    LatticeTable t = table_;
+    t.present = present_.data();
+    return t;
+  }
+  /// Slots beside the first and the last one that loops may read.
+  Index guard() const { return guard_; }
+
+ private:
+  template <int D>
+  void mark(LatticeShape const& shape, Index slots, int lanes);
+
+  LatticeTable table_;
+  std::vector<std::uint8_t> present_;
+  Index guard_ = 0;
+};
+
+}  // namespace piola::nodal

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/projection_matrix.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/math/solve.hpp"
+#include <algorithm>
+
+namespace piola::nodal {
+namespace {
+
+template <int D>
+constexpr int triangle = Quadratic<D>::values*(Quadratic<D>::values + 1) / 2;
+
+Index padded(std::size_t particles) {
+  auto const n = static_cast<Index>(particles);
+  return (n + SlotOrder::alignment - 1) / SlotOrder::alignment * SlotOrder::alignment;
+}
+
+}  // namespace
+
+template <int D>
+ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCell> const& cells, Machine const& machine,
+                                      LatticeLayout const* lattice)
+    : machine_(machine),
+      particles_(static_cast<Index>(cells.size())),
+      slots_(padded(cells.size())),
+      inverse_("InverseOfNormalEquations", "1", triangle<D>, Role::reference),
+      weights_("OwnWeights", "1", 2, Role::reference),
+      coefficients_("LeastSquaresQuadratic", "1", values * D, Role::derived) {
+  allocate(lattice);
+  fill(fits, cells);
+  auto const& pairs = fits.pairs();
+  begin_ = pairs.begin;  // slots without a particle have no neighbours
+  begin_.resize(static_cast<std::size_t>(slots_) + 1, begin_.back());
+  state_.list = {begin_.data(), nullptr, pairs.neighbour.data(), pairs.weight.data()};
+}
+
+template <int D>
+void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
+  auto& f = fields_;
+  if (lattice != nullptr)
+    gathered_.place_lattice(f, slots_, lattice->guard());
+  else
+    gathered_.place_records(f, D, slots_);
+  for (Field* field : {&f.V, &f.mass, &f.own, &f.a, &inverse_, &weights_, &coefficients_})
+    field->allocate_tiled(slots_);
+  state_.dimension = D;
+  state_.slots = {0, slots_};
+  state_.V = f.V.ref();
+  state_.mass = f.mass.ref();
+  state_.own = f.own.ref();
+  state_.x = f.x.ref();
+  state_.a = f.a.ref();
+  state_.second = f.stress.ref();
+  state_.failure = &failure_;
+  if (lattice != nullptr)
+    state_.lattice = lattice->table();
+  else
+    state_.first = f.X.ref();
+}
+
+template <int D>
+void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> const& cells) {
+  std::vector<double> explained(fits.pairs().neighbour.size());
+  for (Index i = 0; i < slots_; ++i) fields_.mass.at(i) = 1;
+  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+    auto const a = static_cast<std::size_t>(i);
+    if (fits.alike(a) == a) fill_sums(fits, a, explained);
+  });
+  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+    auto const a = static_cast<std::size_t>(i);
+    if (fits.alike(a) != a) copy_sums(fits, a, explained);
+    fields_.V.at(i) = cells[a].volume;
+    weights_.at(i, 0) = cells[a].volume * fits.own_weight(a);
+    for (int c = 0; c < D && state_.lattice.present == nullptr; ++c)
+      fields_.X.at(i, c) = fits.X()[a][static_cast<std::size_t>(c)];
+  });
+  diagonal_.resize(cells.size());
+  auto const& pairs = fits.pairs();
+  for (std::size_t a = 0; a < cells.size(); ++a) {
+    auto const i = static_cast<Index>(a);
+    double const own = fits.own_weight(a);
+    diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse_.at(i, 0));
+    double all = weights_.at(i, 0);
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+      diagonal_[pairs.at(k)] += cells[a].volume * pairs.weight[k] * (1 - pairs.weight[k] * explained[k]);
+      all += cells[pairs.at(k)].volume * pairs.weight[k];
+    }
+    weights_.at(i, 1) = all;
+  }
+}
+
+/// The inverse of a particle's normal equations, its sums of weights and, per pair, p(X_b).inverse.p(X_b).
+template <int D>
+void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, std::vector<double>& explained) {
+  auto const& pairs = fits.pairs();
+  auto const i = static_cast<Index>(a);
+  double A[values * values]{}, inverse[values * values], p[values]{1};
+  A[0] = fits.own_weight(a);
+  auto const monomials_of = [&](std::size_t k) {
+    auto const q = fits.monomials_of(a, pairs.at(k));
+    std::copy(q.begin(), q.end(), p + 1);
+  };
+  for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+    monomials_of(k);
+    for (int m = 0; m < values; ++m) {
+      double const weighted = pairs.weight[k] * p[m];
+      fields_.own.at(i, m) += weighted;
+      for (int n = m; n < values; ++n) A[m * values + n] += weighted * p[n];
+    }
+  }
+  for (int m = 0; m < values; ++m)
+    for (int n = 0; n < m; ++n) A[m * values + n] = A[n * values + m];
+  invert<values>(A, inverse);
+  for (int m = 0, at = 0; m < values; ++m)
+    for (int n = m; n < values; ++n) inverse_.at(i, at++) = inverse[m * values + n];
+  for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+    monomials_of(k);
+    explained[k] = 0;
+    for (int m = 0; m < values; ++m) {
+      double row = 0;
+      for (int n = 0; n < values; ++n) row += inverse[m * values + n] * p[n];
+      explained[k] += p[m] * row;
+    }
+  }
+}
+
+template <int D>
+void ProjectionMatrix<D>::copy_sums(Fits<D> const& fits, std::size_t a, std::vector<double>& explained) {
+  auto const i = static_cast<Index>(a), from = static_cast<Index>(fits.alike(a));
+  for (int m = 0; m < values; ++m) fields_.own.at(i, m) = fields_.own.at(from, m);
+  for (int m = 0; m < triangle<D>; ++m) inverse_.at(i, m) = inverse_.at(from, m);
+  auto const& pairs = fits.pairs();
+  std::copy(explained.begin() + static_cast<std::ptrdiff_t>(pairs.first(fits.alike(a))),
+            explained.begin() + static_cast<std::ptrdiff_t>(pairs.end(fits.alike(a))),
+            explained.begin() + static_cast<std::ptrdiff_t>(pairs.first(a)));
+}
+
+template <int D>
+void ProjectionMatrix<D>::apply(std::vector<double> const& x, std::vector<double>& image) {
+  for (std::size_t k = 0; k < x.size(); ++k) fields_.x.at(static_cast<Index>(k / D), static_cast<int>(k % D)) = x[k];
+  machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_.ref()});
+  for (std::size_t k = 0; k < x.size(); ++k)
+    image[k] = fields_.a.at(static_cast<Index>(k / D), static_cast<int>(k % D));
+}
+
+template <int D>
+std::vector<double> ProjectionMatrix<D>::coefficients() const {
+  std::vector<double> c(static_cast<std::size_t>(particles_) * values * D);
+  for (std::size_t k = 0; k < c.size(); ++k)
+    c[k] = coefficients_.at(static_cast<Index>(k / (values * D)), static_cast<int>(k % (values * D)));
+  return c;
+}
+
+template class ProjectionMatrix<1>;
+template class ProjectionMatrix<2>;
+template class ProjectionMatrix<3>;
+
+}  // namespace piola::nodal

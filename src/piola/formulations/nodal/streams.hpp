@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/parallel.hpp"
+#include "piola/exec/view.hpp"
+
+/// Reading many components of a field at once, and sweeps that work on a block at a time.
+namespace piola::nodal::inline PIOLA_MACHINE {
+
+/// Components of a group of lanes, of a field whose particles stand side by side: without asking at every component
+/// how they stand.
+struct LanesOfField {
+  double const* data;
+  std::ptrdiff_t component_stride;
+  PIOLA_FN Lanes operator[](int c) const { return load<Lanes>(data + c * component_stride); }
+};
+PIOLA_FN LanesOfField lanes_of(View const& v, Index i) {
+  return {v.data + i * v.particle_stride + (i >> tile_bits) * v.tile_extra, v.component_stride};
+}
+PIOLA_FN LanesOfField lanes_of(ReferenceView const& v, Index i) { return lanes_of(v.stored, v.place(i)); }
+
+/// A sweep that fills the scratch of a whole block, fused with the point-wise pass that uses the sums.
+template <class Sweep>
+struct FusedBlock {
+  Sweep sweep;
+  exec::PointPass then;
+  PIOLA_FN void operator()(Range b, Index) const {
+    alignas(64) double sums[Sweep::sums * exec::block_size];
+    exec::Scratch const scratch{sums, b.first, exec::block_size};
+    sweep(b, scratch);
+    then.run(then.pass, b, scratch);
+  }
+};
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

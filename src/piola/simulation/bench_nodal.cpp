@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/bench_nodal.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/exec/instruction_sets.hpp"
+#include "piola/formulations/make.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/formulations/nodal/state.hpp"
+#include "piola/setup/shapes.hpp"
+#include "piola/simulation/bench_support.hpp"
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace piola {
+namespace {
+
+struct NodalSubject {
+  std::string name;
+  std::array<int, 3> particles;
+  double jitter;
+};
+
+std::vector<NodalSubject> subjects(NodalBenchOptions const& options) {
+  int const n = options.cube_side, m = std::min(n, options.cloud_side);
+  return {{"cube, lattice", {n, n, n}, 0},
+          {"cube, jittered (lists)", {m, m, m}, 0.2},
+          {"5 x 25 x 5, lattice", {5, 25, 5}, 0},
+          {"5 x 25 x 5, jittered", {5, 25, 5}, 0.2},
+          {"3 x 13 x 3, lattice", {3, 13, 3}, 0}};
+}
+
+/// Turns slowly about its axis, with steps so short that their limit is not measured.
+Assembly body(NodalSubject const& subject, std::string const& machine) {
+  Assembly a;
+  ShapeSpec shape;
+  shape.particles = subject.particles;
+  for (std::size_t c = 0; c < 3; ++c) shape.max[c] = (subject.particles[c] - 1) / 10.0;
+  shape.jitter = subject.jitter;
+  fill(shape, "body", a.particles);
+  MaterialParameters material;
+  material.law = find_law("neo_hookean")->index;
+  std::array const values{1100.0, 17e6, 0.45};
+  std::copy(values.begin(), values.end(), material.value);
+  a.materials = {material};
+  a.formulations = {FormulationSpec{"nodal", {}, {}}};
+  for (auto const& X : a.particles.X) a.initial_velocity.push_back({-X[1], X[0], 0});
+  a.machine = machine;
+  a.cfl = 0.1;
+  return a;
+}
+
+void measure_rates(NodalBenchReport& report, NodalBenchOptions const& options, NodalSubject const& subject,
+                   std::string const& machine) {
+  Assembly const assembly = body(subject, machine);
+  auto const particles = assembly.particles.size();
+  auto const formulation = make_formulation(assembly);
+  for (int const threads : options.threads) {
+    pin_to(threads);
+    NodalBenchRow row{subject.name, machine, threads, static_cast<long>(particles)};
+    row.neighbours = mean_neighbours(*formulation, particles);
+    row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / static_cast<double>(particles);
+    Timing const t = fastest_step(*formulation, options.repeats);
+    row.per_second = static_cast<double>(particles) / t.wall;
+    row.per_cpu_second = static_cast<double>(particles) / t.cpu;
+    report.rows.push_back(row);
+  }
+}
+
+void measure_set_up(NodalBenchReport& report, NodalBenchOptions const& options, NodalSubject const& subject,
+                    nodal::Machine const& machine) {
+  constexpr double enough = 1;  // s: what takes longer is measured once
+  pin_to(1);
+  Assembly const assembly = body(subject, report.machine);
+  auto const& set = assembly.particles;
+  NodalSetUpRow row{subject.name, static_cast<long>(set.size())};
+  double const start = wall_seconds();
+  for (int k = 0; k < options.repeats && wall_seconds() - start < enough; ++k) {
+    auto const order = nodal::slot_order(set, set.bodies[0]);
+    auto const reference = nodal::make_reference({set, set.bodies[0], order, {}, 1100, 0.3, machine});
+    auto const least = [&](double& to, double seconds) { to = k == 0 ? seconds : std::min(to, seconds); };
+    least(row.cells, reference.costs.cells);
+    least(row.fits, reference.costs.fits);
+    least(row.closure, reference.costs.closure);
+    least(row.masses, reference.costs.masses);
+    least(row.tables, reference.costs.tables);
+    row.iterations = reference.closure_iterations;
+  }
+  row.right_side = fastest_step(*make_formulation(assembly), options.repeats).cpu;
+  report.set_up.push_back(row);
+}
+
+}  // namespace
+
+NodalBenchReport bench_nodal(NodalBenchOptions const& options) {
+  nodal::Machine const* const machine = nodal::find_machine(options.machine.c_str());
+  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, nodal::machine_names()));
+  NodalBenchReport report;
+  report.machine = machine->name;
+  report.lanes = machine->lanes;
+  for (auto const& subject : subjects(options)) {
+    if (options.rates)
+      for (std::string const& name : beside_scalar(report.machine, nodal::machine_names()))
+        measure_rates(report, options, subject, name);
+    if (options.set_up) measure_set_up(report, options, subject, *machine);
+  }
+  return report;
+}
+
+std::string to_json(NodalBenchReport const& report) {
+  nlohmann::ordered_json j;
+  j["formulation"] = "nodal";
+  j["machine"] = report.machine;
+  j["lanes"] = report.lanes;
+  for (auto const& row : report.rows)
+    j["rows"].push_back({{"name", row.name},
+                         {"machine", row.machine},
+                         {"threads", row.threads},
+                         {"particles", row.particles},
+                         {"neighbours", row.neighbours},
+                         {"bytes_per_particle", row.bytes_per_particle},
+                         {"stages_per_second", row.per_second},
+                         {"stages_per_cpu_second", row.per_cpu_second}});
+  for (auto const& row : report.set_up)
+    j["set_up"].push_back({{"name", row.name},
+                           {"particles", row.particles},
+                           {"cells_seconds", row.cells},
+                           {"fits_seconds", row.fits},
+                           {"closure_seconds", row.closure},
+                           {"closure_iterations", row.iterations},
+                           {"masses_seconds", row.masses},
+                           {"tables_seconds", row.tables},
+                           {"right_side_seconds", row.right_side}});
+  return j.dump(2) + "\n";
+}
+
+namespace {
+
+std::string rates_text(NodalBenchReport const& report) {
+  std::string text = fmt::format(
+      "\nwhole time steps of given length, threads pinned\n"
+      "{:<24} {:>8} {:>8} {:>10} {:>6} {:>11} {:>13} {:>13}\n",
+      "", "machine", "threads", "particles", "pairs", "bytes/part.", "M stages/s", "M st./cpu s");
+  for (auto const& row : report.rows)
+    text += fmt::format("{:<24} {:>8} {:>8} {:>10} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f}\n", row.name, row.machine,
+                        row.threads, row.particles, row.neighbours, row.bytes_per_particle, row.per_second * 1e-6,
+                        row.per_cpu_second * 1e-6);
+  return text +
+         "M stages/s: by wall time; M st./cpu s: by processor time of all threads, the figure to compare on a machine "
+         "that others use too\n";
+}
+
+std::string set_up_text(NodalBenchReport const& report) {
+  std::string text = fmt::format(
+      "\nset-up, one thread, ms\n"
+      "{:<24} {:>10} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8} {:>9} {:>11} {:>7}\n",
+      "", "particles", "cells", "fits", "closure", "iterations", "masses", "tables", "in all", "right side", "fits");
+  for (auto const& row : report.set_up)
+    text += fmt::format(
+        "{:<24} {:>10} {:>8.1f} {:>8.1f} {:>8.1f} {:>10} {:>8.1f} {:>8.1f} {:>9.1f} {:>11.3f} {:>7.1f}\n", row.name,
+        row.particles, 1e3 * row.cells, 1e3 * row.fits, 1e3 * row.closure, row.iterations, 1e3 * row.masses,
+        1e3 * row.tables, 1e3 * row.total(), 1e3 * row.right_side, row.fits / row.right_side);
+  return text + "right side: one right-hand side of all particles; the last column: the fits, counted in these\n";
+}
+
+}  // namespace
+
+std::string to_text(NodalBenchReport const& report) {
+  std::string text =
+      fmt::format("nodal on this machine, double precision, machine {} of {} lanes\n", report.machine, report.lanes);
+  if (!report.rows.empty()) text += rates_text(report);
+  if (!report.set_up.empty()) text += set_up_text(report);
+  return text;
+}
+
+}  // namespace piola

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+namespace piola {
+
+struct NodalBenchOptions {
+  bool rates = true, set_up = true;  ///< what to measure
+  int cube_side = 60;                ///< particles per side of the cube on a lattice
+  int cloud_side = 40;               ///< of the jittered cube
+  int repeats = 8;                   ///< time steps per measurement; the fastest counts
+  std::vector<int> threads{1, 2};
+  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+};
+
+/// Whole time steps of one body.
+struct NodalBenchRow {
+  std::string name;     ///< what was measured
+  std::string machine;  ///< instruction set
+  int threads = 1;
+  long particles = 0;
+  double neighbours = 0;          ///< per particle, mean
+  double bytes_per_particle = 0;  ///< memory
+  double per_second = 0;          ///< particle-stages per second of wall time, threads pinned
+  double per_cpu_second = 0;      ///< per second of processor time of all threads
+};
+
+/// Setting up one body on one thread, the fastest of a few times [s].
+struct NodalSetUpRow {
+  std::string name;
+  long particles = 0;
+  double cells = 0, fits = 0, closure = 0, masses = 0, tables = 0;
+  int iterations = 0;     ///< of the solve for the divergence theorem
+  double right_side = 0;  ///< one right-hand side of the body
+  double total() const { return cells + fits + closure + masses + tables; }
+};
+
+struct NodalBenchReport {
+  std::string machine;  ///< instruction set that "auto" found
+  int lanes = 1;
+  std::vector<NodalBenchRow> rows;
+  std::vector<NodalSetUpRow> set_up;
+};
+
+/// Measures inside the real solver, neo-Hookean rubber, double:
+///  - rates: whole steps of given length (both sweeps, points, Verlet) of a large cube and of the small columns of the
+///    examples, on a lattice and on jittered clouds, beside the same machine's scalar path;
+///  - set_up: what it costs, part by part, beside one right-hand side.
+/// Throws InputError if the machine is unknown or not usable here.
+NodalBenchReport bench_nodal(NodalBenchOptions const& options);
+
+std::string to_json(NodalBenchReport const& report);
+std::string to_text(NodalBenchReport const& report);
+
+}  // namespace piola
