@@ -45,8 +45,9 @@ struct LanesPresent {
   }
 };
 inline constexpr LanesPresent lanes_present{};
+/// Not a product: what stands beside a row need not be a number.
 PIOLA_FN Lanes load_present(double const* p, std::uint8_t bits) {
-  return load<Lanes>(p) * load<Lanes>(lanes_present.of[bits]);
+  return select(load<Lanes>(lanes_present.of[bits]) > 0.5, load<Lanes>(p), Lanes(0.0));
 }
 #else
 PIOLA_FN Lanes load_present(double const* p, std::uint8_t bits) { return bits != 0 ? *p : 0.0; }
