@@ -80,7 +80,7 @@ void run(Formulation& formulation, ParticleSet const& particles, Problem const& 
     look(time);
   }
   auto const peak = first_peak(times, values);
-  if (!peak) {
+  if (!peak || !std::isfinite(peak->value)) {
     row.failure = "no peak";
     return;
   }
