@@ -66,7 +66,7 @@ void run(Formulation& formulation, ParticleSet const& particles, Problem const& 
   look(0);
   double time = 0;
   while (time < problem.end) {
-    double const next = problem.every * static_cast<double>(times.size());
+    double const next = problem.every * (std::floor(time / problem.every) + 1);  // a step may be longer
     double const start = cpu_seconds();
     for (; time < next && row.failure.empty(); ++row.steps) {
       double const dt = formulation.stable_time_step();
