@@ -65,7 +65,7 @@ TEST(TaylorBench, UpkeepIsSharedByTheStepsBetween) {
 TEST(TaylorBench, IsPrintedAsTextAndAsJson) {
   TaylorBenchReport report;
   report.machine = "v4";
-  report.rows.push_back({"plate, fixed", "v4", 2, 400, 23.5, 800, 3, 4e6, 2e6});
+  report.rows.push_back({{"plate, fixed", "v4", 2, 400, 23.5, 800, 4e6, 2e6}, 3});
   report.upkeep = {1000, 2000, 0.5, 4, 6};
   auto const json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["formulation"], "taylor_sph");

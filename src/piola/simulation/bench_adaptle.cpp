@@ -80,14 +80,11 @@ void measure(AdaptleBenchReport& report, AdaptleBenchOptions const& options, Imp
     row.name = subject.name;
     row.machine = machine;
     row.threads = threads;
-    row.particles = static_cast<long>(particles);
     auto const before = formulation->costs();
     Timing const t = fastest_step(*formulation, options.repeats);
     row.parts = shares(before, formulation->costs());
     row.neighbours = mean_neighbours(*formulation, particles);
-    row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / static_cast<double>(particles);
-    row.per_second = static_cast<double>(particles) / t.wall;
-    row.per_cpu_second = static_cast<double>(particles) / t.cpu;
+    row.fill(*formulation, particles, t);
     report.rows.push_back(row);
   }
 }
@@ -121,15 +118,11 @@ std::string to_json(AdaptleBenchReport const& report) {
   for (auto const& row : report.rows) {
     nlohmann::ordered_json parts;
     for (auto const& [name, share] : row.parts) parts[name] = share;
-    j["rows"].push_back({{"name", row.name},
-                         {"machine", row.machine},
-                         {"threads", row.threads},
-                         {"particles", row.particles},
-                         {"neighbours", row.neighbours},
-                         {"bytes_per_particle", row.bytes_per_particle},
-                         {"particle_steps_per_second", row.per_second},
-                         {"particle_steps_per_cpu_second", row.per_cpu_second},
-                         {"parts", parts}});
+    auto r = row.json();
+    r["particle_steps_per_second"] = row.per_second;
+    r["particle_steps_per_cpu_second"] = row.per_cpu_second;
+    r["parts"] = parts;
+    j["rows"].push_back(std::move(r));
   }
   return j.dump(2) + "\n";
 }

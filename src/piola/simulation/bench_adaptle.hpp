@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/simulation/bench_support.hpp"
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,15 +15,7 @@ struct AdaptleBenchOptions {
 };
 
 /// Whole time steps of one body.
-struct AdaptleBenchRow {
-  std::string name;     ///< what was measured
-  std::string machine;  ///< instruction set
-  int threads = 1;
-  long particles = 0;
-  double neighbours = 0;  ///< mean
-  double bytes_per_particle = 0;
-  double per_second = 0;                              ///< particle-steps per second of wall time, threads pinned
-  double per_cpu_second = 0;                          ///< per second of processor time of all threads
+struct AdaptleBenchRow : RateRow {
   std::vector<std::pair<std::string, double>> parts;  ///< share of the wall time of a step
 };
 

@@ -6,6 +6,7 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/setup/shapes.hpp"
+#include "piola/simulation/bench_columns.hpp"
 #include "piola/simulation/bench_support.hpp"
 #include <algorithm>
 #include <array>
@@ -39,11 +40,7 @@ Assembly body(NodalSubject const& subject, std::string const& machine) {
   for (std::size_t c = 0; c < 3; ++c) shape.max[c] = (subject.particles[c] - 1) / 10.0;
   shape.jitter = subject.jitter;
   fill(shape, "body", a.particles);
-  MaterialParameters material;
-  material.law = find_law("neo_hookean")->index;
-  std::array const values{1100.0, 17e6, 0.45};
-  std::copy(values.begin(), values.end(), material.value);
-  a.materials = {material};
+  a.materials = {rubber()};
   a.formulations = {FormulationSpec{"nodal", {}, {}}};
   for (auto const& X : a.particles.X) a.initial_velocity.push_back({-X[1], X[0], 0});
   a.machine = machine;
@@ -58,12 +55,9 @@ void measure_rates(NodalBenchReport& report, NodalBenchOptions const& options, N
   auto const formulation = make_formulation(assembly);
   for (int const threads : options.threads) {
     pin_to(threads);
-    NodalBenchRow row{subject.name, machine, threads, static_cast<long>(particles)};
+    RateRow row{subject.name, machine, threads};
     row.neighbours = mean_neighbours(*formulation, particles);
-    row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / static_cast<double>(particles);
-    Timing const t = fastest_step(*formulation, options.repeats);
-    row.per_second = static_cast<double>(particles) / t.wall;
-    row.per_cpu_second = static_cast<double>(particles) / t.cpu;
+    row.fill(*formulation, particles, fastest_step(*formulation, options.repeats));
     report.rows.push_back(row);
   }
 }
@@ -113,15 +107,12 @@ std::string to_json(NodalBenchReport const& report) {
   j["formulation"] = "nodal";
   j["machine"] = report.machine;
   j["lanes"] = report.lanes;
-  for (auto const& row : report.rows)
-    j["rows"].push_back({{"name", row.name},
-                         {"machine", row.machine},
-                         {"threads", row.threads},
-                         {"particles", row.particles},
-                         {"neighbours", row.neighbours},
-                         {"bytes_per_particle", row.bytes_per_particle},
-                         {"stages_per_second", row.per_second},
-                         {"stages_per_cpu_second", row.per_cpu_second}});
+  for (auto const& row : report.rows) {
+    auto r = row.json();
+    r["stages_per_second"] = row.per_second;
+    r["stages_per_cpu_second"] = row.per_cpu_second;
+    j["rows"].push_back(std::move(r));
+  }
   for (auto const& row : report.set_up)
     j["set_up"].push_back({{"name", row.name},
                            {"particles", row.particles},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/simulation/bench_support.hpp"
 #include <string>
 #include <vector>
 
@@ -12,18 +13,6 @@ struct NodalBenchOptions {
   int repeats = 8;                   ///< time steps per measurement; the fastest counts
   std::vector<int> threads{1, 2};
   std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
-};
-
-/// Whole time steps of one body.
-struct NodalBenchRow {
-  std::string name;     ///< what was measured
-  std::string machine;  ///< instruction set
-  int threads = 1;
-  long particles = 0;
-  double neighbours = 0;          ///< per particle, mean
-  double bytes_per_particle = 0;  ///< memory
-  double per_second = 0;          ///< particle-stages per second of wall time, threads pinned
-  double per_cpu_second = 0;      ///< per second of processor time of all threads
 };
 
 /// Setting up one body on one thread, the fastest of a few times [s].
@@ -39,7 +28,7 @@ struct NodalSetUpRow {
 struct NodalBenchReport {
   std::string machine;  ///< instruction set that "auto" found
   int lanes = 1;
-  std::vector<NodalBenchRow> rows;
+  std::vector<RateRow> rows;  ///< particle-stages
   std::vector<NodalSetUpRow> set_up;
 };
 

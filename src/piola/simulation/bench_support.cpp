@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <vector>
 
@@ -63,6 +64,19 @@ double mean_neighbours(Formulation const& formulation, std::int64_t particles) {
   std::vector<double> neighbours(static_cast<std::size_t>(particles));
   formulation.sample("Neighbours", neighbours);
   return std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / static_cast<double>(particles);
+}
+
+void RateRow::fill(Formulation const& formulation, std::int64_t count, Timing const& step) {
+  auto const number = static_cast<double>(count);
+  particles = static_cast<long>(count);
+  bytes_per_particle = static_cast<double>(formulation.memory_bytes()) / number;
+  per_second = number / step.wall;
+  per_cpu_second = number / step.cpu;
+}
+
+nlohmann::ordered_json RateRow::json() const {
+  return {{"name", name},           {"machine", machine},       {"threads", threads},
+          {"particles", particles}, {"neighbours", neighbours}, {"bytes_per_particle", bytes_per_particle}};
 }
 
 }  // namespace piola

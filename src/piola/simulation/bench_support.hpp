@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/formulation.hpp"
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,22 @@ Timing fastest_step(Formulation& formulation, int repeats);
 
 /// Mean over all particles of the field Neighbours.
 double mean_neighbours(Formulation const& formulation, std::int64_t particles);
+
+/// Whole time steps of one body.
+struct RateRow {
+  std::string name;     ///< what was measured
+  std::string machine;  ///< instruction set
+  int threads = 1;
+  long particles = 0;             ///< real ones
+  double neighbours = 0;          ///< per particle, mean; of real particles virtual ones
+  double bytes_per_particle = 0;  ///< memory, virtual particles and lists included
+  double per_second = 0;          ///< particles advanced by a step per second of wall time, threads pinned
+  double per_cpu_second = 0;      ///< per second of processor time of all threads: undisturbed by other programs
+
+  /// Number of particles, memory and rates, from a formulation and the time of one of its steps.
+  void fill(Formulation const& formulation, std::int64_t count, Timing const& step);
+  /// All but the rates.
+  nlohmann::ordered_json json() const;
+};
 
 }  // namespace piola

@@ -86,15 +86,13 @@ void measure(TaylorBenchReport& report, TaylorBenchOptions const& options, Taylo
     pin_to(threads);
     // A wave is another one after some steps: each number of threads starts anew.
     if (!formulation || subject.deforming) formulation = make_formulation(assembly);
-    TaylorBenchRow row{subject.name, machine, threads, static_cast<long>(particles)};
+    TaylorBenchRow row{{subject.name, machine, threads}};
     row.neighbours = mean_neighbours(*formulation, particles);
     long const before = list_updates(*formulation);
     Timing const t =
         subject.deforming ? mean_step(*formulation, options.steps) : fastest_step(*formulation, options.repeats);
     row.list_updates = list_updates(*formulation) - before;
-    row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / static_cast<double>(particles);
-    row.per_second = static_cast<double>(particles) / t.wall;
-    row.per_cpu_second = static_cast<double>(particles) / t.cpu;
+    row.fill(*formulation, particles, t);
     report.rows.push_back(row);
   }
 }
@@ -164,16 +162,13 @@ std::string to_json(TaylorBenchReport const& report) {
   j["formulation"] = "taylor_sph";
   j["machine"] = report.machine;
   j["lanes"] = report.lanes;
-  for (auto const& row : report.rows)
-    j["rows"].push_back({{"name", row.name},
-                         {"machine", row.machine},
-                         {"threads", row.threads},
-                         {"particles", row.particles},
-                         {"neighbours", row.neighbours},
-                         {"bytes_per_particle", row.bytes_per_particle},
-                         {"list_updates", row.list_updates},
-                         {"particle_steps_per_second", row.per_second},
-                         {"particle_steps_per_cpu_second", row.per_cpu_second}});
+  for (auto const& row : report.rows) {
+    auto r = row.json();
+    r["list_updates"] = row.list_updates;
+    r["particle_steps_per_second"] = row.per_second;
+    r["particle_steps_per_cpu_second"] = row.per_cpu_second;
+    j["rows"].push_back(std::move(r));
+  }
   TaylorUpkeep const& u = report.upkeep;
   j["upkeep"] = {{"particles", u.particles},
                  {"cells", u.cells},

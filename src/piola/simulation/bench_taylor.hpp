@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/simulation/bench_support.hpp"
 #include <string>
 #include <vector>
 
@@ -16,16 +17,8 @@ struct TaylorBenchOptions {
 };
 
 /// Whole time steps of one body.
-struct TaylorBenchRow {
-  std::string name;     ///< what was measured
-  std::string machine;  ///< instruction set
-  int threads = 1;
-  long particles = 0;             ///< real ones
-  double neighbours = 0;          ///< virtual particles that a real one sees, mean
-  double bytes_per_particle = 0;  ///< memory, virtual particles and lists included
-  long list_updates = 0;          ///< in the steps measured
-  double per_second = 0;          ///< particle-steps per second of wall time, threads pinned
-  double per_cpu_second = 0;      ///< per second of processor time of all threads: undisturbed by other programs
+struct TaylorBenchRow : RateRow {
+  long list_updates = 0;  ///< in the steps measured
 };
 
 /// What the deforming plate spends beside its steps, on one thread [s of processor time].
