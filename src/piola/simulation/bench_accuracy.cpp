@@ -109,12 +109,12 @@ AccuracyRow measure(Problem const& problem, Scheme const& scheme, int across, st
   return row;
 }
 
-/// The least processor time from which on a scheme stays within an error, over all its runs that are at least as fine.
 struct Price {
   double error;
   char const* text;
 };
 
+/// Processor time of the coarsest run from which on a scheme stays within an error; nan: it does not.
 double price(AccuracyReport const& report, AccuracyRow const& of, double error) {
   double cpu = std::numeric_limits<double>::quiet_NaN();
   for (auto const& row : report.rows) {
