@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The library: every room of src/piola. Files named machine.cpp are compiled by PiolaMachines.cmake.
+# The library: every room of src/piola. Files named machine.cpp are compiled by PiolaMachines.cmake, which comes first
+# so that they do too: they take longest.
 
 set(PIOLA_ROOMS base math exec kernels materials particles neighbours parallel mechanics formulations setup input output
                 simulation)
@@ -12,40 +13,45 @@ foreach(room IN ITEMS materials formulations)
 endforeach()
 file(GLOB _sources CONFIGURE_DEPENDS ${_patterns})
 list(FILTER _sources EXCLUDE REGEX "/machine\\.cpp$")
-if(NOT _sources)
-  set(_empty "${PROJECT_BINARY_DIR}/empty.cpp")
-  file(WRITE "${_empty}" "")
-  set(_sources "${_empty}")
-endif()
+set(_input_sources ${_sources})
+list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")
+list(FILTER _sources EXCLUDE REGEX "/src/piola/input/")
 
-add_library(piola STATIC ${_sources})
+# A library of object files that become part of piola. It does not wait for the machines, which take longest.
+function(piola_add_rooms target)
+  add_library(${target} OBJECT ${ARGN})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_include_directories(${target} SYSTEM PRIVATE "${PIOLA_TOML_INCLUDE}")
+  target_compile_definitions(${target} PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${target} PRIVATE piola_options piola_warnings piola_host piola_hardened
+    Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)
+  target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
+  # Files of one room read the same headers: a few of them as one take half the time. Names in unnamed namespaces must
+  # differ within a room, which tools/test sees, because it builds so.
+  if(PIOLA_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    foreach(source IN LISTS ARGN)
+      get_filename_component(folder "${source}" DIRECTORY)
+      get_filename_component(room "${folder}" NAME)
+      math(EXPR _count_${room} "${_count_${room}} + 1" OUTPUT_FORMAT DECIMAL)
+      math(EXPR _batch "(${_count_${room}} + 7) / 8")
+      set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${room}_${_batch}")
+    endforeach()
+  endif()
+endfunction()
+
+add_library(piola STATIC ${PIOLA_MACHINE_OBJECTS})
 add_library(Piola::piola ALIAS piola)
+set_target_properties(piola PROPERTIES LINKER_LANGUAGE CXX)
 target_include_directories(piola PUBLIC
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>" "$<INSTALL_INTERFACE:include>")
-target_include_directories(piola SYSTEM PRIVATE "${PIOLA_TOML_INCLUDE}")
-target_compile_definitions(piola PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
 target_link_libraries(piola
   PUBLIC piola_options
-  PRIVATE $<BUILD_INTERFACE:piola_warnings> $<BUILD_INTERFACE:piola_host> $<BUILD_INTERFACE:piola_hardened>
+  PRIVATE $<BUILD_INTERFACE:piola_hardened>
           Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2
           muparser::muparser nlohmann_json::nlohmann_json)
+piola_add_rooms(piola_rooms ${_sources})
 
-# Files of one room read the same headers: a few of them as one take half the time. Names in unnamed namespaces must
-# differ within a room, which tools/test sees, because it builds so.
-if(PIOLA_TOGETHER)
-  set_target_properties(piola PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  foreach(source IN LISTS _sources)
-    get_filename_component(folder "${source}" DIRECTORY)
-    get_filename_component(room "${folder}" NAME)
-    math(EXPR _count_${room} "${_count_${room}} + 1" OUTPUT_FORMAT DECIMAL)
-    math(EXPR _batch "(${_count_${room}} + 7) / 8")
-    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${room}_${_batch}")
-  endforeach()
-else()
-  # Reading a case is no hot loop, and compiles a third faster with little optimisation.
-  foreach(source IN LISTS _sources)
-    if(source MATCHES "/src/piola/input/")
-      set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-    endif()
-  endforeach()
-endif()
+# Reading a case is no hot loop, and compiles a third faster with little optimisation.
+piola_add_rooms(piola_input ${_input_sources})
+target_compile_options(piola_input PRIVATE $<$<CONFIG:Release>:-O1>)
