@@ -145,7 +145,7 @@ TEST(TaylorBarShock, BlowsUpWithinAHundredStepsAboveCourantNumberOne) {
 class TaylorAmplification : public ::testing::TestWithParam<std::tuple<double, double>> {};
 
 TEST_P(TaylorAmplification, IsThatOfTheTwoStepScheme) {
-  auto const& [courant, wave] = GetParam();
+  double const courant = std::get<0>(GetParam()), wave = std::get<1>(GetParam());
   int const n = 41, steps = 10;
   double const spacing = 1.0 / (n - 1), speed = std::sqrt(youngs_modulus / density);
   Assembly a = assemble_taylor(unit_box(1, n));
