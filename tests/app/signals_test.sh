@@ -20,6 +20,16 @@ ended() {
   got=$?
   [ $got -eq "$1" ] || { echo "FAILED: exit code $got instead of $1 in $folder"; failures=$((failures + 1)); }
 }
+# Waits until the run in the background has its handler of SIGUSR1, before which nothing can keep a signal: with sanitizers
+# a program takes long to load.
+until_caught() {
+  local mask
+  for _ in $(seq 500); do
+    mask=$(awk '/^SigCgt/ { print $2 }' /proc/$child/status 2> /dev/null)
+    ((0x${mask:-0} & 0x200)) && return
+    sleep 0.01
+  done
+}
 newest() { ls "$1"/checkpoints/*.h5 2> /dev/null | tail -1; }
 
 # Stop with a checkpoint.
@@ -52,6 +62,7 @@ expect 4 "" "$program" resume $folder --wall-time "1 s"
 "$program" run bar.toml --quiet --out quiet
 "$program" run bar.toml --quiet --out disturbed &
 child=$! folder=disturbed
+until_caught
 for _ in $(seq 20); do sleep 0.02; kill -s USR1 $child 2> /dev/null; done
 ended 0
 check cmp quiet/history.csv disturbed/history.csv
