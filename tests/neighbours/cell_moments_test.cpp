@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_moments.hpp"
+#include "exec/thread_count.hpp"
 #include "particles/lattices.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace piola::testing {
 namespace {
@@ -97,6 +99,39 @@ TEST(CellMoments, OfABallHaveItsVolumeAndNotThatOfItsStaircase) {
   double volume = 0;
   for (auto const& cell : measure_cells(set, set.bodies[0]).cell) volume += cell.volume;
   EXPECT_NEAR(volume, 4.0 / 3 * M_PI * 0.125, 2e-3 * volume);
+}
+
+TEST(CellMoments, DoNotDependOnTheNumberOfThreads) {
+  for (auto const& set : {unit_box(3, 6, 0.4), ball(3)}) {
+    auto const measured = [&set](int threads) {
+      Threads const guard(threads);
+      BodyCells const cells = measure_cells(set, set.bodies[0]);
+      std::vector<double> all;
+      for (auto const& cell : cells.cell) {
+        all.push_back(cell.volume);
+        all.insert(all.end(), cell.centroid.begin(), cell.centroid.end());
+        all.insert(all.end(), cell.spread.begin(), cell.spread.end());
+      }
+      for (auto const& patch : cells.patch) {
+        all.insert(all.end(), {static_cast<double>(patch.particle), patch.area});
+        all.insert(all.end(), patch.first.begin(), patch.first.end());
+        all.insert(all.end(), patch.second.begin(), patch.second.end());
+      }
+      return all;
+    };
+    auto const one = measured(1);
+    for (int const threads : thread_counts) EXPECT_EQ(measured(threads), one) << threads;
+  }
+}
+
+TEST(CellMoments, GiveParticlesVolumesThatFillTheBody) {
+  auto set = unit_box(3, 5, 0.4);
+  auto const before = set.volume;
+  take_cell_volumes(set, set.bodies[0]);
+  EXPECT_NE(set.volume, before);
+  double sum = 0;
+  for (double const V : set.volume) sum += V;
+  EXPECT_NEAR(sum, 1, 1e-12);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_moments.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace piola {
@@ -157,12 +159,20 @@ class Sampling {
     }
   }
 
+  /// Row by row in threads: which blocks are inside, and whose they are; their sums follow in one order.
   BodyCells operator()() {
     fill_inside();
-    for (long k = 0; k < count_[2]; ++k)
-      for (long j = 0; j < count_[1]; ++j)
+    constexpr long at_once = 4096;
+    long const rows = count_[1] * count_[2];
+    std::vector<std::uint32_t> owner(static_cast<std::size_t>(std::min(rows, at_once) * count_[0]));
+    for (long first = 0; first < rows; first += at_once) {
+      long const some = std::min(at_once, rows - first);
+      exec_host::for_each_in_set_up(static_cast<Index>(some),
+                                    [&](Index row) { find_owners(first + row, &owner[at(row, 0)]); });
+      for (long row = 0; row < some; ++row)
         for (long i = 0; i < count_[0]; ++i)
-          if (is_inside({i, j, k})) take({i, j, k});
+          if (Place const place = place_of(first + row, i); is_inside(place)) take(place, owner[at(row, i)]);
+    }
     sums_.finish();
     return std::move(sums_.cells);
   }
@@ -174,21 +184,29 @@ class Sampling {
     for (std::size_t c = 0; c < D_; ++c) X[c] = outline_.min[c] + (static_cast<double>(at[c]) + 0.5) * edge_[c];
     return X;
   }
+  std::size_t at(long row, long i) const { return static_cast<std::size_t>(row * count_[0] + i); }
+  Place place_of(long row, long i) const { return {i, row % count_[1], row / count_[1]}; }
+
   void fill_inside() {
     if (!outline_.inside) return;
-    inside_.reserve(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
-    for (long k = 0; k < count_[2]; ++k)
-      for (long j = 0; j < count_[1]; ++j)
-        for (long i = 0; i < count_[0]; ++i) inside_.push_back(outline_.inside(middle({i, j, k})));
+    long const rows = count_[1] * count_[2];
+    inside_.resize(at(rows, 0));
+    exec_host::for_each_in_set_up(static_cast<Index>(rows), [&](Index row) {
+      for (long i = 0; i < count_[0]; ++i) inside_[at(row, i)] = outline_.inside(middle(place_of(row, i)));
+    });
+  }
+  void find_owners(long row, std::uint32_t* owner) const {
+    for (long i = 0; i < count_[0]; ++i)
+      if (Place const place = place_of(row, i); is_inside(place))
+        owner[i] = static_cast<std::uint32_t>(nearest_(middle(place)));
   }
   bool is_inside(Place const& at) const {
     for (std::size_t c = 0; c < 3; ++c)
       if (at[c] < 0 || at[c] >= count_[c]) return false;
-    return inside_.empty() || inside_[static_cast<std::size_t>((at[2] * count_[1] + at[1]) * count_[0] + at[0])];
+    return inside_.empty() || inside_[this->at(at[2] * count_[1] + at[1], at[0])] != 0;
   }
-  void take(Place const& at) {
+  void take(Place const& at, std::size_t a) {
     Point r = middle(at);
-    std::size_t const a = nearest_(r);
     for (std::size_t c = 0; c < 3; ++c) r[c] -= X_[a][c];
     sums_.add_block(a, r, edge_);
     for (std::size_t c = 0; c < D_; ++c)
@@ -207,14 +225,20 @@ class Sampling {
   Sums sums_;
   Place count_{1, 1, 1};
   Point edge_{};
-  std::vector<bool> inside_;
+  std::vector<char> inside_;  ///< empty: all
 };
 
 }  // namespace
 
 BodyCells measure_cells(ParticleSet const& set, Body const& body) {
-  if (body.regular && !body.rings && !body.outline.inside) return moments_of_lattice(set, body);
+  if (has_lattice_cells(body)) return moments_of_lattice(set, body);
   return Sampling(set, body)();
+}
+
+void take_cell_volumes(ParticleSet& set, Body const& body) {
+  BodyCells const cells = measure_cells(set, body);
+  for (auto id = body.first; id < body.last; ++id)
+    set.volume[static_cast<std::size_t>(id)] = cells.cell[static_cast<std::size_t>(id - body.first)].volume;
 }
 
 }  // namespace piola

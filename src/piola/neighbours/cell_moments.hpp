@@ -32,9 +32,15 @@ struct BodyCells {
   std::vector<SurfacePatch> patch;
 };
 
+/// Whether cells are the blocks of a lattice: a box that one fills.
+inline bool has_lattice_cells(Body const& body) { return body.regular && !body.rings && !body.outline.inside; }
+
 /// Exact for boxes filled from a lattice. Other bodies are sampled by blocks of a sixth of the spacing, aligned with
 /// the box around them: volumes and surface are then those of the sampled body, so that the divergence theorem holds
 /// for quadratic fields to round-off. Needs Body::outline. A particle that no block is nearest to has an empty cell.
 BodyCells measure_cells(ParticleSet const& set, Body const& body);
+
+/// Gives the particles of a body the volumes of their cells.
+void take_cell_volumes(ParticleSet& set, Body const& body);
 
 }  // namespace piola

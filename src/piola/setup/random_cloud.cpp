@@ -41,9 +41,7 @@ void scatter(ShapeSpec const& shape, ParticleSet& set, Body const& body) {
       for (std::size_t c = 0; c < D; ++c)
         set.X[id][c] += cells.cell[id - static_cast<std::size_t>(body.first)].centroid[c];
   }
-  auto const cells = measure_cells(set, body);
-  for (auto id = body.first; id < body.last; ++id)
-    set.volume[static_cast<std::size_t>(id)] = cells.cell[static_cast<std::size_t>(id - body.first)].volume;
+  take_cell_volumes(set, body);
 }
 
 }  // namespace piola

@@ -161,20 +161,85 @@ class Restraint {
   std::vector<double> theta_, mass_;
 };
 
+/// 1, x, xx of a place in units of the body, and their means over a cell.
+template <int D>
+class BodyMonomials {
+ public:
+  static constexpr int count = 1 + Quadratic<D>::terms;
+
+  BodyMonomials(Points const& X) {
+    for (std::size_t c = 0; c < D; ++c) {
+      auto const [low, high] =
+          std::minmax_element(X.begin(), X.end(), [c](auto const& a, auto const& b) { return a[c] < b[c]; });
+      middle_[c] = 0.5 * ((*low)[c] + (*high)[c]);
+      half_[c] = std::max(0.5 * ((*high)[c] - (*low)[c]), 0.5);
+    }
+  }
+  void over(std::array<double, 3> const& X, ScaledCell const& cell, double (&p)[count]) const {
+    p[0] = 1;
+    for (int i = 0; i < D; ++i) {
+      auto const c = static_cast<std::size_t>(i);
+      p[1 + i] = (X[c] + cell.centroid[c] - middle_[c]) / half_[c];
+    }
+    for (int i = 0; i < D; ++i)
+      for (int j = i; j < D; ++j) {
+        auto const moment = static_cast<std::size_t>(i == j ? i : 6 - i - j);
+        p[1 + D + Quadratic<D>::at(i, j)] =
+            p[1 + i] * p[1 + j] +
+            cell.spread[moment] / (half_[static_cast<std::size_t>(i)] * half_[static_cast<std::size_t>(j)]);
+      }
+  }
+
+ private:
+  std::array<double, 3> middle_{}, half_{1, 1, 1};
+};
+
+/// Where cells were restrained the moments of the masses are no longer those of the body. A factor that is quadratic in
+/// space brings them back: m (1 + c.p(X)) with the 1 + D (D + 3) / 2 coefficients that make all moments up to the
+/// second exact. Bodies too thin for one are left as they are, and so are those where it would change a mass by more
+/// than a fifth. Not for lattices: there the moments are off by less, and a stiffness that is too large by as much goes
+/// with them.
+template <int D>
+void match_moments(Points const& X, std::vector<ScaledCell> const& cells, std::vector<double>& mass) {
+  constexpr int n = BodyMonomials<D>::count;
+  constexpr double most = 0.2;
+  BodyMonomials<D> const monomials(X);
+  double A[n * n]{}, c[n]{}, p[n];
+  for (std::size_t b = 0; b < mass.size(); ++b) {
+    monomials.over(X[b], cells[b], p);
+    for (int i = 0; i < n; ++i) c[i] += cells[b].volume * p[i];
+    monomials.over(X[b], {}, p);
+    for (int i = 0; i < n; ++i) {
+      c[i] -= mass[b] * p[i];
+      for (int j = 0; j < n; ++j) A[i * n + j] += mass[b] * p[i] * p[j];
+    }
+  }
+  if (!(solve_in_place<n>(A, c) > smallest_pivot)) return;
+  std::vector<double> factor(mass.size(), 1);
+  for (std::size_t b = 0; b < mass.size(); ++b) {
+    monomials.over(X[b], {}, p);
+    for (int i = 0; i < n; ++i) factor[b] += c[i] * p[i];
+    if (!(std::fabs(factor[b] - 1) < most)) return;
+  }
+  for (std::size_t b = 0; b < mass.size(); ++b) mass[b] *= factor[b];
+}
+
 }  // namespace
 
 template <int D>
 std::vector<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, double least,
-                                 std::optional<LatticeShape> const& lattice) {
+                                 std::optional<LatticeShape> const& lattice, bool match) {
   auto const x = hand_over<D>(X, cells, lattice);
-  return Restraint(x.pairs, x.handed, cells, least)();
+  std::vector<double> mass = Restraint(x.pairs, x.handed, cells, least)();
+  if (match) match_moments<D>(X, cells, mass);
+  return mass;
 }
 
 template std::vector<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, double,
-                                             std::optional<LatticeShape> const&);
+                                             std::optional<LatticeShape> const&, bool);
 template std::vector<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, double,
-                                             std::optional<LatticeShape> const&);
+                                             std::optional<LatticeShape> const&, bool);
 template std::vector<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, double,
-                                             std::optional<LatticeShape> const&);
+                                             std::optional<LatticeShape> const&, bool);
 
 }  // namespace piola::nodal

@@ -245,7 +245,7 @@ Reference make(SetUp const& from) {
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
   r.costs.closure = since(clock);
-  auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass, shape);
+  auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass, shape, !has_lattice_cells(from.body));
   r.costs.masses = since(clock);
   Tables<D>(from, scaled, fits, r).fill(closure, mass);
   r.costs.tables = since(clock);
