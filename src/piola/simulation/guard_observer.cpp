@@ -29,7 +29,7 @@ GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const
 
 void GuardObserver::see(Formulation const& formulation, Moment const& moment) {
   if (guards_.empty() || (kicked_ && moment.step == 0)) return;
-  bool const last = moment.time >= results_.spec.run.end;
+  bool const last = moment.time >= results_.spec.run.end || moment.at_rest;
   auto const step = static_cast<double>(moment.step);
   Diagnostics const* row = history_.row_of(moment.step);
   if (row == nullptr && !last && step - last_look_ < look_interval) return;

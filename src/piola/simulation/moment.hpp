@@ -12,6 +12,7 @@ struct Moment {
   double first_dt = 0;               ///< s, the first stable step
   bool cut_to_end = false;           ///< the last step has its length from the end of the run
   bool bounded_by_max_step = false;  ///< the last step was limited by run.max_step, not by the waves
+  bool at_rest = false;              ///< a dynamic relaxation has come to its end with the last step
   double wall_seconds = 0;           ///< since the start, over all parts of a resumed run
   double stepping_seconds = 0;       ///< of these, inside the formulation
 };

@@ -43,8 +43,8 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
   auto const start = Clock::now();
   double const wall_before = moment.wall_seconds;
   if (relaxation != nullptr && moment.step == 0) relaxation->start(formulation);
-  bool at_rest = relaxation != nullptr && relaxation->rest().reached;
-  while (moment.time < run.end && !at_rest) {
+  moment.at_rest = relaxation != nullptr && relaxation->rest().reached;
+  while (moment.time < run.end && !moment.at_rest) {
     auto const step_start = Clock::now();
     double const stable = formulation.stable_time_step();
     if (moment.step == 0) moment.first_dt = std::min(stable, run.max_step);
@@ -55,7 +55,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
       for (Observer* observer : observers) observer->before_cut(formulation, moment);
     }
     formulation.step(moment.time, dt);
-    if (relaxation != nullptr) at_rest = relaxation->after_step(formulation, dt);
+    if (relaxation != nullptr) moment.at_rest = relaxation->after_step(formulation, dt);
 
     moment.time = dt == run.end - moment.time ? run.end : moment.time + dt;
     moment.step += 1;
@@ -72,7 +72,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
             .ending = Ending::failed, .failure = std::move(objection->failure), .causes = std::move(objection->causes)};
     }
     stops.wall.step_took(seconds_since(step_start));
-    if (moment.time >= run.end || at_rest) continue;
+    if (moment.time >= run.end || moment.at_rest) continue;
     if (stops.asked.load(std::memory_order_relaxed) != 0) return {.ending = Ending::stopped};
     if (stops.wall.reached()) return {.ending = Ending::stopped, .out_of_time = true};
   }
