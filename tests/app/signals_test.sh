@@ -20,8 +20,8 @@ ended() {
   got=$?
   [ $got -eq "$1" ] || { echo "FAILED: exit code $got instead of $1 in $folder"; failures=$((failures + 1)); }
 }
-# Waits until the run in the background has its handler of SIGUSR1, before which nothing can keep a signal: with sanitizers
-# a program takes long to load.
+# Waits until the run in the background has its handler of SIGUSR1, before which nothing can keep a signal: with
+# sanitizers a program takes long to load.
 until_caught() {
   local mask
   for _ in $(seq 500); do

@@ -65,6 +65,8 @@ struct StepRule {
   double settled = 0;       ///< s, the step once the run has settled
   double first = 0;         ///< s
   double growth = 1;        ///< a step may be longer than the one before by this factor; 1: no bound
+  double late_growth = 0;   ///< the same once a step is longer than `late_from`; 0: as before
+  double late_from = 0;     ///< s
   std::string limit;        ///< what limits the step, in words
   double more_stages = 0;   ///< right-hand sides a step on average besides stages_per_step
   double setup_stages = 0;  ///< right-hand sides before the first step

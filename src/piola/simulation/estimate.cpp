@@ -68,7 +68,7 @@ bool is_filtered(BodySpec const& body) {
   if (spec.name != "jst_sph") return false;
   if (word("volumetric_filter", "as_scheme") != "as_scheme") return word("volumetric_filter", "") == "on";
   auto const law = find_law(body.law);
-  std::string_view const scheme = word("scheme", "filtered");
+  std::string_view const scheme = word("scheme", "conservative");
   return (scheme == "conservative" || scheme == "filtered") && word("variables", "pF") != "displacement" && law &&
          law->volumetric_split && poissons_ratio_of(body.material) > 0.4499;
 }
@@ -164,7 +164,8 @@ std::int64_t steps_of(StepRule const& rule, RunSpec const& run) {
   double time = 0, step = std::min(rule.first, most), steps = 0;
   while (rule.growth > 1 && step < most && time + step < run.end) {
     time += step;
-    step = std::min(rule.growth * step, most);
+    double const growth = rule.late_growth > 1 && step > rule.late_from ? rule.late_growth : rule.growth;
+    step = std::min(growth * step, most);
     ++steps;
   }
   // As the main loop: a rest of less than a millionth of a step is taken along.

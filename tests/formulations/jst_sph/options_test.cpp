@@ -45,8 +45,29 @@ TEST(JstOptions, RefuseHourglassSettingsWhereTheSchemeHasNone) {
   EXPECT_THROW((void)options({{"scheme", "conservative"}}, {{"eps2_momentum", 0.1}}), InputError);
 }
 
-TEST(JstOptions, AreTheFilteredSchemeByDefault) {
+TEST(JstOptions, AreTheConservativeSchemeByDefault) {
   Options const o = options();
+  EXPECT_TRUE(o.hourglass());
+  EXPECT_EQ(o.biharmonic, Biharmonic::none);
+  EXPECT_EQ(o.gradient_support, 0.8);
+}
+
+// Irregular clouds need a wider gradient, and more energy for what it does not see.
+TEST(JstOptions, OfTheConservativeSchemeAreOthersOnIrregularClouds) {
+  auto const off_lattice = [](std::map<std::string, std::string, std::less<>> words) {
+    return read_options({"jst_sph", {}, std::move(words)}, rubber(0.3), std::nan(""), false);
+  };
+  EXPECT_EQ(off_lattice({}).gradient_support, 1);
+  EXPECT_EQ(off_lattice({}).hourglass_stiffness, 10);
+  EXPECT_EQ(off_lattice({{"scheme", "filtered"}}).gradient_support, 0.8);
+  EXPECT_EQ(off_lattice({{"scheme", "paper"}}).gradient_support, 1.2);
+  FormulationSpec const given{"jst_sph", {{"gradient_support", 0.9}, {"hourglass_stiffness", 2.0}}, {}};
+  EXPECT_EQ(read_options(given, rubber(0.3), std::nan(""), false).gradient_support, 0.9);
+  EXPECT_EQ(read_options(given, rubber(0.3), std::nan(""), false).hourglass_stiffness, 2);
+}
+
+TEST(JstOptions, OfTheFilteredSchemeHaveABiharmonicTerm) {
+  Options const o = options({{"scheme", "filtered"}});
   EXPECT_EQ(o.integrator, Integrator::verlet);
   EXPECT_FALSE(o.hourglass());
   EXPECT_EQ(o.eps4, 0.125);

@@ -53,7 +53,7 @@ void doubt_boundaries(Options const& o, BodyDoubts& doubts) {
     doubts.ignored("angular_momentum_projection", "a body with mirror planes is not projected");
 }
 
-/// Near incompressibility: what locks, grows or rings (docs/theory/jst-sph.md, Limits; jst-sph-default.md, 1 and 2).
+/// Near incompressibility: what locks, grows or rings (docs/theory/jst-sph.md, Limits; jst-sph-filtered.md, 1 and 2).
 void doubt_incompressible(Options const& o, BodyDoubts& doubts) {
   constexpr double nearly = 0.4501;
   double const ratio = poissons_ratio_of(doubts.material());
@@ -93,7 +93,8 @@ void doubt_damage(BodyDoubts& doubts) {
 }  // namespace
 
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
-  Options const o = read_options(assembly.formulations[body], assembly.materials[body], assembly.cfl);
+  Options const o = read_options(assembly.formulations[body], assembly.materials[body], assembly.cfl,
+                                 assembly.particles.bodies[body].regular);
   if (o.variables == Variables::displacement) doubt_displacement(assembly, doubts);
   doubt_operators(o, doubts);
   doubt_boundaries(o, doubts);

@@ -6,7 +6,7 @@
 #include "piola/neighbours/loaders.hpp"
 #include "piola/parallel/halo.hpp"
 
-/// Filtered volumetric energy: sweeps that read the kernel alone. Derivation: docs/theory/jst-sph-default.md.
+/// Filtered volumetric energy: sweeps that read the kernel alone. Derivation: docs/theory/jst-sph-filtered.md.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
 /// sum_{b != a} W_ab f_b, or sum_{b != a} W_ab (f_b - f_a), of N values.

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 4> variable_words{"pF", "pFJ", "pFHJ", "d
 constexpr std::array<std::string_view, 3> gradient_words{"corrected", "uncorrected", "corrected_kernel"};
 constexpr std::array<std::string_view, 4> force_words{"as_gradient", "corrected", "uncorrected", "corrected_kernel"};
 constexpr std::array<std::string_view, 2> wave_speed_words{"estimate", "exact"};
-constexpr std::array<std::string_view, 4> scheme_words{"filtered", "conservative", "robust", "paper"};
+constexpr std::array<std::string_view, 4> scheme_words{"conservative", "filtered", "robust", "paper"};
 constexpr std::array<std::string_view, 5> kernel_words{"cubic_spline", "quartic_spline", "quintic_spline",
                                                        "wendland_c2", "wendland_c4"};
 constexpr std::array<std::string_view, 3> biharmonic_words{"as_scheme", "adjoint", "literal"};
@@ -65,11 +65,12 @@ constexpr std::array choices{
 constexpr std::array parameters{
     Parameter{"eps2_momentum", "1", "harmonic stabilisation of the momentum, eq. 36", not_negative, 0.0},
     Parameter{"eps4_momentum", "1", "biharmonic stabilisation of the momentum, eq. 37; 0 for displacement variables",
-              not_negative, no_default, "0.125; scheme = \"conservative\" 0, but for solids in rate form"},
+              not_negative, no_default, "0 with scheme = \"conservative\", else and for solids in rate form 0.125"},
     Parameter{"hourglass_stiffness", "1",
               "stiffness against motions that gradients do not see, over that of a lattice of springs; "
               "scheme = \"conservative\"",
-              not_negative, no_default, "0.5 with scheme = \"conservative\", but for solids in rate form"},
+              not_negative, no_default,
+              "0.5 (jittered or random particles: 10) with scheme = \"conservative\", but for solids in rate form"},
     Parameter{"hourglass_stiffening", "1", "its growth with the energy of the change of shape over the shear modulus",
               not_negative, no_default, "3 with scheme = \"conservative\", but for solids in rate form"},
     Parameter{"hourglass_viscosity", "1",
@@ -85,7 +86,8 @@ constexpr std::array parameters{
     Parameter{"eps4_volume", "1", "biharmonic stabilisation of the volume ratio (pFJ, pFHJ), eq. 38", not_negative,
               0.0},
     Parameter{"gradient_support", "1", "smoothing length of the gradient in particle spacings",
-              Interval{0.5, 3, true, false}, no_default, "0.8; scheme = \"paper\" 1.2"},
+              Interval{0.5, 3, true, false}, no_default,
+              "0.8; jittered or random particles with scheme = \"conservative\" 1; scheme = \"paper\" 1.2"},
     Parameter{"filter_passes", "1", "passes of the volumetric filter and of its adjoint: 2, or 3 for smoother pressure",
               Interval{1, 8, false, false}, 2.0},
     Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings",
@@ -112,13 +114,16 @@ std::string_view word(FormulationSpec const& spec, std::string_view name) { retu
 }  // namespace
 
 FormulationInfo info() {
-  return {"jst_sph",
-          "total-Lagrangian SPH of first-order conservation laws with Jameson-Schmidt-Turkel stabilisation "
-          "(Lee, Gil, Greto, Kulasegaram, Bonet 2016)",
-          parameters,
-          choices,
-          usable_laws,
-          diagnostics};
+  FormulationInfo info{
+      "jst_sph",
+      "total-Lagrangian SPH of first-order conservation laws with Jameson-Schmidt-Turkel stabilisation "
+      "(Lee, Gil, Greto, Kulasegaram, Bonet 2016)",
+      parameters,
+      choices,
+      usable_laws,
+      diagnostics};
+  info.cell_volumes = true;
+  return info;
 }
 
 namespace {
@@ -220,7 +225,7 @@ void check_solid(Options const& o, MaterialParameters const& material) {
 
 }  // namespace
 
-Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl) {
+Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl, bool regular) {
   Options o;
   auto const scheme = word(spec, "scheme");
   bool const displacement = word(spec, "variables") == "displacement";
@@ -237,12 +242,12 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   o.kernel = find_kernel(word(spec, "kernel"));
   o.eps2 = displacement ? 0 : number_of(spec, "eps2_momentum", 0);
   o.eps4 = displacement ? 0 : number_of(spec, "eps4_momentum", hourglass ? 0 : 0.125);
-  o.hourglass_stiffness = number_of(spec, "hourglass_stiffness", hourglass ? 0.5 : 0);
+  o.hourglass_stiffness = number_of(spec, "hourglass_stiffness", !hourglass ? 0 : regular ? 0.5 : 10);
   o.hourglass_stiffening = number_of(spec, "hourglass_stiffening", hourglass ? 3 : 0);
   o.hourglass_viscosity = number_of(spec, "hourglass_viscosity", o.hourglass() ? 1 : 0);
   o.bulk_viscosity = number_of(spec, "bulk_viscosity", hourglass ? 0.06 : 0);
   o.local_bulk = number_of(spec, "local_bulk", 1);
-  o.gradient_support = number_of(spec, "gradient_support", paper ? 1.2 : 0.8);
+  o.gradient_support = number_of(spec, "gradient_support", paper ? 1.2 : hourglass && !regular ? 1 : 0.8);
   o.laplacian_support = number_of(spec, "laplacian_support", 1.2);
   o.multipliers = word(spec, "supports") == "multipliers";
   o.project = word(spec, "angular_momentum_projection") == "on" && !displacement;

@@ -39,7 +39,8 @@ struct Options {
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
-/// Options of a body. Throws InputError for combinations that cannot work.
-Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl);
+/// Options of a body, whose particles are on a lattice (`regular`) or not. Throws InputError for combinations that
+/// cannot work.
+Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl, bool regular = true);
 
 }  // namespace piola::jst_sph

@@ -26,7 +26,8 @@ class Solver final : public Formulation {
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles), machine_(choose(assembly.machine)), actions_(assembly) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
+      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
+                                           assembly.particles.bodies[k].regular);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
       alpha_.push_back(options.cfl);
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
@@ -60,6 +61,8 @@ class Solver final : public Formulation {
     }
     rule.first = first_share * rule.settled;
     rule.growth = growth;
+    rule.late_growth = growth_from(1);
+    rule.late_from = near_limit * rule.settled;
     rule.limit =
         "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
     rule.more_stages = StabilityMonitor::stages_per_step;

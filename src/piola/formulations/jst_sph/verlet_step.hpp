@@ -7,7 +7,8 @@
 #include "piola/materials/laws.hpp"
 #include "piola/parallel/halo.hpp"
 
-/// One time step of the default scheme: kick, drift, forces, kick. Derivation: docs/theory/jst-sph-default.md.
+/// One time step of the schemes "conservative" and "filtered": kick, drift, forces, kick. Derivation:
+/// docs/theory/jst-sph-conservative.md, docs/theory/jst-sph-filtered.md.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
 template <int D, class Loader>
