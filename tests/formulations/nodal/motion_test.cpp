@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formulations/nodal/nodal_bodies.hpp"
+#include <algorithm>
 
 namespace piola::testing {
 namespace {
@@ -161,20 +162,22 @@ TEST(NodalMotion, IsTheSameOnEveryMachineUpToRoundOff) {
 }
 
 TEST(NodalMotion, MeasuresItsStepWhenStrainsHaveChangedAndElseRarely) {
-  auto const steps_between = [](double speed) {
+  auto const fewest_steps_between = [](double speed) {
     Assembly a = nodal_body(unit_box(3, 5));  // 125 particles: some slots have none
     give_velocity(a, [&](Point const& X) { return Point{speed * X[0] * X[0], 0, 0}; });
     auto const f = make_formulation(a);
-    double time = 0;
+    double time = 0, fewest = 1e9;
     for (int k = 0; k < 60; ++k) {
       double const dt = f->stable_time_step();
       f->step(time, dt);
       time += dt;
+      double const steps = saved(*f).values.at("body0_step_limit")[3];
+      if (steps > 0) fewest = std::min(fewest, steps);
     }
-    return saved(*f).values.at("body0_step_limit")[3];
+    return fewest;
   };
-  EXPECT_EQ(steps_between(0.01), 25);
-  EXPECT_LT(steps_between(60), 20);
+  EXPECT_EQ(fewest_steps_between(0.01), 25);
+  EXPECT_LT(fewest_steps_between(60), 20);
 }
 
 TEST(NodalMotion, TakesStepsThatTurnCellsInsideOutAgainInHalves) {
