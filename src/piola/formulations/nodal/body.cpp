@@ -113,7 +113,7 @@ void NodalBody::fill_reference() {
   copy(reference_.own, fields_.own);
   copy(reference_.mu, fields_.mu);
   copy(reference_.X, fields_.X);
-  // Slots without a particle stay at zero, which is what they have: they never change.
+  // Slots without a particle hold nothing that counts.
   for (Index i = 0; i < order_.particles; ++i)
     for (int c = 0; c < D_; ++c) fields_.C_measured.at(i, c) = 1;
 }

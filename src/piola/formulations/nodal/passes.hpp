@@ -161,7 +161,10 @@ struct LargestChange {
   double* partial;
   PIOLA_FN void operator()(Range b, Index k) const {
     double most = 0;
-    for (Index i = b.first; i < b.last; ++i) most = maximum(most, change.scalar<double>(i));
+    for (Index i = b.first; i < b.last; ++i) {
+      double const here = change.scalar<double>(i);
+      if (here > most) most = here;  // false for what slots without a particle hold, which is no number
+    }
     partial[k] = most;
   }
 };
