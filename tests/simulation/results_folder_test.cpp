@@ -61,6 +61,14 @@ TEST(ResultsFolder, LosesOnlyFilesWithNamesOfResults) {
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));
 }
 
+TEST(ResultsFolder, EmptyLogOfAKilledRunDoesNotMakeItForeign) {
+  testing::TemporaryFolder const folder;
+  std::ofstream(folder / "log.txt").flush();
+  EXPECT_NO_THROW(check_results(folder.path(), {.title = "mine", .case_file = {}, .force = false}));
+  std::ofstream(folder / "log.txt") << "shopping list\n";
+  EXPECT_THROW(check_results(folder.path(), {.title = "mine", .case_file = {}, .force = false}), InputError);
+}
+
 TEST(ResultsFolder, LockOfAKilledRunDoesNotMakeItForeign) {
   testing::TemporaryFolder const folder;
   write_case(folder / "lock");

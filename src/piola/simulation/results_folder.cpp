@@ -32,9 +32,13 @@ std::optional<std::string> title_in(fs::path const& folder) {
   return line.substr(colon + 2);
 }
 
+/// An empty log counts for nothing: it is what a run leaves that was killed before its first word.
 bool holds_anything(fs::path const& folder) {
-  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                     [](fs::directory_entry const& entry) { return entry.path().filename() != lock_name; });
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](fs::directory_entry const& entry) {
+    std::error_code no_file;
+    auto const name = entry.path().filename();
+    return name != lock_name && !(name == "log.txt" && entry.file_size(no_file) == 0);
+  });
 }
 
 /// Whether `inner` lies in the folder `outer`, after all links have been followed.
