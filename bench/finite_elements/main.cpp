@@ -76,8 +76,9 @@ class Run {
       if (watch && !std::isfinite(seen.energy))
         throw std::runtime_error("the mesh collapsed: a brick has no volume left");
       double const step = std::min(dt, problem_.end - time_);
-      double const kinetic = kick((first ? 0.0 : 0.5 * before) + 0.5 * step);
-      if (watch) judge(out, seen.energy + kinetic);
+      double const kicked = (first ? 0.0 : 0.5 * before) + 0.5 * step;
+      if (watch) judge(out, seen.energy + kinetic_energy(kicked));
+      kick(kicked);
       advance(out, step);
       before = step;
       first = false;
@@ -108,20 +109,29 @@ class Run {
     return mesh_.mobility[c][n] == 0 && !driven ? 0 : velocity;
   }
 
-  /// v += dt f / m; gives the kinetic energy m v(n - 1/2) . v(n + 1/2) / 2 that central differences keep.
-  double kick(double dt) {
-    double kinetic = 0;
+  /// v += dt f / m.
+  void kick(double dt) {
     for (std::size_t c = 0; c < 3; ++c) {
       double *const v = &mesh_.v[c][0], *const f = &mesh_.f[c][0];
+      double const* const mobility = &mesh_.mobility[c][0];
+      std::ptrdiff_t const size = mesh_.size;
+#pragma omp parallel for simd schedule(static)
+      for (std::ptrdiff_t n = 0; n < size; ++n) {
+        v[n] += dt * mobility[n] * f[n];
+        f[n] = 0;
+      }
+    }
+  }
+  /// The kinetic energy m v(n - 1/2) . v(n + 1/2) / 2 that central differences keep, of a kick to come. Not by lanes:
+  /// clang 14 loses a part of such a sum at -O1.
+  double kinetic_energy(double dt) const {
+    double kinetic = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double const *const v = &mesh_.v[c][0], *const f = &mesh_.f[c][0];
       double const *const mobility = &mesh_.mobility[c][0], *const mass = &mesh_.mass[0];
       std::ptrdiff_t const size = mesh_.size;
-#pragma omp parallel for simd schedule(static) reduction(+ : kinetic)
-      for (std::ptrdiff_t n = 0; n < size; ++n) {
-        double const old = v[n];
-        v[n] = old + dt * mobility[n] * f[n];
-        f[n] = 0;
-        kinetic += 0.5 * mass[n] * old * v[n];
-      }
+#pragma omp parallel for schedule(static) reduction(+ : kinetic)
+      for (std::ptrdiff_t n = 0; n < size; ++n) kinetic += 0.5 * mass[n] * v[n] * (v[n] + dt * mobility[n] * f[n]);
     }
     return kinetic;
   }
