@@ -39,9 +39,9 @@ std::string spacing_text(std::array<double, 3> const& spacing, int dimension) {
 
 std::string settings_text(FormulationSpec const& spec) {
   std::vector<std::string> given;
-  for (auto const& [name, value] : spec.words) given.push_back(name + " = " + value);
-  for (auto const& [name, value] : spec.numbers) given.push_back(name + " = " + number_text(value));
-  for (auto const& [name, formula] : spec.formulas) given.push_back(name + " where " + formula.text());
+  for (auto const& [name, value] : spec.words) given.push_back(fmt::format("{} = {}", name, value));
+  for (auto const& [name, value] : spec.numbers) given.push_back(fmt::format("{} = {}", name, number_text(value)));
+  for (auto const& [name, formula] : spec.formulas) given.push_back(fmt::format("{} where {}", name, formula.text()));
   return given.empty() ? "" : " (" + joined(given) + ")";
 }
 

@@ -56,7 +56,7 @@ std::string in_column(std::string text, Layout layout) {
   return text;
 }
 
-std::string value_with_range(std::string value, Interval const& allowed) {
+std::string value_with_range(std::string const& value, Interval const& allowed) {
   std::string const range = interval_text(allowed);
   return range.empty() ? value : value + ", " + range;
 }

@@ -147,7 +147,7 @@ void refuse_link_loop(std::filesystem::path const& path, std::error_code const& 
 std::filesystem::path case_file(std::filesystem::path const& given) {
   namespace fs = std::filesystem;
   std::error_code error;
-  fs::path const file = fs::is_directory(given, error) ? given / "case.toml" : given;
+  fs::path file = fs::is_directory(given, error) ? given / "case.toml" : given;
   if (fs::exists(file, error)) return file;
   refuse_link_loop(file, error);
   if (error) throw InputError(fmt::format("{}: cannot be used, {} - check the path", file.string(), error.message()));

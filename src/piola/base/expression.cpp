@@ -205,8 +205,7 @@ void refuse_operators(std::string const& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '&' && text[i] != '|') continue;
     bool const twice = i + 1 < text.size() && text[i + 1] == text[i];
-    std::string const one(1, text[i]);
-    if (!twice) fail(in_quotes(one) + " is not an operator - write " + one + one, i);
+    if (!twice) fail(in_quotes(std::string(1, text[i])) + " is not an operator - write " + std::string(2, text[i]), i);
     ++i;
   }
 }
@@ -316,11 +315,11 @@ struct Expression::Compiled {
   void keep_used(Names const& known) {
     std::set<std::string> needed;
     for (Word const& word : words_of(text)) needed.insert(word.text);
-    for (auto d = known.definitions.rbegin(); d != known.definitions.rend(); ++d) {
-      if (!needed.contains(d->name)) continue;
-      names.definitions.insert(names.definitions.begin(), *d);
-      for (Word const& word : words_of(d->text)) needed.insert(word.text);
-    }
+    std::for_each(known.definitions.rbegin(), known.definitions.rend(), [&](Definition const& d) {
+      if (!needed.contains(d.name)) return;
+      names.definitions.insert(names.definitions.begin(), d);
+      for (Word const& word : words_of(d.text)) needed.insert(word.text);
+    });
     for (auto const& [name, value] : known.constants) {
       if (needed.contains(name)) names.constants.emplace(name, value);
     }
@@ -390,11 +389,11 @@ Expression::~Expression() = default;
 
 double Expression::operator()(std::array<double, 3> const& X, double t) const { return (*this)(X, t, {}); }
 
-double Expression::operator()(std::array<double, 3> const& X, double t, std::span<double const> further) const {
+double Expression::operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const {
   Compiled& c = *compiled_;
   if (c.constant) return c.constant_value;
-  PIOLA_EXPECTS(!c.needs_values || further.size() == c.values.size());
-  if (c.needs_values) std::copy(further.begin(), further.end(), c.values.begin());
+  PIOLA_EXPECTS(!c.needs_values || variables.size() == c.values.size());
+  if (c.needs_values) std::copy(variables.begin(), variables.end(), c.values.begin());
   c.X = X[0];
   c.Y = X[1];
   c.Z = X[2];

@@ -133,8 +133,8 @@ std::string quantity_text(double value, std::string_view si_unit, int digits) {
   // Seconds and metres are not counted in thousands; a stress of 0.5 Pa is better left as it is than called 500 mPa.
   int const highest = si_unit == "s" || si_unit == "m" ? 0 : 4;
   int const power = std::clamp(static_cast<int>(std::floor(std::log10(size) / 3 + 1e-12)), -4, highest);
-  return fmt::format("{} {}{}", number_text(value / std::pow(10.0, 3 * power), digits),
-                     prefixes[static_cast<std::size_t>(power + 4)], si_unit);
+  return fmt::format("{} {}{}", number_text(value / std::pow(10.0, 3 * power), digits), *(prefixes.begin() + 4 + power),
+                     si_unit);
 }
 
 std::string duration_text(double seconds) {

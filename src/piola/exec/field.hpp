@@ -73,7 +73,8 @@ class Field {
   }
   /// For fields that are only streamed through, never read at neighbours.
   void allocate_tiled(Index particles) {
-    std::ptrdiff_t const tiles = (particles + tile_size - 1) / tile_size, size = tile_size * components_;
+    std::ptrdiff_t const tiles = (particles + tile_size - 1) / tile_size,
+                         size = std::ptrdiff_t{tile_size} * components_;
     memory_ = Memory(static_cast<std::size_t>(tiles * size));
     ref_ = {memory_.data(), tile_size, 1, size - tile_size, &version_, name_};
     particles_ = particles;

@@ -5,6 +5,7 @@
 #include "piola/input/document_guard.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 #include <fstream>
 #include <unistd.h>
 
@@ -41,9 +42,10 @@ void refuse_twins(std::vector<Section> const& sections, std::vector<Spec> const&
   for (std::size_t i = 0; i < specs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (specs[i].name.empty() || specs[i].name != specs[j].name) continue;
-      sections[i].problems().add(sections[i].place_of("name"), "the name " + in_quotes(specs[i].name) +
-                                                                   " is taken by another " + what + " (allowed: one " +
-                                                                   what + " per name) - choose another name");
+      sections[i].problems().add(
+          sections[i].place_of("name"),
+          fmt::format("the name {} is taken by another {} (allowed: one {} per name) - choose another name",
+                      in_quotes(specs[i].name), what, what));
       break;
     }
   }

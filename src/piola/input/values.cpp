@@ -114,7 +114,7 @@ std::optional<std::string> read_text(Value const& value, Problems& problems) {
 }
 
 std::optional<std::string> read_word(Value const& value, std::vector<std::string> const& allowed, Problems& problems) {
-  auto const text = read_text(value, problems);
+  auto text = read_text(value, problems);
   if (!text) return std::nullopt;
   if (std::find(allowed.begin(), allowed.end(), *text) != allowed.end()) return text;
   complain(value,

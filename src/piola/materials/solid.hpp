@@ -110,7 +110,7 @@ class Solid {
     if (damages) {
       double const least = 1e-12 * mu;  // molten: no von Mises stress
       double const fracture = damage_.fracture_strain(-pressure / (flow > least ? flow : least), rate, h.temperature);
-      h.damage = damage_.grown(h.damage, strain, fracture);
+      h.damage = JohnsonCookDamage::grown(h.damage, strain, fracture);
     }
     double const work = (flow > 0 ? flow : 0) * strain * rho0 / rho;
     h.plastic_strain += strain;

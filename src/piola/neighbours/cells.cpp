@@ -151,7 +151,7 @@ void open_cracks(Cells& cells, Points const& X, std::vector<std::int8_t> const& 
   for (Index cell = 0; cell < cells.count(); ++cell) {
     std::array<double, 3> const middle = centroid(cells.of(cell), X);
     for (int c = 0; c < cells.corners; ++c) {
-      Index& corner = cells.corner[static_cast<std::size_t>(cell * cells.corners + c)];
+      Index& corner = cells.corner[static_cast<std::size_t>(cell) * cells.corners + c];
       auto const k = static_cast<std::size_t>(corner);
       if (twin[k] < 0) continue;
       bool const left = on_the_left(middle, crack_through(X[k], cracks));

@@ -12,7 +12,7 @@ std::array<double, 9> inverse_of(double const (&M)[9]) {
   for (int k = 0; k < D * D; ++k) A[k] = M[3 * (k / D) + k % D];
   invert<D>(A, inverse);
   std::array<double, 9> C{};
-  for (int k = 0; k < D * D; ++k) C[static_cast<std::size_t>(3 * (k / D) + k % D)] = inverse[k];
+  for (int k = 0; k < D * D; ++k) C[std::size_t{3} * (k / D) + k % D] = inverse[k];
   return C;
 }
 

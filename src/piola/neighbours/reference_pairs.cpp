@@ -88,7 +88,7 @@ void ReferencePairs::find_offsets(Body const& body) {
   slot_at_.assign(points, SlotOrder::no_particle);
   for (Index a = 0; a < particles_; ++a) {
     auto const& at = at_[static_cast<std::size_t>(a)];
-    slot_at_[static_cast<std::size_t>((at[2] * lattice_[1] + at[1]) * lattice_[0] + at[0])] = a;
+    slot_at_[lattice_number(at)] = a;
   }
 }
 

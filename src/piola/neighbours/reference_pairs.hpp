@@ -85,6 +85,9 @@ class ReferencePairs {
   };
   void find_offsets(Body const& body);
   void search();
+  std::size_t lattice_number(std::array<int, 3> const& at) const {
+    return (static_cast<std::size_t>(at[2]) * lattice_[1] + at[1]) * lattice_[0] + at[0];
+  }
   Index source_of(Index slot) const {
     auto const slots = static_cast<Index>(id_.size());
     return slot < slots ? slot : options_.copies.source[static_cast<std::size_t>(slot - slots)];
@@ -143,7 +146,7 @@ void ReferencePairs::visit(Index a, F const& f) const {
         inside = inside && to[c] >= 0 && to[c] < lattice_[c];
       }
       if (!inside) continue;
-      Index const b = slot_at_[static_cast<std::size_t>((to[2] * lattice_[1] + to[1]) * lattice_[0] + to[0])];
+      Index const b = slot_at_[lattice_number(to)];
       if (b == SlotOrder::no_particle) continue;
       auto const& o = offsets_[k];
       f(Pair{b, static_cast<std::int32_t>(k), {o.r[0], o.r[1], o.r[2]}, o.r2, offset_inner_[k] != 0});

@@ -15,7 +15,7 @@ constexpr std::int64_t layout_version = 3;
 void put_state(hdf5::Image& file, std::string const& group, NamedState const& state) {
   file.group(group);
   for (auto const& [name, values] : state.arrays()) {
-    std::string path = group + "/" + name;  // a name may hold slashes, which HDF5 would take for groups
+    std::string path = fmt::format("{}/{}", group, name);  // a name may hold slashes, which HDF5 would take for groups
     std::replace(path.begin() + static_cast<std::ptrdiff_t>(group.size()) + 1, path.end(), '/', '.');
     file.dataset<double>(path, values);
     file.attribute(path, "name", name);
@@ -25,7 +25,7 @@ void put_state(hdf5::Image& file, std::string const& group, NamedState const& st
 NamedState get_state(hdf5::Reader const& file, std::string const& group) {
   NamedState state;
   for (std::string const& name : file.names(group)) {
-    std::string const path = group + "/" + name;
+    std::string const path = fmt::format("{}/{}", group, name);
     state.put(file.text(path, "name"), file.dataset<double>(path));
   }
   return state;

@@ -24,7 +24,7 @@ Handle new_file_in_memory() {
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "a property list");
   check(H5Pset_fapl_core(access.id(), std::size_t{4} << 20, false), "a file in memory");
   // One fixed file name: nothing of it reaches the disk.
-  return Handle(H5Fcreate("piola.image", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "a file in memory");
+  return {H5Fcreate("piola.image", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "a file in memory"};
 }
 
 /// Compresses all chunks in threads, then hands them to HDF5 in order.

@@ -85,7 +85,7 @@ class Reader {
   template <class T>
   T single(std::string const& object, std::string const& name) const;
   std::filesystem::path path_;
-  std::uintmax_t bytes_;  ///< of the file
+  std::uintmax_t bytes_ = 0;  ///< of the file
   Handle file_;
 };
 

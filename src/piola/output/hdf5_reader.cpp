@@ -20,7 +20,7 @@ Handle open_sealed(std::filesystem::path const& path) {
   silence();
   hid_t const id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw FileError(fmt::format("{}: is no HDF5 file - it was written by another program", path.string()));
-  return Handle(id, H5Fclose, path.string());
+  return {id, H5Fclose, path.string()};
 }
 
 /// Whether values of a type in the file may be read as T.
@@ -34,7 +34,7 @@ bool readable_as(hid_t type) {
 
 }  // namespace
 
-Reader::Reader(std::filesystem::path const& path) : path_(path), bytes_(0), file_(open_sealed(path)) {
+Reader::Reader(std::filesystem::path const& path) : path_(path), file_(open_sealed(path)) {
   bytes_ = std::filesystem::file_size(path);
 }
 

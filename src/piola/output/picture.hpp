@@ -58,7 +58,7 @@ struct PictureStyle {
 };
 
 /// Particles as shaded balls, with title, time, colour bar and axes.
-Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window);
+Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window);
 
 /// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a
 /// little more, so that a body looks closed.

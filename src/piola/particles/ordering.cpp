@@ -22,8 +22,7 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   order.id.resize(static_cast<std::size_t>(order.particles));
   std::iota(order.id.begin(), order.id.end(), body.first);
   std::sort(order.id.begin(), order.id.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  auto const size = static_cast<std::size_t>((order.particles + SlotOrder::alignment - 1) / SlotOrder::alignment *
-                                             SlotOrder::alignment);
+  auto const size = (order.id.size() + SlotOrder::alignment - 1) / SlotOrder::alignment * SlotOrder::alignment;
   order.id.resize(size, SlotOrder::no_particle);
   return order;
 }

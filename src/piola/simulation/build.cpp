@@ -151,6 +151,7 @@ void check_fields(CaseSpec const& spec, Formulation const& formulation, std::str
       auto const quantity = find_quantity(word);
       if (!quantity || has(quantity->field)) continue;
       std::vector<std::string> known;
+      known.reserve(fields.size());
       for (FieldInfo const& info : fields) known.push_back(info.name);
       auto const place = probe.places.find("quantities");
       problems.add(place == probe.places.end() ? Place{} : place->second,

@@ -32,7 +32,7 @@ std::vector<double> nearest_distances(std::vector<std::array<double, 3>> const& 
 
 /// What the probes of kinds spacing, fragment, rim and hole look at, chosen once from reference positions.
 struct Measured {
-  Measured(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, std::vector<std::int64_t> ids);
+  Measured(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, std::vector<std::int64_t> chosen);
   ProbeSpec spec;
   double spacing;                 ///< smallest lattice spacing of the body [m]
   std::vector<std::int64_t> ids;  ///< the particles that count

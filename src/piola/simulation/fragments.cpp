@@ -88,6 +88,7 @@ std::vector<double> spacing_values(Measured const& measured, FieldCache& cache) 
     if (counts[static_cast<std::size_t>(cloud.id[k])] != 0) of.push_back(k);
   std::vector<double> d = nearest_distances(cloud.x, of, 1.25 * measured.spacing);
   std::erase_if(d, [](double value) { return !std::isfinite(value); });
+  // NOLINTNEXTLINE(modernize-return-braced-init-list): braces would make two values of "seven times not known"
   if (d.empty()) return std::vector<double>(7, std::numeric_limits<double>::quiet_NaN());
   for (double& value : d) value /= measured.spacing;
   std::sort(d.begin(), d.end());

@@ -24,7 +24,7 @@ GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const
   if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   for (BodySpec const& body : results_.spec.bodies)
-    kicked_ = kicked_ || body.formulation.formulas.count("initial_pressure") > 0;
+    kicked_ = kicked_ || body.formulation.formulas.contains("initial_pressure");
 }
 
 void GuardObserver::see(Formulation const& formulation, Moment const& moment) {

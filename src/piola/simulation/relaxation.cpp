@@ -8,7 +8,7 @@ namespace piola {
 
 Relaxation::Relaxation(RunSpec const& run) : rate_(run.damping), relax_(run.relax), limit_(run.rest) {}
 
-void Relaxation::start(Formulation& formulation) {
+void Relaxation::start(Formulation& formulation) const {
   if (relax_) formulation.damp(0);
 }
 

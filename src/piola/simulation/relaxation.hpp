@@ -21,7 +21,7 @@ class Relaxation : public Observer {
  public:
   explicit Relaxation(RunSpec const& run);
   /// Before the first step of a run: relaxation starts from rest.
-  void start(Formulation& formulation);
+  void start(Formulation& formulation) const;
   /// After each step; true once the bodies are at rest, which then have no velocity.
   bool after_step(Formulation& formulation, double dt);
   bool active() const { return relax_; }

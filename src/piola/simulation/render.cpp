@@ -86,7 +86,7 @@ class Renderer {
                            .stage_high = stage_.high};
     PictureStyle const style{options_.width, options_.height, view_of(options_, spec_, frame.dimension),
                              options_.range ? *options_.range : range_};
-    fs::path const path = folder / picture_name(options_.field, components, component, number);
+    fs::path path = folder / picture_name(options_.field, components, component, number);
     write_png(path, draw_picture(data, style, window_));
     return path;
   }

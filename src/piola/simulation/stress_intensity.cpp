@@ -9,7 +9,7 @@ namespace piola {
 double stress_intensity(std::span<double const> r, std::span<double const> stress) {
   PIOLA_EXPECTS(!r.empty() && r.size() == stress.size());
   auto const K = [&](std::size_t i) { return std::sqrt(2 * std::numbers::pi * r[i]) * stress[i]; };
-  double const count = static_cast<double>(r.size());
+  auto const count = static_cast<double>(r.size());
   double r_mean = 0, K_mean = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
     r_mean += r[i] / count;

@@ -135,7 +135,7 @@ std::optional<std::pair<double, std::string>> field_error(Check const& c, std::v
 std::optional<std::pair<double, std::string>> measured_by(Check const& c, std::vector<ReadRun const*> const& runs,
                                                           VerificationRow& row) {
   if (c.as == Check::As::field_error) return field_error(c, runs, row);
-  auto const found = look_up(runs[0]->summary, c.quantity);
+  auto found = look_up(runs[0]->summary, c.quantity);
   if (!found) add_note(row, "summary.json has no such quantity");
   if (!found || c.as == Check::As::value) return found;
   auto const other = look_up(runs[1]->summary, c.quantity);
@@ -309,6 +309,7 @@ double work_of(Plan const& plan, CheckVariant const& variant, Weigh const& weigh
 std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
                                      std::vector<VariantRun> const& runs) {
   std::vector<ReadRun> read;
+  read.reserve(runs.size());
   for (VariantRun const& run : runs)
     read.push_back({&run, run.summary.empty() ? nlohmann::json() : nlohmann::json::parse(run.summary)});
   auto const run_of = [&](std::string const& variant) {
@@ -340,6 +341,7 @@ std::vector<fs::path> find_cases(fs::path const& cases, std::vector<std::string>
                                  cases.string()));
   std::sort(all.begin(), all.end());
   if (names.empty()) return all;
+  known.reserve(all.size());
   for (fs::path const& folder : all) known.push_back(folder.lexically_relative(cases).generic_string());
   for (std::string const& name : names) {
     std::size_t const before = chosen.size();

@@ -166,7 +166,7 @@ struct RigidSweep {
     for (int c = 0; c < 6 * shapes; ++c) of_block[c] = 0;
     for (Index i = block.first; i < block.last; ++i) {
       power_on_bodies[i] = 0;
-      for (int k = 0; k < shapes; ++k) push(i, shape[k], of_block + 6 * k);
+      for (int k = 0; k < shapes; ++k) push(i, shape[k], of_block + std::ptrdiff_t{6} * k);
     }
   }
 

@@ -61,7 +61,7 @@ bool Particles::wishes_by_formula() {
 void Particles::convert(double dt) {
   for (Index i = 0; i < system_.particles; ++i) {
     if (wish_[at(i)] == 0) continue;
-    std::size_t const body = static_cast<std::size_t>(body_of_[at(i)]);
+    auto const body = static_cast<std::size_t>(body_of_[at(i)]);
     if (body_[body].deletes) {
       remove(i);
       continue;

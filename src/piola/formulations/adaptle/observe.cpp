@@ -71,6 +71,7 @@ void each_particle(System const& s, F const& f) {
 
 std::vector<FieldInfo> observed_fields() {
   std::vector<FieldInfo> r;
+  r.reserve(std::size(table));
   for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
   return r;
 }

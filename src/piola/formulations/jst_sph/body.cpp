@@ -232,7 +232,7 @@ JstBody::Gathered JstBody::gather(int values) const {
     return g;
   }
   g.component = 1;
-  g.particle = (D_ + values + 7) / 8 * 8;
+  g.particle = (std::ptrdiff_t{D_} + values + 7) / 8 * 8;
   g.start = D_;
   g.memory = Memory(static_cast<std::size_t>(n * g.particle + 8));
   for (Index i = 0; i < order_.particles; ++i)
@@ -291,7 +291,8 @@ void JstBody::share_reference(int lanes) {
   if (!state_.regular) return;
   std::map<std::vector<double>, std::int32_t> known;
   for (Index first = 0; first < order_.slots(); first += lanes) {
-    std::vector<double> key{static_cast<double>(state_.stencil.pattern_of[first / lanes])};
+    Index const group = first / lanes;
+    std::vector<double> key{static_cast<double>(state_.stencil.pattern_of[group])};
     for (Index i = first; i < first + lanes; ++i) key.push_back(i < order_.particles ? volume(i) : 0);
     auto const [at, is_new] = known.try_emplace(key, static_cast<std::int32_t>(group_first_.size()));
     if (is_new) group_first_.push_back(first);
@@ -337,8 +338,7 @@ void JstBody::fill_corrected_kernel(int lanes) {
     auto const slot = static_cast<std::size_t>(i);
     for (int c = 0; c < D_; ++c) {
       fields_.gamma.at(to, c) = kernel.gamma[slot][static_cast<std::size_t>(c)];
-      for (int d = 0; d < D_; ++d)
-        fields_.full_correction.at(to, c * D_ + d) = kernel.C[slot][static_cast<std::size_t>(3 * c + d)];
+      for (int d = 0; d < D_; ++d) fields_.full_correction.at(to, c * D_ + d) = kernel.C[slot][std::size_t{3} * c + d];
     }
   });
 }
@@ -393,7 +393,7 @@ void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
   if (!deformed.empty() && mixed) {
     for (Index i = 0; i < order_.particles; ++i)
       for (int c = 0; c < D_ * D_; ++c)
-        fields_.F.at(i, c) = deformed[static_cast<std::size_t>(id(i))][static_cast<std::size_t>(3 * (c / D_) + c % D_)];
+        fields_.F.at(i, c) = deformed[static_cast<std::size_t>(id(i))][std::size_t{3} * (c / D_) + c % D_];
   } else if (!moved.empty() || !mixed) {
     deform_to_positions(machine);
   }
@@ -404,7 +404,7 @@ void JstBody::deform_to_positions(Machine const& machine) {
   bool const mixed = options_.variables != Variables::displacement;
   auto const each = [&](auto const& f) {
     for (Index i = 0; i < order_.slots(); ++i)
-      for (int c = 0; c < D_; ++c) f(i, c, kept[static_cast<std::size_t>(i * D_ + c)]);
+      for (int c = 0; c < D_; ++c) f(i, c, kept[static_cast<std::size_t>(i) * D_ + c]);
   };
   each([&](Index i, int c, double& value) {
     value = JstBody::value(state_.u, i, c);

@@ -231,7 +231,7 @@ void Boundary::evaluate_speeds(double time) {
   }
 }
 
-std::array<double, 3> Boundary::acceleration_of(LoadOnBody const& load, std::size_t k, double time) const {
+std::array<double, 3> Boundary::acceleration_of(LoadOnBody const& load, std::size_t k, double time) {
   if (load.steady) return load.acceleration[k];
   return load_acceleration(load, k, load.X[k], time);
 }

@@ -86,7 +86,7 @@ class Boundary {
   void add_direction(std::size_t particle, std::size_t row);
   void evaluate_speeds(double time);
   /// Of particle k of the load, by it [m/s2].
-  std::array<double, 3> acceleration_of(LoadOnBody const& load, std::size_t k, double time) const;
+  static std::array<double, 3> acceleration_of(LoadOnBody const& load, std::size_t k, double time);
   template <class Add>
   void each_load(double time, double evaluate_at, Add const& add) const;
   void evaluate_loads(double time, double end, bool follows);

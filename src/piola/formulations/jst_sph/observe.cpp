@@ -226,6 +226,7 @@ std::array<double, SolidFields::size> all_history(JstBody const& body, Index i) 
 
 std::vector<FieldInfo> observed_fields(bool solids) {
   std::vector<FieldInfo> r;
+  r.reserve(std::size(table));
   for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
   for (auto const& f : solid_table)
     if (solids) r.push_back({f.name, f.unit, f.components});

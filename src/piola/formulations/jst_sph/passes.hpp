@@ -245,7 +245,7 @@ struct SumForces {
   PIOLA_FN void operator()(Index i, Lanes* total) const {
     Lanes sum[Body::sums];
     loader(i, body, sum);
-    Lanes const volume = V.scalar<Lanes>(i);
+    auto const volume = V.scalar<Lanes>(i);
     Lanes const inverse_volume = 1.0 / maximum(volume, Lanes(1e-300));
     Vec<D, Lanes> force = k.force == GradientForm::corrected_kernel ? kernel_force_sum.vector<D, Lanes>(i)
                                                                     : A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
@@ -359,7 +359,7 @@ struct HoldSupports {
   WriteView v_out, x;
   PIOLA_FN void operator()(Index k) const {
     SupportComponent& s = supports[k];
-    double const now = v.scalar<double>(s.slot, s.component);
+    auto const now = v.scalar<double>(s.slot, s.component);
     (second ? s.at_end : s.at_start) = (second ? -1 : -0.5) * now;
     v_out.scalar(s.slot, 0.0, s.component);
     x.scalar(s.slot, s.position, s.component);

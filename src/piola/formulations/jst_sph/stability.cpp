@@ -76,7 +76,7 @@ class Operator {
   Operator(JstBody& body, BodyState const& trial, Machine const& machine, std::vector<double> F,
            std::vector<double> x = {})
       : body_(body), trial_(trial), machine_(machine), D_(trial.dimension), F_(std::move(F)), x_(std::move(x)) {
-    rest_.resize(static_cast<std::size_t>(body.particles() * D_));
+    rest_.resize(static_cast<std::size_t>(body.particles()) * D_);
     rest_ = rates_at(rest_);
   }
 
@@ -106,11 +106,12 @@ class Operator {
   }
 
  private:
+  std::size_t at(Index i, int c) const { return static_cast<std::size_t>(i) * D_ + c; }
   double square(std::vector<double> const& u) const {
     double sum = 0;
     for (Index i = 0; i < body_.particles(); ++i)
       for (int c = 0; c < D_; ++c) {
-        double const value = u[static_cast<std::size_t>(i * D_ + c)];
+        double const value = u[at(i, c)];
         sum += body_.volume(i) * value * value;
       }
     return sum;
@@ -119,17 +120,16 @@ class Operator {
   std::vector<double> rates_at(std::vector<double> const& u) {
     for (Index i = 0; i < body_.particles(); ++i)
       for (int c = 0; c < D_; ++c) {
-        JstBody::set(trial_.v, i, c, u[static_cast<std::size_t>(i * D_ + c)]);
+        JstBody::set(trial_.v, i, c, u[at(i, c)]);
         JstBody::set(trial_.rate, i, c, 0);
-        if (!x_.empty()) JstBody::set(trial_.x, i, c, x_[static_cast<std::size_t>(i * D_ + c)]);
-        for (int d = 0; d < D_; ++d)
-          JstBody::set(trial_.F, i, c * D_ + d, F_[static_cast<std::size_t>((i * D_ + c) * D_ + d)]);
+        if (!x_.empty()) JstBody::set(trial_.x, i, c, x_[at(i, c)]);
+        for (int d = 0; d < D_; ++d) JstBody::set(trial_.F, i, c * D_ + d, F_[at(i, c) * D_ + d]);
       }
     machine_.step(trial_, 1.0);
     std::vector<double> rates(u.size());
     for (Index i = 0; i < body_.particles(); ++i)
       for (int c = 0; c < D_; ++c) {
-        auto const k = static_cast<std::size_t>(i * D_ + c);
+        auto const k = at(i, c);
         rates[k] = JstBody::value(trial_.rate, i, c) - rest_[k];
       }
     return rates;
@@ -223,7 +223,7 @@ double largest_step(double eigenvalue) { return largest_step(std::sqrt(eigenvalu
 
 StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body_(body), machine_(machine) {
   Kept const kept(body.state(), body.state().dimension);
-  mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
+  mode_.resize(static_cast<std::size_t>(body.particles()) * body.state().dimension);
   if (body.options().hourglass()) {
     measure_at_rest();
     kept.restore();

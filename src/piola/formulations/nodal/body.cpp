@@ -61,7 +61,7 @@ void NodalBody::set_constants(MaterialParameters const& material) {
                         options_.shock_viscosity * 0.06 * law.rho0 * h * law.p_wave_speed(),
                         options_.shock_viscosity * 1.2 * law.rho0 * h * h};
   });
-  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots) + 1));
+  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots)) + 1);
   state_.partial = partial_.data();
   state_.failure = &failure_;
 }
@@ -69,7 +69,7 @@ void NodalBody::set_constants(MaterialParameters const& material) {
 void NodalBody::allocate() {
   Index const n = order_.slots();
   if (reference_.lattice)
-    gathered_.place_lattice(fields_, n, reference_.lattice->guard());
+    Gathered::place_lattice(fields_, n, reference_.lattice->guard());
   else
     gathered_.place_records(fields_, D_, n);
   if (auto const& group = reference_.group_of_k; !group.empty()) {

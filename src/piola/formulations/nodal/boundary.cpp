@@ -108,7 +108,7 @@ void Boundary::hold(Particle const& particle, double time, double end) {
   }
 }
 
-Direction Boundary::acceleration(LoadOnBody const& load, std::size_t k, double time) const {
+Direction Boundary::acceleration(LoadOnBody const& load, std::size_t k, double time) {
   if (k < load.steady.size()) return load.steady[k];
   auto const normal = load.normal.empty() ? std::nullopt : std::optional(load.normal[k]);
   return acceleration_by(load.value, normal, load.factor[k], load.X[k], time);

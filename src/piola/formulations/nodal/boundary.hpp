@@ -71,7 +71,7 @@ class Boundary {
   std::vector<double> factors(Load const& load, std::size_t number, OfBody const& of_body) const;
   void hold(Particle const& particle, double time, double end);
   double speed_of(Particle const& particle, Particle::Row const& row, double time) const;
-  Direction acceleration(LoadOnBody const& load, std::size_t k, double time) const;
+  static Direction acceleration(LoadOnBody const& load, std::size_t k, double time);
   /// At an end of the step that `loaded_` is for, turned with the face where the load follows it.
   Direction acting(LoadOnBody const& load, std::size_t k, bool at_end, double time) const;
   void add_loads(double time, double evaluate_at, bool at_end);

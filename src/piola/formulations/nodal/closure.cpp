@@ -133,8 +133,7 @@ std::vector<double> Divergence<D>::shares(std::function<double(SurfacePatch cons
       auto const e = fits_.derivatives(a, k);
       double moved = 0;
       for (int i = 0; i < D; ++i) moved += patch.first[static_cast<std::size_t>(i)] * e[static_cast<std::size_t>(i)];
-      for (int m = 0; m < Quadratic<D>::second; ++m)
-        moved += patch.second[moment<D>(m)] * e[static_cast<std::size_t>(D + m)];
+      for (int m = 0; m < Quadratic<D>::second; ++m) moved += patch.second[moment<D>(m)] * e[std::size_t{D} + m];
       moved *= counts;
       share[fits_.pairs().at(k)] += moved;
       share[a] -= moved;

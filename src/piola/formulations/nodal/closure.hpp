@@ -58,7 +58,7 @@ template <int D>
 double at_centroid(typename Fits<D>::Monomials const& e, ScaledCell const& cell, int J) {
   double g = e[static_cast<std::size_t>(J)];
   for (int K = 0; K < D; ++K)
-    g += e[static_cast<std::size_t>(D + Quadratic<D>::at(J, K))] * cell.centroid[static_cast<std::size_t>(K)];
+    g += e[std::size_t{D} + Quadratic<D>::at(J, K)] * cell.centroid[static_cast<std::size_t>(K)];
   return g;
 }
 

@@ -111,7 +111,7 @@ template <int D>
 void Fits<D>::fit_lattice(LatticeShape const& shape) {
   pairs_ = lattice_pairs(shape);
   alike_ = alike_in_lattice(shape, static_cast<int>(usual_reach) + 1);
-  constexpr auto size = static_cast<std::ptrdiff_t>(terms * terms);
+  constexpr auto size = std::ptrdiff_t{terms} * terms;
   for (std::size_t a = 0; a < X_.size() && usual_; ++a) {
     if (alike(a) == a)
       usual_ = fit(a);

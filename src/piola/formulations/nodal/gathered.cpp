@@ -23,7 +23,7 @@ void Gathered::place_records(Fields& fields, int D, Index slots) {
   second_ = Memory(static_cast<std::size_t>(slots * size.stress));
   fields.X.place(first_.data(), 1, size.motion, 0, slots, &first_version_);
   fields.x.place(first_.data(), 1, size.motion, D, slots, &first_version_);
-  fields.mu.place(first_.data(), 1, size.motion, 2 * D, slots, &first_version_);
+  fields.mu.place(first_.data(), 1, size.motion, std::ptrdiff_t{2} * D, slots, &first_version_);
   fields.stress.place(second_.data(), 1, size.stress, 0, slots, &second_version_);
   for (Index i = 0; i < slots; ++i) first_.data()[i * size.motion + size.one] = 1;
 }

@@ -14,7 +14,7 @@ class Gathered {
 
   /// guard: slots that loops over a lattice may read beside the first and the last one.
   void place_records(Fields& fields, int D, Index slots);
-  void place_lattice(Fields& fields, Index slots, Index guard);
+  static void place_lattice(Fields& fields, Index slots, Index guard);
   std::size_t bytes() const { return first_.bytes() + second_.bytes(); }
 
  private:

@@ -68,15 +68,15 @@ struct ListSums {
  private:
   PIOLA_FN double const* motion_of(Index a) const { return motion + static_cast<std::ptrdiff_t>(a) * R::motion_size; }
   PIOLA_FN double const* stress_of(Index a) const { return stress + static_cast<std::ptrdiff_t>(a) * R::stress_size; }
-  /// s (P(X_to - X_from), mu of `owner`).
-  PIOLA_FN static void coefficients(double s, double const* from, double const* to, double const* owner,
+  /// s (P(X_to - X_from), mu of `bearer`).
+  PIOLA_FN static void coefficients(double s, double const* from, double const* to, double const* bearer,
                                     double (&c)[R::width]) {
     Vec<D> r;
     for (int i = 0; i < D; ++i) r[i] = to[i] - from[i];
     double p[R::values];
     monomials<D>(r, p);
     for (int n = 0; n < R::values; ++n) c[n] = s * p[n];
-    for (int J = 0; J < D; ++J) c[R::values + J] = s * owner[R::mu + J];
+    for (int J = 0; J < D; ++J) c[R::values + J] = s * bearer[R::mu + J];
     for (int n = R::used; n < R::width; ++n) c[n] = 0;
   }
 };

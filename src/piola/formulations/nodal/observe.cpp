@@ -141,6 +141,7 @@ constexpr std::array table{
 
 std::vector<FieldInfo> observed_fields() {
   std::vector<FieldInfo> r;
+  r.reserve(std::size(table));
   for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
   return r;
 }

@@ -38,7 +38,7 @@ template <int D>
 void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
   auto& f = fields_;
   if (lattice != nullptr)
-    gathered_.place_lattice(f, slots_, lattice->guard());
+    Gathered::place_lattice(f, slots_, lattice->guard());
   else
     gathered_.place_records(f, D, slots_);
   for (Field* field : {&f.V, &f.mass, &f.own, &f.a, &inverse_, &weights_, &coefficients_})
@@ -145,9 +145,10 @@ void ProjectionMatrix<D>::apply(std::vector<double> const& x, std::vector<double
 
 template <int D>
 std::vector<double> ProjectionMatrix<D>::coefficients() const {
-  std::vector<double> c(static_cast<std::size_t>(particles_) * values * D);
+  constexpr auto size = std::size_t{values} * D;
+  std::vector<double> c(static_cast<std::size_t>(particles_) * size);
   for (std::size_t k = 0; k < c.size(); ++k)
-    c[k] = coefficients_.at(static_cast<Index>(k / (values * D)), static_cast<int>(k % (values * D)));
+    c[k] = coefficients_.at(static_cast<Index>(k / size), static_cast<int>(k % size));
   return c;
 }
 

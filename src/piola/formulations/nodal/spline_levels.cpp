@@ -49,7 +49,7 @@ double third_derivatives(std::array<std::array<double, 4>, 3> const& e) {
 }
 
 std::size_t number(std::array<int, 3> const& count, int i, int j, int k) {
-  return static_cast<std::size_t>((k * count[1] + j) * count[0] + i);
+  return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i;
 }
 
 /// f(spline of the fine level, factor) for the parts of a spline of twice the spacing along one axis.

@@ -86,7 +86,7 @@ double largest_eigenvalue(std::vector<double> const& diagonal, std::vector<doubl
 StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
     : body_(body), machine_(machine), interval_(shortest) {
   if (body.options().cfl > 0) return;
-  mode_.resize(static_cast<std::size_t>(body.particles() * body.state().dimension));
+  mode_.resize(static_cast<std::size_t>(body.particles()) * body.state().dimension);
   measure(first_cycles);
   start_ = frequency_;
 }

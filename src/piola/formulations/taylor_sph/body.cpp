@@ -208,7 +208,7 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   state_.acceleration = acceleration_.ref();
   state_.mass = slot_mass_.ref();
   for (Index i = 0; i < particles(); ++i) slot_mass_.at(slot_of_[at(i)]) = mass_[at(i)];
-  partial_.assign(static_cast<std::size_t>(MotionSums::size * (std::max(slots, state_.virtuals.last) / 64 + 2)), 0);
+  partial_.assign(MotionSums::size * (at(std::max(slots, state_.virtuals.last) / 64) + 2), 0);
   state_.partial = partial_.data();
   state_.failure = &failure_;
   state_.items = boundary_.items();
@@ -219,7 +219,7 @@ void TaylorBody::arrange(Points const& x_of_cells) {
 
 void TaylorBody::fill_cell_tables(Points const& x) {
   int const lanes = machine_->lanes;
-  corner_.assign(static_cast<std::size_t>(state_.virtuals.last * cells_.corners), 0);
+  corner_.assign(at(state_.virtuals.last) * cells_.corners, 0);
   reference_quality_.assign(at(state_.virtuals.last), 1);
   double factorial = 1;
   for (int c = 2; c <= D() && cells_.corners == D() + 1; ++c) factorial *= c;
@@ -229,8 +229,7 @@ void TaylorBody::fill_cell_tables(Points const& x) {
     auto const corners = cells_.of(cell);
     double longest = 0;
     for (std::size_t a = 0; a < corners.size(); ++a) {
-      corner_[static_cast<std::size_t>((v / lanes * cells_.corners + static_cast<Index>(a)) * lanes + v % lanes)] =
-          slot_of_[at(corners[a])];
+      corner_[(at(v / lanes) * cells_.corners + a) * lanes + v % lanes] = slot_of_[at(corners[a])];
       for (std::size_t b = a + 1; b < corners.size(); ++b) {
         auto const &p = x[at(corners[a])], &q = x[at(corners[b])];
         longest = std::max(longest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
@@ -271,18 +270,18 @@ void TaylorBody::fill_hourglass_tables() {
   if (boxes_.count() == 0) return;
   int const lanes = machine_->lanes, corners = boxes_.corners;
   Index const boxes = aligned(boxes_.count());
-  box_corner_.assign(static_cast<std::size_t>(boxes * corners), 0);
-  box_of_.assign(static_cast<std::size_t>(state_.boundary.last * corners), -1);
+  box_corner_.assign(at(boxes) * corners, 0);
+  box_of_.assign(at(state_.boundary.last) * corners, -1);
   for (Index b = 0; b < boxes; ++b)
     for (int k = 0; k < corners; ++k) {
       Index const slot = slot_of_[at(boxes_.of(std::min(b, boxes_.count() - 1))[static_cast<std::size_t>(k)])];
-      box_corner_[static_cast<std::size_t>((b / lanes * corners + k) * lanes + b % lanes)] = slot;
+      box_corner_[(at(b / lanes) * corners + k) * lanes + b % lanes] = slot;
       if (b >= boxes_.count()) continue;
       // A particle is the opposite corner of each of its boxes: corner k of one box only.
-      box_of_[static_cast<std::size_t>(slot * corners + k)] = b * corners + k;
+      box_of_[at(slot) * corners + k] = b * corners + k;
     }
   int const patterns = D() == 2 ? 1 : 4, fields = D() + D() * (D() + 1) / 2;
-  pattern_.assign(static_cast<std::size_t>(boxes * patterns * fields), 0);
+  pattern_.assign(at(boxes) * patterns * fields, 0);
   state_.hourglass = {boxes, box_corner_.data(), pattern_.data(), box_of_.data()};
 }
 
@@ -428,7 +427,7 @@ std::array<double, 3> TaylorBody::displacement(Index i) const {
 
 std::array<double, 6> TaylorBody::record_stress(Index i) const {
   std::array<double, 6> r{};
-  std::copy_n(record(i) + 2 * D() + 1, D() * (D() + 1) / 2, r.begin());
+  std::copy_n(record(i) + stress_place(), D() * (D() + 1) / 2, r.begin());
   return r;
 }
 

@@ -101,6 +101,7 @@ class TaylorBody {
   double* record(Index i) const;
   std::array<double, 6> record_stress(Index i) const;  ///< SymMat<D>
   int D() const { return state_.dimension; }
+  std::ptrdiff_t stress_place() const { return 2 * std::ptrdiff_t{D()} + 1; }  ///< in a record
 
   void set_constants(Assembly const& assembly, std::size_t body);
   Cells first_cells(ParticleSet const& set) const;

@@ -162,7 +162,7 @@ void Boundary::sort_facets(Surface const& surface, Points const& x) {
   sides_.assign(X_.size(), {});
   for (Index f = 0; f < surface_.count(); ++f)
     for (int k = 0; k < D_; ++k) {
-      Index const particle = surface_.corner[static_cast<std::size_t>(f * D_ + k)];
+      Index const particle = surface_.corner[static_cast<std::size_t>(f) * D_ + k];
       if (!tip_[static_cast<std::size_t>(particle)]) add_to_side(particle, f, facet_area(f, x));
     }
 }
@@ -260,6 +260,7 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
   int const n = D_ * (D_ + 1) / 2;
   item.rows = 0;
   std::vector<Point> held;
+  held.reserve(static_cast<std::size_t>(item.held));
   for (int h = 0; h < item.held; ++h)
     held.push_back({item.direction[h][0], item.direction[h][1], item.direction[h][2]});
   std::vector<Point> const free = free_directions(held, D_);

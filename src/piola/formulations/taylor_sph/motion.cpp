@@ -193,14 +193,14 @@ void TaylorBody::make_lists(Points const& x) {
 void TaylorBody::note_distances(Points const& x) {
   int const lanes = machine_->lanes;
   Index const pairs = cells_.corners * (cells_.corners - 1) / 2;
-  reference_square_.assign(static_cast<std::size_t>(state_.virtuals.last * pairs), 0);
+  reference_square_.assign(at(state_.virtuals.last) * pairs, 0);
   for (Index v = 0; v < state_.virtuals.last; ++v) {
     auto const corners = cells_.of(std::min(v, state_.virtual_count - 1));
     Index pair = 0;
     for (std::size_t a = 0; a < corners.size(); ++a)
       for (std::size_t b = a + 1; b < corners.size(); ++b, ++pair) {
         double const d = distance(x[at(corners[a])], x[at(corners[b])]);
-        reference_square_[static_cast<std::size_t>((v / lanes * pairs + pair) * lanes + v % lanes)] = d * d;
+        reference_square_[(at(v / lanes) * pairs + pair) * lanes + v % lanes] = d * d;
       }
   }
   state_.cells.reference_square = reference_square_.data();
@@ -339,8 +339,8 @@ Snapshot TaylorBody::snapshot() const {
     double const* const own = record(i);
     s.x.insert(s.x.end(), own, own + D());
     s.volume.push_back(own[D()]);
-    s.v.insert(s.v.end(), own + D() + 1, own + 2 * D() + 1);
-    s.stress.insert(s.stress.end(), own + 2 * D() + 1, own + 2 * D() + 1 + n);
+    s.v.insert(s.v.end(), own + D() + 1, own + stress_place());
+    s.stress.insert(s.stress.end(), own + stress_place(), own + stress_place() + n);
     s.across.push_back(across_.at(slot_of_[at(i)]));
     for (int c = 0; c < D(); ++c) {
       s.drift.push_back(drift_.at(slot_of_[at(i)], c));
@@ -351,7 +351,7 @@ Snapshot TaylorBody::snapshot() const {
   s.x_of_cells = flattened(x_of_cells_, D());
   s.corners.assign(cells_.corner.begin(), cells_.corner.end());
   for (Index c = 0; c < cells_.count() && options_.adjoint; ++c) {
-    double const* const stress = state_.virtual_ + static_cast<std::ptrdiff_t>(c) * record_stride(D()) + 2 * D() + 1;
+    double const* const stress = state_.virtual_ + static_cast<std::ptrdiff_t>(c) * record_stride(D()) + stress_place();
     s.cell_stress.insert(s.cell_stress.end(), stress, stress + n);
     s.cell_across.push_back(cell_across_[at(c)]);
   }
@@ -374,11 +374,11 @@ void TaylorBody::restore_cells(Snapshot const& s) {
   int const n = D() * (D() + 1) / 2;
   bool const known = !s.cell_stress.empty();
   for (Index c = 0; c < cells_.count(); ++c) {
-    double* const stress = state_.virtual_ + static_cast<std::ptrdiff_t>(c) * record_stride(D()) + 2 * D() + 1;
+    double* const stress = state_.virtual_ + static_cast<std::ptrdiff_t>(c) * record_stride(D()) + stress_place();
     auto const first = static_cast<std::size_t>(c) * static_cast<std::size_t>(n);
     for (int k = 0; k < n; ++k) {
       double mean = 0;
-      for (Index const corner : cells_.of(c)) mean += record(corner)[2 * D() + 1 + k] / cells_.corners;
+      for (Index const corner : cells_.of(c)) mean += record(corner)[stress_place() + k] / cells_.corners;
       stress[k] = known ? s.cell_stress[first + static_cast<std::size_t>(k)] : mean;
     }
     double mean = 0;
@@ -399,10 +399,10 @@ void TaylorBody::restore(Snapshot const& s) {
     std::copy_n(s.x.begin() + k * D(), D(), own);
     own[D()] = s.volume[at(i)];
     std::copy_n(s.v.begin() + k * D(), D(), own + D() + 1);
-    std::copy_n(s.stress.begin() + k * n, n, own + 2 * D() + 1);
+    std::copy_n(s.stress.begin() + k * n, n, own + stress_place());
     across_.at(slot_of_[at(i)]) = s.across[at(i)];
     for (int c = 0; c < D(); ++c) {
-      auto const from = static_cast<std::size_t>(i * D() + c);
+      auto const from = at(i) * D() + c;
       drift_.at(slot_of_[at(i)], c) = s.drift[from];
       displacement_.at(slot_of_[at(i)], c) = s.displacement[from];
     }

@@ -83,6 +83,7 @@ void observe(TaylorBody const& body, ParticleSet const& set, Observation& o) {
 
 std::vector<FieldInfo> observed_fields() {
   std::vector<FieldInfo> r;
+  r.reserve(std::size(table));
   for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
   return r;
 }

@@ -33,7 +33,7 @@ class JohnsonCookDamage {
            (1 + d5_ * heat_.homologous(temperature));
   }
   /// Damage after a plastic strain increment: at most 1; a fracture strain that is not positive breaks at once.
-  PIOLA_FN double grown(double damage, double increment, double fracture) const {
+  PIOLA_FN static double grown(double damage, double increment, double fracture) {
     if (!(increment > 0)) return damage;
     double const after = fracture > 0 ? damage + increment / fracture : 1;
     return after < 1 ? after : 1;

@@ -14,9 +14,9 @@ struct NoPlasticity {
 
   PIOLA_FN NoPlasticity(double const*, Heat const&) {}
   /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
-  PIOLA_FN double yield_stress(double, double, double) const { return unbounded; }
+  PIOLA_FN static double yield_stress(double, double, double) { return unbounded; }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
-  PIOLA_FN double increment(double, double, double, double, double) const { return 0; }
+  PIOLA_FN static double increment(double, double, double, double, double) { return 0; }
 };
 
 }  // namespace piola::inline PIOLA_MACHINE
