@@ -51,20 +51,6 @@ TEST(MakeParticles, OpensTheCracksOfEachBody) {
   EXPECT_EQ(set.crack_side.size(), 98u);
 }
 
-TEST(MakeParticles, GivesJitteredParticlesTheVolumesOfTheirCellsWhereTheFormulationWantsThem) {
-  CaseSpec spec = plates();
-  for (auto& body : spec.bodies) body.shape.jitter = 0.2;
-  spec.bodies[0].formulation.name = "jst_sph";
-  spec.bodies[1].formulation.name = "taylor_sph";
-  ParticleSet const set = make_particles(spec);
-  ParticleSet const lattice = make_particles(plates());
-  auto const volumes = [](ParticleSet const& of, std::size_t body) {
-    return std::vector<double>(of.volume.begin() + of.bodies[body].first, of.volume.begin() + of.bodies[body].last);
-  };
-  EXPECT_NE(volumes(set, 0), volumes(lattice, 0));
-  EXPECT_EQ(volumes(set, 1), volumes(lattice, 1));
-}
-
 TEST(MakeParticles, WithoutCracksHasNoSides) {
   ParticleSet const set = make_particles(plates());
   EXPECT_TRUE(set.crack_side.empty());

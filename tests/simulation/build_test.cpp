@@ -38,6 +38,17 @@ until = "7 ms"
 
 // The sum of mass times acceleration is the whole force: traction times the face, 1 m x 1 m; body force times the
 // volume, 6 m^3; acceleration times the mass, 6600 kg.
+TEST(Assemble, GivesJitteredParticlesTheVolumesOfTheirCellsWhereTheFormulationWantsThem) {
+  auto const volumes = [](char const* formulation, double jitter) {
+    CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
+    spec.bodies[0].formulation = {formulation, {}, {}};
+    spec.bodies[0].shape.jitter = jitter;
+    return assemble(spec).particles.volume;
+  };
+  EXPECT_NE(volumes("jst_sph", 0.2), volumes("jst_sph", 0));
+  EXPECT_EQ(volumes("taylor_sph", 0.2), volumes("taylor_sph", 0));
+}
+
 TEST(Assemble, LoadsSumToTheWholeForce) {
   Assembly const a = assembled(R"(
 [[load]]

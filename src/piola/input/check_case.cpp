@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/check_case.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/registry.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/neighbours/cell_moments.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -77,9 +75,6 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems) {
   ParticleSet particles;
   for (BodySpec const& body : spec.bodies) {
     fill(body.shape, body.name, particles);
-    auto const formulation = find_formulation(body.formulation.name);
-    if (body.shape.jitter > 0 && formulation && formulation->cell_volumes)
-      take_cell_volumes(particles, particles.bodies.back());
     open_cracks(spec, particles, problems);
   }
   return particles;

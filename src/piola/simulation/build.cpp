@@ -6,6 +6,7 @@
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/neighbours/cell_moments.hpp"
 #include "piola/simulation/warnings.hpp"
 #include <algorithm>
 #include <string_view>
@@ -163,6 +164,15 @@ void check_fields(CaseSpec const& spec, Formulation const& formulation, std::str
   problems.raise_if_any();
 }
 
+/// For the motion alone: checks of a case, which make particles as well, need no volumes of single ones.
+void measure_volumes(CaseSpec const& spec, ParticleSet& particles) {
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    auto const formulation = find_formulation(spec.bodies[b].formulation.name);
+    if (spec.bodies[b].shape.jitter > 0 && formulation && formulation->cell_volumes)
+      take_cell_volumes(particles, particles.bodies[b]);
+  }
+}
+
 }  // namespace
 
 Assembly assemble(CaseSpec const& spec) {
@@ -172,6 +182,7 @@ Assembly assemble(CaseSpec const& spec) {
   check_regions(spec, a.particles, problems);
   report_mixed_start(spec, problems);
   problems.raise_if_any();
+  measure_volumes(spec, a.particles);
   a.cfl = spec.run.cfl;
   a.machine = spec.run.machine;
   a.initial_velocity.resize(a.particles.X.size());
