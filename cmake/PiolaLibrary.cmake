@@ -17,14 +17,16 @@ set(_input_sources ${_sources})
 list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")
 list(FILTER _sources EXCLUDE REGEX "/src/piola/input/")
 
+set(_outside Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2 muparser::muparser
+             nlohmann_json::nlohmann_json)
+
 # A library of object files that become part of piola. It does not wait for the machines, which take longest.
 function(piola_add_rooms target)
   add_library(${target} OBJECT ${ARGN})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_include_directories(${target} SYSTEM PRIVATE "${PIOLA_TOML_INCLUDE}")
   target_compile_definitions(${target} PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
-  target_link_libraries(${target} PRIVATE piola_options piola_warnings piola_host piola_hardened
-    Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)
+  target_link_libraries(${target} PRIVATE piola_options piola_warnings piola_host piola_hardened ${_outside})
   target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
   # Files of one room read the same headers: a few of them as one take half the time. Names in unnamed namespaces must
   # differ within a room, which tools/test sees, because it builds so.
@@ -47,9 +49,7 @@ target_include_directories(piola PUBLIC
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>" "$<INSTALL_INTERFACE:include>")
 target_link_libraries(piola
   PUBLIC piola_options
-  PRIVATE $<BUILD_INTERFACE:piola_hardened>
-          Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2
-          muparser::muparser nlohmann_json::nlohmann_json)
+  PRIVATE $<BUILD_INTERFACE:piola_hardened> ${_outside})
 piola_add_rooms(piola_rooms ${_sources})
 
 # Reading a case is no hot loop, and compiles a third faster with little optimisation.
