@@ -11,7 +11,7 @@ void CaseOptions::add_to(CLI::App& command, bool with_file) {
   command.add_option(
       "--threads", threads,
       "Number of threads (default: as the case says, else OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)");
-  command.add_option("--machine", machine, "Instruction set: auto, scalar, v2, v3, v4 (default: as the case says)");
+  command.add_option("--machine", machine, "Instruction set: auto, scalar, v3, v4 (default: as the case says)");
 }
 
 std::vector<std::string> CaseOptions::overrides() const {

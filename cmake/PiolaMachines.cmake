@@ -9,10 +9,9 @@ set(PIOLA_MACHINE_OPTIMISATION "-O3" CACHE STRING "Optimisation level of the hot
 
 set(_flags_scalar "-DPIOLA_SCALAR_LANES=1")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
-  set(_known scalar v2 v3 v4)
+  set(_known scalar v3 v4)
   set(_quick scalar v3)
   list(APPEND _flags_scalar -march=x86-64)
-  set(_flags_v2 -march=x86-64-v2)
   set(_flags_v3 -march=x86-64-v3)
   set(_flags_v4 -march=x86-64-v4 -mprefer-vector-width=512)
 else()

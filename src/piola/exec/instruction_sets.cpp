@@ -6,7 +6,6 @@ namespace piola::exec_host {
 namespace {
 
 #if defined(__x86_64__)
-bool has_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
 bool has_v3() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
 }
@@ -15,7 +14,6 @@ bool has_v4() {
          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
 }
 #else
-bool has_v2() { return false; }
 bool has_v3() { return false; }
 bool has_v4() { return false; }
 #endif
@@ -29,12 +27,11 @@ std::string_view find_machine(std::string_view asked) {
   return asked;
 }
 
-std::string_view best_of_processor() { return has_v4() ? "v4" : has_v3() ? "v3" : has_v2() ? "v2" : "scalar"; }
+std::string_view best_of_processor() { return has_v4() ? "v4" : has_v3() ? "v3" : "scalar"; }
 
 }  // namespace
 
 bool processor_can_run(std::string_view machine) {
-  if (machine == "v2") return has_v2();
   if (machine == "v3") return has_v3();
   if (machine == "v4") return has_v4();
   return machine == "scalar" || machine == "native";

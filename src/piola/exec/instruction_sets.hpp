@@ -57,11 +57,6 @@ class MachineChoice {
 #else
 #define PIOLA_USE_V3(use)
 #endif
-#if defined(PIOLA_HAS_MACHINE_V2)
-#define PIOLA_USE_V2(use) use(v2)
-#else
-#define PIOLA_USE_V2(use)
-#endif
 #if defined(PIOLA_HAS_MACHINE_NATIVE)
 #define PIOLA_USE_NATIVE(use) use(native)
 #else
@@ -72,5 +67,4 @@ class MachineChoice {
 #else
 #define PIOLA_USE_SCALAR(use)
 #endif
-#define PIOLA_EACH_MACHINE(use) \
-  PIOLA_USE_V4(use) PIOLA_USE_V3(use) PIOLA_USE_V2(use) PIOLA_USE_NATIVE(use) PIOLA_USE_SCALAR(use)
+#define PIOLA_EACH_MACHINE(use) PIOLA_USE_V4(use) PIOLA_USE_V3(use) PIOLA_USE_NATIVE(use) PIOLA_USE_SCALAR(use)

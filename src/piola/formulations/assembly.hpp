@@ -99,7 +99,7 @@ struct Assembly {
   std::vector<RigidShape> rigid_shapes;
   ContactRule contact;
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
-  std::string machine = "auto";                           ///< instruction set: auto, scalar, v2, v3, v4
+  std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
 };
 
 }  // namespace piola

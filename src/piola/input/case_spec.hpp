@@ -27,7 +27,7 @@ struct RunSpec {
   double damping = 0;            ///< rate at which velocities decay [1/s]
   bool relax = false;            ///< dynamic relaxation: ends at rest
   double rest = 1e-3;            ///< relax: the residual force at rest, beside the largest of the run
-  std::string machine = "auto";  ///< instruction set: auto, scalar, v2, v3, v4
+  std::string machine = "auto";  ///< instruction set: auto, scalar, v3, v4
   GuardLimits guards;
   Places places;
 };

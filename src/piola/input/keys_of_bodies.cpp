@@ -10,7 +10,7 @@ using enum KeyInfo::Kind;
 constexpr Interval count_range{1, 2147483647, false, false};
 constexpr Interval half_open{0, 0.5, false, true};
 
-constexpr std::array<std::string_view, 5> machine_words{"auto", "scalar", "v2", "v3", "v4"};
+constexpr std::array<std::string_view, 4> machine_words{"auto", "scalar", "v3", "v4"};
 constexpr std::array<std::string_view, 3> placement_words{"on_boundary", "cell_centred", "random"};
 constexpr std::array<std::string_view, 3> arrangement_words{"lattice", "rings", "lattice_with_rings"};
 

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#if defined(PIOLA_MACHINE_IS_V2) || defined(PIOLA_MACHINE_IS_V3) || defined(PIOLA_MACHINE_IS_V4) || \
-    defined(PIOLA_MACHINE_IS_NATIVE)
+#if defined(PIOLA_MACHINE_IS_V3) || defined(PIOLA_MACHINE_IS_V4) || defined(PIOLA_MACHINE_IS_NATIVE)
 #define PIOLA_HAS_PACKS 1
 #include <experimental/simd>
 #if defined(__AVX512F__)

@@ -51,8 +51,7 @@ constexpr double frame_file_bytes = 48e3, checkpoint_file_bytes = 11e3;  ///< of
 
 /// Instruction sets of less width take longer; measured: scalar.
 double slowness(std::string const& machine) {
-  constexpr std::array<std::pair<std::string_view, double>, 4> factors{
-      {{"v4", 1}, {"v3", 1.2}, {"v2", 1.8}, {"scalar", 2.5}}};
+  constexpr std::array<std::pair<std::string_view, double>, 3> factors{{{"v4", 1}, {"v3", 1.2}, {"scalar", 2.5}}};
   for (auto const& [name, factor] : factors)
     if (machine == name || (machine == "auto" && exec_host::processor_can_run(name))) return factor;
   return factors.back().second;
