@@ -3,6 +3,7 @@
 #include "piola/exec/threads.hpp"
 #include "piola/input/case_facts.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/estimate.hpp"
@@ -169,6 +170,26 @@ std::string shape_text(RigidShape const& shape, int dimension) {
   return "box about " + centre + ", edges " + point(lengths, " m");
 }
 
+/// Who is pushed by whom, where surfaces meet.
+void print_surfaces(CaseSpec const& spec) {
+  if (!surfaces_meet(spec)) return;
+  std::vector<std::string> pairs;
+  for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
+    for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
+      if (pushed_by_surface(spec, a, b)) pairs.push_back(spec.bodies[a].name + "-" + spec.bodies[b].name);
+    for (RigidSpec const& rigid : spec.rigids)
+      if (has_surface(spec, a) && !knows_contact(spec, a)) pairs.push_back(spec.bodies[a].name + "-" + rigid.name);
+  }
+  constexpr std::size_t most = 8;
+  std::size_t const left_out = pairs.size() > most ? pairs.size() - most : 0;
+  pairs.resize(pairs.size() - left_out);
+  ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
+  say("contact of surfaces: {}{}{}{}\n", joined(pairs),
+      left_out > 0 ? " and " + count_text(static_cast<std::int64_t>(left_out)) + " more" : "",
+      rule.friction > 0 ? ", friction " + number_text(rule.friction) : ", without friction",
+      rule.scale != 1 ? ", scale " + number_text(rule.scale) : "");
+}
+
 void print_contact(CaseSpec const& spec, int dimension) {
   for (RigidSpec const& rigid : spec.rigids) {
     bool const moves = std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
@@ -176,8 +197,10 @@ void print_contact(CaseSpec const& spec, int dimension) {
     say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension),
         moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
   }
-  auto const info = find_formulation(spec.bodies.front().formulation.name);
-  if (!info || !info->contact) return;
+  print_surfaces(spec);
+  bool own = false;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) own = own || knows_contact(spec, b);
+  if (!own) return;
   constexpr std::array<std::string_view, 4> laws{"none", "kernel", "linear", "printed"};
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
   std::string text;

@@ -3,6 +3,7 @@
 #include "piola/base/expression.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
+#include "piola/mechanics/contact/surface.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <cstdint>
@@ -81,7 +82,8 @@ struct ContactRule {
   double scale = 1;                                                 ///< factor on the stiffness
   double stiffness = std::numeric_limits<double>::quiet_NaN();      ///< printed: K [Pa/m^D]; nan: not given
   double closing_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]; nan: from the initial velocities
-  double exponent = 4;                                              ///< n of eq. (15)
+  double friction = 0;  ///< mu of Coulomb's law, between surfaces and on rigid shapes that surfaces meet
+  double exponent = 4;  ///< n of eq. (15)
 };
 
 /// Everything that a formulation is built from: plain numbers in Id order, no input text.
@@ -98,6 +100,8 @@ struct Assembly {
   std::vector<MirrorPlane> mirrors;
   std::vector<RigidShape> rigid_shapes;
   ContactRule contact;
+  std::vector<contact::Surface> surfaces;                 ///< one per body, or empty: no surface contact
+  bool pushed = false;                                    ///< Formulation::push will be called
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
 };

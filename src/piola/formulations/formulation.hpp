@@ -105,10 +105,20 @@ class Formulation {
   /// the damping loss. Called between steps.
   virtual void damp(double factor) = 0;
   virtual double kinetic_energy() const { return diagnose().kinetic_energy; }  ///< [J]
+  /// What acts between bodies pushes them between steps, when all stand at one instant. Only of formulations whose
+  /// FormulationInfo says `pushable`, built from an Assembly that says `pushed`.
+  virtual void read_motion(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3>> /*x*/,
+                           std::span<std::array<double, 3>> /*v*/) const {}                          ///< [m], [m/s]
+  virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]
+  /// Adds to velocities, also to prescribed ones [m/s].
+  virtual void push(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3> const> /*change*/) {}
+
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;
 
   virtual std::vector<FieldInfo> fields() const = 0;
+  /// The fields that one body has, where several formulations run together; others show zero for it.
+  virtual std::vector<FieldInfo> fields_of(std::size_t /*body*/) const { return fields(); }
   /// Values of one field, particle by particle: values[id * components + c].
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
 

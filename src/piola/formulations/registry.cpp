@@ -5,6 +5,7 @@
 #include "piola/formulations/adaptle/doubts.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/solver.hpp"
+#include "piola/formulations/ensemble.hpp"
 #include "piola/formulations/jst_advection/doubts.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/solver.hpp"
@@ -59,6 +60,17 @@ void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   problems.raise_if_any();
 }
 
+/// All bodies have the same formulation.
+std::unique_ptr<Formulation> make_one(Assembly const& assembly) {
+  std::string const name = assembly.formulations.empty() ? std::string() : assembly.formulations.front().name;
+  for (auto const& entry : all) {
+    if (entry.info.name != name) continue;
+    check_abilities(entry.info, assembly);
+    return entry.make(assembly);
+  }
+  throw InputError("no formulation is named '" + name + "'");
+}
+
 }  // namespace
 
 std::span<FormulationInfo const> formulations() { return infos; }
@@ -103,17 +115,21 @@ std::vector<Doubt> doubts(Assembly const& assembly) {
 }
 
 std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
-  std::string const name = assembly.formulations.empty() ? std::string() : assembly.formulations.front().name;
-  for (auto const& other : assembly.formulations)
-    if (other.name != name)
-      throw InputError("formulations '" + name + "' and '" + other.name +
-                       "' cannot run together - give all bodies the same one");
-  for (auto const& entry : all) {
-    if (entry.info.name != name) continue;
-    check_abilities(entry.info, assembly);
-    return entry.make(assembly);
-  }
-  throw InputError("no formulation is named '" + name + "'");
+  bool const mixed =
+      std::any_of(assembly.formulations.begin(), assembly.formulations.end(),
+                  [&](FormulationSpec const& spec) { return spec.name != assembly.formulations.front().name; });
+  if (!mixed && assembly.surfaces.empty()) return make_one(assembly);
+  std::vector<EnsemblePart> parts = split_by_formulation(assembly);
+  bool const contact = std::any_of(parts.begin(), parts.end(), [](EnsemblePart const& part) {
+    auto const info = find_formulation(part.formulation);
+    return info && info->contact;
+  });
+  if (!contact && assembly.surfaces.empty() && !assembly.rigid_shapes.empty())
+    throw InputError(refusal(*find_formulation(parts.front().formulation), "rigid shapes"));
+  std::vector<std::unique_ptr<Formulation>> made;
+  made.reserve(parts.size());
+  for (EnsemblePart const& part : parts) made.push_back(make_one(part.assembly));
+  return make_ensemble(assembly, std::move(parts), std::move(made));
 }
 
 }  // namespace piola

@@ -36,6 +36,7 @@ struct FormulationInfo {
   bool mirrors = true;                               ///< whether bodies may go on across a face as their mirror image
   bool rings = true;                                 ///< whether bodies may be arranged in rings instead of a lattice
   bool contact = false;                              ///< whether it keeps bodies apart: contact rules and rigid shapes
+  bool pushable = false;                             ///< whether surface contact may push its bodies between steps
   bool cell_volumes = false;                         ///< whether jittered particles get the volumes of their cells
   std::span<FormulaInfo const> formulas = {};        ///< optional formulas
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/registry.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/setup/cracks.hpp"
 #include <algorithm>
@@ -13,13 +14,16 @@ std::optional<FormulationInfo> formulation_of(CaseSpec const& spec, std::string 
   return body == spec.bodies.end() ? std::nullopt : find_formulation(body->formulation.name);
 }
 
-// Contact concerns all bodies, which have one formulation.
+// Contact and rigid shapes need one body that knows them; the others are warned of.
 void check_contact_ability(CaseSpec const& spec, Problems& problems) {
-  if (spec.bodies.empty()) return;
-  auto const info = find_formulation(spec.bodies.front().formulation.name);
-  if (!info || info->contact) return;
-  for (RigidSpec const& rigid : spec.rigids) problems.add(place_of(rigid.places, ""), refusal(*info, "rigid shapes"));
-  if (spec.contact) problems.add(place_of(spec.contact->places, ""), refusal(*info, "contact"));
+  auto const all = formulations_of(spec);
+  bool none = !all.empty();
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) none = none && !meets_rigids(spec, b);
+  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
+  if (!none || (off && spec.rigids.empty())) return;
+  for (RigidSpec const& rigid : spec.rigids)
+    problems.add(place_of(rigid.places, ""), refusal(all.front(), "rigid shapes"));
+  if (spec.contact) problems.add(place_of(spec.contact->places, ""), refusal(all.front(), "contact"));
 }
 
 }  // namespace

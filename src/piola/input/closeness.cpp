@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/closeness.hpp"
 #include "piola/base/text.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -186,11 +187,13 @@ void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems&
   for (std::size_t a = 0; a < spec.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
       if (report_overlap(spec, particles, a, b, problems)) overlapping.insert({a, b});
-  auto const info = spec.bodies.empty() ? std::nullopt : find_formulation(spec.bodies.front().formulation.name);
-  if (!info || !info->contact || (spec.contact && spec.contact->law == ContactRule::Law::none)) return;
+  if (spec.contact && spec.contact->law == ContactRule::Law::none) return;
   constexpr double half = 0.5 * (1 - 1e-6);  // of a spacing, less round-off
+  // Surfaces may touch.
   for (Closeness const& pair : close_bodies(spec, particles, half))
-    if (!overlapping.contains({pair.body, pair.other})) report_contact(spec, particles, pair, problems);
+    if (knows_contact(spec, pair.body) && knows_contact(spec, pair.other) &&
+        !overlapping.contains({pair.body, pair.other}))
+      report_contact(spec, particles, pair, problems);
 }
 
 }  // namespace piola

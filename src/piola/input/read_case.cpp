@@ -84,7 +84,7 @@ void name_supports(std::vector<SupportSpec>& supports) {
     if (supports[k].name.empty()) supports[k].name = "support_" + std::to_string(k);
 }
 
-// One formulation moves all bodies, and one dimension holds for all of them.
+// One dimension holds for all bodies.
 void check_bodies_together(std::vector<Section> const& sections, std::vector<BodySpec> const& bodies) {
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     Problems& problems = sections[i].problems();
@@ -93,11 +93,6 @@ void check_bodies_together(std::vector<Section> const& sections, std::vector<Bod
                    "body " + in_quotes(bodies[i].name) + " is in " + std::to_string(bodies[i].shape.dimension) +
                        "D, body " + in_quotes(bodies[0].name) + " in " + std::to_string(bodies[0].shape.dimension) +
                        "D (allowed: one dimension for all) - give all shapes as many components");
-    }
-    if (bodies[i].formulation.name != bodies[0].formulation.name) {
-      problems.add(sections[i].place_of("formulation"),
-                   "body " + in_quotes(bodies[i].name) + " has another formulation than body " +
-                       in_quotes(bodies[0].name) + " (allowed: one formulation for all bodies)");
     }
   }
 }

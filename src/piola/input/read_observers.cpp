@@ -3,6 +3,7 @@
 #include "piola/base/units.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/input/history_names.hpp"
 #include "piola/input/probe_quantities.hpp"
 #include "piola/input/sections.hpp"
@@ -118,10 +119,8 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
   std::vector<Column> columns;
   for (HistoryName const& column : history_names())
     columns.push_back({std::string(column.name), std::string(column.unit)});
-  // One formulation moves all bodies.
-  auto const formulation = spec.bodies.empty() ? std::nullopt : find_formulation(spec.bodies.front().formulation.name);
-  if (formulation) {
-    for (DiagnosticInfo const& column : formulation->diagnostics)
+  for (FormulationInfo const& formulation : formulations_of(spec)) {
+    for (DiagnosticInfo const& column : formulation.diagnostics)
       columns.push_back({std::string(column.name), std::string(column.unit)});
   }
   auto const add_all = [&](std::string const& name, std::span<PartQuantity const> quantities) {
@@ -133,6 +132,15 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
   for (LoadSpec const& load : spec.loads)
     if (!load.name.empty()) add_all(load.name, action_quantities());
   for (RigidSpec const& rigid : spec.rigids) add_all(rigid.name, action_quantities());
+  if (surfaces_meet(spec)) {
+    for (auto const& [name, unit] :
+         {std::pair{"contact_energy", "J"}, {"contact_overlap", "1"}, {"contact_points", "1"}, {"friction_heat", "J"}})
+      columns.push_back({name, unit});
+    for (std::size_t a = 0; a < spec.bodies.size(); ++a)
+      for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
+        if (pushed_by_surface(spec, a, b))
+          add_all(spec.bodies[a].name + "-" + spec.bodies[b].name, action_quantities());
+  }
   for (ProbeSpec const& probe : spec.probes) {
     for (std::string const& quantity : probe.quantities) {
       columns.push_back({probe.name + "." + quantity, std::string(unit_of_probe_quantity(probe.kind, quantity))});

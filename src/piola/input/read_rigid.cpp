@@ -143,15 +143,17 @@ ContactSpec read_contact(Section const& section, int dimension) {
     contact.law = laws[static_cast<std::size_t>(word)];
   Law const law = contact.law;
   refuse_for(section, "scale", law == Law::none, "\"kernel\", \"linear\" or \"printed\"");
+  refuse_for(section, "friction", law == Law::none, "\"kernel\", \"linear\" or \"printed\"");
   refuse_for(section, "stiffness", law != Law::printed, "\"printed\"");
   refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
   refuse_for(section, "exponent", law != Law::kernel && law != Law::printed, "\"kernel\" or \"printed\"");
   section.read("scale", contact.scale);
   read_stiffness(section, dimension, contact);
+  section.read("friction", contact.friction);
   section.read("closing_speed", contact.closing_speed);
   section.read("exponent", contact.exponent);
   section.refuse_unknown();
-  contact.places = places_of(section, {"law", "scale", "stiffness", "closing_speed", "exponent"});
+  contact.places = places_of(section, {"law", "scale", "friction", "stiffness", "closing_speed", "exponent"});
   return contact;
 }
 

@@ -24,7 +24,7 @@ bool ends_with_any(std::string_view name, std::initializer_list<std::string_view
 
 /// Columns that only one formulation has are named after what they are.
 std::string unit_of_extra(std::string_view name) {
-  if (ends_with_any(name, {"_energy", "_work", "_loss"})) return "J";
+  if (ends_with_any(name, {"_energy", "_work", "_loss", "_heat"})) return "J";
   if (name.starts_with("pressure") || ends_with_any(name, {"_stress", "_pressure"})) return "Pa";
   if (ends_with_any(name, {"_force"})) return "N";
   return "1";

@@ -6,7 +6,10 @@
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/formulations_of.hpp"
+#include "piola/materials/solids.hpp"
 #include "piola/neighbours/cell_moments.hpp"
+#include "piola/setup/contact_surface.hpp"
 #include "piola/simulation/warnings.hpp"
 #include <algorithm>
 #include <string_view>
@@ -140,14 +143,19 @@ std::string formulation_names(CaseSpec const& spec) {
 // Which fields there are depends on the law and on the settings, so that only the formulation itself can tell.
 void check_fields(CaseSpec const& spec, Formulation const& formulation, std::string const& name) {
   Problems problems;
-  auto const fields = formulation.fields();
-  auto const has = [&](std::string_view field) {
-    for (DerivedField const& derived : derived_fields())
-      if (derived.name == field) field = derived.from;
-    return field == "Position" ||
-           std::any_of(fields.begin(), fields.end(), [&](FieldInfo const& info) { return info.name == field; });
-  };
+  auto const all_fields = formulation.fields();
   for (ProbeSpec const& probe : spec.probes) {
+    auto const body = std::find_if(spec.bodies.begin(), spec.bodies.end(),
+                                   [&](BodySpec const& candidate) { return candidate.name == probe.body; });
+    auto const fields = body == spec.bodies.end()
+                            ? all_fields
+                            : formulation.fields_of(static_cast<std::size_t>(body - spec.bodies.begin()));
+    auto const has = [&](std::string_view field) {
+      for (DerivedField const& derived : derived_fields())
+        if (derived.name == field) field = derived.from;
+      return field == "Position" ||
+             std::any_of(fields.begin(), fields.end(), [&](FieldInfo const& info) { return info.name == field; });
+    };
     for (std::string const& word : probe.quantities) {
       auto const quantity = find_quantity(word);
       if (!quantity || has(quantity->field)) continue;
@@ -156,9 +164,9 @@ void check_fields(CaseSpec const& spec, Formulation const& formulation, std::str
       for (FieldInfo const& info : fields) known.push_back(info.name);
       auto const place = probe.places.find("quantities");
       problems.add(place == probe.places.end() ? Place{} : place->second,
-                   "probe " + in_quotes(probe.name) + " asks for " + in_quotes(word) + ", but " + name +
-                       " has no field " + in_quotes(quantity->field) + " here (allowed: quantities of " +
-                       joined(known) + ") - remove it");
+                   "probe " + in_quotes(probe.name) + " asks for " + in_quotes(word) + ", but " +
+                       (body == spec.bodies.end() ? name : body->formulation.name) + " has no field " +
+                       in_quotes(quantity->field) + " here (allowed: quantities of " + joined(known) + ") - remove it");
     }
   }
   problems.raise_if_any();
@@ -171,6 +179,17 @@ void measure_volumes(CaseSpec const& spec, ParticleSet& particles) {
     if (spec.bodies[b].shape.jitter > 0 && formulation && formulation->cell_volumes)
       take_cell_volumes(particles, particles.bodies[b]);
   }
+}
+
+/// Of the bodies that others can push; empty for the rest.
+std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
+  std::vector<contact::Surface> surfaces(spec.bodies.size());
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (!has_surface(spec, b)) continue;
+    surfaces[b] = contact_surface(spec.bodies[b].shape, a.particles, a.particles.bodies[b]);
+    with_any_law(a.materials[b], [&](auto const& law) { surfaces[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
+  }
+  return surfaces;
 }
 
 }  // namespace
@@ -197,6 +216,7 @@ Assembly assemble(CaseSpec const& spec) {
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
+  if (surfaces_meet(spec)) a.surfaces = surfaces_of(spec, a);
   return a;
 }
 

@@ -2,6 +2,7 @@
 #include "piola/simulation/observers.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/instruction_sets.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/output/files.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,15 +16,12 @@ double history_interval(CaseSpec const& spec) {
   return spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / history_rows;
 }
 
-/// The units that a formulation announces for the columns that it adds.
-void take_units(std::string const& formulation, std::vector<HistoryColumn>& columns) {
-  auto const info = find_formulation(formulation);
-  if (!info) return;
-  for (DiagnosticInfo const& announced : info->diagnostics) {
-    for (HistoryColumn& column : columns) {
-      if (column.name == announced.name) column.unit = announced.unit;
-    }
-  }
+/// The units that formulations announce for the columns that they add.
+void take_units(CaseSpec const& spec, std::vector<HistoryColumn>& columns) {
+  for (FormulationInfo const& info : formulations_of(spec))
+    for (DiagnosticInfo const& announced : info.diagnostics)
+      for (HistoryColumn& column : columns)
+        if (column.name == announced.name) column.unit = announced.unit;
 }
 
 }  // namespace
@@ -35,7 +33,7 @@ HistoryObserver::HistoryObserver(Results results)
 
 void HistoryObserver::open(Formulation const& formulation, std::optional<double> resume_time) {
   auto columns = diagnostic_columns(formulation.diagnose());
-  if (!results_.spec.bodies.empty()) take_units(results_.spec.bodies.front().formulation.name, columns);
+  take_units(results_.spec, columns);
   for (Probe const& probe : probes_) {
     auto const more = probe.columns();
     columns.insert(columns.end(), more.begin(), more.end());

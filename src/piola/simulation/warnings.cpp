@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/formulations/doubts.hpp"
 #include "piola/input/closeness.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,17 +18,38 @@ Place place_of_doubt(BodySpec const& body, std::string const& key) {
   return place_in_table(body.places, key.substr(0, dot), key.substr(dot + 1));
 }
 
-bool knows_contact(CaseSpec const& spec) {
-  auto const info = find_formulation(spec.bodies.front().formulation.name);
-  return info && info->contact;
+/// Why a body has no surface that others could push.
+std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
+  BodySpec const& b = spec.bodies[body];
+  auto const info = find_formulation(b.formulation.name);
+  if (b.shape.dimension < 2) return "it is in 1D";
+  if (info && info->pushable)
+    return info->contact ? "particles of adaptle that may turn Eulerian have no surface; description = "
+                           "\"total_lagrangian\" keeps it"
+                         : "it has mirror planes";
+  return "the formulation " + b.formulation.name + " knows no contact";
 }
 
+/// Bodies that nothing keeps apart from other bodies or rigid shapes.
 void warn_of_strangers(CaseSpec const& spec, Problems& found) {
-  if (spec.bodies.size() < 2 || knows_contact(spec)) return;
-  found.add(place_of(spec.bodies[1].places, ""),
-            fmt::format("the formulation {} knows no contact, so that its {} bodies do not see each other and pass "
-                        "through one another if they meet - take adaptle if they can meet",
-                        spec.bodies.front().formulation.name, spec.bodies.size()));
+  if (spec.contact && spec.contact->law == ContactRule::Law::none) return;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    std::vector<std::string> through;
+    for (std::size_t a = 0; a < spec.bodies.size(); ++a)
+      if (a != b && !kept_apart(spec, a, b)) through.push_back(in_quotes(spec.bodies[a].name));
+    if (!spec.rigids.empty() && !meets_rigids(spec, b)) through.emplace_back("rigid shapes");
+    // Of two bodies the one without a surface is told of.
+    if (through.empty() || (has_surface(spec, b) && spec.bodies.size() > 1)) continue;
+    found.add(place_of(spec.bodies[b].places, "formulation"),
+              fmt::format("body {}: nothing keeps it apart from {} ({}), so that they pass through one another if they "
+                          "meet - take nodal, jst_sph or adaptle without mirrors for bodies that can meet",
+                          in_quotes(spec.bodies[b].name), joined(through), why_without_surface(spec, b)));
+  }
+}
+
+bool is_given(Places const& places, char const* key) {
+  Place const place = place_of(places, key), section = place_of(places, "");
+  return place.line != section.line || place.column != section.column || place.file != section.file;
 }
 
 /// Settings of contact that find nothing to act on.
@@ -38,15 +60,30 @@ void warn_of_idle_contact(CaseSpec const& spec, Problems& found) {
     found.add(place_of(places, ""), "contact has no effect here (there is one body and no rigid shape) - remove it");
     return;
   }
-  Place const section = place_of(places, "");
   for (char const* key : {"stiffness", "closing_speed", "exponent"}) {
-    Place const place = place_of(places, key);
-    bool const given = place.line != section.line || place.column != section.column || place.file != section.file;
-    if (given)
-      found.add(place, fmt::format("contact.{} has no effect here (it acts between bodies, and there is one; rigid "
-                                   "shapes know scale alone) - remove it",
-                                   key));
+    if (is_given(places, key))
+      found.add(place_of(places, key),
+                fmt::format("contact.{} has no effect here (it acts between bodies, and there is one; rigid "
+                            "shapes know scale alone) - remove it",
+                            key));
   }
+}
+
+/// Settings of one kind of contact where there is only the other one.
+void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
+  if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
+  Places const& places = spec.contact->places;
+  bool own = false;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) own = own || knows_contact(spec, b);
+  for (char const* key : {"law", "stiffness", "closing_speed", "exponent"})
+    if (!own && is_given(places, key))
+      found.add(place_of(places, key),
+                fmt::format("contact.{} has no effect here (it is for bodies of adaptle) - remove it", key));
+  if (!surfaces_meet(spec) && is_given(places, "friction"))
+    found.add(
+        place_of(places, "friction"),
+        "contact.friction has no effect here (bodies of adaptle meet without friction) - remove it, or take nodal "
+        "or jst_sph for one of them");
 }
 
 std::optional<double> contact_energy(std::optional<Diagnostics> const& start) {
@@ -69,11 +106,15 @@ void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::opti
   constexpr double touching = 1.001, reach = 3, much = 1e-3;
   bool const merged = spec.contact && spec.contact->law == ContactRule::Law::none;
   auto const energy = contact_energy(start);
-  if (!knows_contact(spec) || (energy && !(*energy > 0))) return;
+  if (energy && !(*energy > 0)) return;
   bool const counts = energy && *energy > much * start->total_energy();
   std::string const held = energy_text(start);
+  if (surfaces_meet(spec) && counts)
+    found.add(place_of(spec.bodies.back().places, "shape"),
+              fmt::format("surfaces of bodies or rigid shapes overlap at the start{} - move them apart", held));
   for (Closeness const& pair : close_bodies(spec, particles, counts ? reach : touching)) {
     if (merged) break;
+    if (!knows_contact(spec, pair.body) || !knows_contact(spec, pair.other)) continue;
     found.add(
         place_of(spec.bodies[pair.other].places, "shape"),
         fmt::format("the bodies {} and {} start close to each other: their nearest particles are {} apart, {:.2f} "
@@ -81,12 +122,14 @@ void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::opti
                     in_quotes(spec.bodies[pair.body].name), in_quotes(spec.bodies[pair.other].name),
                     quantity_text(pair.distance, "m"), pair.distance / pair.spacing, held));
   }
-  for (Closeness const& pair : close_shapes(spec, particles))
+  for (Closeness const& pair : close_shapes(spec, particles)) {
+    if (!knows_contact(spec, pair.body)) continue;
     found.add(place_of(spec.rigids[pair.other].places, ""),
               fmt::format("the rigid shape {} starts {} from a particle of body {}, nearer than half a spacing, {}{} - "
                           "leave half a spacing between them",
                           in_quotes(spec.rigids[pair.other].name), quantity_text(pair.distance, "m"),
                           in_quotes(spec.bodies[pair.body].name), quantity_text(pair.spacing, "m"), held));
+  }
 }
 
 }  // namespace
@@ -97,6 +140,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   for (Doubt const& doubt : doubts(assembly)) found.add(place_of_doubt(spec.bodies[doubt.body], doubt.key), doubt.text);
   warn_of_strangers(spec, found);
   warn_of_idle_contact(spec, found);
+  warn_of_other_contact(spec, found);
   warn_of_touch(spec, assembly.particles, prospect.start, found);
   found.sort_by_place();
   return found.lines();

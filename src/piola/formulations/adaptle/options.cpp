@@ -237,6 +237,7 @@ FormulationInfo info() {
                        diagnostics};
   info.mirrors = false;
   info.contact = true;
+  info.pushable = true;
   info.formulas = formulas;
   return info;
 }

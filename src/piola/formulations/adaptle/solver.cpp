@@ -60,6 +60,21 @@ class Solver final : public Formulation {
   }
   void step(double time, double dt) override { particles_.step(time, dt); }
   void damp(double factor) override { particles_.damp(factor); }
+  void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
+                   std::span<std::array<double, 3>> v) const override {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      State const& s = particles_.system().state[ids[k]];
+      std::copy_n(s.x, 3, x[k].begin());
+      std::copy_n(s.v, 3, v[k].begin());
+    }
+  }
+  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
+    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.system().reference[ids[k]].mass;
+  }
+  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) particles_.system().state[ids[k]].v[c] += change[k][c];
+  }
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override { return observe(particles_, set_); }

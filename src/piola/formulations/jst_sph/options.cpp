@@ -123,6 +123,7 @@ FormulationInfo info() {
       usable_laws,
       diagnostics};
   info.cell_volumes = true;
+  info.pushable = true;
   return info;
 }
 

@@ -7,6 +7,7 @@
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
 #include "piola/formulations/prescribed.hpp"
+#include "piola/formulations/slots_by_id.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ class Solver final : public Formulation {
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
     }
     find_largest_speeds();
+    if (assembly.pushed) slots_ = SlotsById(set_, bodies_);
   }
 
   double stable_time_step() const override {
@@ -85,6 +87,24 @@ class Solver final : public Formulation {
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
+  }
+  void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
+                   std::span<std::array<double, 3>> v) const override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+      x[k] = bodies_[body]->x(slot);
+      v[k] = bodies_[body]->v(slot);
+    });
+  }
+  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+      m[k] = bodies_[body]->volume(slot) * bodies_[body]->state().constants.rho0;
+    });
+  }
+  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+      for (int c = 0; c < set_.dimension; ++c)
+        value_at(bodies_[body]->state().v, slot, c) += change[k][static_cast<std::size_t>(c)];
+    });
   }
   double kinetic_energy() const override {
     double sum = 0;
@@ -157,6 +177,7 @@ class Solver final : public Formulation {
   void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
 
   ParticleSet set_;
+  SlotsById slots_;
   Machine const* machine_;
   Actions actions_;
   std::vector<std::unique_ptr<JstBody>> bodies_;

@@ -58,6 +58,7 @@ FormulationInfo info() {
       usable_laws,
       diagnostics};
   info.mirrors = false;
+  info.pushable = true;
   return info;
 }
 

@@ -5,6 +5,7 @@
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/formulations/prescribed.hpp"
+#include "piola/formulations/slots_by_id.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,6 +33,7 @@ class Solver final : public Formulation {
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }
+    if (assembly.pushed) slots_ = SlotsById(set_, bodies_);
   }
 
   double stable_time_step() const override {
@@ -72,6 +74,22 @@ class Solver final : public Formulation {
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
+  }
+  void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
+                   std::span<std::array<double, 3>> v) const override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+      x[k] = bodies_[body]->x(slot);
+      v[k] = bodies_[body]->v(slot);
+    });
+  }
+  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) { m[k] = bodies_[body]->mass(slot); });
+  }
+  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+      for (int c = 0; c < set_.dimension; ++c)
+        value_at(bodies_[body]->state().v, slot, c) += change[k][static_cast<std::size_t>(c)];
+    });
   }
   double kinetic_energy() const override {
     double sum = 0;
@@ -124,6 +142,7 @@ class Solver final : public Formulation {
   void each_evolved(NodalBody const& body, std::size_t number, F const& f) const;
 
   ParticleSet set_;
+  SlotsById slots_;
   Machine const& machine_;
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;

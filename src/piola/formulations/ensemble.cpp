@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/ensemble.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/formulations/actions.hpp"
+#include "piola/formulations/meeting.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace piola {
+namespace {
+
+using Blocks = std::vector<EnsemblePart::Block>;
+
+/// Values of an array by particle that belong to the part. An empty array stays empty.
+template <class T>
+std::vector<T> gathered(std::vector<T> const& whole, Blocks const& blocks) {
+  std::vector<T> out;
+  if (whole.empty()) return out;
+  for (auto const& block : blocks)
+    out.insert(out.end(), whole.begin() + block.there, whole.begin() + block.there + block.count);
+  return out;
+}
+
+ParticleSet particles_of(ParticleSet const& whole, EnsemblePart const& part) {
+  Blocks const& blocks = part.blocks;
+  ParticleSet set;
+  set.dimension = whole.dimension;
+  set.X = gathered(whole.X, blocks);
+  set.lattice_index = gathered(whole.lattice_index, blocks);
+  set.volume = gathered(whole.volume, blocks);
+  set.kernel_volume = gathered(whole.kernel_volume, blocks);
+  set.crack_side = gathered(whole.crack_side, blocks);
+  for (auto const& block : blocks) {
+    Body body = whole.bodies[block.body];
+    body.first = block.here;
+    body.last = block.here + block.count;
+    set.body.insert(set.body.end(), static_cast<std::size_t>(block.count), static_cast<int>(set.bodies.size()));
+    set.bodies.push_back(std::move(body));
+  }
+  for (Crack crack : whole.cracks) {
+    auto const body = part.body_in_part(static_cast<std::size_t>(crack.body));
+    if (!body) continue;
+    crack.body = static_cast<int>(*body);
+    set.cracks.push_back(crack);
+  }
+  return set;
+}
+
+void take_supports(Assembly const& whole, EnsemblePart& part) {
+  for (std::size_t k = 0; k < whole.supports.size(); ++k) {
+    Support support = whole.supports[k];
+    std::vector<std::int64_t> ids;
+    for (auto const id : support.particles)
+      if (auto const here = part.id_in_part(id)) ids.push_back(*here);
+    if (ids.empty()) continue;
+    support.particles = std::move(ids);
+    part.assembly.supports.push_back(std::move(support));
+    part.supports.push_back(k);
+  }
+}
+
+void take_loads(Assembly const& whole, EnsemblePart& part) {
+  std::size_t named = 0;  // of the whole so far
+  for (Load const& from : whole.loads) {
+    std::size_t const rank = named;
+    named += from.name.empty() ? 0 : 1;
+    Load load = from;
+    load.particles.clear();
+    load.factor.clear();
+    load.normals.clear();
+    for (std::size_t i = 0; i < from.particles.size(); ++i) {
+      auto const here = part.id_in_part(from.particles[i]);
+      if (!here) continue;
+      load.particles.push_back(*here);
+      load.factor.push_back(from.factor[i]);
+      if (!from.normals.empty()) load.normals.push_back(from.normals[i]);
+    }
+    if (load.particles.empty()) continue;
+    if (!load.name.empty()) part.named_loads.push_back(rank);
+    part.assembly.loads.push_back(std::move(load));
+  }
+}
+
+void fill_part(Assembly const& whole, EnsemblePart& part) {
+  Assembly& a = part.assembly;
+  a.particles = particles_of(whole.particles, part);
+  a.initial_velocity = gathered(whole.initial_velocity, part.blocks);
+  a.initial_displacement = gathered(whole.initial_displacement, part.blocks);
+  a.initial_deformation_gradient = gathered(whole.initial_deformation_gradient, part.blocks);
+  for (auto const& block : part.blocks) {
+    a.materials.push_back(whole.materials[block.body]);
+    a.formulations.push_back(whole.formulations[block.body]);
+  }
+  take_supports(whole, part);
+  take_loads(whole, part);
+  for (MirrorPlane mirror : whole.mirrors) {
+    auto const body = part.body_in_part(mirror.body);
+    if (!body) continue;
+    mirror.body = *body;
+    a.mirrors.push_back(mirror);
+  }
+  auto const info = find_formulation(part.formulation);
+  if (info && info->contact) {
+    a.rigid_shapes = whole.rigid_shapes;
+    a.contact = whole.contact;
+    for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) part.rigid_shapes.push_back(k);
+  }
+  a.pushed = !whole.surfaces.empty();
+  a.cfl = whole.cfl;
+  a.machine = whole.machine;
+}
+
+/// Names of a part's arrays in a checkpoint begin with its formulation.
+class PartWriter : public StateWriter {
+ public:
+  PartWriter(StateWriter& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
+  void put(std::string_view name, std::span<double const> values) override {
+    whole_.put(prefix_ + std::string(name), values);
+  }
+
+ private:
+  StateWriter& whole_;
+  std::string prefix_;
+};
+
+class PartReader : public StateReader {
+ public:
+  PartReader(StateReader& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
+  void get(std::string_view name, std::span<double> values) override {
+    whole_.get(prefix_ + std::string(name), values);
+  }
+
+ private:
+  StateReader& whole_;
+  std::string prefix_;
+};
+
+template <std::size_t N>
+void add(std::array<double, N>& sum, std::array<double, N> const& more) {
+  for (std::size_t c = 0; c < N; ++c) sum[c] += more[c];
+}
+
+/// Adds up columns by name, in the order of their first appearance.
+void add_columns(std::vector<std::pair<std::string, double>>& sum,
+                 std::vector<std::pair<std::string, double>> const& more) {
+  for (auto const& [name, value] : more) {
+    auto const same = std::find_if(sum.begin(), sum.end(), [&](auto const& column) { return column.first == name; });
+    if (same == sum.end())
+      sum.emplace_back(name, value);
+    else
+      same->second += value;
+  }
+}
+
+/// The energy of a formulation that does not rise by itself: where it books energies half a step apart it tells one.
+double balanced_energy(Diagnostics const& d) {
+  for (auto const& [name, value] : d.more)
+    if (name == "centred_energy") return value;
+  return d.total_energy();
+}
+
+void add_totals(Diagnostics& sum, Diagnostics const& d, bool first) {
+  sum.kinetic_energy += d.kinetic_energy;
+  sum.strain_energy += d.strain_energy;
+  sum.stabilisation_loss += d.stabilisation_loss;
+  sum.projection_loss += d.projection_loss;
+  sum.external_work += d.external_work;
+  sum.damping_loss += d.damping_loss;
+  add(sum.linear_momentum, d.linear_momentum);
+  add(sum.angular_momentum, d.angular_momentum);
+  sum.jacobian_min = first ? d.jacobian_min : std::min(sum.jacobian_min, d.jacobian_min);
+  sum.jacobian_max = first ? d.jacobian_max : std::max(sum.jacobian_max, d.jacobian_max);
+  sum.pressure_min = first ? d.pressure_min : std::min(sum.pressure_min, d.pressure_min);
+  sum.pressure_max = first ? d.pressure_max : std::max(sum.pressure_max, d.pressure_max);
+  sum.pressure_oscillation = std::max(sum.pressure_oscillation, d.pressure_oscillation);
+  add_columns(sum.more, d.more);
+}
+
+class Ensemble : public Formulation {
+ public:
+  Ensemble(Assembly const& whole, std::vector<EnsemblePart> parts,
+           std::vector<std::unique_ptr<Formulation>> formulations)
+      : parts_(std::move(parts)), formulations_(std::move(formulations)), nothing_(whole) {
+    if (!whole.surfaces.empty()) meeting_ = std::make_unique<Meeting>(whole, parts_);
+    if (meeting_) meeting_->look(formulations_);
+    support_count_ = whole.supports.size();
+    for (Load const& load : whole.loads) load_count_ += load.name.empty() ? 0 : 1;
+    for (EnsemblePart& part : parts_) {
+      counts_.push_back(static_cast<double>(part.assembly.particles.size()));
+      body_count_ += part.blocks.size();
+      part.assembly = Assembly{};  // each formulation holds what it needs
+    }
+  }
+
+  double stable_time_step() const override {
+    double const step = least(&Formulation::stable_time_step);
+    return meeting_ ? meeting_->limit(step) : step;
+  }
+  double settled_time_step() const override { return least(&Formulation::settled_time_step); }
+  StepRule step_rule() const override;
+
+  /// What acts between bodies acts before and after the steps of the parts, when all bodies stand at one instant.
+  void step(double time, double dt) override {
+    if (meeting_) meeting_->begin(formulations_, time, dt);
+    for (auto const& formulation : formulations_) formulation->step(time, dt);
+    if (meeting_) meeting_->finish(formulations_, time + dt, dt);
+  }
+  void damp(double factor) override {
+    for (auto const& formulation : formulations_) formulation->damp(factor);
+  }
+  double kinetic_energy() const override {
+    double sum = 0;
+    for (auto const& formulation : formulations_) sum += formulation->kinetic_energy();
+    return sum;
+  }
+  std::optional<Failure> failure() const override;
+  Diagnostics diagnose() const override;
+  std::vector<FieldInfo> fields() const override;
+  std::vector<FieldInfo> fields_of(std::size_t body) const override;
+  void sample(std::string_view field, std::span<double> values) const override;
+  void save(StateWriter& writer) const override {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      PartWriter part(writer, parts_[k].formulation + ".");
+      formulations_[k]->save(part);
+    }
+    if (meeting_) meeting_->save(writer);
+  }
+  void load(StateReader& reader) override {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      PartReader part(reader, parts_[k].formulation + ".");
+      formulations_[k]->load(part);
+    }
+    if (!meeting_) return;
+    meeting_->load(reader);
+    meeting_->look(formulations_);
+  }
+  int stages_per_step() const override {
+    return static_cast<int>(
+        std::lround(mean([](Formulation const& f) { return static_cast<double>(f.stages_per_step()); })));
+  }
+  std::vector<std::pair<std::string, double>> costs() const override {
+    std::vector<std::pair<std::string, double>> all;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      for (auto const& [name, seconds] : formulations_[k]->costs())
+        all.emplace_back(parts_[k].formulation + "_" + name, seconds);
+    return all;
+  }
+  std::size_t memory_bytes() const override {
+    std::size_t sum = 0;
+    for (auto const& formulation : formulations_) sum += formulation->memory_bytes();
+    return sum + (meeting_ ? meeting_->bytes() : 0);
+  }
+
+ private:
+  double least(double (Formulation::*limit)() const) const {
+    double dt = std::numeric_limits<double>::infinity();
+    // Not std::min: a step that is not a number must reach the main loop.
+    for (auto const& formulation : formulations_) {
+      double const here = ((*formulation).*limit)();
+      if (!(here >= dt)) dt = here;
+      if (std::isnan(dt)) break;
+    }
+    return dt;
+  }
+  /// Over all particles.
+  template <class F>
+  double mean(F const& of) const {
+    double sum = 0, all = 0;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      sum += counts_[k] * of(*formulations_[k]);
+      all += counts_[k];
+    }
+    return all > 0 ? sum / all : 0;
+  }
+  std::vector<Action> actions_of(std::vector<Diagnostics> const& of_parts) const;
+
+  std::vector<EnsemblePart> parts_;
+  std::vector<std::unique_ptr<Formulation>> formulations_;
+  std::unique_ptr<Meeting> meeting_;  ///< where surfaces meet
+  Actions nothing_;                   ///< all that can act, in the order of the case, at rest
+  std::vector<double> counts_;        ///< particles by part
+  std::size_t body_count_ = 0, support_count_ = 0, load_count_ = 0;
+};
+
+StepRule Ensemble::step_rule() const {
+  StepRule rule;
+  rule.settled = std::numeric_limits<double>::infinity();
+  double first = rule.settled;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    StepRule const here = formulations_[k]->step_rule();
+    first = std::min(first, here.first);
+    if (!(here.settled < rule.settled)) continue;
+    rule = here;
+    rule.limit += " (" + parts_[k].formulation + ")";
+  }
+  rule.first = first;
+  rule.more_stages = mean([](Formulation const& f) { return f.step_rule().more_stages; });
+  rule.setup_stages = mean([](Formulation const& f) { return f.step_rule().setup_stages; });
+  return rule;
+}
+
+std::optional<Failure> Ensemble::failure() const {
+  std::optional<Failure> first;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    auto here = formulations_[k]->failure();
+    if (!here) continue;
+    if (here->particle >= 0) here->particle = parts_[k].id_in_whole(here->particle);
+    if (!first || here->particle < first->particle) first = std::move(here);
+  }
+  return first;
+}
+
+Diagnostics Ensemble::diagnose() const {
+  Diagnostics sum;
+  sum.bodies.resize(body_count_);
+  std::vector<Diagnostics> all;
+  double balanced = 0;
+  bool tells_balance = false;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    all.push_back(formulations_[k]->diagnose());
+    Diagnostics const& d = all.back();
+    add_totals(sum, d, k == 0);
+    balanced += balanced_energy(d);
+    tells_balance = tells_balance || std::any_of(d.more.begin(), d.more.end(),
+                                                 [](auto const& column) { return column.first == "centred_energy"; });
+    for (std::size_t b = 0; b < std::min(d.bodies.size(), parts_[k].blocks.size()); ++b)
+      sum.bodies[parts_[k].blocks[b].body] = d.bodies[b];
+  }
+  for (auto& [name, value] : sum.more)
+    if (tells_balance && name == "centred_energy") value = balanced;
+  sum.actions = actions_of(all);
+  if (meeting_) meeting_->report(sum);
+  return sum;
+}
+
+/// Supports, loads with a name and rigid shapes in the order of the case, then pairs of bodies that meet. Parts of the
+/// same support or shape are added up.
+std::vector<Action> Ensemble::actions_of(std::vector<Diagnostics> const& of_parts) const {
+  std::vector<Action> sum = meeting_ ? meeting_->actions() : nothing_.report();
+  auto const take = [&](Action const& action, std::size_t place) {
+    add(sum[place].force, action.force);
+    add(sum[place].moment, action.moment);
+  };
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    EnsemblePart const& part = parts_[k];
+    std::vector<Action> const& actions = of_parts[k].actions;
+    std::size_t next = 0;
+    for (std::size_t const s : part.supports)
+      if (next < actions.size()) take(actions[next++], s);
+    for (std::size_t const l : part.named_loads)
+      if (next < actions.size()) take(actions[next++], support_count_ + l);
+    for (std::size_t const r : part.rigid_shapes)
+      if (next < actions.size()) take(actions[next++], support_count_ + load_count_ + r);
+  }
+  if (meeting_)
+    for (Action& pair : meeting_->pairs()) sum.push_back(std::move(pair));
+  return sum;
+}
+
+std::vector<FieldInfo> Ensemble::fields() const {
+  std::vector<FieldInfo> all;
+  for (auto const& formulation : formulations_)
+    for (FieldInfo& info : formulation->fields())
+      if (std::none_of(all.begin(), all.end(), [&](FieldInfo const& known) { return known.name == info.name; }))
+        all.push_back(std::move(info));
+  return all;
+}
+
+std::vector<FieldInfo> Ensemble::fields_of(std::size_t body) const {
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (parts_[k].body_in_part(body)) return formulations_[k]->fields();
+  return {};
+}
+
+void Ensemble::sample(std::string_view field, std::span<double> values) const {
+  std::fill(values.begin(), values.end(), 0.0);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    auto const fields = formulations_[k]->fields();
+    auto const info = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == field; });
+    if (info == fields.end()) continue;
+    std::vector<double> own(static_cast<std::size_t>(counts_[k]) * static_cast<std::size_t>(info->components));
+    formulations_[k]->sample(field, own);
+    for (auto const& block : parts_[k].blocks)
+      std::copy_n(own.begin() + block.here * info->components, block.count * info->components,
+                  values.begin() + block.there * info->components);
+  }
+}
+
+}  // namespace
+
+std::int64_t EnsemblePart::id_in_whole(std::int64_t id) const {
+  for (Block const& block : blocks)
+    if (id >= block.here && id < block.here + block.count) return id - block.here + block.there;
+  return id;
+}
+
+std::optional<std::int64_t> EnsemblePart::id_in_part(std::int64_t id) const {
+  for (Block const& block : blocks)
+    if (id >= block.there && id < block.there + block.count) return id - block.there + block.here;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> EnsemblePart::body_in_part(std::size_t body) const {
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (blocks[b].body == body) return b;
+  return std::nullopt;
+}
+
+std::vector<EnsemblePart> split_by_formulation(Assembly const& whole) {
+  std::vector<EnsemblePart> parts;
+  for (std::size_t b = 0; b < whole.formulations.size(); ++b) {
+    std::string const& name = whole.formulations[b].name;
+    auto part = std::find_if(parts.begin(), parts.end(), [&](EnsemblePart const& p) { return p.formulation == name; });
+    if (part == parts.end()) {
+      part = parts.emplace(parts.end());
+      part->formulation = name;
+    }
+    Body const& body = whole.particles.bodies[b];
+    std::int64_t const here = part->blocks.empty() ? 0 : part->blocks.back().here + part->blocks.back().count;
+    part->blocks.push_back({b, here, body.first, body.last - body.first});
+  }
+  for (EnsemblePart& part : parts) fill_part(whole, part);
+  return parts;
+}
+
+std::unique_ptr<Formulation> make_ensemble(Assembly const& whole, std::vector<EnsemblePart> parts,
+                                           std::vector<std::unique_ptr<Formulation>> formulations) {
+  return std::make_unique<Ensemble>(whole, std::move(parts), std::move(formulations));
+}
+
+}  // namespace piola

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/meeting.hpp"
+#include "piola/formulations/prescribed.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// Share of the stability limit of a pair of kicks that is used; the steps of formulations have theirs in them.
+constexpr double margin = 0.85;
+
+Point array_of(Vec<3> const& a) { return {a[0], a[1], a[2]}; }
+Vec<3> vector_of(Point const& a) { return {{a[0], a[1], a[2]}}; }
+
+std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
+  std::vector<contact::RigidSurface> all;
+  for (RigidShape const& shape : whole.rigid_shapes)
+    all.push_back({static_cast<contact::RigidSurface::Kind>(shape.kind),
+                   whole.particles.dimension,
+                   vector_of(shape.centre),
+                   vector_of(shape.axis),
+                   vector_of(shape.half_lengths),
+                   shape.radius,
+                   {{shape.velocity[0]({}, 0), shape.velocity[1]({}, 0), shape.velocity[2]({}, 0)}}});
+  return all;
+}
+
+/// Bodies with a surface, except two of a formulation that has a contact of its own.
+std::vector<std::vector<bool>> who_meets(Assembly const& whole) {
+  auto const own = [&](std::size_t b) {
+    auto const info = find_formulation(whole.formulations[b].name);
+    return info && info->contact;
+  };
+  std::size_t const n = whole.particles.bodies.size();
+  std::vector<std::vector<bool>> meets(n, std::vector<bool>(n));
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b < n; ++b)
+      meets[a][b] =
+          a != b && !whole.surfaces[a].points.empty() && !whole.surfaces[b].points.empty() && !(own(a) && own(b));
+  return meets;
+}
+
+/// Rigid shapes are seen here by the bodies of formulations that have no contact of their own.
+std::vector<bool> who_meets_rigids(Assembly const& whole) {
+  std::vector<bool> meets;
+  for (FormulationSpec const& spec : whole.formulations) {
+    auto const info = find_formulation(spec.name);
+    meets.push_back(info && !info->contact);
+  }
+  return meets;
+}
+
+contact::System system_of(Assembly const& whole) {
+  return {whole.particles,
+          whole.surfaces,
+          rigid_surfaces(whole),
+          {0.5 * whole.contact.scale, whole.contact.friction, who_meets(whole), who_meets_rigids(whole)}};
+}
+
+}  // namespace
+
+Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
+    : dimension_(whole.particles.dimension),
+      shapes_(whole.rigid_shapes),
+      supports_(whole.supports),
+      system_(system_of(whole)),
+      meets_(who_meets(whole)),
+      held_(system_.ids().size()),
+      actions_(whole) {
+  for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
+  auto const& ids = system_.ids();
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    Share share{.part = p, .at = {}, .local = {}};
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      if (auto const local = parts[p].id_in_part(ids[k])) {
+        share.at.push_back(static_cast<Index>(k));
+        share.local.push_back(*local);
+      }
+    shares_.push_back(std::move(share));
+  }
+  for (std::size_t s = 0; s < supports_.size(); ++s)
+    for (auto const id : supports_[s].particles) {
+      auto const found = std::lower_bound(ids.begin(), ids.end(), id);
+      if (found == ids.end() || *found != id) continue;
+      auto& here = held_[static_cast<std::size_t>(found - ids.begin())];
+      std::vector<Direction> known;
+      for (Held const& held : here) known.push_back(held.direction);
+      for (Direction d : directions_of(supports_[s], dimension_)) {
+        if (!make_orthogonal(d, known)) continue;
+        known.push_back(d);
+        here.push_back({s, d, supports_[s].until});
+      }
+    }
+  mass_.resize(ids.size());
+  x_.resize(ids.size());
+  v_.resize(ids.size());
+  std::size_t const n = names_.size();
+  pair_impulses_.resize(n * n);
+}
+
+void Meeting::read_state(Formulations const& formulations) {
+  std::vector<Point> x, v;
+  for (Share const& share : shares_) {
+    x.resize(share.local.size());
+    v.resize(share.local.size());
+    formulations[share.part]->read_motion(share.local, x, v);
+    for (std::size_t k = 0; k < share.at.size(); ++k) {
+      x_[static_cast<std::size_t>(share.at[k])] = vector_of(x[k]);
+      v_[static_cast<std::size_t>(share.at[k])] = vector_of(v[k]);
+    }
+  }
+}
+
+void Meeting::look(Formulations const& formulations) {
+  std::vector<double> m;
+  for (Share const& share : shares_) {
+    m.resize(share.local.size());
+    formulations[share.part]->read_masses(share.local, m);
+    for (std::size_t k = 0; k < share.at.size(); ++k) mass_[static_cast<std::size_t>(share.at[k])] = m[k];
+  }
+  system_.set_masses(mass_);
+  read_state(formulations);
+  if (loaded_.empty())
+    system_.start(x_);
+  else
+    system_.restore(x_, std::exchange(loaded_, {}));
+  closing_ = system_.closing_step(v_);
+}
+
+/// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
+/// support gives the impulse back and does the work that its motion takes.
+void Meeting::push(Formulations const& formulations, double time, double half) {
+  std::vector<std::vector<std::int64_t>> ids(shares_.size());
+  std::vector<std::vector<Point>> change(shares_.size());
+  std::vector<Vec<3>> by_index;
+  for (std::size_t s = 0; s < shares_.size(); ++s) {
+    Share const& share = shares_[s];
+    auto pushed = system_.pushed().begin();
+    for (std::size_t k = 0; k < share.at.size() && pushed != system_.pushed().end(); ++k) {
+      pushed = std::lower_bound(pushed, system_.pushed().end(), share.at[k]);
+      if (pushed == system_.pushed().end() || *pushed != share.at[k]) continue;
+      auto const i = static_cast<std::size_t>(share.at[k]);
+      Vec<3> impulse = half * system_.forces()[i];
+      for (Held const& held : held_[i]) {
+        if (has_ended(held.until, time)) continue;
+        Vec<3> const d = vector_of(held.direction);
+        Vec<3> const kept = dot(impulse, d) * d;
+        impulse = impulse - kept;
+        work_ -= dot(kept, v_[i]);
+        actions_.supports[held.support].add(array_of(x_[i]), array_of(-1.0 * kept));
+      }
+      ids[s].push_back(share.local[k]);
+      change[s].push_back(array_of((1 / mass_[i]) * impulse));
+      v_[i] = v_[i] + (1 / mass_[i]) * impulse;
+    }
+    formulations[share.part]->push(ids[s], change[s]);
+  }
+  for (std::size_t r = 0; r < shapes_.size(); ++r) {
+    auto const& on = system_.on_rigid(r);
+    Point const about = actions_.rigid_about[r];
+    work_ -= half * dot(on.force, system_.rigid(r).velocity);
+    Impulse by;
+    by.linear = array_of(-half * on.force);
+    by.angular = array_of(-half * (on.moment + cross(vector_of(about), on.force)));
+    actions_.rigids[r].add(by);
+  }
+  for (std::size_t a = 0; a < names_.size(); ++a)
+    for (std::size_t b = 0; b < names_.size(); ++b) {
+      auto const& between = system_.between(a, b);
+      auto& sum = pair_impulses_[a * names_.size() + b];
+      sum.force = sum.force + half * between.force;
+      sum.moment = sum.moment + half * between.moment;
+    }
+}
+
+void Meeting::move_rigids(double time, double dt) {
+  for (std::size_t r = 0; r < shapes_.size(); ++r) {
+    auto& rigid = system_.rigid(r);
+    Vec<3> middle;
+    for (int c = 0; c < 3; ++c) {
+      auto const& formula = shapes_[r].velocity[static_cast<std::size_t>(c)];
+      middle[c] = formula({}, time + 0.5 * dt);
+      rigid.velocity[c] = formula({}, time + dt);
+    }
+    rigid.centre = rigid.centre + dt * middle;
+    actions_.rigid_about[r] = array_of(rigid.centre);
+  }
+}
+
+void Meeting::begin(Formulations const& formulations, double time, double dt) {
+  actions_.begin(dt);
+  std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::System::Between{});
+  last_dt_ = dt;
+  push(formulations, time, 0.5 * dt);
+  move_rigids(time, dt);
+}
+
+void Meeting::finish(Formulations const& formulations, double time, double dt) {
+  read_state(formulations);
+  system_.evaluate(x_);
+  friction_work_ += system_.totals().friction_work;
+  push(formulations, time, 0.5 * dt);
+  closing_ = system_.closing_step(v_);
+}
+
+double Meeting::limit(double step) const {
+  double const omega2 = system_.totals().frequency2;
+  // Of a step h = 2 margin / omega: contact adds to the square of the frequency of the bodies.
+  double const together = 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin));
+  return std::min(omega2 > 0 ? together : step, closing_);
+}
+
+std::vector<Action> Meeting::pairs() const {
+  std::vector<Action> all;
+  double const scale = last_dt_ > 0 ? 1 / last_dt_ : 0;
+  for (std::size_t a = 0; a < names_.size(); ++a)
+    for (std::size_t b = a + 1; b < names_.size(); ++b) {
+      if (!meets_[a][b]) continue;
+      auto const& sum = pair_impulses_[a * names_.size() + b];
+      all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
+    }
+  return all;
+}
+
+void Meeting::report(Diagnostics& sum) const {
+  contact::Totals const& now = system_.totals();
+  sum.strain_energy += now.energy + now.spring_energy;
+  sum.external_work += work_;
+  auto const column = [&](char const* name) -> double& {
+    for (auto& [known, value] : sum.more)
+      if (known == name) return value;
+    return sum.more.emplace_back(name, 0.0).second;
+  };
+  column("contact_energy") += now.energy;
+  double& overlap = column("contact_overlap");
+  overlap = std::max(overlap, now.deepest);
+  column("friction_heat") = friction_work_ - now.spring_energy;
+  column("contact_points") = static_cast<double>(now.touched);
+}
+
+void Meeting::save(StateWriter& writer) const {
+  std::vector<double> const system = system_.state();
+  writer.put("contact_count", std::array{static_cast<double>(system.size())});
+  writer.put("contact_state", system);
+  std::vector<double> rigid{work_, last_dt_, friction_work_};
+  for (std::size_t r = 0; r < shapes_.size(); ++r)
+    for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity})
+      rigid.insert(rigid.end(), a.c, a.c + 3);
+  for (auto const& pair : pair_impulses_)
+    for (Vec<3> const& a : {pair.force, pair.moment}) rigid.insert(rigid.end(), a.c, a.c + 3);
+  writer.put("contact", rigid);
+  writer.put("contact_actions", actions_.state());
+}
+
+void Meeting::load(StateReader& reader) {
+  std::vector<double> rigid(3 + 6 * (shapes_.size() + pair_impulses_.size()));
+  reader.get("contact", rigid);
+  work_ = rigid[0];
+  last_dt_ = rigid[1];
+  friction_work_ = rigid[2];
+  auto from = rigid.begin() + 3;
+  auto const take = [&](Vec<3>& a) {
+    std::copy_n(from, 3, a.c);
+    from += 3;
+  };
+  for (std::size_t r = 0; r < shapes_.size(); ++r) {
+    take(system_.rigid(r).centre);
+    take(system_.rigid(r).velocity);
+  }
+  for (auto& pair : pair_impulses_) {
+    take(pair.force);
+    take(pair.moment);
+  }
+  std::array<double, 1> count{};
+  reader.get("contact_count", count);
+  loaded_.resize(static_cast<std::size_t>(count[0]));
+  reader.get("contact_state", loaded_);
+  std::vector<double> actions = actions_.state();
+  reader.get("contact_actions", actions);
+  actions_.restore(actions);
+}
+
+}  // namespace piola

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/actions.hpp"
+#include "piola/formulations/ensemble.hpp"
+#include "piola/mechanics/contact/system.hpp"
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace piola {
+
+/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes. It pushes them at the
+/// instants between steps: half of a step's impulse with the forces before it, half with those after it. For
+/// formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
+class Meeting {
+ public:
+  using Formulations = std::vector<std::unique_ptr<Formulation>>;
+  Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts);
+
+  /// Forces of the state as it is: before the first step, and after a checkpoint has been read.
+  void look(Formulations const& formulations);
+  void begin(Formulations const& formulations, double time, double dt);   ///< before the parts step
+  void finish(Formulations const& formulations, double time, double dt);  ///< after it; time [s] at the end
+
+  /// The step that contact leaves of one that the bodies bear [s].
+  double limit(double step) const;
+  /// Energy, work and columns; actions are added by name and place to `all`, those of the whole.
+  void report(Diagnostics& sum) const;
+  /// Supports, named loads and rigid shapes, in this order, then pairs of bodies.
+  std::vector<Action> actions() const { return actions_.report(); }
+  std::vector<Action> pairs() const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+  std::size_t bytes() const { return system_.bytes(); }
+
+ private:
+  /// A direction of a particle that a support holds.
+  struct Held {
+    std::size_t support;
+    std::array<double, 3> direction;
+    double until;  ///< [s]
+  };
+  struct Share {
+    std::size_t part;
+    std::vector<Index> at;            ///< indices into System::ids()
+    std::vector<std::int64_t> local;  ///< ids in the part
+  };
+
+  void read_state(Formulations const& formulations);
+  void push(Formulations const& formulations, double time, double half);
+  void move_rigids(double time, double dt);
+
+  int dimension_;
+  std::vector<std::string> names_;  ///< of bodies
+  std::vector<RigidShape> shapes_;
+  std::vector<Support> supports_;
+  contact::System system_;
+  std::vector<std::vector<bool>> meets_;
+  std::vector<Share> shares_;
+  std::vector<std::vector<Held>> held_;  ///< by index into System::ids()
+  std::vector<double> mass_;
+  std::vector<Vec<3>> x_, v_;
+  Actions actions_;
+  std::vector<contact::System::Between> pair_impulses_;
+  std::vector<double> loaded_;  ///< of a checkpoint, until the state of the bodies is read
+  double work_ = 0, friction_work_ = 0, last_dt_ = 0, closing_ = 0;
+};
+
+}  // namespace piola

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/lanes.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <span>
+#include <vector>
+
+namespace piola {
+
+/// Where the particles of a set stand in the bodies of a formulation that has an order of its own.
+class SlotsById {
+ public:
+  SlotsById() = default;
+  /// bodies[b]->particles() and ->id(slot) as the bodies of the solvers have them.
+  template <class Bodies>
+  SlotsById(ParticleSet const& set, Bodies const& bodies) : body_(set.body), slot_(set.X.size()) {
+    for (auto const& body : bodies)
+      for (Index slot = 0; slot < body->particles(); ++slot) slot_[static_cast<std::size_t>(body->id(slot))] = slot;
+  }
+
+  /// f(k, body, slot) for each ids[k].
+  template <class F>
+  void visit(std::span<std::int64_t const> ids, F const& f) const {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      auto const id = static_cast<std::size_t>(ids[k]);
+      f(k, static_cast<std::size_t>(body_[id]), slot_[id]);
+    }
+  }
+
+ private:
+  std::vector<int> body_;
+  std::vector<Index> slot_;
+};
+
+}  // namespace piola

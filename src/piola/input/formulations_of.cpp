@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/formulations_of.hpp"
+#include <algorithm>
+
+namespace piola {
+
+std::vector<FormulationInfo> formulations_of(CaseSpec const& spec) {
+  std::vector<FormulationInfo> all;
+  for (BodySpec const& body : spec.bodies) {
+    auto const info = find_formulation(body.formulation.name);
+    bool const known = std::any_of(all.begin(), all.end(),
+                                   [&](FormulationInfo const& other) { return other.name == body.formulation.name; });
+    if (info && !known) all.push_back(*info);
+  }
+  return all;
+}
+
+bool knows_contact(CaseSpec const& spec, std::size_t body) {
+  auto const info = find_formulation(spec.bodies[body].formulation.name);
+  return info && info->contact;
+}
+
+bool has_surface(CaseSpec const& spec, std::size_t body) {
+  BodySpec const& b = spec.bodies[body];
+  auto const info = find_formulation(b.formulation.name);
+  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
+  if (!info || !info->pushable || off || b.shape.dimension < 2) return false;
+  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
+                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name; });
+  auto const description = b.formulation.words.find("description");
+  bool const converts =
+      info->contact && (description == b.formulation.words.end() || description->second != "total_lagrangian");
+  return !mirrored && !converts;
+}
+
+bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  return has_surface(spec, a) && has_surface(spec, b) && !(knows_contact(spec, a) && knows_contact(spec, b));
+}
+
+bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  return (knows_contact(spec, a) && knows_contact(spec, b)) || pushed_by_surface(spec, a, b);
+}
+
+bool meets_rigids(CaseSpec const& spec, std::size_t body) {
+  return knows_contact(spec, body) || has_surface(spec, body);
+}
+
+bool surfaces_meet(CaseSpec const& spec) {
+  for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
+    if (!has_surface(spec, a)) continue;
+    if (!spec.rigids.empty() && !knows_contact(spec, a)) return true;
+    for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
+      if (pushed_by_surface(spec, a, b)) return true;
+  }
+  return false;
+}
+
+}  // namespace piola

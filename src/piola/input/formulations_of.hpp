@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/registry.hpp"
+#include "piola/input/case_spec.hpp"
+#include <cstddef>
+#include <vector>
+
+namespace piola {
+
+/// The formulations of a case's bodies, each once, in the order of the bodies. Unknown names are left out.
+std::vector<FormulationInfo> formulations_of(CaseSpec const& spec);
+
+/// Whether the formulation of a body has a contact of its own, between its bodies and with rigid shapes.
+bool knows_contact(CaseSpec const& spec, std::size_t body);
+
+/// Whether a body has a surface by which others and rigid shapes can push it: a body in 2D or 3D without mirrors whose
+/// formulation can be pushed, and which stays total-Lagrangian.
+bool has_surface(CaseSpec const& spec, std::size_t body);
+
+/// Whether something keeps two bodies apart: the contact of their formulation, or their surfaces.
+bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b);
+
+/// Whether two bodies push each other by their surfaces: not if their formulation keeps them apart itself.
+bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b);
+
+/// Whether something keeps a body apart from rigid shapes.
+bool meets_rigids(CaseSpec const& spec, std::size_t body);
+
+/// Whether surfaces of this case can push each other or be pushed by rigid shapes.
+bool surfaces_meet(CaseSpec const& spec);
+
+}  // namespace piola

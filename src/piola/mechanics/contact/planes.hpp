@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/tensor.hpp"
+#include <cmath>
+
+/// The gap of a surface point from the surface of another body, by blended planes, and the energy of contact. Points of
+/// a body's surface have a place y and a unit outward normal n; each is a plane. Theory: docs/theory/contact.md.
+namespace piola::contact {
+
+/// A point of a surface where it is now.
+struct Plane {
+  Vec<3> y, n;  ///< place [m], unit outward normal
+};
+
+/// How two surfaces push each other.
+struct PairRule {
+  double reach = 0;                   ///< R: planes farther from a point do not count [m]
+  double stiffness = 0;               ///< k: pressure by depth [Pa/m]
+  double length = 0;                  ///< l: at this depth the pressure of a linear layer is doubled [m]
+  double fade_from = 0, fade_to = 0;  ///< how far beyond the rim of a face its planes still hold [m]
+};
+
+/// Both surfaces of a pair are tested, q = 1/2 each; against a rigid shape only one, q = 1. Moduli of pressure waves
+/// M [Pa], spacings [m], factor: C_s.
+inline double layer_stiffness(double q, double factor, double modulus, double spacing) {
+  return q * factor * modulus / spacing;
+}
+
+inline PairRule pair_rule(double factor, double modulus_a, double spacing_a, double modulus_b, double spacing_b) {
+  double const mean = 2 * modulus_a * modulus_b / (modulus_a + modulus_b), dp = 0.5 * (spacing_a + spacing_b);
+  double const larger = spacing_a > spacing_b ? spacing_a : spacing_b;
+  return {2 * larger, layer_stiffness(0.5, factor, mean, dp), 0.5 * dp, 0.45 * larger, 0.75 * larger};
+}
+
+/// The weight of a plane: (1 - r^2/R^2)^3 c^2 where the normals face each other, c = n_a . n_b < 0.
+inline double plane_weight(double square_over_reach, double c) {
+  double const rest = 1 - square_over_reach;
+  return rest > 0 && c < 0 ? rest * rest * rest * c * c : 0;
+}
+
+/// Energy per area psi(g) of the layer and its slope, g < 0 inside [m]; zero outside.
+struct Layer {
+  double energy = 0, slope = 0;  ///< [J/m2], [Pa]
+};
+inline Layer layer(double gap, double stiffness, double length) {
+  if (!(gap < 0)) return {};
+  double const square = gap * gap, over = square / (length * length);
+  return {stiffness * square * (0.5 + 0.25 * over), stiffness * gap * (1 + over)};
+}
+
+/// theta: 1 where the planes lie opposite, 0 beyond the rim of a face. tau2: square of the distance along the face of
+/// their centroid [m2]; slope by tau2 [1/m2].
+struct Fade {
+  double value = 1, slope = 0;
+};
+inline Fade fade(double tau2, double from, double to) {
+  double const a = from * from, b = to * to;
+  if (!(tau2 > a)) return {};
+  if (!(tau2 < b)) return {0, 0};
+  double const s = (b - tau2) / (b - a);
+  return {s * s * (3 - 2 * s), -6 * s * (1 - s) / (b - a)};
+}
+
+/// The blended gap of a point from the planes near it.
+struct Gap {
+  double weight = 0;  ///< Sw
+  double gap = 0;     ///< g [m]
+  Vec<3> centroid;    ///< mean of y_a - y_b, weighted [m]
+  bool seen() const { return weight > 0; }
+  double tau2() const { return dot(centroid, centroid) - gap * gap; }
+};
+
+/// sources(k) is the plane k = 0 ... count - 1.
+template <class Sources>
+Gap blended_gap(Plane const& a, Index count, Sources const& sources, double reach) {
+  Gap g;
+  for (Index k = 0; k < count; ++k) {
+    Plane const& b = sources(k);
+    Vec<3> const r = a.y - b.y;
+    double const w = plane_weight(dot(r, r) / (reach * reach), dot(a.n, b.n));
+    if (!(w > 0)) continue;
+    g.weight += w;
+    g.gap += w * dot(b.n, r);
+    g.centroid = g.centroid + w * r;
+  }
+  if (!g.seen()) return g;
+  g.gap /= g.weight;
+  g.centroid = (1 / g.weight) * g.centroid;
+  return g;
+}
+
+/// Force on a point, the slope of the energy by its normal, and what acts on F besides.
+struct PointLoad {
+  Vec<3> force, by_normal;  ///< [N], [J]
+  Mat<3> on_gradient = {};  ///< of friction: minus the force on F [N m]
+};
+
+/// What one target with area A [m2] does: the full derivative of E = A psi(g) theta. on_source(k, load) takes the load
+/// of source k; the result is that of the target.
+template <class Sources, class OnSource>
+PointLoad contact_loads(Plane const& a, double area, Gap const& g, Layer const& psi, Fade const& theta, Index count,
+                        Sources const& sources, double reach, OnSource const& on_source) {
+  double const alpha = area * (psi.slope * theta.value - 2 * g.gap * psi.energy * theta.slope);
+  Vec<3> const gamma = (2 * area * psi.energy * theta.slope) * g.centroid;
+  PointLoad target;
+  for (Index k = 0; k < count; ++k) {
+    Plane const& b = sources(k);
+    Vec<3> const r = a.y - b.y;
+    double const c = dot(a.n, b.n), rest = 1 - dot(r, r) / (reach * reach), w = plane_weight(1 - rest, c);
+    if (!(w > 0)) continue;
+    double const share = w / g.weight, distance = dot(b.n, r);
+    double const by_weight = (alpha * (distance - g.gap) + dot(gamma, r - g.centroid)) / g.weight;
+    double const w0 = rest * rest * rest, w1 = -6 * rest * rest / (reach * reach);
+    Vec<3> const h = share * (alpha * b.n + gamma) + (by_weight * c * c * w1) * r;
+    target.force = target.force - h;
+    target.by_normal = target.by_normal + (2 * by_weight * w0 * c) * b.n;
+    on_source(k, PointLoad{h, (share * alpha) * r + (2 * by_weight * w0 * c) * a.n, {}});
+  }
+  return target;
+}
+
+/// dE/dF of the particle that carries a point: y = x + F S, n = F^-T N / |F^-T N|. f, q: the point's load.
+inline Mat<3> couple(Vec<3> const& S, Vec<3> const& N, Mat<3> const& F, PointLoad const& load) {
+  Mat<3> const inverse_F = inverse(F);
+  Vec<3> const m = transpose(inverse_F) * N;
+  double const length = std::sqrt(dot(m, m));
+  Vec<3> const n = (1 / length) * m;
+  Vec<3> const r = (1 / length) * (load.by_normal - dot(n, load.by_normal) * n);
+  return load.on_gradient - outer(load.force, S) - outer(m, inverse_F * r);
+}
+
+/// Square of the largest frequency that a contact adds [1/s2]: 2.5 C_s M/dp A (1 + 3 g^2/l^2) (1/m_a + 1/m_b).
+inline double frequency2(double layer_modulus, double area, double gap, double length, double inverse_masses) {
+  return 2.5 * layer_modulus * area * (1 + 3 * gap * gap / (length * length)) * inverse_masses;
+}
+
+}  // namespace piola::contact

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/rigid.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::contact {
+namespace {
+
+double length_of(Vec<3> const& a) { return std::sqrt(dot(a, a)); }
+
+/// a over its length; a zero vector becomes `otherwise`.
+Vec<3> unit(Vec<3> const& a, Vec<3> const& otherwise) {
+  double const length = length_of(a);
+  return length > 0 ? (1 / length) * a : otherwise;
+}
+
+/// Distances q[k] from the faces across the unit directions d[k], positive outside; the nearest point of the corner
+/// they make is straight ahead where they are positive.
+Distance from_faces(double const* q, Vec<3> const* d, int count) {
+  int const nearest = static_cast<int>(std::max_element(q, q + count) - q);
+  if (!(q[nearest] > 0)) return {q[nearest], d[nearest]};
+  Vec<3> sum;
+  for (int k = 0; k < count; ++k) sum = sum + std::max(q[k], 0.0) * d[k];
+  return {length_of(sum), unit(sum, d[nearest])};
+}
+
+Distance from_cylinder(RigidSurface const& shape, Vec<3> const& r) {
+  double const along = dot(r, shape.axis);
+  Vec<3> const across = r - along * shape.axis;
+  Vec<3> const other = std::fabs(shape.axis[0]) < 0.9 ? Vec<3>{{1, 0, 0}} : Vec<3>{{0, 1, 0}};
+  Vec<3> const d[2] = {unit(across, unit(other - dot(other, shape.axis) * shape.axis, other)),
+                       (along < 0 ? -1.0 : 1.0) * shape.axis};
+  double const q[2] = {length_of(across) - shape.radius, std::fabs(along) - shape.half_lengths[0]};
+  return from_faces(q, d, 2);
+}
+
+Distance from_box(RigidSurface const& shape, Vec<3> const& r) {
+  double q[3];
+  Vec<3> d[3];
+  for (int c = 0; c < shape.dimension; ++c) {
+    q[c] = std::fabs(r[c]) - shape.half_lengths[c];
+    d[c][c] = r[c] < 0 ? -1 : 1;
+  }
+  return from_faces(q, d, shape.dimension);
+}
+
+}  // namespace
+
+Distance distance_from(RigidSurface const& shape, Vec<3> const& x) {
+  Vec<3> r = x - shape.centre;
+  for (int c = shape.dimension; c < 3; ++c) r[c] = 0;
+  switch (shape.kind) {
+    case RigidSurface::Kind::plane: return {dot(r, shape.axis), shape.axis};
+    case RigidSurface::Kind::sphere: return {length_of(r) - shape.radius, unit(r, {{1, 0, 0}})};
+    case RigidSurface::Kind::cylinder: return from_cylinder(shape, r);
+    case RigidSurface::Kind::box: break;
+  }
+  return from_box(shape, r);
+}
+
+}  // namespace piola::contact

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/tensor.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <cstdint>
+#include <vector>
+
+namespace piola::contact {
+
+/// A point of a body's surface in the reference configuration. It rides on its particle: y = x + F S.
+struct SurfacePoint {
+  std::int64_t particle = 0;  ///< id
+  Vec<3> offset;              ///< S: from the particle to the surface [m]
+  Vec<3> normal;              ///< N: outward unit normal
+  double area = 0;            ///< of the reference surface [m^(Dim-1)]
+};
+
+/// The surface of one body. Without points the body meets nobody.
+struct Surface {
+  std::vector<SurfacePoint> points;
+  double spacing = 0;  ///< of its particles [m]
+  double modulus = 0;  ///< of pressure waves, kappa + 4/3 mu [Pa]
+};
+
+/// Deformation gradients of the particles that carry surface points: F = sum_j (x_j - x_p) (x) g_pj over the particles
+/// of the same body around p in the reference configuration, exact for linear fields. They are functions of positions
+/// alone, whatever formulation moves the body, so that forces which are derivatives of an energy of them conserve it.
+class Carriers {
+ public:
+  /// One carrier for every particle that has a point; surfaces by body. Throws InputError naming the body whose
+  /// particles lie on a line or a plane around one of its points (in 3D; in 2D: on a line).
+  Carriers(ParticleSet const& particles, std::vector<Surface> const& surfaces);
+
+  struct Neighbour {
+    Index at;  ///< index into ids()
+    Vec<3> g;  ///< [1/m]
+  };
+  Index count() const { return static_cast<Index>(self_.size()); }
+  /// Ids of all particles whose positions matter, ascending.
+  std::vector<std::int64_t> const& ids() const { return ids_; }
+  Index self(Index carrier) const { return self_[static_cast<std::size_t>(carrier)]; }  ///< index into ids()
+  /// The carrier of point k of a body.
+  Index of(std::size_t body, std::size_t point) const { return of_[body][point]; }
+  std::size_t first(Index carrier) const { return begin_[static_cast<std::size_t>(carrier)]; }
+  std::size_t last(Index carrier) const { return begin_[static_cast<std::size_t>(carrier) + 1]; }
+  Neighbour const& neighbour(std::size_t k) const { return neighbours_[k]; }
+  /// x: by index into ids() [m].
+  Mat<3> F(Index carrier, std::vector<Vec<3>> const& x) const;
+
+ private:
+  int dimension_;
+  std::vector<std::int64_t> ids_;
+  std::vector<Index> self_;
+  std::vector<std::vector<Index>> of_;
+  std::vector<std::size_t> begin_;
+  std::vector<Neighbour> neighbours_;
+};
+
+}  // namespace piola::contact

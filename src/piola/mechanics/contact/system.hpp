@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/mechanics/contact/friction.hpp"
+#include "piola/mechanics/contact/planes.hpp"
+#include "piola/mechanics/contact/rigid.hpp"
+#include "piola/mechanics/contact/surface.hpp"
+#include <string>
+#include <vector>
+
+namespace piola::contact {
+
+/// The contacts of all surfaces of a run at one instant.
+struct Totals {
+  double energy = 0;         ///< stored in the layers [J]
+  double deepest = 0;        ///< largest depth of a point behind a surface, in spacings
+  double frequency2 = 0;     ///< square of the largest frequency that contact adds [1/s2]
+  double spring_energy = 0;  ///< of friction that sticks [J]
+  double friction_work = 0;  ///< what friction took since the evaluation before, stored or turned into heat [J]
+  std::int64_t touched = 0;  ///< surface points that are pushed
+};
+
+/// Contact between bodies, and between bodies and rigid shapes, by blended planes on oriented surface points. It sees
+/// positions and gives forces; both by index into ids().
+class System {
+ public:
+  struct Setting {
+    double factor = 0.5;  ///< C_s
+    double friction = 0;  ///< mu of Coulomb's law
+    /// Whether the bodies a and b are kept apart here, [a][b].
+    std::vector<std::vector<bool>> meets;
+    std::vector<bool> meets_rigids;  ///< by body
+  };
+  System(ParticleSet const& particles, std::vector<Surface> surfaces, std::vector<RigidSurface> rigids,
+         Setting setting);
+
+  std::vector<std::int64_t> const& ids() const { return carriers_.ids(); }
+  /// Inverse masses by index into ids() [1/kg].
+  void set_masses(std::vector<double> const& masses);
+  RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
+  RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
+
+  /// Forces [N] at x [m]: functions of x and of the places of rigid shapes and, with friction, of the springs and of
+  /// where all was at the evaluation before.
+  void evaluate(std::vector<Vec<3>> const& x);
+  /// The same without a move since then: at the start.
+  void start(std::vector<Vec<3>> const& x);
+  /// What came of the last evaluation, for a checkpoint; places of rigid shapes are not in it.
+  std::vector<double> state() const;
+  void restore(std::vector<Vec<3>> const& x, std::vector<double> const& state);
+  std::vector<Vec<3>> const& forces() const { return forces_; }
+  /// Indices of ids() that have a force, ascending.
+  std::vector<Index> const& pushed() const { return pushed_; }
+  Totals const& totals() const { return totals_; }
+  /// A force [N] and a moment [N m].
+  struct Between {
+    Vec<3> force, moment;
+  };
+  /// What bodies do to a rigid shape; the moment about its centre.
+  Between const& on_rigid(std::size_t k) const { return on_rigid_[k]; }
+  /// What body b does to body a; the moment about the origin.
+  Between const& between(std::size_t a, std::size_t b) const { return between_[a][b]; }
+
+  /// The step in which the fastest pair of near points closes a tenth of a spacing [s]. v [m/s].
+  double closing_step(std::vector<Vec<3>> const& v) const;
+  std::size_t bytes() const;
+
+ private:
+  struct Point {
+    Index carrier;
+    std::size_t body;
+    Vec<3> S, N;
+    double area;
+  };
+  struct Run {
+    Index target;      ///< a point
+    std::size_t body;  ///< of the sources
+    std::size_t first, last;
+  };
+
+  void make_lists(std::vector<Vec<3>> const& x);
+  void list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high);
+  void list_points_near_rigids();
+  void activate(std::vector<char> const& points);
+  bool lists_hold(std::vector<Vec<3>> const& x) const;
+  void place_points(std::vector<Vec<3>> const& x);
+  void push_all(std::vector<Vec<3>> const& x);
+  void remember(std::vector<Vec<3>> const& x);
+  void push_bodies();
+  void push_from_rigids();
+  void rub(Run const& run, Gap const& gap, double normal_force, double stiffness);
+  void rub_on_rigid(Index point, std::size_t rigid, Vec<3> const& n, double normal_force, double stiffness);
+  Spring drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound);
+  void add_load(Index point, PointLoad const& load);
+  void add_force(Index id, Vec<3> const& f);
+  void note(double gap, double area, double layer_modulus, double length, double spacing, double inverse);
+  double inverse_mass_of(Index point) const {
+    return inverse_mass_[static_cast<std::size_t>(carriers_.self(points_[static_cast<std::size_t>(point)].carrier))];
+  }
+
+  std::vector<Surface> surfaces_;
+  std::vector<RigidSurface> rigids_;
+  Setting setting_;
+  Carriers carriers_;
+  std::vector<Point> points_;
+  std::vector<std::vector<PairRule>> rules_;
+  std::vector<double> inverse_mass_;
+  std::vector<Vec<3>> listed_at_;  ///< positions of carriers when the lists were made [m]
+  double skin_ = 0;                ///< [m]
+  std::vector<Run> runs_;
+  std::vector<Index> sources_;
+  std::vector<Gap> gaps_;          ///< by run
+  std::vector<Index> near_rigid_;  ///< points near a rigid shape
+  std::vector<Index> active_points_, active_carriers_;
+  std::vector<Mat<3>> F_;         ///< of active carriers, by carrier
+  std::vector<Plane> planes_;     ///< of active points, by point
+  std::vector<PointLoad> loads_;  ///< by point
+  std::vector<char> loaded_;
+  std::vector<Index> loaded_points_;
+  /// Springs of touched points, with a body, or with a rigid shape whose number follows those of the bodies; in the
+  /// order of contacts, which is that of the runs, then of near_rigid_.
+  struct Stuck {
+    Index point;
+    std::size_t with;
+    Vec<3> stretch, force;  ///< [m] in the reference configuration of the point, [N]
+    bool operator<(Stuck const& o) const { return with != o.with ? with < o.with : point < o.point; }
+  };
+  std::vector<Stuck> stuck_, last_stuck_;
+  std::vector<Vec<3>> last_x_, last_centre_;  ///< of the evaluation before
+  std::vector<Vec<3>> forces_;
+  std::vector<Index> pushed_;
+  std::vector<char> is_pushed_;
+  std::vector<Between> on_rigid_;
+  std::vector<std::vector<Between>> between_;
+  Totals totals_;
+};
+
+}  // namespace piola::contact

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/setup/contact_surface.hpp"
+#include "piola/setup/faces.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola {
+namespace {
+
+using Kind = ShapeSpec::Kind;
+
+std::vector<Face> faces_of(ShapeSpec const& shape) {
+  std::vector<Face> faces;
+  auto const across = [&](int axis) {
+    faces.push_back({axis, false, Face::Part::flat});
+    faces.push_back({axis, true, Face::Part::flat});
+  };
+  if (shape.kind == Kind::box) {
+    for (int axis = 0; axis < shape.dimension; ++axis) across(axis);
+    return faces;
+  }
+  faces.push_back({0, false, Face::Part::outer});
+  if (shape.inner_radius > 0) faces.push_back({0, false, Face::Part::inner});
+  if (shape.kind == Kind::cylinder) across(shape.axis);
+  return faces;
+}
+
+/// Where the surface is, straight ahead of X along the normal [m].
+double height_above(ShapeSpec const& shape, Face const& face, std::array<double, 3> const& X) {
+  auto const axis = static_cast<std::size_t>(face.axis);
+  if (face.part == Face::Part::flat) {
+    bool const box = shape.kind == Kind::box;
+    double const low = box ? shape.min[axis] : shape.centre[axis];
+    double const high = box ? shape.max[axis] : shape.centre[axis] + shape.length;
+    return face.upper ? high - X[axis] : X[axis] - low;
+  }
+  double square = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c)
+    if (shape.kind != Kind::cylinder || c != static_cast<std::size_t>(shape.axis))
+      square += (X[c] - shape.centre[c]) * (X[c] - shape.centre[c]);
+  double const r = std::sqrt(square);
+  return face.part == Face::Part::outer ? shape.radius - r : r - shape.inner_radius;
+}
+
+}  // namespace
+
+contact::Surface contact_surface(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  contact::Surface surface;
+  surface.spacing = *std::max_element(body.spacing.begin(), body.spacing.begin() + particles.dimension);
+  for (Face const& face : faces_of(shape))
+    for (FaceShare const& share : face_shares(shape, particles, body, face)) {
+      Vec<3> const normal{{share.normal[0], share.normal[1], share.normal[2]}};
+      double const height = height_above(shape, face, particles.X[static_cast<std::size_t>(share.particle)]);
+      surface.points.push_back({share.particle, height * normal, normal, share.area});
+    }
+  return surface;
+}
+
+}  // namespace piola

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/system.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/setup/contact_surface.hpp"
+#include "exec/thread_count.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace piola::contact {
+namespace {
+
+ShapeSpec box(int dimension, std::array<double, 3> min, std::array<int, 3> particles, double spacing) {
+  ShapeSpec shape;
+  shape.dimension = dimension;
+  shape.min = min;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) {
+    shape.max[c] = min[c] + spacing * particles[c];
+    shape.particles[c] = particles[c];
+  }
+  shape.placement = ShapeSpec::Placement::cell_centred;
+  return shape;
+}
+
+/// Two blocks, one on the other, the upper one with another spacing and pressed in by `depth`.
+struct Blocks {
+  ParticleSet set;
+  std::vector<Surface> surfaces;
+
+  explicit Blocks(int dimension, double depth, double spacing = 0.7, double shift = 0.3) {
+    std::size_t const up = dimension == 3 ? 2 : 1;
+    std::array<double, 3> above{shift, dimension == 3 ? shift : 0, 0};
+    above[up] = 3 - depth;
+    add(box(dimension, {0, 0, 0}, {5, dimension == 3 ? 5 : 3, 3}, 1));
+    add(box(dimension, above, {4, dimension == 3 ? 4 : 3, 3}, spacing));
+  }
+  void add(ShapeSpec const& shape) {
+    fill(shape, "block " + std::to_string(set.bodies.size()), set);
+    surfaces.push_back(contact_surface(shape, set, set.bodies.back()));
+    surfaces.back().modulus = set.bodies.size() == 1 ? 2e6 : 5e6;
+  }
+  System::Setting setting(double friction = 0) const {
+    std::size_t const n = surfaces.size();
+    System::Setting s{0.5, friction, std::vector<std::vector<bool>>(n, std::vector<bool>(n, true)),
+                      std::vector<bool>(n, true)};
+    for (std::size_t b = 0; b < n; ++b) s.meets[b][b] = false;
+    return s;
+  }
+  System system(std::vector<RigidSurface> rigids = {}, double friction = 0) const {
+    return {set, surfaces, std::move(rigids), setting(friction)};
+  }
+};
+
+std::vector<Vec<3>> places(System const& system, ParticleSet const& set) {
+  std::vector<Vec<3>> x;
+  for (auto const id : system.ids()) {
+    auto const& X = set.X[static_cast<std::size_t>(id)];
+    x.push_back({{X[0], X[1], X[2]}});
+  }
+  return x;
+}
+
+/// Deforms, shears and shakes: nothing is flat any more.
+void distort(std::vector<Vec<3>>& x, int dimension, double amount) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> some(-1, 1);
+  for (Vec<3>& y : x) {
+    Vec<3> const X = y;
+    y[0] += amount * (0.3 * X[1] + 0.05 * X[0] * X[0]);
+    y[1] += amount * (-0.2 * X[0]);
+    for (int c = 0; c < dimension; ++c) y[c] += 0.1 * amount * some(random);
+  }
+}
+
+TEST(ContactSurface, HasTheAreaOfTheShape) {
+  Blocks const blocks(3, 0);
+  double area = 0;
+  Vec<3> sum;
+  for (SurfacePoint const& point : blocks.surfaces[0].points) {
+    area += point.area;
+    sum = sum + point.area * point.normal;
+    auto const& X = blocks.set.X[static_cast<std::size_t>(point.particle)];
+    Vec<3> const y = Vec<3>{{X[0], X[1], X[2]}} + point.offset;
+    double const to_face = std::min({y[0], y[1], y[2], 5 - y[0], 5 - y[1], 3 - y[2]});
+    EXPECT_NEAR(to_face, 0, 1e-12);
+  }
+  EXPECT_NEAR(area, 2 * 25 + 4 * 15, 1e-12);
+  EXPECT_NEAR(dot(sum, sum), 0, 1e-20);
+}
+
+TEST(ContactSurface, OfABallLiesOnIt) {
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::sphere;
+  shape.radius = 2;
+  shape.inner_radius = 1;
+  shape.spacing = 0.4;
+  shape.centre = {1, 2, 3};
+  ParticleSet set;
+  fill(shape, "ball", set);
+  double area = 0;
+  for (SurfacePoint const& p : contact_surface(shape, set, set.bodies[0]).points) {
+    auto const& X = set.X[static_cast<std::size_t>(p.particle)];
+    Vec<3> const y = Vec<3>{{X[0] - 1, X[1] - 2, X[2] - 3}} + p.offset;
+    double const r = std::sqrt(dot(y, y)), out = dot(y, p.normal);
+    EXPECT_NEAR(r, out > 0 ? 2 : 1, 1e-12);
+    area += p.area;
+  }
+  EXPECT_NEAR(area, 4 * M_PI * 5, 1e-9);
+}
+
+TEST(Carriers, DeformationGradientIsExactForLinearFields) {
+  Blocks const blocks(3, 0);
+  Carriers const carriers(blocks.set, blocks.surfaces);
+  Mat<3> const F{{1.1, 0.2, 0.1, -0.3, 0.9, 0.05, 0.2, 0.1, 1.3}};
+  std::vector<Vec<3>> x;
+  for (auto const id : carriers.ids()) {
+    auto const& X = blocks.set.X[static_cast<std::size_t>(id)];
+    x.push_back(F * Vec<3>{{X[0], X[1], X[2]}});
+  }
+  for (Index k = 0; k < carriers.count(); ++k)
+    for (int c = 0; c < 9; ++c) EXPECT_NEAR(carriers.F(k, x).c[c], F.c[c], 1e-12);
+}
+
+TEST(Carriers, RefuseABodyOfOneLayer) {
+  Blocks blocks(3, 0);
+  blocks.add(box(3, {0, 0, 9}, {4, 4, 1}, 1));
+  EXPECT_THROW((void)Carriers(blocks.set, blocks.surfaces), InputError);
+}
+
+class InDimensions : public ::testing::TestWithParam<int> {};
+
+TEST_P(InDimensions, BlocksThatTouchAreNotPushed) {
+  Blocks const blocks(GetParam(), 0);
+  System system = blocks.system();
+  system.evaluate(places(system, blocks.set));
+  EXPECT_NEAR(system.totals().energy, 0, 1e-20);
+  EXPECT_LT(system.totals().deepest, 1e-12);
+}
+
+TEST_P(InDimensions, FlatFacesHaveThePressureOfTheLayer) {
+  int const D = GetParam();
+  double const depth = 0.05;
+  Blocks const blocks(D, depth, 0.7, 1);  // the upper one lies wholly on the lower one
+  System system = blocks.system();
+  system.evaluate(places(system, blocks.set));
+  // Each point of the upper face is pushed by half of the layer; those of the lower one, too, where they are under it.
+  PairRule const rule = pair_rule(0.5, 2e6, 1, 5e6, 0.7);
+  double const pressure = -layer(-depth, rule.stiffness, rule.length).slope;
+  double const area = D == 3 ? 2.8 * 2.8 : 2.8;
+  Vec<3> const up = system.between(1, 0).force;
+  EXPECT_NEAR(up[D - 1] / (2 * pressure * area), 1, 0.15) << "edges fade";
+  for (int c = 0; c < D - 1; ++c) EXPECT_NEAR(up[c], 0, 0.02 * up[D - 1]);
+}
+
+TEST_P(InDimensions, ForcesAreTheSlopesOfTheEnergy) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.2);
+  System system = blocks.system();
+  auto x = places(system, blocks.set);
+  distort(x, D, 0.3);
+  system.evaluate(x);
+  auto const forces = system.forces();
+  auto const pushed = system.pushed();
+  ASSERT_GT(pushed.size(), 5U);
+  double largest = 0;
+  for (Vec<3> const& f : forces) largest = std::max(largest, std::sqrt(dot(f, f)));
+  for (std::size_t n = 0; n < pushed.size(); n += 3)
+    for (int c = 0; c < D; ++c) {
+      constexpr double h = 1e-6;
+      auto const i = static_cast<std::size_t>(pushed[n]);
+      auto moved = x;
+      moved[i][c] += h;
+      system.evaluate(moved);
+      double const up = system.totals().energy;
+      moved[i][c] -= 2 * h;
+      system.evaluate(moved);
+      EXPECT_NEAR(forces[i][c], -(up - system.totals().energy) / (2 * h), 1e-5 * largest);
+    }
+}
+
+TEST_P(InDimensions, MomentaAreKept) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.2);
+  System system = blocks.system();
+  auto x = places(system, blocks.set);
+  distort(x, D, 0.3);
+  system.evaluate(x);
+  Vec<3> force, moment;
+  double size = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    Vec<3> const& f = system.forces()[k];
+    force = force + f;
+    moment = moment + cross(x[k], f);
+    size += std::sqrt(dot(f, f));
+  }
+  ASSERT_GT(size, 0);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(force[c], 0, 1e-12 * size);
+    EXPECT_NEAR(moment[c], 0, 1e-11 * size);
+  }
+}
+
+TEST_P(InDimensions, RigidShapesTakeTheReaction) {
+  int const D = GetParam();
+  Blocks const blocks(D, -50);
+  RigidSurface plane;
+  plane.dimension = D;
+  plane.axis = {{0, 0, 0}};
+  plane.axis[D - 1] = 1;
+  plane.centre[D - 1] = 0.1;  // 0.1 above the lower face of block 0
+  System system = blocks.system({plane});
+  auto const x = places(system, blocks.set);
+  system.evaluate(x);
+  Vec<3> force;
+  for (Vec<3> const& f : system.forces()) force = force + f;
+  double const area = D == 3 ? 25 : 5, k = 0.5 * 2e6;
+  EXPECT_NEAR(force[D - 1] / (-layer(-0.1, k, 0.5).slope * area), 1, 1e-12);
+  EXPECT_NEAR(system.totals().energy / (layer(-0.1, k, 0.5).energy * area), 1, 1e-12);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(system.on_rigid(0).force[c], -force[c], 1e-12 * force[D - 1]);
+}
+
+TEST_P(InDimensions, ForcesDoNotDependOnWhenListsWereMadeOrOnThreads) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.1);
+  std::vector<Vec<3>> first;
+  for (int const threads : testing::thread_counts) {
+    testing::Threads const shared(threads);
+    System fresh = blocks.system(), old = blocks.system();
+    auto x = places(fresh, blocks.set);
+    old.evaluate(x);
+    for (Vec<3>& y : x) y[0] += 0.11;  // less than the lists are good for
+    for (std::size_t k = 0; k < x.size() / 3; ++k) x[k][1] += 0.05;
+    old.evaluate(x);
+    fresh.evaluate(x);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(old.forces()[k][c], fresh.forces()[k][c]);
+    if (first.empty()) first = fresh.forces();
+    for (std::size_t k = 0; k < x.size(); ++k)
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(first[k][c], fresh.forces()[k][c]) << threads;
+  }
+}
+
+TEST_P(InDimensions, NearBodiesThatCloseShortenTheStep) {
+  int const D = GetParam();
+  Blocks const blocks(D, -0.5);
+  System system = blocks.system();
+  auto const x = places(system, blocks.set);
+  system.evaluate(x);
+  std::vector<Vec<3>> v(x.size());
+  EXPECT_TRUE(std::isinf(system.closing_step(v)));
+  for (std::size_t k = 0; k < v.size(); ++k)
+    if (system.ids()[k] >= blocks.set.bodies[1].first) v[k][D - 1] = -10;
+  EXPECT_NEAR(system.closing_step(v), 0.1 * 0.85 / 10, 1e-12);
+  for (Vec<3>& u : v) u = -1.0 * u;
+  EXPECT_GT(system.closing_step(v), 1e6) << "they part, but for rounding";
+}
+
+TEST_P(InDimensions, FrictionSticksThenSlides) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.05, 0.7, 1);
+  constexpr double mu = 0.3;
+  System system = blocks.system({}, mu);
+  auto x = places(system, blocks.set);
+  system.start(x);
+  double const normal = system.between(1, 0).force[D - 1];
+  EXPECT_LT(std::fabs(system.between(1, 0).force[0]), 5e-3 * normal) << "nothing has moved; edges are not quite even";
+  double work = 0, stretch = 0;
+  for (int step = 0; step < 60; ++step) {
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (system.ids()[k] >= blocks.set.bodies[1].first) x[k][0] += 0.002;
+    system.evaluate(x);
+    work += system.totals().friction_work;
+    stretch += 0.002;
+    double const pull = -system.between(1, 0).force[0];
+    EXPECT_LE(pull, mu * normal * 1.02);
+    if (step == 0) EXPECT_GT(pull, 0);
+    if (step == 59) EXPECT_NEAR(pull / (mu * normal), 1, 0.03) << "it slides";
+  }
+  // Work of the last force over the way, less what the springs took to stretch.
+  EXPECT_NEAR(work / (mu * normal * stretch), 1, 0.3);
+  EXPECT_GT(work, system.totals().spring_energy);
+}
+
+TEST_P(InDimensions, FrictionKeepsMomentaAndIsBlindToRigidMotion) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.2);
+  System system = blocks.system({}, 0.5);
+  auto x = places(system, blocks.set);
+  system.start(x);
+  distort(x, D, 0.1);
+  system.evaluate(x);
+  Vec<3> force, moment;
+  double size = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    Vec<3> const& f = system.forces()[k];
+    force = force + f;
+    moment = moment + cross(x[k], f);
+    size += std::sqrt(dot(f, f));
+  }
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(force[c], 0, 1e-12 * size);
+    EXPECT_NEAR(moment[c], 0, 1e-11 * size);
+  }
+  double const energy = system.totals().spring_energy;
+  ASSERT_GT(energy, 0);
+  double const c = std::cos(0.3), s = std::sin(0.3);
+  for (int turn = 0; turn < 10; ++turn) {
+    for (Vec<3>& y : x) y = {{c * y[0] - s * y[1] + 0.1, s * y[0] + c * y[1] - 0.2, y[2]}};
+    system.evaluate(x);
+    EXPECT_NEAR(system.totals().spring_energy / energy, 1, 1e-10);
+    EXPECT_NEAR(system.totals().friction_work, 0, 1e-10 * energy);
+  }
+}
+
+TEST_P(InDimensions, RestoredStateGoesOnBitForBit) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.1);
+  RigidSurface plane;
+  plane.dimension = D;
+  plane.axis = {};
+  plane.axis[D - 1] = 1;
+  plane.centre[D - 1] = 0.05;
+  System whole = blocks.system({plane}, 0.3), resumed = blocks.system({plane}, 0.3);
+  auto x = places(whole, blocks.set);
+  auto const move = [&] {
+    for (std::size_t k = 0; k < x.size(); ++k) x[k][0] += 0.003 * static_cast<double>(k % 5);
+  };
+  whole.start(x);
+  for (int k = 0; k < 4; ++k) {
+    move();
+    whole.evaluate(x);
+  }
+  resumed.restore(x, whole.state());
+  EXPECT_EQ(resumed.state(), whole.state());
+  for (int k = 0; k < 20; ++k) {
+    move();
+    whole.evaluate(x);
+    resumed.evaluate(x);
+    EXPECT_EQ(resumed.state(), whole.state());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Contact, InDimensions, ::testing::Values(2, 3));
+
+}  // namespace
+}  // namespace piola::contact
