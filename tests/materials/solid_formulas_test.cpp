@@ -27,6 +27,32 @@ TEST(MieGrueneisenPressure, HasTheValuesOfTheFormula) {
   EXPECT_NEAR(solid.pressure(2870 * 0.98, 0), -1.629447e9, 1e3);
 }
 
+/// The root does not depend on where the search starts.
+TEST(JohnsonCookReturn, IsTheSameFromAnyGuess) {
+  auto const solid = metal<JohnsonCook, ElasticEos>("elastic");
+  for (double const mises : {600e6, 2e9, 20e9})
+    for (double const dt : {1e-10, 1e-7, 1.0}) {
+      SolidHistory const before{.plastic_strain = 0.05, .temperature = 400};
+      SolidHistory plain = before;
+      double const flow = solid.update(plain, deviator_of(mises), 0, 2870, dt);
+      EXPECT_NEAR(flow, von_mises(plain.S), 1e-12 * mises);
+      for (double const guess : {1e3, 0.5 * flow, 0.999 * flow, flow, 1.01 * flow, 5 * flow}) {
+        SolidHistory h = before;
+        EXPECT_NEAR(solid.update(h, deviator_of(mises), 0, 2870, dt, guess), flow, 2e-13 * mises) << guess / flow;
+      }
+    }
+}
+
+TEST(JohnsonCookReturn, IsPredictedFromTheLastFlowStress) {
+  auto const solid = metal<JohnsonCook, ElasticEos>("elastic");
+  SolidHistory const h{.plastic_strain = 0.05, .temperature = 400};
+  EXPECT_NEAR(von_mises(solid.predicted(h, deviator_of(1e9), 7e8, 1e-8)), 7e8, 1);
+  EXPECT_NEAR(von_mises(solid.predicted(h, deviator_of(6e8), 7e8, 1e-8)), 6e8, 1);
+  // None yet: the law itself.
+  SymMat<3> const trial = deviator_of(1e9);
+  EXPECT_EQ(von_mises(solid.predicted(h, trial, 0, 1e-8)), von_mises(solid.returned(h, trial, 1e-8)));
+}
+
 /// The fit has a pole at a compression of 1/(s1 - 1), the curve that is used has none and grows all the way.
 TEST(MieGrueneisenPressure, StiffensToAnyCompression) {
   auto const solid = metal<NoPlasticity, MieGrueneisen>("mie_grueneisen");

@@ -100,12 +100,24 @@ class Solid {
     return scaled(trial, mises, increment(h, mises, dt));
   }
 
+  /// The same from the flow stress of the last plastic step [Pa], 0 where there was none: laws whose yield stress asks
+  /// for powers and logarithms are spared them, as it changes little from step to step.
+  PIOLA_FN SymMat<3> predicted(SolidHistory const& h, SymMat<3> const& trial, double flow, double dt) const {
+    if (!Strength::thermal || !(flow > 0)) return returned(h, trial, dt);
+    double const mises = von_mises(trial);
+    return scaled(trial, mises, (mises - flow) / (3 * mu));
+  }
+
   /// One step of dt [s] with the trial deviator [Pa]: radial return, plastic strain, plastic work, heat and damage.
-  /// pressure [Pa] and rho [kg/m^3] are those of the end of the step.
-  PIOLA_FN void update(SolidHistory& h, SymMat<3> const& trial, double pressure, double rho, double dt) const {
-    double const mises = von_mises(trial), strain = increment(h, mises, dt);
+  /// pressure [Pa] and rho [kg/m^3] are those of the end of the step; `last_flow` is what the last plastic step
+  /// returned, from where the search starts. Returns the von Mises stress after plastic flow [Pa], 0 after an elastic
+  /// step.
+  PIOLA_FN double update(SolidHistory& h, SymMat<3> const& trial, double pressure, double rho, double dt,
+                         double last_flow = 0) const {
+    double const mises = von_mises(trial),
+                 strain = strength_.increment(mises, 3 * mu, h.plastic_strain, h.temperature, dt, last_flow);
     h.S = scaled(trial, mises, strain);
-    if (!(strain > 0)) return;
+    if (!(strain > 0)) return 0;
     double const flow = mises - 3 * mu * strain, rate = dt > 0 ? strain / dt : 0;
     if (damages) {
       double const least = 1e-12 * mu;  // molten: no von Mises stress
@@ -116,6 +128,7 @@ class Solid {
     h.plastic_strain += strain;
     h.plastic_work += work;
     h.temperature += heat_.fraction * work / (rho0 * heat_.specific_heat);
+    return flow > 0 ? flow : 0;
   }
 
  private:

@@ -62,13 +62,13 @@ struct Cloud {
   /// The velocity gradient that particle i feels.
   Mat<3> velocity_gradient(Index i) const {
     Mat<3> L, F, rate;
+    for (int c = 0; c < 9; ++c) L.c[c] = sums(i).L[c];
+    if (state[i].phi == 1) return L;
     for (int c = 0; c < 9; ++c) {
-      L.c[c] = sums(i).L[c];
       F.c[c] = deformation(i).F[c];
       rate.c[c] = deformation(i).rate[c];
     }
     double const phi = state[i].phi;
-    if (phi == 1) return L;
     Mat<3> const material = rate * inverse(F);
     for (int c = 0; c < 9; ++c) L.c[c] = phi * L.c[c] + (1 - phi) * material.c[c];
     return L;

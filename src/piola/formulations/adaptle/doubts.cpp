@@ -68,6 +68,10 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
     ignore(doubts, {"artificial_stress_exponent"}, "artificial_stress is zero");
   if (o.artificial_stress == 0 && mixture_of(all).lagrangian && mixture_of(all).eulerian)
     ignore(doubts, {"artificial_stress_interface"}, "artificial_stress is zero");
+  if (!mixture_of(all).lagrangian) ignore(doubts, {"viscosity_form"}, "no particle is total-Lagrangian");
+  if (doubts.gives("viscosity_form", "central") && all.settings.published)
+    ignore(doubts, {"viscosity_form"},
+           "correction = \"mixed\" and interface = \"printed\" have the form that is printed");
   if (!o.initial_pressure) ignore(doubts, {"initial_pressure_lasts"}, "there is no initial_pressure");
   if (dimension == 3 && doubts.gives("assumption", "plane_strain"))
     ignore(doubts, {"assumption"}, "the body has three dimensions");

@@ -75,7 +75,10 @@ struct Finish {
       trial.c[c] = p.S[c] + dt * S_rate.c[c];
     }
     SolidHistory history = history_of(p, p.S);
-    if (bears) law.update(history, trial, h.pressure, h.rho, dt);
+    if (bears) {
+      double const flow = law.update(history, trial, h.pressure, h.rho, dt, k.flow);
+      if (flow > 0) k.flow = flow;
+    }
     for (int c = 0; c < 6; ++c) p.S[c] = bears ? history.S.c[c] : 0;
     p.plastic_strain = history.plastic_strain;
     p.temperature = history.temperature;

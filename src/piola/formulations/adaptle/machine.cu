@@ -19,12 +19,20 @@ void launch_law(Range r, void const* pass) {
   exec::for_each_block(r, as<Finish<D, Law>>(pass));
 }
 
+template <int D, class Gradient>
+void launch_material(Range r, void const* pass) {
+  exec::for_each_block(r, as<DeformSweep<D, Gradient>>(pass));
+  exec::for_each_block(r, as<MaterialSweep<D, Gradient>>(pass));
+}
+
 template <int D>
 void launch_all(Range r, void const* pass) {
   launch_law<D, Solid<NoPlasticity, ElasticEos>>(r, pass);
   launch_law<D, Solid<JohnsonCook, MieGrueneisen>>(r, pass);
-  exec::for_each_block(r, as<DeformSweep<D>>(pass));
-  exec::for_each_block(r, as<MaterialSweep<D>>(pass));
+  launch_material<D, float>(r, pass);
+  launch_material<D, double>(r, pass);
+  exec::for_each_block(r, as<PublishedDeformSweep<D>>(pass));
+  exec::for_each_block(r, as<PublishedMaterialSweep<D>>(pass));
   exec::for_each_block(r, as<SpatialSweep<D, false, false>>(pass));
   exec::for_each_block(r, as<SpatialSweep<D, false, true>>(pass));
   exec::for_each_block(r, as<SpatialSweep<D, true, false>>(pass));

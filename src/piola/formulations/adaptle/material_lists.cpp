@@ -39,91 +39,144 @@ bool invert_moments(double const* A, double* K) {
 }  // namespace
 
 void MaterialLists::build(ParticleSet const& set, std::vector<BodyConstants> const& bodies,
-                          std::vector<Reference> const& reference, bool corrected, int lanes) {
+                          std::vector<Reference> const& reference, Settings const& settings, int lanes) {
   particles_ = static_cast<Index>(set.size());
+  published_ = settings.published;
+  rounded_ = !published_ && settings.corrected_material;
   begin_.assign(1, 0);
-  count_.assign(at(particles_), 0);
-  std::vector<int> body(at(particles_));
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    BodyConstants const& constants = bodies[b];
-    double const reach = 2 * constants.h * (1 - 1e-9);
-    std::vector<std::array<double, 3>> const points(set.X.begin() + constants.first, set.X.begin() + constants.last);
-    CellGrid const grid(points, reach);
-    std::vector<Index> near;
-    for (Index i = constants.first; i < constants.last; ++i) {
-      body[at(i)] = static_cast<int>(b);
-      auto const& x = set.X[at(i)];
-      near.clear();
-      grid.visit(x, [&](Index local) {
-        Index const j = constants.first + local;
-        auto const& y = set.X[at(j)];
-        double const dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
-        if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) near.push_back(j);
-      });
-      std::sort(near.begin(), near.end());
-      count_[at(i)] = static_cast<int>(near.size());
-      for (Index const j : near) {
-        double square = 0, s = 0, W = 0;
-        for (int c = 0; c < 3; ++c) {
-          double const d = reference[at(j)].X[c] - reference[at(i)].X[c];
-          square += d * d;
-        }
-        kernel_of(set.dimension, constants.h, square, s, W);
-        neighbour_.push_back(j);
-        s_.push_back(s);
-        W_.push_back(W);
+  begin_.reserve(at(particles_) + 1);
+  filled_.reserve(at(particles_));
+  for (BodyConstants const& body : bodies) list(set, body, reference, lanes);
+  if (!published_) return invert(reference, set.dimension, settings.corrected_material);
+  correction_.assign(at(particles_), plain);
+  if (settings.corrected_material) correct(reference, bodies, set.dimension);
+}
+
+void MaterialLists::list(ParticleSet const& set, BodyConstants const& body, std::vector<Reference> const& reference,
+                         int lanes) {
+  double const reach = 2 * body.h * (1 - 1e-9);
+  std::vector<std::array<double, 3>> const points(set.X.begin() + body.first, set.X.begin() + body.last);
+  CellGrid const grid(points, reach);
+  std::vector<Index> near;
+  for (Index i = body.first; i < body.last; ++i) {
+    auto const& x = set.X[at(i)];
+    near.clear();
+    grid.visit(x, [&](Index local) {
+      Index const j = body.first + local;
+      auto const& y = set.X[at(j)];
+      double const dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
+      if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) near.push_back(j);
+    });
+    std::sort(near.begin(), near.end());
+    for (Index const j : near) {
+      double square = 0;
+      for (int c = 0; c < 3; ++c) {
+        double const d = reference[at(j)].X[c] - reference[at(i)].X[c];
+        square += d * d;
       }
-      while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0) {
-        neighbour_.push_back(particles_);
-        s_.push_back(0);
-        W_.push_back(0);
+      add_pair(set.dimension, body.h, j, square);
+    }
+    std::size_t const found = neighbour_.size();
+    while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0) add_pair(set.dimension, body.h, particles_, 1e300);
+    filled_.push_back(static_cast<std::uint8_t>(neighbour_.size() - found));
+    begin_.push_back(static_cast<Offset>(neighbour_.size()));
+  }
+}
+
+void MaterialLists::add_pair(int dimension, double h, Index j, double square) {
+  double s = 0, W = 0;
+  if (j < particles_) kernel_of(dimension, h, square, s, W);
+  neighbour_.push_back(j);
+  if (rounded_) gradient_.push_back(static_cast<float>(s));
+  if (!rounded_) s_.push_back(s);
+  if (published_) W_.push_back(W);
+}
+
+/// K from the same rounded s as the sums, so that gradients of linear fields stay exact to double precision; the
+/// identity where there is no correction.
+void MaterialLists::invert(std::vector<Reference> const& reference, int dimension, bool corrected) {
+  moments_.resize(at(particles_));
+  for (Index i = 0; i < particles_; ++i) {
+    double A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    MaterialCorrection& m = moments_[at(i)];
+    m = {};
+    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
+      Index const j = neighbour_[at(k)];
+      if (j >= particles_) continue;
+      double const Vs = reference[at(j)].volume * gradient(k);
+      double r[3];
+      for (int c = 0; c < 3; ++c) r[c] = reference[at(j)].X[c] - reference[at(i)].X[c];
+      for (int p = 0; p < 3; ++p) {
+        m.G[p] += Vs * r[p];
+        for (int q = 0; q < 3; ++q) A[3 * p + q] += Vs * r[p] * r[q];
       }
-      begin_.push_back(static_cast<Index>(neighbour_.size()));
+    }
+    if (corrected && dimension == 2) invert_moments<2>(A, K);
+    if (corrected && dimension == 3) invert_moments<3>(A, K);
+    for (int p = 0; p < dimension; ++p)
+      for (int q = p; q < dimension; ++q)
+        m.K[dimension == 2 ? SymMat<2>::at(p, q) : SymMat<3>::at(p, q)] = K[3 * p + q];
+  }
+}
+
+/// The sums of V0 s r anew, without deleted neighbours.
+void MaterialLists::sum_gradients(std::vector<State> const& state, std::vector<Reference> const& reference) {
+  for (Index i = 0; i < particles_; ++i) {
+    double* G = moments_[at(i)].G;
+    for (int c = 0; c < 3; ++c) G[c] = 0;
+    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
+      Index const j = neighbour_[at(k)];
+      if (j >= particles_ || !(state[at(j)].alive > 0)) continue;
+      double const Vs = reference[at(j)].volume * gradient(k);
+      for (int c = 0; c < 3; ++c) G[c] += Vs * (reference[at(j)].X[c] - reference[at(i)].X[c]);
     }
   }
-  correction_.assign(at(particles_), plain);
-  if (corrected) correct(reference, bodies, body, set.dimension);
 }
 
 void MaterialLists::correct(std::vector<Reference> const& reference, std::vector<BodyConstants> const& bodies,
-                            std::vector<int> const& body, int dimension) {
-  for (Index i = 0; i < particles_; ++i) {
-    double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
-    kernel_of(dimension, bodies[static_cast<std::size_t>(body[at(i)])].h, 0, none, W0);
-    double S = reference[at(i)].volume * W0;
-    for (Index k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
-      Index const j = neighbour_[at(k)];
-      if (j >= particles_) continue;
-      double const V = reference[at(j)].volume;
-      double r[3];
-      for (int c = 0; c < 3; ++c) r[c] = reference[at(j)].X[c] - reference[at(i)].X[c];
-      S += V * W_[at(k)];
-      for (int p = 0; p < 3; ++p) {
-        G[p] += V * s_[at(k)] * r[p];
-        xW[p] += V * W_[at(k)] * r[p];
-        for (int q = 0; q < 3; ++q) moments[3 * p + q] += V * s_[at(k)] * r[p] * r[q];
+                            int dimension) {
+  for (BodyConstants const& body : bodies)
+    for (Index i = body.first; i < body.last; ++i) {
+      double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
+      kernel_of(dimension, body.h, 0, none, W0);
+      double S = reference[at(i)].volume * W0;
+      for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
+        Index const j = neighbour_[at(k)];
+        if (j >= particles_) continue;
+        double const V = reference[at(j)].volume;
+        double r[3];
+        for (int c = 0; c < 3; ++c) r[c] = reference[at(j)].X[c] - reference[at(i)].X[c];
+        S += V * W_[at(k)];
+        for (int p = 0; p < 3; ++p) {
+          G[p] += V * s_[at(k)] * r[p];
+          xW[p] += V * W_[at(k)] * r[p];
+          for (int q = 0; q < 3; ++q) moments[3 * p + q] += V * s_[at(k)] * r[p] * r[q];
+        }
       }
+      double A[9];
+      for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q) A[3 * p + q] = (S * moments[3 * p + q] - G[p] * xW[q]) / (S * S);
+      Correction k = plain;
+      bool const regular = dimension == 2 ? invert_moments<2>(A, k.K) : invert_moments<3>(A, k.K);
+      if (!regular) continue;
+      k.S = S;
+      std::copy_n(G, 3, k.G);
+      correction_[at(i)] = k;
     }
-    double A[9];
-    for (int p = 0; p < 3; ++p)
-      for (int q = 0; q < 3; ++q) A[3 * p + q] = (S * moments[3 * p + q] - G[p] * xW[q]) / (S * S);
-    Correction k = plain;
-    bool const regular = dimension == 2 ? invert_moments<2>(A, k.K) : invert_moments<3>(A, k.K);
-    if (!regular) continue;
-    k.S = S;
-    std::copy_n(G, 3, k.G);
-    correction_[at(i)] = k;
-  }
 }
 
-void MaterialLists::choose(std::vector<State> const& state, bool printed, std::vector<Deformation>& deformation) {
+void MaterialLists::choose(std::vector<State> const& state, std::vector<Reference> const& reference, bool printed,
+                           std::vector<Deformation>& deformation) {
   kinematic_.clear();
   target_.clear();
+  bool const deleted = std::any_of(state.begin(), state.end(), [](State const& s) { return !(s.alive > 0); });
+  if (!published_ && (deleted || deleted_)) sum_gradients(state, reference);
+  deleted_ = deleted;
   auto const lagrangian = [&](Index i) { return state[at(i)].phi < 1; };
   for (Index i = 0; i < particles_; ++i) {
     bool const own = lagrangian(i);
     bool beside = false;
-    for (Index k = begin_[at(i)]; k < begin_[at(i) + 1] && !own && !beside; ++k)
+    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && !own && !beside; ++k)
       beside = neighbour_[at(k)] < particles_ && lagrangian(neighbour_[at(k)]);
     bool const kinematic = own || (printed && beside);
     if (kinematic) kinematic_.push_back(i);
@@ -135,6 +188,8 @@ void MaterialLists::choose(std::vector<State> const& state, bool printed, std::v
 void MaterialLists::put_into(MaterialTable& table) const {
   table.begin = begin_.data();
   table.neighbour = neighbour_.data();
+  table.gradient = gradient_.data();
+  table.moments = moments_.data();
   table.s = s_.data();
   table.W = W_.data();
   table.correction = correction_.data();
@@ -145,8 +200,9 @@ void MaterialLists::put_into(MaterialTable& table) const {
 }
 
 std::size_t MaterialLists::bytes() const {
-  return sizeof(Index) * (begin_.size() + neighbour_.size() + kinematic_.size() + target_.size()) +
-         sizeof(double) * (s_.size() + W_.size()) + sizeof(Correction) * correction_.size();
+  return sizeof(Offset) * begin_.size() + sizeof(Index) * (neighbour_.size() + kinematic_.size() + target_.size()) +
+         sizeof(float) * gradient_.size() + sizeof(double) * (s_.size() + W_.size()) + filled_.size() +
+         sizeof(Correction) * correction_.size() + sizeof(MaterialCorrection) * moments_.size();
 }
 
 }  // namespace piola::adaptle

@@ -10,19 +10,20 @@ namespace piola::adaptle {
 /// a particle converts.
 class MaterialLists {
  public:
-  /// Within 2h of each body, in order of slots. `corrected`: eqs. (4), (5) in the reference configuration; particles
-  /// whose correction is singular keep plain gradients.
+  /// Within 2h of each body, in order of slots, with what the sums of `settings` need. Particles whose correction is
+  /// singular keep plain gradients.
   void build(ParticleSet const& set, std::vector<BodyConstants> const& bodies, std::vector<Reference> const& reference,
-             bool corrected, int lanes);
+             Settings const& settings, int lanes);
 
   /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0 in
-  /// `deformation`, others by -1.
-  void choose(std::vector<State> const& state, bool printed, std::vector<Deformation>& deformation);
+  /// `deformation`, others by -1. Deleted ones leave the sums of their neighbours.
+  void choose(std::vector<State> const& state, std::vector<Reference> const& reference, bool printed,
+              std::vector<Deformation>& deformation);
 
   /// f(b) for the reference neighbours of a within the distance [m].
   template <class F>
   void each_neighbour(Index a, double within, std::vector<Reference> const& reference, F const& f) const {
-    for (Index k = begin_[static_cast<std::size_t>(a)]; k < begin_[static_cast<std::size_t>(a) + 1]; ++k) {
+    for (Offset k = begin_[static_cast<std::size_t>(a)]; k < begin_[static_cast<std::size_t>(a) + 1]; ++k) {
       Index const b = neighbour_[static_cast<std::size_t>(k)];
       if (b >= particles_) continue;
       double square = 0;
@@ -36,18 +37,33 @@ class MaterialLists {
 
   void put_into(MaterialTable& table) const;
   bool built() const { return !begin_.empty(); }
-  int neighbours(Index a) const { return count_[static_cast<std::size_t>(a)]; }
+  int neighbours(Index a) const {
+    auto const i = static_cast<std::size_t>(a);
+    return static_cast<int>(begin_[i + 1] - begin_[i]) - filled_[i];
+  }
   std::size_t bytes() const;
 
  private:
-  void correct(std::vector<Reference> const& reference, std::vector<BodyConstants> const& bodies,
-               std::vector<int> const& body, int dimension);
+  void list(ParticleSet const& set, BodyConstants const& body, std::vector<Reference> const& reference, int lanes);
+  void add_pair(int dimension, double h, Index j, double square);
+  void correct(std::vector<Reference> const& reference, std::vector<BodyConstants> const& bodies, int dimension);
+  void invert(std::vector<Reference> const& reference, int dimension, bool corrected);
+  void sum_gradients(std::vector<State> const& state, std::vector<Reference> const& reference);
+  /// s of pair k as the sums see it.
+  double gradient(Offset k) const {
+    auto const place = static_cast<std::size_t>(k);
+    return rounded_ ? static_cast<double>(gradient_[place]) : s_[place];
+  }
 
   Index particles_ = 0;
-  std::vector<Index> begin_, neighbour_, kinematic_, target_;
+  bool published_ = false, rounded_ = false, deleted_ = false;
+  std::vector<Offset> begin_;
+  std::vector<Index> neighbour_, kinematic_, target_;
+  std::vector<float> gradient_;
   std::vector<double> s_, W_;
-  std::vector<int> count_;
+  std::vector<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
   std::vector<Correction> correction_;
+  std::vector<MaterialCorrection> moments_;
 };
 
 }  // namespace piola::adaptle

@@ -2,90 +2,182 @@
 #pragma once
 #include "piola/formulations/adaptle/viscosity.hpp"
 
-/// Sums over reference neighbours: set (2) of the paper.
+/// Sums over reference neighbours with the gradient G_ab = K_a s r, r = X_b - X_a, in the owner form: two sweeps, of
+/// which the first does all that needs velocities. Momentum and energy close pair by pair. docs/theory/adaptle.md,
+/// "Sums over reference neighbours".
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// F_a = I + sum_b V0_b (u_b - u_a) (x) G_ab and its rate with the velocities of half time, eq. (13).
-template <int D>
+/// s of the pairs as they are stored: doubles for plain gradients, floats where K makes up for the rounding.
+template <class Gradient>
+PIOLA_FN Gradient const* gradients_of(MaterialTable const& table) {
+  if constexpr (std::is_same_v<Gradient, float>)
+    return table.gradient;
+  else
+    return table.s;
+}
+
+/// First sweep: F_a = I + sum_b V0_b (u_b - u_a) (x) G_ab, its rate with the velocities of half time (13), and what
+/// acts between total-Lagrangian particles beside stress. With w = v_b - v_a and x = x_b - x_a:
+///   viscosity   -V0_a V0_b s rho0 q (r.r + 0.01 h^2)/(x.x + 0.01 h^2) x,   q = (beta mu - alpha c) mu,
+///               along the line of centres, half its power as heat on each side
+///   damping     t_ab = zeta rho0 c h V0_a V0_b s (w - dF_a/dt r)/2, which a owns with all its heat, w.t_ab
+/// Of the damping the part with dF_b/dt comes with the second sweep: it has the form of the stress forces.
+template <int D, class Gradient>
 struct DeformSweep {
-  using R = MotionRecord<D>;
+  using R = MaterialRecord<D>;
   MaterialTable table;
   State const* state;
   Half const* half;
+  Reference const* reference;
   BodyConstants const* body;
   int const* body_of;
-  bool corrected;
   Deformation* out;
+  Sums* sums;
 
   PIOLA_FN void operator()(Range block, Index) const {
     for (Index t = block.first; t < block.last; ++t) visit(table.kinematic[t]);
   }
 
  private:
-  static constexpr int du = 0, dv = D * D, uW = 2 * D * D, vW = uW + D, count = vW + D;
+  struct Accumulated {
+    static constexpr int du = 0, dv = D * D, T = 2 * D * D, heat = T + D, count = heat + 1;
+    Lanes a[count];
+    Lanes mu;
+    bool eulerian = false;  ///< some neighbour is not total-Lagrangian
+  };
+  /// What pairs of one body share.
+  struct PairConstants {
+    double damping, rho0, alpha_c, beta, h, core;
+    PIOLA_FN explicit PairConstants(BodyConstants const& b)
+        : damping(damping_of(b)), rho0(b.rho0), alpha_c(b.alpha * b.c), beta(b.beta), h(b.h), core(0.01 * b.h * b.h) {}
+  };
 
   PIOLA_FN void visit(Index i) const {
-    double const* own = table.motion + static_cast<std::ptrdiff_t>(i) * R::stride;
     if (!(state[i].alive > 0)) return;  // deleted: frozen
-    Lanes sum[count];
-    for (auto& a : sum) a = Lanes(0.0);
-    for (Index k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
-      Lanes f[R::values];
-      load_records<R::values>(table.motion, R::stride, table.neighbour + k, f);
-      Vec<D, Lanes> const r = difference<D>(f, R::X, own), u = difference<D>(f, R::u, own),
-                          v = difference<D>(f, R::v, own);
-      Lanes const Vs = f[R::volume] * load<Lanes>(table.s + k);
-      for (int p = 0; p < D; ++p) {
-        Lanes const a = Vs * u[p], b = Vs * v[p];
-        for (int q = 0; q < D; ++q) {
-          sum[du + p * D + q] += a * r[q];
-          sum[dv + p * D + q] += b * r[q];
-        }
-      }
-      if (corrected) {
-        Lanes const VW = f[R::volume] * load<Lanes>(table.W + k);
-        for (int p = 0; p < D; ++p) {
-          sum[uW + p] += VW * u[p];
-          sum[vW + p] += VW * v[p];
-        }
+    double const* own = table.record + static_cast<std::ptrdiff_t>(i) * R::stride;
+    PairConstants const constants(body[body_of[i]]);
+    bool const lagrangian = own[R::viscosity] > 0;
+    Accumulated sum;
+    Lanes const zeros = zeros_from(own[R::volume]);
+    for (auto& a : sum.a) a = zeros;
+    sum.mu = zeros;
+    for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
+      Lanes f[R::A];
+      load_components<R::A>(table.record, R::stride, table.neighbour + k, f);
+      add_pairs(own, f, load_gradients(gradients_of<Gradient>(table) + k), constants, lagrangian, sum);
+    }
+    store(i, own, constants, lagrangian, sum);
+  }
+
+  PIOLA_FN void add_pairs(double const* own, Lanes const* f, Lanes const& s, PairConstants const& b, bool lagrangian,
+                          Accumulated& sum) const {
+    Vec<D, Lanes> const r = difference<D>(f, R::X, own), u = difference<D>(f, R::u, own),
+                        w = difference<D>(f, R::v, own);
+    Lanes const Vs = f[R::volume] * s;
+    for (int p = 0; p < D; ++p) {
+      Lanes const a = Vs * u[p], c = Vs * w[p];
+      for (int q = 0; q < D; ++q) {
+        sum.a[Accumulated::du + p * D + q] += a * r[q];
+        sum.a[Accumulated::dv + p * D + q] += c * r[q];
       }
     }
-    double a[whole(count)];
-    total(sum, a);
-    Correction const& k = table.correction[i];
+    if (!lagrangian) return;
+    auto const other = f[R::viscosity] < 0.0;
+    sum.eulerian = sum.eulerian || any(other);
+    Lanes const weight = select(other, Lanes(0.0), Vs);
+    Vec<D, Lanes> x;
+    for (int p = 0; p < D; ++p) x[p] = r[p] + u[p];
+    Lanes const closing = select(weight > 0.0, minimum(dot(w, x), Lanes(0.0)), Lanes(0.0));
+    Lanes const share = 1.0 / (dot(x, x) + b.core), mu = (b.h * closing) * share;
+    sum.mu = minimum(sum.mu, mu);
+    Lanes const factor = 0.5 * (f[R::viscosity] + own[R::viscosity]);
+    // Between particles whose stretch is the same this is the J^-1 F^-T r of set (2) along principal directions.
+    Lanes const push = (b.rho0 * (b.beta * mu - b.alpha_c) * mu) * ((dot(r, r) + b.core) * share) * (factor * weight),
+                pull = b.damping * weight;
+    for (int p = 0; p < D; ++p) sum.a[Accumulated::T + p] += pull * w[p] - push * x[p];
+    sum.a[Accumulated::heat] += 0.5 * (pull * dot(w, w) - push * closing);
+  }
+
+  PIOLA_FN void store(Index i, double const* own, PairConstants const& b, bool lagrangian,
+                      Accumulated const& sum) const {
+    double a[whole(Accumulated::count)];
+    total(sum.a, a);
+    MaterialCorrection const& k = table.moments[i];
     Deformation& d = out[i];
-    for (int p = 0; p < 3; ++p)
-      for (int q = 0; q < 3; ++q) {
-        d.F[3 * p + q] = p == q ? 1 : 0;
-        d.rate[3 * p + q] = 0;
-      }
+    for (int c = 0; c < 9; ++c) {
+      d.F[c] = c % 4 == 0 ? 1 : 0;
+      d.rate[c] = 0;
+    }
     for (int p = 0; p < D; ++p)
       for (int q = 0; q < D; ++q)
         for (int l = 0; l < D; ++l) {
-          double const K = k.K[3 * q + l] / k.S, shift = k.G[l] / k.S;
-          d.F[3 * p + q] += (a[du + p * D + l] - a[uW + p] * shift) * K;
-          d.rate[3 * p + q] += (a[dv + p * D + l] - a[vW + p] * shift) * K;
+          double const K = k.K[SymMat<D>::at(q, l)];
+          d.F[3 * p + q] += a[Accumulated::du + p * D + l] * K;
+          d.rate[3 * p + q] += a[Accumulated::dv + p * D + l] * K;
         }
     if constexpr (D < 3) d.F[8] = half[i].thickness;
     d.gap = 0;
+    if (!lagrangian) return;
+    Sums& to = sums[i];
+    double const volume = reference[i].volume;
+    double heat = a[Accumulated::heat];
+    for (int p = 0; p < D; ++p) {
+      to.force[p] += volume * a[Accumulated::T + p];
+      for (int q = 0; q < D; ++q) heat -= 0.5 * b.damping * d.rate[3 * p + q] * a[Accumulated::dv + p * D + q];
+    }
+    to.heat += volume * heat;
+    double const mu = largest_of(-1.0 * sum.mu);
+    to.compression = mu > to.compression ? mu : to.compression;
+    if (sum.eulerian) leave_out_others(i, own, b, d, to);
+  }
+
+  /// Takes neighbours that are not total-Lagrangian out of the damping, and sees how far they have gone from where the
+  /// deformation gradient would put them.
+  PIOLA_FN void leave_out_others(Index i, double const* own, PairConstants const& b, Deformation& d, Sums& to) const {
+    Lanes sum[D + 1], gap = Lanes(0.0);
+    for (auto& a : sum) a = Lanes(0.0);
+    for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
+      Lanes f[R::A];
+      load_components<R::A>(table.record, R::stride, table.neighbour + k, f);
+      auto const other = f[R::viscosity] < 0.0;
+      if (!any(other)) continue;
+      Vec<D, Lanes> const r = difference<D>(f, R::X, own), u = difference<D>(f, R::u, own),
+                          w = difference<D>(f, R::v, own);
+      Lanes const weight = select(other, f[R::volume] * load_gradients(gradients_of<Gradient>(table) + k), Lanes(0.0));
+      Lanes square = Lanes(0.0);
+      for (int p = 0; p < D; ++p) {
+        Lanes away = r[p] + u[p], explained = Lanes(0.0);
+        for (int q = 0; q < D; ++q) {
+          away -= d.F[3 * p + q] * r[q];
+          explained += d.rate[3 * p + q] * r[q];
+        }
+        square += away * away;
+        sum[p] += weight * explained;
+        sum[D] += weight * explained * w[p];
+      }
+      gap = maximum(gap, select(weight > 0.0, square, Lanes(0.0)));
+    }
+    double a[whole(D + 1)];
+    total(sum, a);
+    double const volume = reference[i].volume;
+    for (int p = 0; p < D; ++p) to.force[p] += 0.5 * b.damping * volume * a[p];
+    to.heat += 0.5 * b.damping * volume * a[D];
+    d.gap = std::sqrt(largest_of(gap)) / b.h;
   }
 };
 
-/// Material forces of one target. With r = X_b - X_a, g = s r:
-///   t_ab = V0_b (A_a g - a_a W),  F_a += sum_b t_ab - t_ba
-///        + m_a m_b Pi/2 (J_a^-1 F_b^-T G_ba - J_b^-1 F_a^-T G_ab)
-/// Eulerian particles have A = 0 in the owner form; a total-Lagrangian pair has its viscosity here.
-template <int D>
+/// Second sweep: stress forces with t_ab = V0_b A_a s r, F_a += sum_b t_ab - t_ba. The own part is A_a times the
+/// constant sum_b V0_b s r. A of total-Lagrangian particles carries their half of the damping, -(zeta rho0 c h/2) V0
+/// dF/dt, which is meant for total-Lagrangian neighbours alone.
+template <int D, class Gradient>
 struct MaterialSweep {
-  using R = ForceRecord<D>;
-  using N = ViscousRecord<D>;
+  using R = MaterialRecord<D>;
   MaterialTable table;
-  Settings settings;
   BodyConstants const* body;
   int const* body_of;
   Reference const* reference;
   State const* state;
-  Deformation* deformation;
+  Deformation const* deformation;
   Sums* sums;
 
   PIOLA_FN void operator()(Range block, Index) const {
@@ -93,119 +185,51 @@ struct MaterialSweep {
   }
 
  private:
-  struct Accumulated {
-    static constexpr int G = 0, W = D, Q = D + 1, T = 2 * D + 1, heat = 3 * D + 1, count = heat + 1;
-    Lanes a[count];
-    Lanes gap, mu;
-  };
-
   PIOLA_FN void visit(Index i) const {
     if (!(state[i].alive > 0)) return;
-    double const *own = table.force + static_cast<std::ptrdiff_t>(i) * R::stride,
-                 *viscous = table.viscous + static_cast<std::ptrdiff_t>(i) * N::stride;
-    BodyConstants const& b = body[body_of[i]];
-    Accumulated sum;
-    for (auto& a : sum.a) a = Lanes(0.0);
-    sum.gap = sum.mu = Lanes(0.0);
-    bool const lagrangian = !(own[R::phi] > 0), tethers = lagrangian && b.tether > 0 && b.adaptive;
-    bool const printed = settings.interface_form == Interface::printed;
-    if (printed && !lagrangian) return;
-    for (Index k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
-      Lanes f[R::values];
-      load_records<R::values>(table.force, R::stride, table.neighbour + k, f);
-      Lanes const s = load<Lanes>(table.s + k), W = load<Lanes>(table.W + k);
-      Vec<D, Lanes> const r = difference<D>(f, R::X, own);
-      Lanes const volume = f[R::volume], Vs = volume * s;
-      sum.a[Accumulated::W] += volume * W;
+    double const* own = table.record + static_cast<std::ptrdiff_t>(i) * R::stride;
+    Lanes sum[D];
+    for (auto& a : sum) a = Lanes(0.0);
+    for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
+      constexpr int X = 0, A = R::A - R::X, values = A + D * D;
+      Lanes f[values];
+      load_components<values>(table.record + R::X, R::stride, table.neighbour + k, f);
+      Vec<D, Lanes> const r = difference<D>(f, X, own + R::X);
+      Lanes const s = load_gradients(gradients_of<Gradient>(table) + k);
       for (int p = 0; p < D; ++p) {
-        sum.a[Accumulated::G + p] += Vs * r[p];
-        Lanes reaction = Lanes(0.0);
-        for (int q = 0; q < D; ++q) reaction += f[R::A + p * D + q] * r[q];
-        sum.a[Accumulated::Q + p] += s * reaction + f[R::a + p] * W;
+        Lanes reaction = f[A + p * D] * r[0];
+        for (int q = 1; q < D; ++q) reaction += f[A + p * D + q] * r[q];
+        sum[p] += s * reaction;
       }
-      if (tethers && any(f[R::phi] > 0.0)) sum.gap = maximum(sum.gap, gap_of(f, r, own, deformation[i]));
-      if (lagrangian && b.hourglass > 0) add_damping(i, k, own, f, r, s, b, sum);
-      if (lagrangian) add_viscosity(i, k, own, viscous, f, r, s, W, b, printed, sum);
     }
-    store(i, own, b, sum);
+    if (!(own[R::viscosity] > 0) && body[body_of[i]].hourglass > 0) leave_out_damping(i, own, sum);
+    double a[whole(D)];
+    total(sum, a);
+    double const volume = reference[i].volume;
+    MaterialCorrection const& k = table.moments[i];
+    for (int p = 0; p < D; ++p) {
+      double force = volume * a[p];
+      for (int q = 0; q < D; ++q) force += own[R::A + p * D + q] * k.G[q];
+      sums[i].force[p] += force;
+    }
   }
 
-  /// |x_b - x_a - F_a (X_b - X_a)|^2 of Eulerian neighbours, zero of others.
-  PIOLA_FN static Lanes gap_of(Lanes const* f, Vec<D, Lanes> const& r, double const* own, Deformation const& d) {
-    Lanes square = Lanes(0.0);
-    for (int p = 0; p < D; ++p) {
-      Lanes gap = f[R::x + p] - own[R::x + p];
-      for (int q = 0; q < D; ++q) gap -= d.F[3 * p + q] * r[q];
-      square += gap * gap;
+  /// Particles that are not total-Lagrangian do not feel the damping that comes with A of their neighbours.
+  PIOLA_FN void leave_out_damping(Index i, double const* own, Lanes (&sum)[D]) const {
+    double const damping = 0.5 * damping_of(body[body_of[i]]);
+    for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
+      Lanes f[R::A];
+      load_components<R::A>(table.record, R::stride, table.neighbour + k, f);
+      Lanes const s = load_gradients(gradients_of<Gradient>(table) + k),
+                  weight = select(f[R::viscosity] > 0.0, damping * f[R::volume] * s, Lanes(0.0));
+      if (!any(weight > 0.0)) continue;
+      Vec<D, Lanes> const r = difference<D>(f, R::X, own);
+      constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 rate, rows of three
+      Lanes rate[used];
+      load_components<used>(deformation->rate, sizeof(Deformation) / sizeof(double), table.neighbour + k, rate);
+      for (int p = 0; p < D; ++p)
+        for (int q = 0; q < D; ++q) sum[p] += weight * rate[3 * p + q] * r[q];
     }
-    return select(f[R::phi] > 0.0 && f[R::volume] > 0.0, square, Lanes(0.0));
-  }
-
-  /// Damping of what the velocity gradients of both ends do not explain, e = v_b - v_a - (dF_a/dt + dF_b/dt)/2 r:
-  /// force on a  zeta rho0 c h V0_a V0_b s e, opposite on b, and half its power as heat on each. Linear motions have
-  /// none.
-  PIOLA_FN void add_damping(Index i, Index k, double const* own, Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s,
-                            BodyConstants const& b, Accumulated& sum) const {
-    constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 rate, rows of three
-    Lanes rate[used];
-    load_records<used>(deformation->rate, sizeof(Deformation) / sizeof(double), table.neighbour + k, rate);
-    double const* own_rate = deformation[i].rate;
-    Lanes const weight = (b.hourglass * b.c * b.h) * s * select(f[R::phi] > 0.0, Lanes(0.0), f[R::volume]);
-    Lanes power = Lanes(0.0);
-    for (int p = 0; p < D; ++p) {
-      Lanes e = f[R::v + p] - own[R::v + p];
-      for (int q = 0; q < D; ++q) e -= 0.5 * (rate[3 * p + q] + own_rate[3 * p + q]) * r[q];
-      Lanes const extra = weight * e;
-      sum.a[Accumulated::T + p] += extra;
-      power += extra * (f[R::v + p] - own[R::v + p]);
-    }
-    sum.a[Accumulated::heat] += 0.5 * power;
-  }
-
-  PIOLA_FN void add_viscosity(Index, Index k, double const* own, double const* viscous, Lanes const* f,
-                              Vec<D, Lanes> const& r, Lanes const& s, Lanes const& W, BodyConstants const& b,
-                              bool printed, Accumulated& sum) const {
-    Vec<D, Lanes> const x = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
-    Lanes closing = minimum(dot(w, x), Lanes(0.0)) * select(s != 0.0, Lanes(1.0), Lanes(0.0));
-    if (!printed) closing = select(f[R::phi] > 0.0, Lanes(0.0), closing);
-    if (!any(closing < 0.0)) return;
-    Lanes other[N::values];
-    load_records<N::values>(table.viscous, N::stride, table.neighbour + k, other);
-    auto const [mu, plain] = viscous_pair(b.alpha, b.beta, b.h, closing, dot(x, x), other[N::c] + viscous[N::c],
-                                          other[N::rho] + viscous[N::rho]);
-    sum.mu = maximum(sum.mu, -1.0 * mu);
-    Lanes const pressure = plain * (0.5 * (other[N::viscosity] + viscous[N::viscosity]));
-    Lanes const here = Lanes(viscous[N::inverse_J]), there = other[N::inverse_J];
-    Lanes power = Lanes(0.0);
-    for (int p = 0; p < D; ++p) {
-      Lanes own_part = Lanes(0.0), other_part = Lanes(0.0);
-      for (int q = 0; q < D; ++q) {
-        own_part += viscous[N::N + p * D + q] * r[q];
-        other_part += other[N::N + p * D + q] * r[q];
-      }
-      own_part = s * own_part - viscous[N::n + p] * W;
-      other_part = s * other_part + other[N::n + p] * W;
-      Lanes const extra = (-0.5 * b.rho0) * (f[R::volume] * pressure) * (here * other_part + there * own_part);
-      sum.a[Accumulated::T + p] += extra;
-      power += extra * w[p];
-    }
-    sum.a[Accumulated::heat] += 0.5 * power;
-  }
-
-  PIOLA_FN void store(Index i, double const* own, BodyConstants const& b, Accumulated const& sum) const {
-    double a[whole(Accumulated::count)];
-    total(sum.a, a);
-    Sums& out = sums[i];
-    double const mass = reference[i].mass, volume = reference[i].volume;
-    for (int p = 0; p < D; ++p) {
-      double force = volume * a[Accumulated::Q + p] - own[R::a + p] * a[Accumulated::W] + mass * a[Accumulated::T + p];
-      for (int q = 0; q < D; ++q) force += own[R::A + p * D + q] * a[Accumulated::G + q];
-      out.force[p] += force;
-    }
-    out.heat += mass * a[Accumulated::heat];
-    double const mu = largest_of(sum.mu);
-    out.compression = mu > out.compression ? mu : out.compression;
-    if (!(own[R::phi] > 0)) deformation[i].gap = std::sqrt(largest_of(sum.gap)) / b.h;
   }
 };
 

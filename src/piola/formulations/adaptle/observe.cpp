@@ -14,7 +14,6 @@ namespace {
 struct Point {
   State const& s;
   Reference const& r;
-  Deformation const& d;
   double pressure, rho0, body, neighbours, id;
 };
 
@@ -85,7 +84,6 @@ void sample(Particles const& particles, std::string_view field, std::span<double
     int const body = s.body_of[i];
     Point const p{s.state[i],
                   s.reference[i],
-                  s.deformation[i],
                   pressure,
                   s.body[body].rho0,
                   static_cast<double>(body),

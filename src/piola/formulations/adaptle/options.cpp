@@ -14,6 +14,7 @@ constexpr std::array<std::string_view, 4> description_words{"adaptive", "total_l
 constexpr std::array<std::string_view, 2> interface_words{"owner", "printed"};
 constexpr std::array<std::string_view, 3> correction_words{"material", "none", "mixed"};
 constexpr std::array<std::string_view, 4> viscosity_words{"monaghan", "balsara", "morris_monaghan", "riemann"};
+constexpr std::array<std::string_view, 2> form_words{"central", "printed"};
 constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
 constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
@@ -38,6 +39,10 @@ constexpr std::array choices{
            "artificial viscosity, its switch, or a flux from Riemann problems (all Eulerian, no correction)",
            viscosity_words},
     Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
+    Choice{"viscosity_form",
+           "force of viscosity between total-Lagrangian particles; central: along the line between them, keeps angular "
+           "momentum, fast; printed: set (2), which correction = \"mixed\" and interface = \"printed\" always have",
+           form_words},
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
     Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
     Choice{"failed",
@@ -159,6 +164,7 @@ Settings read_settings(FormulationSpec const& spec) {
   s.mixed_stress = static_cast<MixedStress>(place_of_word(spec, "artificial_stress_interface", mixed_words));
   s.corrected = word(spec, "correction") == "mixed";
   s.corrected_material = word(spec, "correction") != "none";
+  s.published = s.interface_form == Interface::printed || s.corrected || word(spec, "viscosity_form") == "printed";
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
   s.artificial_stress = number(spec, "artificial_stress") > 0 && s.viscosity != Viscosity::riemann;
@@ -168,8 +174,8 @@ Settings read_settings(FormulationSpec const& spec) {
 
 /// Words and numbers that pairs of different bodies share.
 void check_alike(Assembly const& assembly, Problems& problems) {
-  constexpr std::array<std::string_view, 5> shared{"interface", "correction", "viscosity",
-                                                   "artificial_stress_interface", "assumption"};
+  constexpr std::array<std::string_view, 6> shared{
+      "interface", "correction", "viscosity", "viscosity_form", "artificial_stress_interface", "assumption"};
   auto const& first = assembly.formulations.front();
   for (std::size_t b = 1; b < assembly.formulations.size(); ++b) {
     auto const& other = assembly.formulations[b];

@@ -129,9 +129,6 @@ void Particles::set_particles(Assembly const& assembly) {
   std::size_t const n = state_.size();
   rates_.resize(n);
   half_.resize(n);
-  deformation_.resize(n + 2);  // loops read whole lanes of a filler after the last
-  for (auto& d : deformation_)
-    for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
   sums_.resize(n);
   wish_.resize(n);
   if (options_.settings.corrected) correction_.resize(n);
@@ -165,7 +162,6 @@ void Particles::allocate(Assembly const& assembly) {
   s.state = state_.data();
   s.rates = rates_.data();
   s.half = half_.data();
-  s.deformation = deformation_.data();
   s.correction = correction_.data();
   s.sums = sums_.data();
   s.wish = wish_.data();
@@ -205,9 +201,21 @@ void Particles::set_descriptions(Assembly const& assembly) {
   }
   lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
   if (!lagrangian_) return;
-  material_.build(assembly.particles, body_, reference_, options_.settings.corrected_material, machine_->lanes);
+  deformation_.resize(state_.size() + 2);  // loops read whole lanes of a filler after the last
+  for (auto& d : deformation_)
+    for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
+  system_.deformation = deformation_.data();
+  material_.build(assembly.particles, body_, reference_, options_.settings, machine_->lanes);
   auto const records = [&](int stride) { return Memory((state_.size() + 1) * static_cast<std::size_t>(stride)); };
   bool const flat = system_.dimension == 2;
+  if (!options_.settings.published) {
+    int const stride = flat ? MaterialRecord<2>::stride : MaterialRecord<3>::stride;
+    material_records_ = records(stride);
+    double* filler = material_records_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
+    filler[flat ? MaterialRecord<2>::viscosity : MaterialRecord<3>::viscosity] = 1;
+    system_.material.record = material_records_.data();
+    return;
+  }
   motion_ = records(flat ? MotionRecord<2>::stride : MotionRecord<3>::stride);
   force_ = records(flat ? ForceRecord<2>::stride : ForceRecord<3>::stride);
   int const stride = flat ? ViscousRecord<2>::stride : ViscousRecord<3>::stride;
@@ -227,10 +235,9 @@ void Particles::choose_material() {
   system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
   lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
   if (!material_.built()) return;
-  material_.choose(state_, options_.settings.interface_form == Interface::printed, deformation_);
+  material_.choose(state_, reference_, options_.settings.interface_form == Interface::printed, deformation_);
   material_.put_into(system_.material);
-  if (lagrangian_) return;
-  system_.material.motion = system_.material.force = nullptr;
+  system_.material.used = lagrangian_;
 }
 
 void Particles::set_initial_pressure() {
@@ -425,10 +432,11 @@ double Particles::kinetic_energy() const {
 }
 
 std::size_t Particles::bytes() const {
-  return state_.size() * (sizeof(Reference) + sizeof(State) + sizeof(Rates) + sizeof(Half) + sizeof(Deformation) +
-                          sizeof(Sums) + sizeof(int)) +
-         correction_.size() * sizeof(Correction) + motion_.bytes() + force_.bytes() + viscous_.bytes() +
-         material_.bytes() + spatial_.bytes();
+  return state_.size() *
+             (sizeof(Reference) + sizeof(State) + sizeof(Rates) + sizeof(Half) + sizeof(Sums) + sizeof(int)) +
+         sizeof(Deformation) * deformation_.size() + sizeof(double) * position_.size() +
+         correction_.size() * sizeof(Correction) + material_records_.bytes() + motion_.bytes() + force_.bytes() +
+         viscous_.bytes() + material_.bytes() + spatial_.bytes();
 }
 
 void Particles::resumed() {

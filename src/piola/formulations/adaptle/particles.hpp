@@ -54,7 +54,7 @@ class Particles {
   void each_array(F const& f) {
     f("state", reinterpret_cast<double*>(state_.data()), State::values);
     f("rates", reinterpret_cast<double*>(rates_.data()), Rates::values);
-    f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
+    if (!deformation_.empty()) f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
   }
   double* books_data() { return reinterpret_cast<double*>(&books_); }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
@@ -97,7 +97,7 @@ class Particles {
   std::vector<std::uint8_t> eulerian_;
   MaterialLists material_;
   SpatialLists spatial_;
-  Memory motion_, force_, viscous_;
+  Memory material_records_, motion_, force_, viscous_;
   std::vector<ContactPair> contact_pairs_;
   std::vector<double> partial_, rigid_power_, initial_pressure_;
   FailureSlot failure_;

@@ -38,9 +38,10 @@ struct Predict {
   State* state;
   Rates const* rates;
   Half* half;
+  Sums* sums;
   double* position;
-  bool releases;   ///< failed particles bear no shear
-  double* motion;  ///< records; null: nobody is total-Lagrangian
+  bool releases;  ///< failed particles bear no shear
+  MaterialTable material;
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Range block, Index) const {
@@ -64,18 +65,41 @@ struct Predict {
     SymMat<3> trial;
     for (int c = 0; c < 6; ++c) trial.c[c] = s.S[c] + step * k.S[c];
     bool const bears = s.alive > 0 && !(releases && s.damage >= 1);
-    SymMat<3> const S = bears ? law.returned(history_of(s, s.S), trial, step) : SymMat<3>{};
+    SymMat<3> const S = bears ? law.predicted(history_of(s, s.S), trial, k.flow, step) : SymMat<3>{};
     for (int c = 0; c < 6; ++c) out.S[c] = S.c[c];
     out.energy = s.energy + step * k.energy;
     out.thickness = s.thickness + step * k.thickness;
     out.rho = s.rho + step * k.rho;
-    if (motion == nullptr) return;
+    sums[i] = Sums{};
+    if (!material.used) return;
+    if (material.record != nullptr)
+      write_record(i, s, out);
+    else
+      write_published(i, s, out);
+  }
+
+  /// Deleted particles have no volume; the rest of what they say does not matter.
+  PIOLA_FN void write_record(Index i, State const& s, Half const& h) const {
+    using R = MaterialRecord<D>;
+    double* record = material.record + static_cast<std::ptrdiff_t>(i) * R::stride;
+    for (int c = 0; c < D; ++c) {
+      double const X = reference[i].X[c];
+      record[R::u + c] = s.x[c] - X;
+      record[R::v + c] = h.v[c];
+      record[R::X + c] = X;
+    }
+    record[R::volume] = s.alive > 0 ? reference[i].volume : 0;
+    double const factor = s.viscosity > 1e-300 ? s.viscosity : 1e-300;
+    record[R::viscosity] = s.phi > 0 && s.alive > 0 ? -factor : factor;
+  }
+
+  PIOLA_FN void write_published(Index i, State const& s, Half const& h) const {
     using R = MotionRecord<D>;
-    double* record = motion + static_cast<std::ptrdiff_t>(i) * R::stride;
+    double* record = material.motion + static_cast<std::ptrdiff_t>(i) * R::stride;
     for (int c = 0; c < D; ++c) {
       record[R::X + c] = reference[i].X[c];
       record[R::u + c] = s.x[c] - reference[i].X[c];
-      record[R::v + c] = out.v[c];
+      record[R::v + c] = h.v[c];
     }
     record[R::volume] = s.alive > 0 ? reference[i].volume : 0;
   }
@@ -105,7 +129,7 @@ struct HalfState {
     State const& s = state[i];
     Half& h = half[i];
     double J = 1;
-    if (material.force != nullptr && s.phi < 1) {
+    if (material.used && s.phi < 1) {
       J = determinant(matrix_of(deformation[i].F));
       if (!(J > 0)) exec::record(failure, i, inverted);
     }
@@ -121,7 +145,39 @@ struct HalfState {
     for (int p = 0; p < D; ++p)
       for (int q = p; q < D; ++q) plane(p, q) = stress(p, q);
     if (spatial.record != nullptr && (spatial.near == nullptr || spatial.near[i] != 0)) write_spatial(i, s, h, plane);
-    if (material.force != nullptr) write_material(i, s, h, plane, J);
+    if (!material.used) return;
+    if (material.record != nullptr)
+      write_record(i, s, h, plane, J);
+    else
+      write_published(i, s, h, plane, J);
+  }
+
+  /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from the density where that
+  /// is evolved.
+  PIOLA_FN void write_record(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
+    using R = MaterialRecord<D>;
+    double* A = material.record + static_cast<std::ptrdiff_t>(i) * R::stride + R::A;
+    if (!(s.phi < 1 && s.alive > 0)) {
+      for (int c = 0; c < D * D; ++c) A[c] = 0;
+      return;
+    }
+    double const* K = material.moments[i].K;
+    Deformation const& d = deformation[i];
+    Mat<D> F, N;
+    for (int p = 0; p < D; ++p)
+      for (int q = 0; q < D; ++q) {
+        F(p, q) = d.F[3 * p + q];
+        N(p, q) = K[SymMat<D>::at(p, q)];
+      }
+    double const V0 = reference[i].volume, weight = (1 - s.phi) * (s.phi > 0 ? h.volume * h.thickness : J * V0),
+                 damping = s.phi > 0 ? 0 : 0.5 * damping_of(body) * V0;
+    Mat<D> const FN = transpose(inverse(F)) * N;
+    for (int p = 0; p < D; ++p)
+      for (int q = 0; q < D; ++q) {
+        double sum = 0;
+        for (int l = 0; l < D; ++l) sum += stress(p, l) * FN(l, q);
+        A[p * D + q] = weight * sum - damping * d.rate[3 * p + q];
+      }
   }
 
   PIOLA_FN void write_spatial(Index i, State const& s, Half const& h, SymMat<D> const& stress) const {
@@ -147,7 +203,7 @@ struct HalfState {
       for (int c = R::M + SymMat<D>::size; c < R::R; ++c) r[c] = 0;
   }
 
-  PIOLA_FN void write_material(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
+  PIOLA_FN void write_published(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
     using R = ForceRecord<D>;
     using V = ViscousRecord<D>;
     double *r = material.force + static_cast<std::ptrdiff_t>(i) * R::stride,

@@ -3,7 +3,7 @@
 #include "piola/formulations/adaptle/state.hpp"
 #include "piola/kernels/cubic_spline.hpp"
 #include "piola/math/tensor.hpp"
-#include "piola/neighbours/records.hpp"
+#include "piola/neighbours/partial_records.hpp"
 
 /// What neighbours read of a particle: records of doubles, a multiple of eight long, and the kernel between two of
 /// them.
@@ -26,20 +26,30 @@ struct SpatialRecord {
   static constexpr int stride(bool stressed) { return whole(values(stressed)); }
 };
 
-/// For the sums of the deformation gradient: reference position, displacement, velocity, reference volume.
+/// For sums over reference neighbours. Displacement, velocity of half time, reference volume, factor of the viscosity
+/// (negative: not total-Lagrangian), reference position; the first sweep reads so far. A = (1 - phi) V0 P K; the second
+/// reads X and A, in three dimensions the second and third cache line.
+template <int D>
+struct MaterialRecord {
+  static constexpr int u = 0, v = D, volume = 2 * D, viscosity = 2 * D + 1, X = 2 * D + 2, A = X + D,
+                       values = A + D * D, stride = whole(values);
+};
+
+/// As published, for the sums of the deformation gradient: reference position, displacement, velocity, reference
+/// volume.
 template <int D>
 struct MotionRecord {
   static constexpr int X = 0, u = D, v = 2 * D, volume = 3 * D, values = 3 * D + 1, stride = whole(values);
 };
 
-/// For material forces: A = (1 - phi) V0 P N and a = (1 - phi) V0 P n.
+/// As published, for material forces: A = (1 - phi) V0 P N and a = (1 - phi) V0 P n.
 template <int D>
 struct ForceRecord {
   static constexpr int X = 0, x = D, v = 2 * D, A = 3 * D, a = A + D * D, volume = a + D, phi = volume + 1,
                        values = phi + 1, stride = whole(values);
 };
 
-/// For viscosity in the material description: N = F^-T K/S, n = F^-T K G/S^2.
+/// As published, for viscosity in the material description: N = F^-T K/S, n = F^-T K G/S^2.
 template <int D>
 struct ViscousRecord {
   static constexpr int N = 0, n = D * D, inverse_J = n + D, rho = inverse_J + 1, c = rho + 1, viscosity = c + 1,
@@ -58,17 +68,31 @@ struct Kernel {
   template <class T>
   PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
     T const inverse_r = inverse_square_root(maximum(square, T(1e-300)));
-    T const q = square * inverse_r * inverse_h;
-    s = (-norm * inverse_h) * CubicSpline::dw(q) * inverse_r;
+    T const q = square * (inverse_r * inverse_h), scaled = (-norm * inverse_h) * inverse_r;
+    s = CubicSpline::dw(q) * scaled;
     W = norm * CubicSpline::w(q);
   }
 };
+
+/// Zeros to start sums from; the argument is any finite number. That they are zeros is not known to the compiler, which
+/// would else also write them to memory that nobody reads.
+PIOLA_FN Lanes zeros_from(double finite) { return Lanes(finite - finite); }
 
 template <int D>
 PIOLA_FN Vec<D, Lanes> difference(Lanes const* there, int at, double const* here) {
   Vec<D, Lanes> r;
   for (int c = 0; c < D; ++c) r[c] = there[at + c] - here[at + c];
   return r;
+}
+
+/// Values of the lanes that start at p, as doubles.
+PIOLA_FN Lanes load_gradients(double const* p) { return load<Lanes>(p); }
+PIOLA_FN Lanes load_gradients(float const* p) {
+#if PIOLA_HAS_PACKS
+  return Lanes(p, std::experimental::element_aligned);
+#else
+  return static_cast<double>(*p);
+#endif
 }
 
 PIOLA_FN double sum_of(Lanes const& a) {

@@ -35,7 +35,7 @@ struct RiemannSweep {
     for (Index k = 0; k < target.length; k += lane_count) {
       constexpr int values = R::values(false);
       Lanes f[values];
-      load_records<values>(table.record, table.stride, target.list + k, f);
+      load_components<values>(table.record, table.stride, target.list + k, f);
       add(own, f, kernel, b, sum, mu);
     }
     double a[whole(count)];

@@ -132,7 +132,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
     longest_ = longest;
     overflow_ = overflow_ || longest >= most_neighbours;
     if (longest <= list.capacity) return;
-    while (list.capacity < longest) list.capacity += 32;
+    while (list.capacity < longest) list.capacity += 16;
   }
 }
 

@@ -53,19 +53,20 @@ struct SpatialSweep {
     Kernel<D> const kernel(b.h);
     double const inverse_reference = 1 / kernel(b.spacing);
     Accumulated sum;
-    for (int c = 0; c < Accumulated::count; ++c) sum.a[c] = Lanes(0.0);
-    sum.mu = Lanes(0.0);
+    Lanes const zeros = zeros_from(target.own[R::volume]);
+    for (auto& a : sum.a) a = zeros;
+    sum.mu = zeros;
     for (Index k = 0; k < target.length; k += lane_count) {
-      constexpr int values = R::values(Stressed);
+      constexpr int values = Corrected ? R::N : R::values(Stressed);
       Lanes f[values];
-      load_records<values>(table.record, R::stride(Stressed), target.list + k, f);
-      add_pairs(target.own, f, b, kernel, inverse_reference, sum);
+      load_components<values>(table.record, R::stride(Stressed), target.list + k, f);
+      add_pairs(target.own, target.list + k, f, b, kernel, inverse_reference, sum);
     }
     store(target, sum);
   }
 
-  PIOLA_FN void add_pairs(double const* own, Lanes const* f, BodyConstants const& b, Kernel<D> const& kernel,
-                          double inverse_reference, Accumulated& sum) const {
+  PIOLA_FN void add_pairs(double const* own, Index const* list, Lanes const* f, BodyConstants const& b,
+                          Kernel<D> const& kernel, double inverse_reference, Accumulated& sum) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
     Lanes const square = dot(r, r);
     Lanes s, W;
@@ -83,8 +84,9 @@ struct SpatialSweep {
       sum.a[Accumulated::W] += VW;
       for (int i = 0; i < D; ++i) sum.a[Accumulated::LW + i] += VW * w[i];
     }
+    Lanes const closing = dot(w, r);
     auto const [mu, plain] =
-        viscous_pair(b.alpha, b.beta, b.h, dot(w, r), square, f[R::c] + own[R::c], f[R::rho] + own[R::rho]);
+        viscous_pair(b.alpha, b.beta, b.h, closing, square, f[R::c] + own[R::c], f[R::rho] + own[R::rho]);
     sum.mu = minimum(sum.mu, mu);
     // One description per pair: a total-Lagrangian pair has its viscosity from material sums.
     bool const here = own[R::viscosity] > 0;
@@ -97,10 +99,10 @@ struct SpatialSweep {
       stress_weight =
           whole_power(W * inverse_reference, settings.exponent) * mixed_weight(own[R::viscosity], f[R::viscosity]);
     }
-    if constexpr (Corrected)
-      add_extra(own, f, r, w, s, W, pressure, stress_weight, sum);
-    else
-      add_plain_extra(own, f, r, w, s, pressure, stress_weight, sum);
+    if constexpr (Corrected) {
+      if (Stressed || any(pressure > 0.0)) add_extra(own, list, f, r, w, s, W, pressure, stress_weight, sum);
+    } else
+      add_plain_extra(own, f, r, w, Vs, closing, pressure, stress_weight, sum);
   }
 
   /// Component i of M_b g + m_b W: minus t_ba over V_a.
@@ -126,47 +128,46 @@ struct SpatialSweep {
 
   /// The same with plain gradients, gt_ab = -gt_ba = g.
   PIOLA_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r, Vec<D, Lanes> const& w,
-                                Lanes const& s, Lanes const& pressure, Lanes const& stress_weight,
-                                Accumulated& sum) const {
+                                Lanes const& Vs, Lanes const& closing, Lanes const& pressure,
+                                Lanes const& stress_weight, Accumulated& sum) const {
     // Over V_a, as the sum Q: it shares its place.
-    Lanes const weight = own[R::rho] * (f[R::volume] * f[R::rho] * s);
-    Lanes power = Lanes(0.0);
-    for (int i = 0; i < D; ++i) {
-      Lanes extra = -1.0 * pressure * r[i];
-      if constexpr (Stressed) {
+    Lanes const weight = own[R::rho] * f[R::rho] * Vs, push = weight * pressure;
+    Lanes power = -1.0 * push * closing;
+    for (int i = 0; i < D; ++i) sum.a[Accumulated::Q + i] -= push * r[i];
+    if constexpr (Stressed) {
+      Lanes const pull = weight * stress_weight;
+      for (int i = 0; i < D; ++i) {
         Lanes bracket = Lanes(0.0);
         for (int j = 0; j < D; ++j) {
           int const c = R::R + SymMat<D>::at(i, j);
           bracket += (f[c] + own[c]) * r[j];
         }
-        extra += stress_weight * bracket;
+        Lanes const extra = pull * bracket;
+        sum.a[Accumulated::Q + i] += extra;
+        power += extra * w[i];
       }
-      extra = weight * extra;
-      sum.a[Accumulated::Q + i] += extra;
-      power += extra * w[i];
     }
     sum.a[Accumulated::heat] += power;
   }
 
-  /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity.
-  PIOLA_FN void add_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r, Vec<D, Lanes> const& w,
-                          Lanes const& s, Lanes const& W, Lanes const& pressure, Lanes const& stress_weight,
-                          Accumulated& sum) const {
+  /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity. Only they read the
+  /// rest of the records.
+  PIOLA_FN void add_extra(double const* own, Index const* list, Lanes const* f, Vec<D, Lanes> const& r,
+                          Vec<D, Lanes> const& w, Lanes const& s, Lanes const& W, Lanes const& pressure,
+                          Lanes const& stress_weight, Accumulated& sum) const {
+    constexpr int N = 0, n = R::n - R::N, tensor = R::R - R::N, values = R::values(Stressed) - R::N;
+    Lanes rest[values];
+    load_components<values>(table.record + R::N, R::stride(Stressed), list, rest);
     Lanes const mass = f[R::volume] * f[R::rho];
     Vec<D, Lanes> gt_ab, gt_ba;
     for (int i = 0; i < D; ++i) {
-      Lanes const g = s * r[i];
-      gt_ab[i] = g;
-      gt_ba[i] = -1.0 * g;
-      if constexpr (Corrected) {
-        Lanes here = Lanes(0.0), there = Lanes(0.0);
-        for (int j = 0; j < D; ++j) {
-          here += own[R::N + i * D + j] * r[j];
-          there += f[R::N + i * D + j] * r[j];
-        }
-        gt_ab[i] = s * here - own[R::n + i] * W;
-        gt_ba[i] = -1.0 * (s * there + f[R::n + i] * W);
+      Lanes here = Lanes(0.0), there = Lanes(0.0);
+      for (int j = 0; j < D; ++j) {
+        here += own[R::N + i * D + j] * r[j];
+        there += rest[N + i * D + j] * r[j];
       }
+      gt_ab[i] = s * here - own[R::n + i] * W;
+      gt_ba[i] = -1.0 * (s * there + rest[n + i] * W);
     }
     Lanes power = Lanes(0.0);
     for (int i = 0; i < D; ++i) {
@@ -174,7 +175,7 @@ struct SpatialSweep {
       if constexpr (Stressed) {
         Lanes bracket = Lanes(0.0);
         for (int j = 0; j < D; ++j)
-          bracket += f[R::R + SymMat<D>::at(i, j)] * gt_ba[j] - own[R::R + SymMat<D>::at(i, j)] * gt_ab[j];
+          bracket += rest[tensor + SymMat<D>::at(i, j)] * gt_ba[j] - own[R::R + SymMat<D>::at(i, j)] * gt_ab[j];
         extra -= stress_weight * bracket;
       }
       extra = mass * extra;
@@ -208,7 +209,8 @@ struct SpatialSweep {
       }
     }
     out.heat += 0.5 * (Corrected ? mass : own[R::volume]) * a[Accumulated::heat];
-    out.compression = largest_of(-1.0 * sum.mu);
+    double const mu = largest_of(-1.0 * sum.mu);
+    out.compression = mu > out.compression ? mu : out.compression;
   }
 };
 
@@ -235,10 +237,11 @@ struct CorrectSpatial {
     BodyConstants const& b = body[body_of[target.slot]];
     Kernel<D> const kernel(b.h);
     Lanes sum[width];
-    for (auto& a : sum) a = Lanes(0.0);
+    Lanes const zeros = zeros_from(target.own[R::volume]);
+    for (auto& a : sum) a = zeros;
     for (Index k = 0; k < target.length; k += lane_count) {
       Lanes f[R::volume + 1];
-      load_records<R::volume + 1>(table.record, table.stride, target.list + k, f);
+      load_components<R::volume + 1>(table.record, table.stride, target.list + k, f);
       Vec<D, Lanes> const r = difference<D>(f, R::x, target.own);
       Lanes s, W;
       kernel.evaluate(dot(r, r), s, W);
@@ -273,29 +276,36 @@ struct CorrectSpatial {
   }
 
   PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D> const& kernel, double h) const {
-    int neighbours = 0;
-    for (Index n = 0; n < target.length; ++n) {
-      double const* other = table.record + static_cast<std::ptrdiff_t>(target.list[n]) * table.stride;
-      Vec<D> r, plain, corrected;
-      for (int i = 0; i < D; ++i) r[i] = other[R::x + i] - target.own[R::x + i];
-      double const square = dot(r, r);
-      double s, W;
+    Mat<D> N;
+    Vec<D> n{};
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) {
+        N(i, j) = k.K[3 * i + j] / k.S;
+        n[i] += k.K[3 * i + j] * k.G[j] / (k.S * k.S);
+      }
+    Lanes neighbours = Lanes(0.0);
+    for (Index first = 0; first < target.length; first += lane_count) {
+      Lanes f[D];
+      load_components<D>(table.record, table.stride, target.list + first, f);
+      Vec<D, Lanes> const r = difference<D>(f, R::x, target.own);
+      Lanes const square = dot(r, r);
+      Lanes s, W, along = Lanes(0.0);
       kernel.evaluate(square, s, W);
-      if (!(W > 0)) continue;
-      ++neighbours;
+      auto const inside = W > 0.0;
+      neighbours += select(inside, Lanes(1.0), Lanes(0.0));
+      auto refused = W < 0.0;
       for (int i = 0; i < D; ++i) {
-        plain[i] = s * r[i];
-        corrected[i] = 0;
-        for (int j = 0; j < D; ++j) corrected[i] += k.K[3 * i + j] * (s * r[j] * k.S - k.G[j] * W) / (k.S * k.S);
+        Lanes sum = Lanes(0.0);
+        for (int j = 0; j < D; ++j) sum += N(i, j) * r[j];
+        Lanes const corrected = s * sum - n[i] * W, plain = s * r[i];
+        along += plain * corrected;
+        Lanes const limit = select(r[i] * r[i] > 0.0025 * h * h, plain * plain, s * s * square);
+        refused = refused || !(corrected * corrected <= settings.fallback * settings.fallback * limit);
       }
-      if (square < h * h && dot(plain, corrected) < 0) return false;
-      double const length = std::sqrt(dot(plain, plain));
-      for (int i = 0; i < D; ++i) {
-        double const limit = std::fabs(r[i]) > 0.05 * h ? std::fabs(plain[i]) : length;
-        if (!(std::fabs(corrected[i]) <= settings.fallback * limit)) return false;
-      }
+      refused = refused || (square < h * h && along < 0.0);
+      if (any(inside && refused)) return false;
     }
-    return neighbours >= 2;
+    return sum_of(neighbours) >= 2;
   }
 };
 

@@ -16,6 +16,9 @@ enum class Interface {
 /// Artificial stress between a total-Lagrangian and an Eulerian particle.
 enum class MixedStress { both, eulerian_only, none };
 
+/// Place in the lists of reference neighbours: a few dozen million particles have more pairs than an Index can count.
+using Offset = std::int64_t;
+
 /// What never changes.
 struct Reference {
   double X[3];    ///< reference position [m]
@@ -45,7 +48,8 @@ struct Rates {
   double a[3];  ///< [m/s2]
   double S[6];  ///< [Pa/s]
   double rho, energy, thickness, viscosity;
-  static constexpr int values = 13;
+  double flow;  ///< von Mises stress at the end of the last plastic step [Pa]; 0: the next prediction asks the law
+  static constexpr int values = 14;
 };
 
 /// Half time: predicted, or known from positions.
@@ -68,6 +72,12 @@ struct Deformation {
 /// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
 struct Correction {
   double S, G[3], K[9];
+};
+
+/// Sums over reference neighbours that never change, with s = -W'(r)/r and r = X_b - X_a.
+struct MaterialCorrection {
+  double K[6];  ///< inverse of sum_b V0_b s r (x) r, as a symmetric matrix of D dimensions
+  double G[3];  ///< sum_b V0_b s r of those that are not deleted
 };
 
 /// Results of the sweeps.
@@ -128,13 +138,18 @@ struct SpatialTable {
 };
 
 struct MaterialTable {
-  Index const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
+  Offset const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
   Index const* neighbour = nullptr;
-  double const *s = nullptr, *W = nullptr;  ///< per pair: -W'(r)/r and W(r) in the reference configuration
-  Index const* kinematic = nullptr;         ///< slots whose F is needed
+  bool used = false;                ///< some particle is not wholly Eulerian
+  double* record = nullptr;         ///< a filler after the last
+  float const* gradient = nullptr;  ///< per pair: -W'(r)/r in the reference configuration, the same from both ends
+  double const *s = nullptr, *W = nullptr;      ///< the same in double, with plain gradients; W(r), as published
+  MaterialCorrection const* moments = nullptr;  ///< per slot
+  Index const* kinematic = nullptr;             ///< slots whose F is needed
   Index kinematics = 0;
   Index const* target = nullptr;  ///< slots that feel material forces
   Index targets = 0;
+  // In place of record, gradient and moments where sums are as published (Settings::published):
   double *motion = nullptr, *force = nullptr, *viscous = nullptr;  ///< records; a filler after the last
   Correction const* correction = nullptr;                          ///< per slot
 };
@@ -157,6 +172,7 @@ struct Settings {
   MixedStress mixed_stress = MixedStress::both;
   bool corrected = false;           ///< spatial sums
   bool corrected_material = false;  ///< material sums
+  bool published = false;           ///< material sums of set (2), word by word
   bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f

@@ -3,19 +3,13 @@
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/material_sweep.hpp"
+#include "piola/formulations/adaptle/published_sweep.hpp"
 #include "piola/formulations/adaptle/riemann_sweep.hpp"
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
 #include "piola/neighbours/moving_search.hpp"
 
 /// One step, part by part; the host sorts particles and updates tables between the parts.
 namespace piola::adaptle::inline PIOLA_MACHINE {
-
-struct ClearSums {
-  Sums* sums;
-  PIOLA_FN void operator()(Range block, Index) const {
-    for (Index i = block.first; i < block.last; ++i) sums[i] = Sums{};
-  }
-};
 
 template <int D>
 struct Step {
@@ -27,14 +21,20 @@ struct Step {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{
-                                                law, dt, s.reference, s.state, s.rates, s.half, s.position,
-                                                s.body[b].releases, s.material.motion, s.failure});
+                                                law, dt, s.reference, s.state, s.rates, s.half, s.sums, s.position,
+                                                s.body[b].releases, s.material, s.failure});
       });
   }
 
   void deform() const {
-    exec::for_each_block(Range{0, s.material.kinematics}, DeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of,
-                                                                         s.settings.corrected_material, s.deformation});
+    Range const kinematics{0, s.material.kinematics};
+    if (s.settings.published)
+      exec::for_each_block(kinematics, PublishedDeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of,
+                                                               s.settings.corrected_material, s.deformation});
+    else if (s.settings.corrected_material)
+      exec::for_each_block(kinematics, deform_sweep<float>());
+    else
+      exec::for_each_block(kinematics, deform_sweep<double>());
   }
 
   template <bool Corrected>
@@ -54,7 +54,6 @@ struct Step {
   }
 
   void sweep() const {
-    exec::for_each_block(Range{0, s.particles}, ClearSums{s.sums});
     Range const targets{0, s.spatial.targets};
     if (s.settings.viscosity == Viscosity::riemann)
       exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of, s.sums});
@@ -62,8 +61,7 @@ struct Step {
       sweep_space<true>(targets);
     else
       sweep_space<false>(targets);
-    exec::for_each_block(Range{0, s.material.targets}, MaterialSweep<D>{s.material, s.settings, s.body, s.body_of,
-                                                                        s.reference, s.state, s.deformation, s.sums});
+    sweep_material();
     exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
                                                                       s.bodies, s.state, s.half, s.sums});
     if (s.rigids > 0)
@@ -87,6 +85,26 @@ struct Step {
   }
 
  private:
+  void sweep_material() const {
+    Range const targets{0, s.material.targets};
+    if (s.settings.published)
+      exec::for_each_block(targets, PublishedMaterialSweep<D>{s.material, s.settings, s.body, s.body_of, s.reference,
+                                                              s.state, s.deformation, s.sums});
+    else if (s.settings.corrected_material)
+      exec::for_each_block(targets, material_sweep<float>());
+    else
+      exec::for_each_block(targets, material_sweep<double>());
+  }
+
+  template <class Gradient>
+  DeformSweep<D, Gradient> deform_sweep() const {
+    return {s.material, s.state, s.half, s.reference, s.body, s.body_of, s.deformation, s.sums};
+  }
+  template <class Gradient>
+  MaterialSweep<D, Gradient> material_sweep() const {
+    return {s.material, s.body, s.body_of, s.reference, s.state, s.deformation, s.sums};
+  }
+
   template <bool Corrected>
   void sweep_space(Range targets) const {
     if (s.settings.artificial_stress)

@@ -6,6 +6,9 @@
 namespace piola::adaptle {
 
 /// A particle's place in arrays of all particles.
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+template <class Number>
+std::size_t at(Number i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace piola::adaptle

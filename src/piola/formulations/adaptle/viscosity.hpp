@@ -13,6 +13,9 @@ struct ViscousPair {
   T pressure;  ///< (6): Pi = (-alpha c mu + beta mu^2) / rho with means of the pair, in p/rho^2 [m5/(kg s2)]
 };
 
+/// zeta rho0 c h of the hourglass damping [Pa s].
+PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0 * b.c * b.h; }
+
 /// closing: (v_b - v_a).r; c: sum of both speeds of sound, rho: sum of both densities. One division for both quotients.
 template <class T>
 PIOLA_FN ViscousPair<T> viscous_pair(double alpha, double beta, double h, T const& closing, T const& square, T const& c,

@@ -21,7 +21,7 @@ class IsotropicHardening {
     return yield_ + modulus_ * plastic_strain;
   }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
-  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double, double) const {
+  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double, double, double = 0) const {
     double const yield = yield_stress(plastic_strain, 0, 0);
     return mises > yield ? (mises - yield) / (three_mu + modulus_) : 0;
   }

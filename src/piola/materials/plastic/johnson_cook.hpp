@@ -27,14 +27,19 @@ class JohnsonCook {
     return static_stress(plastic_strain) * (1 + c_ * heat_.log_rate(rate)) * softening(temperature);
   }
   /// Plastic strain of a step of `dt` [s] whose trial stress has the von Mises stress `mises` [Pa]: Newton's method,
-  /// halving where it leaves the interval that is known to hold the root. dt = 0: no effect of rate.
-  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double temperature, double dt) const {
+  /// halving where it leaves the interval that is known to hold the root. dt = 0: no effect of rate. last_flow: a guess
+  /// of the flow stress [Pa], from which the search starts; 0: none.
+  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double temperature, double dt,
+                            double last_flow = 0) const {
+    // Most particles: no power is needed to see that they stay elastic (T*^m is at most T* for m >= 1).
+    if (m_ >= 1 && !(mises > a_ * (1 - heat_.homologous(temperature)))) return 0;
     double const soft = softening(temperature);
-    if (!(mises > a_ * soft)) return 0;  // most particles: no power is needed to see that they stay elastic
+    if (!(mises > a_ * soft)) return 0;
     double const start = static_stress(plastic_strain) * soft;
     if (!(mises > start)) return 0;
     // The yield stress grows with strain and rate, so the increment without both is an upper bound.
     double low = 0, high = (mises - start) / three_mu, x = high;
+    if (last_flow > start && last_flow < mises) x = (mises - last_flow) / three_mu;
     for (int k = 0; k < 100; ++k) {
       double const rate = dt > 0 ? x / dt : 0, fast = 1 + c_ * heat_.log_rate(rate);
       double const strain = plastic_strain + x, hard = static_stress(strain);
@@ -45,8 +50,10 @@ class JohnsonCook {
       if (rate > heat_.reference_rate) slope += hard * c_ / x * soft;
       double next = x + miss / slope;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
-      if (next == x) break;
+      // The error after a step of Newton's is the square of the one before, so a small step is the last one.
+      bool const last = std::abs(next - x) <= 1e-6 * x;
       x = next;
+      if (last) break;
     }
     return x;
   }

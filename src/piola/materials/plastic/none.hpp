@@ -16,7 +16,7 @@ struct NoPlasticity {
   /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
   PIOLA_FN static double yield_stress(double, double, double) { return unbounded; }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
-  PIOLA_FN static double increment(double, double, double, double, double) { return 0; }
+  PIOLA_FN static double increment(double, double, double, double, double, double = 0) { return 0; }
 };
 
 }  // namespace piola::inline PIOLA_MACHINE

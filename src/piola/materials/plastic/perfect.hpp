@@ -17,7 +17,7 @@ class PerfectPlasticity {
   /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
   PIOLA_FN double yield_stress(double, double, double) const { return yield_; }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
-  PIOLA_FN double increment(double mises, double three_mu, double, double, double) const {
+  PIOLA_FN double increment(double mises, double three_mu, double, double, double, double = 0) const {
     return mises > yield_ ? (mises - yield_) / three_mu : 0;
   }
 
