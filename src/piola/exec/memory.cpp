@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/memory.hpp"
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
@@ -39,7 +40,15 @@ Memory::Memory(std::size_t doubles) {
   if (large) (void)madvise(base_, size, MADV_HUGEPAGE);
 #endif
   data_ = reinterpret_cast<double*>(static_cast<char*>(base_) + offset);
-  std::memset(data_, 0, payload);
+  // Threads zero the parts that they will work on.
+  constexpr std::size_t part = std::size_t{1} << 20;
+  auto const parts = static_cast<std::ptrdiff_t>((payload + part - 1) / part);
+  auto* const bytes = reinterpret_cast<char*>(data_);
+#pragma omp parallel for schedule(static) if (parts > 8)
+  for (std::ptrdiff_t k = 0; k < parts; ++k) {
+    std::size_t const first = static_cast<std::size_t>(k) * part;
+    std::memset(bytes + first, 0, std::min(part, payload - first));
+  }
 }
 
 Memory::Memory(Memory&& other) noexcept

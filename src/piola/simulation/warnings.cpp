@@ -8,6 +8,12 @@
 #include <fmt/format.h>
 
 namespace piola {
+
+bool knows_contact(CaseSpec const& spec) {
+  auto const info = find_formulation(spec.bodies.front().formulation.name);
+  return info && info->contact;
+}
+
 namespace {
 
 /// Of "material.density", else of "material".
@@ -15,11 +21,6 @@ Place place_of_doubt(BodySpec const& body, std::string const& key) {
   std::size_t const dot = key.find('.');
   if (dot == std::string::npos) return place_of(body.places, key);
   return place_in_table(body.places, key.substr(0, dot), key.substr(dot + 1));
-}
-
-bool knows_contact(CaseSpec const& spec) {
-  auto const info = find_formulation(spec.bodies.front().formulation.name);
-  return info && info->contact;
 }
 
 void warn_of_strangers(CaseSpec const& spec, Problems& found) {
