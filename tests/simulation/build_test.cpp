@@ -114,6 +114,7 @@ TEST(Build, TakesTheParticlesThatReadingHasMade) {
   EXPECT_EQ(simulation.particles.volume.data(), std::as_const(particles).volume.data());
   particles = {};
   EXPECT_TRUE(simulation.particles.X.shared());  // with the formulation
+  EXPECT_GT(simulation.formulation->memory_bytes(), simulation.particles.bytes());
   Simulation const anew = build(spec);
   EXPECT_EQ(anew.particles.X, simulation.particles.X);
   EXPECT_EQ(anew.formulation->diagnose().total_energy(), simulation.formulation->diagnose().total_energy());

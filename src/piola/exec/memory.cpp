@@ -32,8 +32,9 @@ Memory::Memory(std::size_t doubles) {
   std::size_t const offset = next_offset();
   std::size_t const alignment = large ? huge_page : cache_line;
   std::size_t const size = (payload + offset + alignment - 1) / alignment * alignment;
-  // Nothing touches the small pages before the data, so that they take no memory; a huge page is taken as a whole.
-  bytes_ = large ? size : payload;
+  // Nothing touches the pages before the data, so that they take no memory; nor what is left of the last page, which is
+  // a huge one at most.
+  bytes_ = payload;
   base_ = std::aligned_alloc(alignment, size == 0 ? alignment : size);
   if (base_ == nullptr) throw std::bad_alloc{};
 #if defined(__linux__)

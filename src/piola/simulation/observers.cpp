@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/observers.hpp"
 #include "piola/base/version.hpp"
+#include "piola/exec/free_memory.hpp"
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/output/files.hpp"
 #include <algorithm>
@@ -158,6 +159,7 @@ void CheckpointObserver::keep(Formulation const& formulation, Moment const& mome
   auto const start = WallLimit::Clock::now();
   for (Observer* other : others_) other->sync();
   keep_checkpoint(results_.folder, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
+  exec_host::give_back_free_memory();
   if (orders_.wall != nullptr)
     orders_.wall->checkpoint_took(std::chrono::duration<double>(WallLimit::Clock::now() - start).count());
 }

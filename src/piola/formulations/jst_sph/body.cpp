@@ -229,7 +229,8 @@ JstBody::Gathered JstBody::gather(int values) const {
   auto const n = static_cast<std::ptrdiff_t>(all_slots());
   if (state_.regular) {
     g.start = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
-    g.component = 8 * (((n + 7) / 8 + 2 * g.start / 8) | 1);
+    // The zeros after the last value of a component are those before the first of the next.
+    g.component = 8 * (((n + 7) / 8 + g.start / 8) | 1);
     g.memory = Memory(static_cast<std::size_t>(g.component * values + 2 * g.start));
     return g;
   }

@@ -253,7 +253,7 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   if (!hourglass) frequency_per_speed_ = frequency_ / wave_speed_;
 }
 
-bool StabilityMonitor::is_large_lattice() const { return body_.state().regular && body_.particles() >= many; }
+bool StabilityMonitor::is_large_lattice() const { return body_.body().regular && body_.particles() >= many; }
 
 bool StabilityMonitor::is_undeformed() const {
   auto const& s = body_.state();
