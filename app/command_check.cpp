@@ -198,8 +198,7 @@ void print_contact(CaseSpec const& spec, int dimension) {
         moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
   }
   print_surfaces(spec);
-  bool own = false;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) own = own || knows_contact(spec, b);
+  bool const own = knows_contact(spec);
   if (!own) return;
   constexpr std::array<std::string_view, 4> laws{"none", "kernel", "linear", "printed"};
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
@@ -239,13 +238,13 @@ struct Look {
 };
 
 // Smaller cases are built, which tells what the formulation refuses; of larger ones a part.
-Look look_at(CaseSpec const& spec, std::int64_t particles) {
-  if (particles < large_case) {
-    Simulation const simulation = build(spec);
+Look look_at(CaseSpec const& spec, ParticleSet const& particles) {
+  if (particles.size() < large_case) {
+    Simulation const simulation = build(spec, particles);
     return {estimate(spec, simulation.particles, *simulation.formulation, simulation.threads), simulation.warnings};
   }
   int const threads = exec_host::set_threads(spec.run.threads);
-  Assembly const assembly = assemble(spec);
+  Assembly const assembly = assemble(spec, particles);
   Look look{estimate_from_parts(spec, assembly.particles, threads), {}};
   look.warnings = warnings_of(spec, assembly, {.step = look.cost.step});
   return look;
@@ -264,10 +263,10 @@ void print_cost(CaseSpec const& spec, Estimate const& cost) {
 }
 
 int check(CaseOptions const& options) {
-  CaseSpec const spec = read_case(case_file(options.file), options.overrides());
-  ParticleSet const particles = make_particles(spec);
+  ParticleSet particles;
+  CaseSpec const spec = read_case(case_file(options.file), options.overrides(), {}, &particles);
   std::vector<BodyFacts> const facts = body_facts(spec, particles);
-  Look const look = look_at(spec, particles.size());
+  Look const look = look_at(spec, particles);
   say("{}\n", spec.title);
   say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
       quantity_text(spec.run.end, "s"));

@@ -27,7 +27,9 @@ int resume(ResumeArguments const& options) {
         "{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to",
         options.folder));
   }
-  Simulation simulation = build(read_case(file, options.from.overrides()));
+  ParticleSet particles;
+  CaseSpec spec = read_case(file, options.from.overrides(), {}, &particles);
+  Simulation simulation = build(std::move(spec), std::move(particles));
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
                         options.quiet);
 }

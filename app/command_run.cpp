@@ -19,9 +19,10 @@ int run(RunArguments const& options) {
   catch_checkpoint_signals();
   double const wall_time = read_wall_time(options.wall_time);
   auto const file = case_file(options.from.file);
-  CaseSpec spec = read_case(file, options.from.overrides());
+  ParticleSet particles;
+  CaseSpec spec = read_case(file, options.from.overrides(), {}, &particles);
   if (options.no_pictures) spec.output.pictures_every = 0;
-  Simulation simulation = build(std::move(spec));
+  Simulation simulation = build(std::move(spec), std::move(particles));
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
                          .resume = false,
                          .force = options.force,

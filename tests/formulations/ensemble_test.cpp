@@ -36,7 +36,7 @@ Assembly row_of_boxes(std::vector<std::string> const& formulations, int n = 5, i
 Assembly box_alone(Assembly const& row, std::size_t b) {
   Assembly a;
   Body body = row.particles.bodies[b];
-  auto const take = [&](auto const& from, auto& to) { to.assign(from.begin() + body.first, from.begin() + body.last); };
+  auto const take = [&](auto const& from, auto& to) { to = {from.begin() + body.first, from.begin() + body.last}; };
   a.particles.dimension = row.particles.dimension;
   take(row.particles.X, a.particles.X);
   take(row.particles.lattice_index, a.particles.lattice_index);

@@ -103,7 +103,7 @@ TEST(VolumeOf, IsThatOfTheTrilinearMapForBoxes) {
   Cells const cell = lattice_cells(set, set.bodies[0]);
   set.X[7][2] = 2;  // z = zeta (1 + xi eta)
   EXPECT_NEAR(volume_of(cell, 0, set.X), 1.25, 1e-15);
-  for (auto& x : set.X) x[0] = -x[0];
+  for (auto& x : set.X.own()) x[0] = -x[0];
   EXPECT_NEAR(volume_of(cell, 0, set.X), -1.25, 1e-15);
 }
 
@@ -116,7 +116,7 @@ TEST(SurfaceOf, KnowsTheEndsOfABar) {
 
 TEST(SurfaceOf, ThatOfABentBlockIsClosed) {
   auto set = unit_box(3, 5, 0.2);
-  for (auto& x : set.X) x[2] += 0.3 * x[0] * x[1];
+  for (auto& x : set.X.own()) x[2] += 0.3 * x[0] * x[1];
   Surface const surface = surface_of(lattice_cells(set, set.bodies[0]), set.X);
   Vec<3> sum;
   for (Index f = 0; f < surface.count(); ++f) sum = sum + facet_normal(surface, f, set.X);

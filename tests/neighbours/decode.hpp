@@ -42,9 +42,9 @@ struct SeenPairs {
   /// Weight of a pair in the corrected Laplacian.
   double laplacian_weight(Index a, SeenPair const& p) const {
     auto const& c = pairs.corrections();
-    auto const slot = static_cast<std::size_t>(a);
-    auto const& alpha = c.alpha[slot];
-    return p.l + alpha[0] * p.r[0] + alpha[1] * p.r[1] + alpha[2] * p.r[2] + c.beta[slot] * squared(p.r);
+    auto const at = c.at(a);
+    auto const& alpha = c.alpha[at];
+    return p.l + alpha[0] * p.r[0] + alpha[1] * p.r[1] + alpha[2] * p.r[2] + c.beta[at] * squared(p.r);
   }
   /// GRAD f, one row.
   template <class F>
@@ -52,7 +52,7 @@ struct SeenPairs {
     std::array<double, 3> raw{}, out{};
     for (SeenPair const& p : at(a))
       for (std::size_t c = 0; c < 3; ++c) raw[c] += p.sr[c] * (f(X(p.b)) - f(X(a)));
-    auto const& C = pairs.corrections().C[static_cast<std::size_t>(a)];
+    auto const& C = pairs.corrections().C[pairs.corrections().at(a)];
     static constexpr std::size_t packed[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) out[i] += C[packed[i][j]] * raw[j];

@@ -111,7 +111,7 @@ TEST(Delaunay, DoesNotDependOnTheUnitOfLength) {
 TEST(Delaunay, LeavesOutNotchesAndHolesButForTheirCorners) {
   double const h = 0.1, half = h * h / 2, shortcut = (std::sqrt(2.0) - 2) * h;
   for (bool const turn : {false, true}) {
-    auto const placed = [&](ParticleSet const& set) { return turn ? turned(set.X, 2) : set.X; };
+    auto const placed = [&](ParticleSet const& set) { return turn ? turned(set.X, 2) : set.X.seen(); };
     Points const angle = placed(part_of(unit_box(2, 11), [](auto const& X) { return X[0] < 0.45 || X[1] < 0.35; }));
     expect_filled(delaunay(angle, 2, 0.09), angle, 1 - 0.6 * 0.7 + half, 4 + shortcut);
     Points const plate = placed(part_of(

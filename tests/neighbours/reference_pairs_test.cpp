@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/reference_pairs.hpp"
 #include "piola/base/problems.hpp"
+#include "exec/thread_count.hpp"
 #include "math/random.hpp"
 #include "neighbours/decode.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -66,10 +68,9 @@ TEST_P(CorrectedOperators, SumTheirWeightsIntoTheDiagonal) {
       size += std::fabs(seen.laplacian_weight(a, p));
       for (std::size_t k = 0; k < 3; ++k) G[k] += p.sr[k];
     }
-    auto const slot = static_cast<std::size_t>(a);
-    EXPECT_NEAR(c.diagonal[slot], sum, 1e-12 * size);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(c.G[slot][k], G[k], 1e-12 / dx);
-    EXPECT_EQ(c.neighbours[slot], static_cast<int>(seen.at(a).size()));
+    EXPECT_NEAR(c.diagonal[c.at(a)], sum, 1e-12 * size);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(c.G[c.at(a)][k], G[k], 1e-12 / dx);
+    EXPECT_EQ(c.neighbours_of(a), static_cast<int>(seen.at(a).size()));
   }
 }
 
@@ -304,6 +305,63 @@ TEST(ReferencePairs, MentionBothTheGradientAndTheLaplacian) {
   ParticleSet const bar = unit_box(1, 2);
   std::string const text = refusal(bar, {find_kernel("cubic_spline"), 1.2, 1.2, 1, true});
   EXPECT_NE(text.find("corrected Laplacian"), std::string::npos) << text;
+}
+
+// 27 corners, edges, faces and the inside at each of the two distances from them that the support reaches.
+TEST(ReferencePairs, StoreTheCorrectionsOfALatticeOnceForEachPlaceInIt) {
+  ParticleSet const set = testing::unit_box(3, 20);
+  PairOptions options;
+  options.kernel = find_kernel("cubic_spline");
+  options.h_gradient = options.h_laplacian = 1.2 / 19;
+  options.lanes = 4;
+  testing::SeenPairs const seen(set, options);
+  auto const& c = seen.pairs.corrections();
+  EXPECT_LT(c.C.size(), 4000U);  // the pencils of a part of the body lie elsewhere in memory, too
+  // Wherever two particles stand, both three or more layers inside, they have the same neighbours.
+  auto const deep = [&](Index slot) {
+    auto const& at = set.lattice_index[static_cast<std::size_t>(seen.order.id[static_cast<std::size_t>(slot)])];
+    return std::all_of(at.begin(), at.end(), [](int n) { return n >= 3 && n <= 16; });
+  };
+  Index first = -1;
+  for (Index a = 0; a < seen.order.particles; ++a) {
+    if (!deep(a)) continue;
+    if (first < 0) first = a;
+    EXPECT_EQ(c.C[c.at(a)], c.C[c.at(first)]);
+    EXPECT_EQ(c.diagonal[c.at(a)], c.diagonal[c.at(first)]);
+  }
+}
+
+TEST(ReferencePairs, AreTheSameForAnyNumberOfThreads) {
+  for (double const jitter : {0.0, 0.3}) {
+    ParticleSet const set = testing::unit_box(3, 21, jitter);
+    SlotOrder const order = pencil_order(set, set.bodies[0]);
+    PairOptions options;
+    options.kernel = find_kernel("cubic_spline");
+    options.h_gradient = 1.1 / 20;
+    options.h_laplacian = 1.3 / 20;
+    options.lanes = 8;
+    options.kernel_table = true;
+    std::vector<double> const volume(static_cast<std::size_t>(order.slots()), 1.0 / 9261);
+    auto const made = [&](int threads) {
+      testing::Threads const some(threads);
+      return std::make_unique<ReferencePairs>(set, set.bodies[0], order, options);
+    };
+    auto const one = made(1), three = made(3);
+    EXPECT_EQ(one->pair_count(), three->pair_count());
+    EXPECT_EQ(one->max_delta(), three->max_delta());
+    EXPECT_EQ(one->corrections().kind, three->corrections().kind);
+    EXPECT_EQ(one->corrections().C, three->corrections().C);
+    EXPECT_EQ(one->corrections().diagonal, three->corrections().diagonal);
+    EXPECT_EQ(one->make_filter(volume).scale, three->make_filter(volume).scale);
+    EXPECT_EQ(one->correct_kernel().C, three->correct_kernel().C);
+    if (jitter == 0) continue;
+    ListTable const a = one->list(), b = three->list();
+    for (std::int64_t k = 0; k < a.begin[order.slots()]; ++k) {
+      ASSERT_EQ(a.neighbour[k], b.neighbour[k]);
+      ASSERT_EQ(a.s[k], b.s[k]);
+      ASSERT_EQ(a.l[k], b.l[k]);
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/checkpoint.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
 #include <fstream>
@@ -57,6 +58,20 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_EQ(back.state.arrays(), c.state.arrays());
   EXPECT_TRUE(std::signbit(back.state.all("u")[1]));
   EXPECT_EQ(back.observers.arrays(), c.observers.arrays());
+}
+
+// As a run writes it: the state comes array by array and is never a part of the checkpoint in memory.
+TEST(Checkpoint, TakesTheStateWhileItIsWritten) {
+  testing::TemporaryFolder const folder;
+  Checkpoint const c = sample(12);
+  Checkpoint rest = c;
+  rest.state = {};
+  write_checkpoint(folder / "a.h5", rest, [&](StateWriter& writer) {
+    for (auto const& [name, values] : c.state.arrays()) writer.put(name, values);
+  });
+  EXPECT_EQ(read_checkpoint(folder / "a.h5").state.arrays(), c.state.arrays());
+  write_checkpoint(folder / "b.h5", c);
+  EXPECT_EQ(read_text_file(folder / "a.h5"), read_text_file(folder / "b.h5"));
 }
 
 TEST(Checkpoint, KeepsTheLastTwo) {

@@ -2,6 +2,7 @@
 #include "piola/particles/ordering.hpp"
 #include "particles/lattices.hpp"
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -60,6 +61,43 @@ TEST(PencilOrder, ComesInPencilsOfEightByEightRows) {
     EXPECT_LT(at[1], 8);
     EXPECT_LT(at[2], 8);
   }
+}
+
+/// The order as it is defined, by comparison.
+std::vector<std::int64_t> sorted_pencils(ParticleSet const& set, Body const& body) {
+  auto const longest =
+      static_cast<std::size_t>(std::max_element(body.lattice.begin(), body.lattice.end()) - body.lattice.begin());
+  std::array<std::size_t, 3> const axis{longest, longest == 0 ? 1U : 0U, longest == 2 ? 1U : 2U};
+  std::vector<std::int64_t> ids;
+  for (auto id = body.first; id < body.last; ++id) ids.push_back(id);
+  auto const key = [&](std::int64_t id) {
+    auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
+    int const x = at[axis[0]], y = at[axis[1]], z = at[axis[2]];
+    return std::array{std::int64_t{z} / 8, std::int64_t{y} / 8, std::int64_t{z}, std::int64_t{y}, std::int64_t{x}, id};
+  };
+  std::sort(ids.begin(), ids.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  return ids;
+}
+
+// Rows along any axis, of different lengths, and lattice indices that several particles have.
+TEST(PencilOrder, IsThatOfASortByPencilRowPlaceAndId) {
+  ParticleSet set = testing::box({1, 6, 1}, {5, 25, 17});
+  ShapeSpec ball;
+  ball.kind = ShapeSpec::Kind::sphere;
+  ball.radius = 1;
+  ball.spacing = 0.1;
+  fill(ball, "ball", set);
+  ShapeSpec disc = ball;
+  disc.dimension = 2;
+  disc.arrangement = ShapeSpec::Arrangement::rings;
+  ParticleSet rings;
+  fill(disc, "disc", rings);
+  for (ParticleSet const* all : {&set, &rings})
+    for (Body const& body : all->bodies) {
+      SlotOrder const order = pencil_order(*all, body);
+      EXPECT_EQ(std::vector(order.id.begin(), order.id.begin() + order.particles), sorted_pencils(*all, body))
+          << body.name;
+    }
 }
 
 }  // namespace

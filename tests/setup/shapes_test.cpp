@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/shapes.hpp"
+#include "exec/thread_count.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -363,6 +364,33 @@ TEST(Shapes, AbsurdNumbersAreCountedWithoutMakingThem) {
   EXPECT_EQ(particles_over(6, 0.25, ShapeSpec::Placement::on_boundary), 25);
   EXPECT_EQ(particles_over(6, 0.25, ShapeSpec::Placement::cell_centred), 24);
   EXPECT_EQ(particles_over(0.1, 1, ShapeSpec::Placement::on_boundary), 1);
+}
+
+TEST(Fill, GivesTheSameParticlesForAnyNumberOfThreads) {
+  ShapeSpec box;
+  box.max = {1, 2, 3};
+  box.particles = {5, 9, 13};
+  box.jitter = 0.4;
+  ShapeSpec ball;
+  ball.kind = ShapeSpec::Kind::sphere;
+  ball.centre = {9, 0, 0};
+  ball.radius = 1;
+  ball.inner_radius = 0.4;
+  ball.spacing = 0.11;
+  auto const filled = [&](int threads) {
+    testing::Threads const some(threads);
+    ParticleSet set;
+    fill(box, "box", set);
+    fill(ball, "ball", set);
+    return set;
+  };
+  ParticleSet const one = filled(1), three = filled(3);
+  EXPECT_EQ(one.X, three.X);
+  EXPECT_EQ(one.lattice_index, three.lattice_index);
+  EXPECT_EQ(one.volume, three.volume);
+  EXPECT_EQ(one.kernel_volume, three.kernel_volume);
+  EXPECT_EQ(one.body, three.body);
+  EXPECT_EQ(one.size(), one.bodies[1].last);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "support/sample_case.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace piola {
 namespace {
@@ -101,6 +102,22 @@ skew = true
   EXPECT_EQ(a.mirrors[0].axis, 2);
   EXPECT_TRUE(a.mirrors[0].upper);
   EXPECT_TRUE(a.mirrors[0].skew);
+}
+
+// Read, built and run from the same particles, which stand once in memory.
+TEST(Build, TakesTheParticlesThatReadingHasMade) {
+  ParticleSet particles;
+  CaseSpec const spec = read_case_text(test::sample_case(), "case.toml", {}, {}, &particles);
+  auto const* const place = std::as_const(particles).X.data();
+  Simulation const simulation = build(spec, particles);
+  EXPECT_EQ(simulation.particles.X.data(), place);
+  EXPECT_EQ(simulation.particles.volume.data(), std::as_const(particles).volume.data());
+  particles = {};
+  EXPECT_TRUE(simulation.particles.X.shared());  // with the formulation
+  EXPECT_GT(simulation.formulation->memory_bytes(), simulation.particles.bytes());
+  Simulation const anew = build(spec);
+  EXPECT_EQ(anew.particles.X, simulation.particles.X);
+  EXPECT_EQ(anew.formulation->diagnose().total_energy(), simulation.formulation->diagnose().total_energy());
 }
 
 TEST(Build, FieldsAndColumnsAreThoseThatCaseFilesKnow) {

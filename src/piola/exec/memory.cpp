@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/memory.hpp"
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
@@ -31,15 +32,24 @@ Memory::Memory(std::size_t doubles) {
   std::size_t const offset = next_offset();
   std::size_t const alignment = large ? huge_page : cache_line;
   std::size_t const size = (payload + offset + alignment - 1) / alignment * alignment;
-  // Nothing touches the small pages before the data, so that they take no memory; a huge page is taken as a whole.
-  bytes_ = large ? size : payload;
+  // Nothing touches the pages before the data, so that they take no memory; nor what is left of the last page, which is
+  // a huge one at most.
+  bytes_ = payload;
   base_ = std::aligned_alloc(alignment, size == 0 ? alignment : size);
   if (base_ == nullptr) throw std::bad_alloc{};
 #if defined(__linux__)
   if (large) (void)madvise(base_, size, MADV_HUGEPAGE);
 #endif
   data_ = reinterpret_cast<double*>(static_cast<char*>(base_) + offset);
-  std::memset(data_, 0, payload);
+  // Threads zero the parts that they will work on.
+  constexpr std::size_t part = std::size_t{1} << 20;
+  auto const parts = static_cast<std::ptrdiff_t>((payload + part - 1) / part);
+  auto* const bytes = reinterpret_cast<char*>(data_);
+#pragma omp parallel for schedule(static) if (parts > 8)
+  for (std::ptrdiff_t k = 0; k < parts; ++k) {
+    std::size_t const first = static_cast<std::size_t>(k) * part;
+    std::memset(bytes + first, 0, std::min(part, payload - first));
+  }
 }
 
 Memory::Memory(Memory&& other) noexcept

@@ -21,7 +21,7 @@ class Memory {
 
   double* data() { return data_; }
   double const* data() const { return data_; }
-  std::size_t bytes() const { return bytes_; }  ///< taken; huge pages as a whole
+  std::size_t bytes() const { return bytes_; }  ///< taken, but for the rest of the last page
 
  private:
   void* base_ = nullptr;

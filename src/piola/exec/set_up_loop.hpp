@@ -12,4 +12,11 @@ void for_each_in_set_up(Index n, F const& f) {
   for (Index k = 0; k < n; ++k) f(k);
 }
 
+/// f(k) for the parts k = 0 ... n - 1 of a work on so many particles: rows of a lattice, for example.
+template <class F>
+void for_each_part_in_set_up(Index n, Index particles, F const& f) {
+#pragma omp parallel for schedule(static) num_threads(team(particles))
+  for (Index k = 0; k < n; ++k) f(k);
+}
+
 }  // namespace piola::exec_host

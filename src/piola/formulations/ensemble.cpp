@@ -25,18 +25,20 @@ std::vector<T> gathered(std::vector<T> const& whole, Blocks const& blocks) {
 
 ParticleSet particles_of(ParticleSet const& whole, EnsemblePart const& part) {
   Blocks const& blocks = part.blocks;
+  if (blocks.size() == whole.bodies.size()) return whole;  // shares its memory
   ParticleSet set;
   set.dimension = whole.dimension;
-  set.X = gathered(whole.X, blocks);
-  set.lattice_index = gathered(whole.lattice_index, blocks);
-  set.volume = gathered(whole.volume, blocks);
-  set.kernel_volume = gathered(whole.kernel_volume, blocks);
-  set.crack_side = gathered(whole.crack_side, blocks);
+  set.X = gathered(whole.X.seen(), blocks);
+  set.lattice_index = gathered(whole.lattice_index.seen(), blocks);
+  set.volume = gathered(whole.volume.seen(), blocks);
+  set.kernel_volume = gathered(whole.kernel_volume.seen(), blocks);
+  set.crack_side = gathered(whole.crack_side.seen(), blocks);
   for (auto const& block : blocks) {
     Body body = whole.bodies[block.body];
     body.first = block.here;
     body.last = block.here + block.count;
-    set.body.insert(set.body.end(), static_cast<std::size_t>(block.count), static_cast<int>(set.bodies.size()));
+    std::vector<int>& owners = set.body.own();
+    owners.insert(owners.end(), static_cast<std::size_t>(block.count), static_cast<int>(set.bodies.size()));
     set.bodies.push_back(std::move(body));
   }
   for (Crack crack : whole.cracks) {

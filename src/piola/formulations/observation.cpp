@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/observation.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -38,23 +39,43 @@ void Observation::add_oscillation(ParticleSet const& set, Body const& body, std:
                static_cast<std::size_t>(body.lattice[0]) +
            static_cast<std::size_t>(at[0]);
   };
-  std::vector<std::int64_t> particle(index({0, 0, body.lattice[2]}) + 1, -1);
+  constexpr std::int32_t nobody = -1;
+  std::vector<std::int32_t> particle(index({0, 0, body.lattice[2]}) + 1, nobody);  // counted from the body's first
   for (auto id = body.first; id < body.last; ++id)
-    particle[index(set.lattice_index[static_cast<std::size_t>(id)])] = id;
-  for (auto id = body.first; id < body.last; ++id) {
-    auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
+    particle[index(set.lattice_index[static_cast<std::size_t>(id)])] = static_cast<std::int32_t>(id - body.first);
+  struct Differences {
+    std::array<double, 3> value;
+    std::array<bool, 3> exists;  ///< there are neighbours on both sides
+  };
+  auto const differences = [&](std::int64_t k) {
+    Differences d{};
+    auto const& at = set.lattice_index[static_cast<std::size_t>(body.first + k)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (at[axis] == 0 || at[axis] + 1 >= body.lattice[axis]) continue;
       auto before = at, after = at;
       --before[axis];
       ++after[axis];
-      std::int64_t const a = particle[index(before)], b = particle[index(after)];
-      if (a < 0 || b < 0) continue;
-      auto const value = [&](std::int64_t k) { return p[static_cast<std::size_t>(k - body.first)]; };
-      double const second = (value(b) - 2 * value(id) + value(a)) / 4;
-      second_difference_square += second * second;
-      second_difference_count += 1;
+      auto const a = particle[index(before)], b = particle[index(after)];
+      if (a == nobody || b == nobody) continue;
+      auto const value = [&](std::int64_t n) { return p[static_cast<std::size_t>(n)]; };
+      d.value[axis] = (value(b) - 2 * value(k) + value(a)) / 4;
+      d.exists[axis] = true;
     }
+    return d;
+  };
+  // All threads look them up, one adds them up in the order of ids.
+  constexpr std::int64_t most = std::int64_t{1} << 16;
+  std::vector<Differences> found;
+  for (std::int64_t first = 0; first < body.last - body.first; first += most) {
+    found.resize(static_cast<std::size_t>(std::min(most, body.last - body.first - first)));
+    exec_host::for_each_in_set_up(static_cast<Index>(found.size()),
+                                  [&](Index k) { found[static_cast<std::size_t>(k)] = differences(first + k); });
+    for (Differences const& d : found)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!d.exists[axis]) continue;
+        second_difference_square += d.value[axis] * d.value[axis];
+        second_difference_count += 1;
+      }
   }
 }
 

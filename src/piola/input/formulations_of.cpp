@@ -55,4 +55,11 @@ bool surfaces_meet(CaseSpec const& spec) {
   return false;
 }
 
+bool knows_contact(CaseSpec const& spec) {
+  auto const all = formulations_of(spec);
+  return std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.contact; });
+}
+
+bool any_contact(CaseSpec const& spec) { return surfaces_meet(spec) || knows_contact(spec); }
+
 }  // namespace piola

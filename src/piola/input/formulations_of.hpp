@@ -13,6 +13,9 @@ std::vector<FormulationInfo> formulations_of(CaseSpec const& spec);
 /// Whether the formulation of a body has a contact of its own, between its bodies and with rigid shapes.
 bool knows_contact(CaseSpec const& spec, std::size_t body);
 
+/// Whether any body's formulation has.
+bool knows_contact(CaseSpec const& spec);
+
 /// Whether a body has a surface by which others and rigid shapes can push it: a body in 2D or 3D without mirrors whose
 /// formulation can be pushed, and which stays total-Lagrangian.
 bool has_surface(CaseSpec const& spec, std::size_t body);
@@ -28,5 +31,8 @@ bool meets_rigids(CaseSpec const& spec, std::size_t body);
 
 /// Whether surfaces of this case can push each other or be pushed by rigid shapes.
 bool surfaces_meet(CaseSpec const& spec);
+
+/// Whether anything keeps bodies apart from others or from rigid shapes.
+bool any_contact(CaseSpec const& spec);
 
 }  // namespace piola

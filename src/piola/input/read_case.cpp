@@ -179,7 +179,7 @@ std::string content_of(std::filesystem::path const& path) {
 }  // namespace
 
 CaseSpec read_case_text(std::string_view text, std::string const& name, std::vector<std::string> const& overrides,
-                        ReadLimits const& limits) {
+                        ReadLimits const& limits, ParticleSet* made) {
   Problems problems;
   auto document = parse_document(text, name, problems);
   if (document) {
@@ -190,8 +190,9 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
   problems.raise_if_any();
   CaseSpec spec = read_document(*document, problems, limits);
   if (problems.empty()) {
-    ParticleSet const particles = make_particles(spec, problems);
+    ParticleSet particles = make_particles(spec, problems);
     check_regions(spec, particles, problems);
+    if (made != nullptr) *made = std::move(particles);
   }
   problems.sort_by_place();
   problems.raise_if_any();
@@ -199,9 +200,9 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
 }
 
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides,
-                   ReadLimits const& limits) {
+                   ReadLimits const& limits, ParticleSet* made) {
   std::filesystem::path const file = std::filesystem::is_directory(path) ? path / "case.toml" : path;
-  return read_case_text(content_of(file), file.string(), overrides, limits);
+  return read_case_text(content_of(file), file.string(), overrides, limits, made);
 }
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
+#include "piola/particles/particle_set.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -22,11 +23,12 @@ inline constexpr double least_bytes_per_particle = 500;
 /// "path=value" that replace values of the file (see apply_overrides). Throws InputError with every problem that was
 /// found, each "file:line:column: what is wrong (what is allowed) - what to do", in the order of the file, or that the
 /// file cannot be read.
+/// Particles, which the checks need, are left in `made` if that is given (input/check_case.hpp: make_particles).
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides = {},
-                   ReadLimits const& limits = {});
+                   ReadLimits const& limits = {}, ParticleSet* made = nullptr);
 
 /// The same for a text; `name` stands for the file in messages.
 CaseSpec read_case_text(std::string_view text, std::string const& name, std::vector<std::string> const& overrides = {},
-                        ReadLimits const& limits = {});
+                        ReadLimits const& limits = {}, ParticleSet* made = nullptr);
 
 }  // namespace piola

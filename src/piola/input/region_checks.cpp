@@ -2,7 +2,9 @@
 #include "piola/input/region_checks.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/formula_loop.hpp"
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace piola {
@@ -58,10 +60,15 @@ bool FormulaCheck::finite_at(std::int64_t id, Expression const& formula, std::st
 }
 
 bool FormulaCheck::finite(Expression const& formula, std::string const& name, Place const& place) const {
-  for (std::int64_t id = body_.first; id < body_.last; ++id) {
-    if (!finite_at(id, formula, name, place)) return false;
-  }
-  return true;
+  std::atomic<bool> good{true};
+  for_each_with_formulas(formula, body_, [&](Expression const& mine, std::size_t id) {
+    if (!std::isfinite(mine(particles_.X[id]))) good.store(false, std::memory_order_relaxed);
+  });
+  if (good) return true;
+  // The first one is named.
+  for (std::int64_t id = body_.first; id < body_.last; ++id)
+    if (!finite_at(id, formula, name, place)) break;
+  return false;
 }
 
 bool FormulaCheck::finite(Expression const& formula, std::string const& name, Place const& place,

@@ -21,7 +21,9 @@ std::array<double, 9> inverse_of(double const (&M)[9]) {
 ReferencePairs::CorrectedKernel ReferencePairs::correct_kernel() const {
   CorrectedKernel r;
   r.at_zero = kernel_volume_ * kernel_of(0);
-  for (Index a = 0; a < particles_; ++a) {
+  r.gamma.resize(static_cast<std::size_t>(particles_));
+  r.C.resize(static_cast<std::size_t>(particles_));
+  exec_host::for_each_in_set_up(particles_, [&](Index a) {
     double sum = r.at_zero, M[9]{}, kernel_moment[3]{};
     visit(a, [&](Pair const& p) {
       double const s = s_of(p.r2), w = kernel_volume_ * kernel_of(p.r2);
@@ -31,13 +33,14 @@ ReferencePairs::CorrectedKernel ReferencePairs::correct_kernel() const {
         for (std::size_t j = 0; j < 3; ++j) M[3 * i + j] += s * p.r[i] * p.r[j];
       }
     });
-    std::array<double, 3> gamma = corrections_.G[static_cast<std::size_t>(a)];
+    std::array<double, 3> gamma = corrections_.G[corrections_.at(a)];
     for (double& g : gamma) g /= sum;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) M[3 * i + j] -= kernel_moment[i] * gamma[j];
-    r.gamma.push_back(gamma);
-    r.C.push_back(dimension_ == 1 ? inverse_of<1>(M) : dimension_ == 2 ? inverse_of<2>(M) : inverse_of<3>(M));
-  }
+    auto const slot = static_cast<std::size_t>(a);
+    r.gamma[slot] = gamma;
+    r.C[slot] = dimension_ == 1 ? inverse_of<1>(M) : dimension_ == 2 ? inverse_of<2>(M) : inverse_of<3>(M);
+  });
   return r;
 }
 

@@ -37,7 +37,6 @@ Shape shape_of(std::vector<LanePair>& pairs) {
 void ReferencePairs::make_stencils() {
   int const W = options_.lanes;
   std::int32_t const full = (1 << W) - 1;
-  std::map<Shape, std::int32_t> known;
   std::int64_t lanes_present = 0, lanes_all = 0;
   std::vector<LanePair> pairs;
   auto const add = [&](Shape const& shape, int group, bool masked, std::int32_t(&run)[2]) {
@@ -49,61 +48,79 @@ void ReferencePairs::make_stencils() {
     }
     run[1] = static_cast<std::int32_t>(entries_.size());
   };
-  for (Index first = 0; first < static_cast<Index>(id_.size()); first += W) {
-    pairs.clear();
-    for (int lane = 0; lane < W && first + lane < particles_; ++lane)
-      visit(first + lane, [&](Pair const& p) {
-        pairs.push_back({p.inner ? 0 : 1, p.b - (first + lane), p.offset, lane});
-      });
-    Shape const shape = shape_of(pairs);
-    lanes_present += static_cast<std::int64_t>(pairs.size());
-    lanes_all += static_cast<std::int64_t>(shape.size()) * W;
-    auto const [at, is_new] = known.try_emplace(shape, static_cast<std::int32_t>(patterns_.size()));
-    if (is_new) {
-      StencilPattern p{};
-      add(shape, 0, false, p.inner);
-      add(shape, 0, true, p.inner_masked);
-      add(shape, 1, false, p.outer);
-      add(shape, 1, true, p.outer_masked);
-      patterns_.push_back(p);
+  auto const& kind = corrections_.kind;
+  std::map<std::vector<std::int32_t>, std::int32_t> pattern_of;
+  std::vector<std::int64_t> present, all;  // lanes with a neighbour, and all, per pattern
+  std::vector<std::int32_t> kinds;
+  for (Index first = 0; first < slots_; first += W) {
+    auto const from = kind.begin() + first;
+    // Most groups of lanes are like the one before; else their kinds tell which pattern they have.
+    if (kinds.empty() || !std::equal(kinds.begin(), kinds.end(), from)) {
+      kinds.assign(from, from + W);
+      auto const next = static_cast<std::int32_t>(patterns_.size());
+      auto const [at, is_new] = pattern_of.try_emplace(kinds, next);
+      if (is_new) {
+        pairs.clear();
+        for (int lane = 0; lane < W; ++lane)
+          visit(first + lane, [&](Pair const& p) {
+            pairs.push_back({p.inner ? 0 : 1, p.b - (first + lane), p.offset, lane});
+          });
+        Shape const shape = shape_of(pairs);
+        StencilPattern p{};
+        add(shape, 0, false, p.inner);
+        add(shape, 0, true, p.inner_masked);
+        add(shape, 1, false, p.outer);
+        add(shape, 1, true, p.outer_masked);
+        patterns_.push_back(p);
+        present.push_back(static_cast<std::int64_t>(pairs.size()));
+        all.push_back(static_cast<std::int64_t>(shape.size()) * W);
+      }
+      pattern_of_.push_back(at->second);
+    } else {
+      pattern_of_.push_back(pattern_of_.back());
     }
-    pattern_of_.push_back(at->second);
+    lanes_present += present[static_cast<std::size_t>(pattern_of_.back())];
+    lanes_all += all[static_cast<std::size_t>(pattern_of_.back())];
   }
   fill_ = lanes_all > 0 ? static_cast<double>(lanes_present) / static_cast<double>(lanes_all) : 0;
 }
 
 void ReferencePairs::make_list() {
-  auto const W = static_cast<std::size_t>(options_.lanes);
+  auto const W = static_cast<std::int64_t>(options_.lanes);
   bool const equal_supports = options_.h_laplacian <= 0 || options_.h_laplacian == options_.h_gradient;
-  auto const pad = [&](Index a) {
-    while (list_neighbour_.size() % W != 0) {
-      list_neighbour_.push_back(a);
-      list_s_.push_back(0);
-      if (!equal_supports) list_l_.push_back(0);
-      if (options_.kernel_table) list_kernel_.push_back(0);
+  auto const padded = [W](std::int64_t pairs) { return (pairs + W - 1) / W * W; };
+  auto const slots = static_cast<std::size_t>(slots_);
+  list_begin_.assign(slots + 1, 0);
+  list_inner_.assign(slots, 0);
+  each_part([&](Index, Index first, Index end) {
+    for (Index a = first; a < end; ++a) {
+      std::int64_t inner = 0, outer = 0;
+      visit(a, [&](Pair const& p) { ++(p.inner ? inner : outer); });
+      list_inner_[static_cast<std::size_t>(a)] = static_cast<std::int32_t>(padded(inner));
+      list_begin_[static_cast<std::size_t>(a) + 1] = padded(inner) + padded(outer);
     }
-  };
-  auto const add = [&](Pair const& p) {
-    list_neighbour_.push_back(p.b);
-    list_s_.push_back(p.inner ? s_of(p.r2) : 0);
-    if (!equal_supports) list_l_.push_back(l_of(p.r2));
-    if (options_.kernel_table) list_kernel_.push_back(kernel_of(p.r2));
-  };
-  for (Index a = 0; a < static_cast<Index>(id_.size()); ++a) {
-    list_begin_.push_back(static_cast<std::int64_t>(list_neighbour_.size()));
-    auto const run = [&](bool inner) {
-      if (a < particles_)
-        visit(a, [&](Pair const& p) {
-          if (p.inner == inner) add(p);
-        });
-      pad(a);
-    };
-    run(true);
-    list_inner_.push_back(
-        static_cast<std::int32_t>(static_cast<std::int64_t>(list_neighbour_.size()) - list_begin_.back()));
-    run(false);
-  }
-  list_begin_.push_back(static_cast<std::int64_t>(list_neighbour_.size()));
+  });
+  for (std::size_t a = 0; a < slots; ++a) list_begin_[a + 1] += list_begin_[a];
+  auto const size = static_cast<std::size_t>(list_begin_.back());
+  list_neighbour_.resize(size);
+  list_s_.assign(size, 0);
+  if (!equal_supports) list_l_.assign(size, 0);
+  if (options_.kernel_table) list_kernel_.assign(size, 0);
+  each_part([&](Index, Index first, Index end) {
+    for (Index a = first; a < end; ++a) {
+      auto const slot = static_cast<std::size_t>(a);
+      auto const begin = static_cast<std::size_t>(list_begin_[slot]);
+      std::fill(list_neighbour_.begin() + list_begin_[slot], list_neighbour_.begin() + list_begin_[slot + 1], a);
+      std::size_t inner = begin, outer = begin + static_cast<std::size_t>(list_inner_[slot]);
+      visit(a, [&](Pair const& p) {
+        std::size_t const k = p.inner ? inner++ : outer++;
+        list_neighbour_[k] = p.b;
+        if (p.inner) list_s_[k] = s_of(p.r2);
+        if (!equal_supports) list_l_[k] = l_of(p.r2);
+        if (options_.kernel_table) list_kernel_[k] = kernel_of(p.r2);
+      });
+    }
+  });
 }
 
 }  // namespace piola

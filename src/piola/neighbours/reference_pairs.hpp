@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/neighbours/tables.hpp"
 #include "piola/particles/ordering.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -31,14 +33,20 @@ struct PairOptions {
   CopiedParticles copies{};   ///< bodies without lattice patterns only
 };
 
-/// Per-particle corrections; SoA, slot by slot. See tables.hpp for the operators.
+/// Per-particle corrections; SoA. Particles of a lattice with the same neighbours have the same ones, which are stored
+/// once. See tables.hpp for the operators.
 struct Corrections {
+  std::vector<std::int32_t> kind;  ///< regular bodies: per slot, where its corrections are; empty: at the slot itself
+  std::size_t at(Index slot) const {
+    return static_cast<std::size_t>(kind.empty() ? slot : kind[static_cast<std::size_t>(slot)]);
+  }
   std::vector<std::array<double, 6>> C;      ///< inverse of M_a = sum s r (x) r (eq. 21), symmetric: XX YY ZZ XY YZ XZ
   std::vector<std::array<double, 3>> G;      ///< sum s r
   std::vector<std::array<double, 3>> alpha;  ///< eq. (A.2), for r = X_b - X_a
   std::vector<double> beta;
   std::vector<double> diagonal;  ///< sum (l + alpha.r + beta r.r)
   std::vector<int> neighbours;
+  int neighbours_of(Index slot) const { return neighbours[at(slot)]; }
   double largest_moment = 0;  ///< largest trace of M_a over the dimension: with it sum s r (x) r is about I inside
 };
 
@@ -71,6 +79,8 @@ class ReferencePairs {
   CorrectedKernel correct_kernel() const;
   std::int64_t pair_count() const { return pairs_; }
   double stencil_fill() const { return fill_; }  ///< share of lanes with a neighbour, regular bodies
+  /// Keeps the tables and the numbers of neighbours alone; nothing else may be asked for after it.
+  void keep_tables();
   std::size_t bytes() const;
 
  private:
@@ -83,38 +93,50 @@ class ReferencePairs {
     double r2;
     bool inner;
   };
+  /// Set-up shares slots among threads in parts of this many, so that what it finds does not depend on the threads.
+  static constexpr Index part_size = 4096;
+  Index parts() const { return (slots_ + part_size - 1) / part_size; }
+  /// f(part, first slot, end) for all parts at once; of slots that hold a particle only.
+  template <class F>
+  void each_part(F const& f) const;
   void find_offsets(Body const& body);
+  /// Sorts slots by where in memory their neighbours are: kind_of_ and distance_.
+  void find_kinds(ParticleSet const& set, SlotOrder const& order);
   void search();
-  std::size_t lattice_number(std::array<int, 3> const& at) const {
-    return (static_cast<std::size_t>(at[2]) * lattice_[1] + at[1]) * lattice_[0] + at[0];
-  }
+  /// Of particles and of their copies, in these slots.
   Index source_of(Index slot) const {
-    auto const slots = static_cast<Index>(id_.size());
-    return slot < slots ? slot : options_.copies.source[static_cast<std::size_t>(slot - slots)];
+    return slot < slots_ ? slot : options_.copies.source[static_cast<std::size_t>(slot - slots_)];
   }
+  /// f(pair) for the neighbours of a particle in a slot of a kind.
+  template <class F>
+  void visit_kind(Index a, std::size_t kind, F const& f) const;
   template <class F>
   void visit(Index a, F const& f) const;
   double s_of(double r2) const;
   double l_of(double r2) const;
   double kernel_of(double r2) const;
-  void correct(ParticleSet const& set, Body const& body);
-  [[noreturn]] void refuse(ParticleSet const& set, Body const& body, Index a, int found, char const* operation) const;
+  struct Refusal;
+  void correct(ParticleSet const& set, Body const& body, SlotOrder const& order);
+  /// Finds the corrections stored at `at`, for the particle in slot a. Returns false if its neighbours are too few.
+  bool correct(Index a, std::size_t at, double& moment, Refusal& refusal);
   void make_stencils();
   void make_list();
+
+  static constexpr Index absent = std::numeric_limits<Index>::max();
 
   PairOptions options_;
   int dimension_;
   bool regular_;
   double kernel_volume_;
-  Index particles_;
-  std::vector<std::int64_t> id_;
-  std::vector<std::array<double, 3>> X_;  // per slot, and of copies
-  std::vector<std::array<int, 3>> at_;    // per slot: lattice index
-  std::vector<Index> slot_at_;            // per lattice point
+  double s_scale_ = 0, l_scale_ = 0, kernel_scale_ = 0;
+  Index particles_, slots_;
+  std::vector<std::array<double, 3>> X_;  // irregular bodies: per slot, and of copies
   std::array<int, 3> lattice_;
   std::vector<std::array<int, 3>> lattice_offset_;
   std::vector<StencilOffset> offsets_;
   std::vector<char> offset_inner_;
+  std::size_t kinds_ = 0;                  // regular bodies: of slots, that of empty ones is the last
+  std::vector<Index> distance_;            // regular bodies, [kind][offset]: to the neighbour in memory, or absent
   std::vector<std::int64_t> found_begin_;  // irregular bodies
   std::vector<Index> found_;
   Corrections corrections_;
@@ -132,34 +154,35 @@ class ReferencePairs {
   std::vector<double> offset_kernel_;
 };
 
+template <class F>
+void ReferencePairs::each_part(F const& f) const {
+  exec_host::for_each_part_in_set_up(parts(), particles_, [&](Index part) {
+    f(part, part * part_size, std::min((part + 1) * part_size, particles_));
+  });
+}
+
+template <class F>
+void ReferencePairs::visit_kind(Index a, std::size_t kind, F const& f) const {
+  Index const* const distance = distance_.data() + kind * offsets_.size();
+  for (std::size_t k = 0; k < offsets_.size(); ++k) {
+    if (distance[k] == absent) continue;
+    auto const& o = offsets_[k];
+    f(Pair{a + distance[k], static_cast<std::int32_t>(k), {o.r[0], o.r[1], o.r[2]}, o.r2, offset_inner_[k] != 0});
+  }
+}
+
 /// f(pair) for every neighbour of the particle in slot a, in an order that depends on the particles alone.
 template <class F>
 void ReferencePairs::visit(Index a, F const& f) const {
+  if (regular_) return visit_kind(a, corrections_.at(a), f);
   auto const slot = static_cast<std::size_t>(a);
-  if (regular_) {
-    auto const& at = at_[slot];
-    for (std::size_t k = 0; k < offsets_.size(); ++k) {
-      std::array<int, 3> to{};
-      bool inside = true;
-      for (std::size_t c = 0; c < 3; ++c) {
-        to[c] = at[c] + lattice_offset_[k][c];
-        inside = inside && to[c] >= 0 && to[c] < lattice_[c];
-      }
-      if (!inside) continue;
-      Index const b = slot_at_[lattice_number(to)];
-      if (b == SlotOrder::no_particle) continue;
-      auto const& o = offsets_[k];
-      f(Pair{b, static_cast<std::int32_t>(k), {o.r[0], o.r[1], o.r[2]}, o.r2, offset_inner_[k] != 0});
-    }
-  } else {
-    double const inner = options_.kernel->support * options_.h_gradient * edge;
-    for (std::int64_t k = found_begin_[slot]; k < found_begin_[slot + 1]; ++k) {
-      Index const b = found_[static_cast<std::size_t>(k)];
-      auto const &Xa = X_[slot], &Xb = X_[static_cast<std::size_t>(b)];
-      std::array const r{Xb[0] - Xa[0], Xb[1] - Xa[1], Xb[2] - Xa[2]};
-      double const r2 = squared(r);
-      f(Pair{b, -1, r, r2, r2 < inner * inner});
-    }
+  double const inner = options_.kernel->support * options_.h_gradient * edge;
+  for (std::int64_t k = found_begin_[slot]; k < found_begin_[slot + 1]; ++k) {
+    Index const b = found_[static_cast<std::size_t>(k)];
+    auto const &Xa = X_[slot], &Xb = X_[static_cast<std::size_t>(b)];
+    std::array const r{Xb[0] - Xa[0], Xb[1] - Xa[1], Xb[2] - Xa[2]};
+    double const r2 = squared(r);
+    f(Pair{b, -1, r, r2, r2 < inner * inner});
   }
 }
 

@@ -12,14 +12,24 @@ namespace {
 
 constexpr std::int64_t layout_version = 3;
 
-void put_state(hdf5::Image& file, std::string const& group, NamedState const& state) {
-  file.group(group);
-  for (auto const& [name, values] : state.arrays()) {
-    std::string path = fmt::format("{}/{}", group, name);  // a name may hold slashes, which HDF5 would take for groups
-    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group.size()) + 1, path.end(), '/', '.');
-    file.dataset<double>(path, values);
-    file.attribute(path, "name", name);
+/// Puts arrays into a group of a file.
+class GroupWriter : public StateWriter {
+ public:
+  GroupWriter(hdf5::Image& file, std::string group) : file_(file), group_(std::move(group)) { file_.group(group_); }
+  void put(std::string_view name, std::span<double const> values) override {
+    std::string path = fmt::format("{}/{}", group_, name);  // a name may hold slashes, which HDF5 would take for groups
+    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
+    file_.dataset<double>(path, values);
+    file_.attribute(path, "name", name);
   }
+
+ private:
+  hdf5::Image& file_;
+  std::string group_;
+};
+
+void put_all(NamedState const& state, StateWriter& writer) {
+  for (auto const& [name, values] : state.arrays()) writer.put(name, values);
 }
 
 NamedState get_state(hdf5::Reader const& file, std::string const& group) {
@@ -55,7 +65,8 @@ void NamedState::get(std::string_view name, std::span<double> values) {
   std::copy(kept.begin(), kept.end(), values.begin());
 }
 
-void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c) {
+void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
+                      std::function<void(StateWriter&)> const& save) {
   make_folder(path.parent_path());
   hdf5::Image file;
   file.attribute("/", "piola_checkpoint", std::array{layout_version});
@@ -69,9 +80,14 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c) {
   file.attribute("/", "wall_seconds", c.wall_seconds);
   file.attribute("/", "stepping_seconds", c.stepping_seconds);
   file.dataset<char>("/case", std::span<char const>(c.source));
-  put_state(file, "/state", c.state);
-  put_state(file, "/observers", c.observers);
-  write_whole_file(path, file.bytes());
+  GroupWriter state(file, "/state");
+  if (save)
+    save(state);
+  else
+    put_all(c.state, state);
+  GroupWriter observers(file, "/observers");
+  put_all(c.observers, observers);
+  file.write(path);
 }
 
 Checkpoint read_checkpoint(std::filesystem::path const& path) {
@@ -114,8 +130,9 @@ std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const&
   return found;
 }
 
-void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint) {
-  write_checkpoint(checkpoint_path(results, checkpoint.step), checkpoint);
+void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint,
+                     std::function<void(StateWriter&)> const& save) {
+  write_checkpoint(checkpoint_path(results, checkpoint.step), checkpoint, save);
   auto const all = list_checkpoints(results);
   std::error_code kept_all_the_same;
   for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k], kept_all_the_same);

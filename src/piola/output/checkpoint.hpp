@@ -40,8 +40,10 @@ struct Checkpoint {
   NamedState observers;                           ///< next output times, twist angles, times of frames
 };
 
-/// Writes one file (whole, synced, renamed). Throws FileError.
-void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint);
+/// Writes one file (whole, synced, renamed). Throws FileError. `save`: puts the state of the formulation, which is not
+/// in the checkpoint then: array by array it goes into the file, so that it stands once more in memory and not twice.
+void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint,
+                      std::function<void(StateWriter&)> const& save = {});
 /// Reads one file after its seal has been verified. Throws FileError.
 Checkpoint read_checkpoint(std::filesystem::path const& path);
 
@@ -50,7 +52,8 @@ std::filesystem::path checkpoint_path(std::filesystem::path const& results, std:
 /// Checkpoint files of a results folder, newest first; that of a failed state is not among them.
 std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results);
 /// Writes the checkpoint of its step and removes all but the last two.
-void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint);
+void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint,
+                     std::function<void(StateWriter&)> const& save = {});
 /// Hands the newest checkpoint to `use`. One that is damaged, or that `use` throws at, is passed over for the one
 /// before it, with a line in `warnings`; one for which `use` returns false without a word. Returns whether one was
 /// used. InputError and std::bad_alloc come through; throws InputError with the reasons if there is none to choose

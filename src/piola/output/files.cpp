@@ -48,14 +48,16 @@ class Descriptor {
 };
 
 /// Returns 0 or the errno of the first failure.
-int write_and_sync(std::filesystem::path const& path, std::span<std::byte const> content) {
+int write_and_sync(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.get() < 0) return errno;
-  while (!content.empty()) {
-    ::ssize_t const written = ::write(file.get(), content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    content = content.subspan(static_cast<std::size_t>(written));
+  for (auto part : {content, std::as_bytes(std::span(end.data(), end.size()))}) {
+    while (!part.empty()) {
+      ::ssize_t const written = ::write(file.get(), part.data(), part.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return errno;
+      part = part.subspan(static_cast<std::size_t>(written));
+    }
   }
   if (::fsync(file.get()) != 0) return errno;
   return file.close() ? 0 : errno;
@@ -74,10 +76,10 @@ std::string cannot_write(std::filesystem::path const& path, int error) {
                      advice(error));
 }
 
-void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content) {
+void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {
   std::filesystem::path part = path;
   part += ".part";
-  int error = write_and_sync(part, content);
+  int error = write_and_sync(part, content, end);
   if (error == 0 && ::rename(part.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(part.c_str());

@@ -11,8 +11,8 @@ namespace piola {
 
 /// Writes a file so that a reader sees either the old content or all of the new one: to "PATH.part", synced to the
 /// disk, then renamed. Throws FileError with path, reason and advice (the part file is removed, other files are
-/// untouched).
-void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content);
+/// untouched). `end` follows the content.
+void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end = {});
 void write_whole_file(std::filesystem::path const& path, std::string_view content);
 
 /// Replaces the last `old_end` bytes of a file of `size` bytes by a longer text, in one write, and waits until it is on

@@ -89,7 +89,7 @@ void FrameWriter::write(double time, FieldCache& cache) {
   for (FieldInfo const& info : fields) put_field(file, info, cache.values(info.name), storage);
   file.dataset<float>("/VTKHDF/PointData/Volume", to_float(cache.particles().volume), 1, storage);
   file.dataset<double>("/VTKHDF/FieldData/TimeValue", one(time));
-  write_whole_file(folder_ / frame_name(times_.size()), file.bytes());
+  file.write(folder_ / frame_name(times_.size()));
   times_.push_back(time);
   if (times_.size() == 1 || !index_.add({time, frame_name(times_.size() - 1)})) write_index();
 }

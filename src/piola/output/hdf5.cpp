@@ -2,6 +2,7 @@
 #include "piola/output/hdf5.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/deflate.hpp"
+#include "piola/output/files.hpp"
 #include "piola/output/hdf5_types.hpp"
 #include "piola/output/seal.hpp"
 #include <algorithm>
@@ -118,14 +119,13 @@ void Image::attribute(std::string const& object, std::string const& name, double
   check(H5Awrite(made.id(), H5T_NATIVE_DOUBLE, &value), name);
 }
 
-std::vector<std::byte> Image::bytes() {
+void Image::write(std::filesystem::path const& path) {
   check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "the file image");
   ::ssize_t const size = H5Fget_file_image(file_.id(), nullptr, 0);
-  check(size < 0 ? -1 : 0, "the file image");
-  std::vector<std::byte> image(static_cast<std::size_t>(size));
-  check(H5Fget_file_image(file_.id(), image.data(), image.size()) < 0 ? -1 : 0, "the file image");
-  append_seal(image);
-  return image;
+  void* place = nullptr;  // of the pointer to the image
+  check(size < 0 ? -1 : H5Fget_vfd_handle(file_.id(), H5P_DEFAULT, &place), "the file image");
+  std::span const image(*static_cast<std::byte const* const*>(place), static_cast<std::size_t>(size));
+  write_whole_file(path, image, seal_of(image));
 }
 
 }  // namespace piola::hdf5

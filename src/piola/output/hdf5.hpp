@@ -49,8 +49,9 @@ class Image {
   void attribute(std::string const& object, std::string const& name, std::string_view text);
   void attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values);
   void attribute(std::string const& object, std::string const& name, double value);
-  /// The finished file; the builder cannot be used after this.
-  std::vector<std::byte> bytes();
+  /// Writes the finished file with its seal, whole (write_whole_file), from where HDF5 built it: there is no second
+  /// copy in memory. The builder cannot be used after this.
+  void write(std::filesystem::path const& path);
 
  private:
   Handle file_;

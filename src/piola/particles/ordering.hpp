@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/parallel.hpp"
 #include "piola/particles/particle_set.hpp"
+#include <array>
 #include <vector>
 
 namespace piola {
@@ -16,6 +17,11 @@ struct SlotOrder {
   Index particles = 0;
   Index slots() const { return static_cast<Index>(id.size()); }
 };
+
+/// Particles by rows of the lattice, in each along `axis[0]`, then by id. rank[z * lattice[axis[1]] + y]: the place of
+/// the row at y along axis[1] and z along axis[2] among all rows.
+SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std::size_t, 3> const& axis,
+                        std::vector<std::size_t> const& rank);
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body);
 

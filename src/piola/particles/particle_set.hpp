@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/particles/shared_vector.hpp"
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -36,20 +37,26 @@ struct Crack {
 };
 
 /// The particles of a run in Id order, as setup made them. Reference data only: what evolves belongs to a formulation.
+/// Copies share their arrays (shared_vector.hpp): a formulation that keeps a set takes no memory for it.
 /// All positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
 struct ParticleSet {
   int dimension = 3;
   std::vector<Body> bodies;
-  std::vector<std::array<double, 3>> X;           ///< reference position [m]
-  std::vector<std::array<int, 3>> lattice_index;  ///< position in the body's lattice
-  std::vector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
-  std::vector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
-  std::vector<int> body;              ///< index into bodies
+  SharedVector<std::array<double, 3>> X;           ///< reference position [m]
+  SharedVector<std::array<int, 3>> lattice_index;  ///< position in the body's lattice
+  SharedVector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
+  SharedVector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
+  SharedVector<int> body;              ///< index into bodies
   std::vector<Crack> cracks;
   /// Of particles on the faces of cracks: +1 on the left of from -> to, -1 on the right; 0 elsewhere. Empty: no cracks.
-  std::vector<std::int8_t> crack_side;
+  SharedVector<std::int8_t> crack_side;
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
+  /// What the arrays take in memory, once for all copies.
+  std::size_t bytes() const {
+    return X.size() * (sizeof(std::array<double, 3>) + sizeof(std::array<int, 3>) + 2 * sizeof(double) + sizeof(int)) +
+           crack_side.size();
+  }
 };
 
 /// The body with this name; null if there is none.

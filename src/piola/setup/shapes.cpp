@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
 #include <algorithm>
@@ -233,10 +234,14 @@ void fill_rings(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.lattice = rings.lattice;
   body.regular = false;
   body.rings = true;
-  set.X.insert(set.X.end(), rings.X.begin(), rings.X.end());
-  set.lattice_index.insert(set.lattice_index.end(), rings.lattice_index.begin(), rings.lattice_index.end());
-  set.volume.insert(set.volume.end(), rings.volume.begin(), rings.volume.end());
-  set.kernel_volume.insert(set.kernel_volume.end(), rings.volume.begin(), rings.volume.end());
+  auto const append = [](auto const& from, auto& to) {
+    auto& own = to.own();
+    own.insert(own.end(), from.begin(), from.end());
+  };
+  append(rings.X, set.X);
+  append(rings.lattice_index, set.lattice_index);
+  append(rings.volume, set.volume);
+  append(rings.volume, set.kernel_volume);
   set.body.resize(set.X.size(), static_cast<int>(set.bodies.size()));
 }
 
@@ -247,25 +252,40 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.regular = !(shape.jitter > 0) && !shape.random;
   double cell = 1;
   for (int d = 0; d < shape.dimension; ++d) cell *= lattice.spacing[static_cast<std::size_t>(d)];
-  int const number = static_cast<int>(set.bodies.size());
-  Shaker shaker(shape.seed);
-  for (int k = 0; k < lattice.count[2]; ++k) {
-    for (int j = 0; j < lattice.count[1]; ++j) {
-      BodyRow const row = inside_row(shape, lattice, j, k);
-      for (std::int64_t i = row.all.begin; i < row.all.end; ++i) {
-        if (!row.contains(i)) continue;
-        Index3 const index{static_cast<int>(i), j, k};
-        double const share = share_of_cell(shape, lattice, index);
-        Vec3 X = position(shape, lattice, index);
-        if (shape.jitter > 0) shake(shape, lattice, share == 1, shaker, X);
-        set.X.push_back(X);
-        set.lattice_index.push_back(index);
-        set.volume.push_back(cell * share);
-        set.kernel_volume.push_back(cell);
-        set.body.push_back(number);
-      }
-    }
-  }
+  auto const planes = static_cast<std::size_t>(lattice.count[2]), across = static_cast<std::size_t>(lattice.count[1]);
+  // Where the particles of each row begin.
+  std::vector<std::size_t> begin{set.X.size()};
+  begin.reserve(planes * across + 1);
+  for (int k = 0; k < lattice.count[2]; ++k)
+    for (int j = 0; j < lattice.count[1]; ++j)
+      begin.push_back(begin.back() + static_cast<std::size_t>(inside_row(shape, lattice, j, k).count()));
+  auto const size = begin.back();
+  auto& X = set.X.own();
+  auto& lattice_index = set.lattice_index.own();
+  auto& volume = set.volume.own();
+  X.resize(size);
+  lattice_index.resize(size);
+  volume.resize(size);
+  set.kernel_volume.resize(size, cell);
+  set.body.resize(size, static_cast<int>(set.bodies.size()));
+  exec_host::for_each_part_in_set_up(static_cast<Index>(planes * across), static_cast<Index>(size - begin.front()),
+                                     [&](Index number) {
+                                       auto const row = static_cast<std::size_t>(number);
+                                       int const j = number % lattice.count[1], k = number / lattice.count[1];
+                                       BodyRow const inside = inside_row(shape, lattice, j, k);
+                                       std::size_t at = begin[row];
+                                       for (std::int64_t i = inside.all.begin; i < inside.all.end; ++i) {
+                                         if (!inside.contains(i)) continue;
+                                         lattice_index[at] = {static_cast<int>(i), j, k};
+                                         X[at] = position(shape, lattice, lattice_index[at]);
+                                         volume[at] = cell * share_of_cell(shape, lattice, lattice_index[at]);
+                                         ++at;
+                                       }
+                                     });
+  if (!(shape.jitter > 0)) return;
+  Shaker shaker(shape.seed);  // one sequence for all particles
+  for (std::size_t at = begin.front(); at < size; ++at)
+    shake(shape, lattice, share_of_cell(shape, lattice, lattice_index[at]) == 1, shaker, X[at]);
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 #include "piola/simulation/build.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/exec/free_memory.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/input/formula_loop.hpp"
 #include "piola/neighbours/cell_moments.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include "piola/simulation/warnings.hpp"
@@ -31,18 +33,19 @@ std::array<double, N> values_at(std::array<Expression, N> const& formulas, std::
 }
 
 void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
-  auto const& X = a.particles.X;
-  for_each_id(body, [&](std::size_t i) { a.initial_velocity[i] = values_at(from.initial_velocity, X[i]); });
+  auto const& X = a.particles.X.seen();
+  auto const put = [&](auto const& formulas, auto& values) {
+    for_each_with_formulas(formulas, body, [&](auto const& mine, std::size_t i) { values[i] = values_at(mine, X[i]); });
+  };
+  put(from.initial_velocity, a.initial_velocity);
   if (from.initial_displacement) {
     a.initial_displacement.resize(X.size());
-    for_each_id(body, [&](std::size_t i) { a.initial_displacement[i] = values_at(*from.initial_displacement, X[i]); });
+    put(*from.initial_displacement, a.initial_displacement);
   }
   if (from.initial_deformation_gradient) {
     constexpr std::array<double, 9> identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
     if (a.initial_deformation_gradient.empty()) a.initial_deformation_gradient.resize(X.size(), identity);
-    for_each_id(body, [&](std::size_t i) {
-      a.initial_deformation_gradient[i] = values_at(*from.initial_deformation_gradient, X[i]);
-    });
+    put(*from.initial_deformation_gradient, a.initial_deformation_gradient);
   }
 }
 
@@ -195,12 +198,20 @@ std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& 
 }  // namespace
 
 Assembly assemble(CaseSpec const& spec) {
-  Assembly a;
   Problems problems;
-  a.particles = make_particles(spec, problems);
-  check_regions(spec, a.particles, problems);
+  ParticleSet particles = make_particles(spec, problems);
+  check_regions(spec, particles, problems);
   report_mixed_start(spec, problems);
   problems.raise_if_any();
+  return assemble(spec, std::move(particles));
+}
+
+Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
+  Assembly a;
+  Problems problems;
+  report_mixed_start(spec, problems);
+  problems.raise_if_any();
+  a.particles = std::move(particles);
   measure_volumes(spec, a.particles);
   a.cfl = spec.run.cfl;
   a.machine = spec.run.machine;
@@ -220,10 +231,11 @@ Assembly assemble(CaseSpec const& spec) {
   return a;
 }
 
-Simulation build(CaseSpec spec) {
+namespace {
+
+Simulation build_from(CaseSpec spec, Assembly assembly) {
   Simulation simulation;
-  simulation.threads = exec_host::set_threads(spec.run.threads);
-  Assembly assembly = assemble(spec);
+  simulation.threads = exec_host::threads();
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     simulation.mass += mass_of(assembly.materials[b], assembly.particles.bodies[b], assembly.particles);
   }
@@ -231,10 +243,28 @@ Simulation build(CaseSpec spec) {
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);
   double const step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
-  simulation.warnings = warnings_of(spec, assembly, {.step = step, .start = simulation.formulation->diagnose()});
+  Prospect prospect{.step = step};
+  if (any_contact(spec)) prospect.start = simulation.formulation->diagnose();
+  simulation.warnings = warnings_of(spec, assembly, prospect);
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);
+  assembly = {};
+  exec_host::give_back_free_memory();
   return simulation;
+}
+
+}  // namespace
+
+Simulation build(CaseSpec spec) {
+  exec_host::set_threads(spec.run.threads);
+  Assembly assembly = assemble(spec);
+  return build_from(std::move(spec), std::move(assembly));
+}
+
+Simulation build(CaseSpec spec, ParticleSet particles) {
+  exec_host::set_threads(spec.run.threads);
+  Assembly assembly = assemble(spec, std::move(particles));
+  return build_from(std::move(spec), std::move(assembly));
 }
 
 }  // namespace piola

@@ -22,9 +22,13 @@ struct Simulation {
 /// What the formulation is built from: the particles of a case, and its formulas evaluated there. Throws InputError
 /// with all that is wrong with regions and formulas.
 Assembly assemble(CaseSpec const& spec);
+/// The same with the particles that `read_case` has made of this very case, and checked.
+Assembly assemble(CaseSpec const& spec, ParticleSet particles);
 
 /// Builds the whole simulation and sets the number of threads. Throws InputError, also for what the formulation
 /// refuses and for probes of fields that it does not have.
 Simulation build(CaseSpec spec);
+/// The same with the particles that `read_case` has made of this very case, and checked: they are made once.
+Simulation build(CaseSpec spec, ParticleSet particles);
 
 }  // namespace piola

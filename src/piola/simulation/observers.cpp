@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/observers.hpp"
 #include "piola/base/version.hpp"
+#include "piola/exec/free_memory.hpp"
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/output/files.hpp"
@@ -32,7 +33,10 @@ HistoryObserver::HistoryObserver(Results results)
 }
 
 void HistoryObserver::open(Formulation const& formulation, std::optional<double> resume_time) {
-  auto columns = diagnostic_columns(formulation.diagnose());
+  last_ = formulation.diagnose();
+  // A new run has its first row from the same state.
+  seen_at_start_ = !resume_time;
+  auto columns = diagnostic_columns(*last_);
   take_units(results_.spec, columns);
   for (Probe const& probe : probes_) {
     auto const more = probe.columns();
@@ -48,7 +52,7 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
 }
 
 void HistoryObserver::write_row(Formulation const& formulation, Moment const& moment) {
-  last_ = formulation.diagnose();
+  if (!seen_at_start_ || moment.step > 0) last_ = formulation.diagnose();
   last_step_ = moment.step;
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
   FieldCache cache(formulation, results_.particles);
@@ -132,7 +136,7 @@ CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> o
   schedule_.due(0);  // the state at the start is the case itself
 }
 
-Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const& moment) const {
+Checkpoint CheckpointObserver::take(Moment const& moment) const {
   Checkpoint c{moment.time,
                moment.step,
                moment.dt,
@@ -145,7 +149,6 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
                results_.spec.source,
                {},
                {}};
-  formulation.save(c.state);
   for (Observer const* other : others_) other->save(c.observers);
   return c;
 }
@@ -153,7 +156,8 @@ Checkpoint CheckpointObserver::take(Formulation const& formulation, Moment const
 void CheckpointObserver::keep(Formulation const& formulation, Moment const& moment) {
   auto const start = WallLimit::Clock::now();
   for (Observer* other : others_) other->sync();
-  keep_checkpoint(results_.folder, take(formulation, moment));
+  keep_checkpoint(results_.folder, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
+  exec_host::give_back_free_memory();
   if (orders_.wall != nullptr)
     orders_.wall->checkpoint_took(std::chrono::duration<double>(WallLimit::Clock::now() - start).count());
 }
@@ -169,7 +173,8 @@ void CheckpointObserver::before_cut(Formulation const& formulation, Moment const
 
 void CheckpointObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
   if (ending == Ending::failed) {
-    write_checkpoint(results_.folder / failed_checkpoint, take(formulation, moment));
+    write_checkpoint(results_.folder / failed_checkpoint, take(moment),
+                     [&](StateWriter& writer) { formulation.save(writer); });
   } else {
     keep(formulation, moment);
   }

@@ -73,6 +73,7 @@ class HistoryObserver : public Observer {
   HistoryMark mark_;              ///< of the checkpoint that the run was resumed from
   std::set<std::string> warned_;  ///< columns with cells that were not numbers
   std::optional<Diagnostics> last_;
+  bool seen_at_start_ = false;  ///< last_ is of the state before the first step
   std::int64_t last_step_ = -1;
 };
 
@@ -110,7 +111,8 @@ class CheckpointObserver : public Observer {
   void load(NamedState& reader, Moment const& moment) override;
 
  private:
-  Checkpoint take(Formulation const& formulation, Moment const& moment) const;
+  /// All but the state of the formulation.
+  Checkpoint take(Moment const& moment) const;
   void keep(Formulation const& formulation, Moment const& moment);
   Results results_;
   Schedule schedule_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 namespace piola {
+
 namespace {
 
 /// Of "material.density", else of "material".
@@ -73,8 +74,7 @@ void warn_of_idle_contact(CaseSpec const& spec, Problems& found) {
 void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
   if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
   Places const& places = spec.contact->places;
-  bool own = false;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) own = own || knows_contact(spec, b);
+  bool const own = knows_contact(spec);
   for (char const* key : {"law", "stiffness", "closing_speed", "exponent"})
     if (!own && is_given(places, key))
       found.add(place_of(places, key),

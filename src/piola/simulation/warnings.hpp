@@ -12,9 +12,10 @@ namespace piola {
 /// What a run is judged by before it starts.
 struct Prospect {
   double step = 0;  ///< expected time step [s]
-  /// Energies at the start; nothing where the formulation was not built.
+  /// Energies at the start; nothing where the formulation was not built, or knows no contact.
   std::optional<Diagnostics> start = {};
 };
+
 
 /// All that looks odd about a case that can run: slips of units, settings without effect, laws that lock or cannot
 /// fail, bodies that touch or cannot touch. One sentence each, "file:line:column: what (what is usual) - what to do",

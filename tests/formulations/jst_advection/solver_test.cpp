@@ -112,7 +112,7 @@ TEST(Advection, RefusesWhatAPeriodicRowIsNot) {
   };
   EXPECT_EQ(message(row(40)), "accepted");
   Assembly halves = row(40);
-  halves.particles.volume.front() /= 2;
+  halves.particles.volume[0] /= 2;
   EXPECT_NE(message(halves).find("cell_centred"), std::string::npos);
   Assembly held = row(40);
   support(held, {true, false, false}, [](Point const& X) { return X[0] < 0.1; });

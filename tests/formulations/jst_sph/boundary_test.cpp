@@ -234,7 +234,7 @@ Assembly turned(Assembly const& a, Mat<3> const& R) {
     Vec<3> const r = R * Vec<3>{{p[0], p[1], p[2]}};
     return Point{r[0], r[1], r[2]};
   };
-  for (auto& X : b.particles.X) X = turn(X);
+  for (auto& X : b.particles.X.own()) X = turn(X);
   for (auto& v : b.initial_velocity) v = turn(v);
   for (auto& s : b.supports) {
     Point const normal = s.frame == Support::Frame::axes

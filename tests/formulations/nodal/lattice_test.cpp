@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/fit.hpp"
+#include "exec/thread_count.hpp"
 #include "formulations/nodal/nodal_bodies.hpp"
 
 namespace piola::testing {
@@ -93,6 +95,47 @@ TEST(NodalLattice, IsOneOnlyWithoutGaps) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->count, (std::array{6, 5, 4}));
   EXPECT_EQ(found->axis, (std::array<std::size_t, 3>{2, 1, 0}));
+}
+
+TEST(NodalLattice, KnowsItsPairsWithoutASearch) {
+  Assembly const a = bent_lattice(3, 1);
+  auto const order = nodal::slot_order(a.particles, a.particles.bodies[0]);
+  auto const shape = nodal::lattice_shape(a.particles, a.particles.bodies[0], order);
+  ASSERT_TRUE(shape);
+  nodal::Points X;
+  for (Index i = 0; i < order.particles; ++i) {
+    X.push_back(a.particles.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)])]);
+    for (std::size_t c = 0; c < 3; ++c) X.back()[c] /= a.particles.bodies[0].spacing[c];
+  }
+  for (double const reach : {2.4, 3.0}) {
+    auto const known = nodal::lattice_pairs(*shape, reach),
+               found = nodal::find_pairs(X, std::vector<double>(X.size(), reach));
+    EXPECT_EQ(known.begin, found.begin);
+    EXPECT_EQ(known.neighbour, found.neighbour);
+  }
+}
+
+// With enough particles for the coarse levels of the solve. Threads have parts of the sums that cells add to each
+// other.
+TEST(NodalSetUp, IsTheSameForAnyNumberOfThreads) {
+  for (bool const cloud : {false, true}) {
+    Assembly a = nodal_body(brick(3, 0, {7, 8, 9}));
+    if (cloud) a = as_cloud(a);
+    auto const reference = [&](int threads) {
+      Threads const used(threads);
+      return SetUpBody(a).reference;
+    };
+    auto const one = reference(1);
+    for (int const threads : thread_counts) {
+      auto const other = reference(threads);
+      EXPECT_EQ(one.mass, other.mass);
+      EXPECT_EQ(one.mu, other.mu);
+      EXPECT_EQ(one.g, other.g);
+      EXPECT_EQ(one.own, other.own);
+      EXPECT_EQ(one.weight, other.weight);
+      EXPECT_EQ(one.neighbour, other.neighbour);
+    }
+  }
 }
 
 }  // namespace

@@ -273,8 +273,12 @@ TEST_P(InDimensions, FrictionSticksThenSlides) {
     stretch += 0.002;
     double const pull = -system.between(1, 0).force[0];
     EXPECT_LE(pull, mu * normal * 1.02);
-    if (step == 0) EXPECT_GT(pull, 0);
-    if (step == 59) EXPECT_NEAR(pull / (mu * normal), 1, 0.03) << "it slides";
+    if (step == 0) {
+      EXPECT_GT(pull, 0);
+    }
+    if (step == 59) {
+      EXPECT_NEAR(pull / (mu * normal), 1, 0.03) << "it slides";
+    }
   }
   // Work of the last force over the way, less what the springs took to stretch.
   EXPECT_NEAR(work / (mu * normal * stretch), 1, 0.3);

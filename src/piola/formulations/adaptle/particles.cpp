@@ -107,6 +107,9 @@ void Particles::set_bodies(Assembly const& assembly) {
 
 void Particles::set_particles(Assembly const& assembly) {
   auto const& set = assembly.particles;
+  body_of_.reserve(set.X.size());
+  reference_.reserve(set.X.size());
+  state_.reserve(set.X.size());
   for (std::size_t i = 0; i < set.X.size(); ++i) {
     int const body = set.body[i];
     BodyConstants const& b = body_[static_cast<std::size_t>(body)];

@@ -114,7 +114,7 @@ class Particles {
   std::vector<RigidShape> shapes_;
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;
-  std::vector<std::array<double, 3>> X_;
+  SharedVector<std::array<double, 3>> const X_;  ///< reference positions [m]
 };
 
 }  // namespace piola::adaptle

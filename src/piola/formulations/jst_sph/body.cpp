@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
@@ -34,6 +35,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   fill_reference(machine.lanes);
   if (options_.filter) fill_filter();
   if (options_.corrected_kernel()) fill_corrected_kernel(machine.lanes);
+  pairs_->keep_tables();
   fill_initial(assembly, machine);
   fill_solid(machine);
   boundary_.attach(state_);
@@ -227,7 +229,8 @@ JstBody::Gathered JstBody::gather(int values) const {
   auto const n = static_cast<std::ptrdiff_t>(all_slots());
   if (state_.regular) {
     g.start = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
-    g.component = 8 * (((n + 7) / 8 + 2 * g.start / 8) | 1);
+    // The zeros after the last value of a component are those before the first of the next.
+    g.component = 8 * (((n + 7) / 8 + g.start / 8) | 1);
     g.memory = Memory(static_cast<std::size_t>(g.component * values + 2 * g.start));
     return g;
   }
@@ -235,8 +238,9 @@ JstBody::Gathered JstBody::gather(int values) const {
   g.particle = (std::ptrdiff_t{D_} + values + 7) / 8 * 8;
   g.start = D_;
   g.memory = Memory(static_cast<std::size_t>(n * g.particle + 8));
-  for (Index i = 0; i < order_.particles; ++i)
+  exec_host::for_each_in_set_up(order_.particles, [&](Index i) {
     for (int c = 0; c < D_; ++c) g.memory.data()[i * g.particle + c] = X(i)[static_cast<std::size_t>(c)];
+  });
   for (Index k = 0; k < images_.count(); ++k)
     for (int c = 0; c < D_; ++c)
       g.memory.data()[(order_.slots() + k) * g.particle + c] =
@@ -276,13 +280,12 @@ void JstBody::place_gathered() {
   if (smoothed_J) place(fields_.w_J, second_, D_);
   place(fields_.A, second_, before_A);
   auto const& corrections = pairs_->corrections();
-  for (Index i = 0; adjoint && i < order_.particles; ++i) {
+  exec_host::for_each_in_set_up(adjoint ? order_.particles : 0, [&](Index i) {
     double* const at = state_.second.data + i * second_.particle;
     for (int c = 0; c < D_; ++c)
-      at[(smoothed + c) * second_.component] =
-          corrections.alpha[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
-    at[(smoothed + D_) * second_.component] = corrections.beta[static_cast<std::size_t>(i)];
-  }
+      at[(smoothed + c) * second_.component] = corrections.alpha[corrections.at(i)][static_cast<std::size_t>(c)];
+    at[(smoothed + D_) * second_.component] = corrections.beta[corrections.at(i)];
+  });
 }
 
 /// Finds the distinct groups of lanes: the same neighbours and the same volumes give the same reference data.
@@ -290,10 +293,16 @@ void JstBody::share_reference(int lanes) {
   stored_slots_ = order_.slots();
   if (!state_.regular) return;
   std::map<std::vector<double>, std::int32_t> known;
+  std::vector<double> key, last;
   for (Index first = 0; first < order_.slots(); first += lanes) {
     Index const group = first / lanes;
-    std::vector<double> key{static_cast<double>(state_.stencil.pattern_of[group])};
+    key.assign(1, static_cast<double>(state_.stencil.pattern_of[group]));
     for (Index i = first; i < first + lanes; ++i) key.push_back(i < order_.particles ? volume(i) : 0);
+    if (key == last) {  // as most groups
+      group_.push_back(group_.back());
+      continue;
+    }
+    last = key;
     auto const [at, is_new] = known.try_emplace(key, static_cast<std::int32_t>(group_first_.size()));
     if (is_new) group_first_.push_back(first);
     group_.push_back(at->second);
@@ -303,22 +312,24 @@ void JstBody::share_reference(int lanes) {
 
 template <class Visit>
 void JstBody::each_stored(int lanes, Visit const& visit) const {
-  for (Index to = 0; to < stored_slots_; ++to) {
+  exec_host::for_each_in_set_up(stored_slots_, [&](Index to) {
     Index const i = state_.regular ? group_first_[static_cast<std::size_t>(to / lanes)] + to % lanes : to;
     if (i < order_.particles) visit(to, i);
-  }
+  });
 }
 
 void JstBody::fill_reference(int lanes) {
-  for (Index i = 0; i < order_.slots(); ++i)
+  bool const stages = wanted(fields_.F_star);
+  exec_host::for_each_in_set_up(order_.slots(), [&](Index i) {
     for (int c = 0; c < D_; ++c) {
       fields_.F.at(i, c * D_ + c) = 1;
-      if (wanted(fields_.F_star)) fields_.F_star.at(i, c * D_ + c) = 1;
+      if (stages) fields_.F_star.at(i, c * D_ + c) = 1;
     }
+  });
   auto const& corrections = pairs_->corrections();
   static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
   each_stored(lanes, [&](Index to, Index i) {
-    auto const slot = static_cast<std::size_t>(i);
+    auto const slot = corrections.at(i);
     fields_.V.at(to) = continued_volume(i);
     for (int c = 0; c < D_ * (D_ + 1) / 2; ++c)
       fields_.C.at(to, c) = corrections.C[slot][static_cast<std::size_t>(packed[D_ - 1][c])];
@@ -381,14 +392,14 @@ void JstBody::fill_filter() {
 void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
   auto const& moved = assembly.initial_displacement;
   auto const& deformed = assembly.initial_deformation_gradient;
-  for (Index i = 0; i < order_.particles; ++i) {
+  exec_host::for_each_in_set_up(order_.particles, [&](Index i) {
     auto const at = static_cast<std::size_t>(id(i));
     for (int c = 0; c < D_; ++c) {
       auto const k = static_cast<std::size_t>(c);
       fields_.x.at(i, c) = set_->X[at][k] + (moved.empty() ? 0 : moved[at][k]);
       if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
     }
-  }
+  });
   bool const mixed = options_.variables != Variables::displacement;
   if (!deformed.empty() && mixed) {
     for (Index i = 0; i < order_.particles; ++i)
@@ -520,8 +531,9 @@ double JstBody::J(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  std::size_t total = pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() + second_.memory.bytes() +
-                      ahead_.memory.bytes() + kernel_.memory.bytes();
+  std::size_t total = order_.id.size() * sizeof(order_.id[0]) + partial_.size() * sizeof(double) +
+                      group_.size() * sizeof(group_[0]) + pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() +
+                      second_.memory.bytes() + ahead_.memory.bytes() + kernel_.memory.bytes() + weight_.bytes();
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

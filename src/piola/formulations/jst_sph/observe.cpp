@@ -257,7 +257,7 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
                        observed_pressure(body, law, F, i),
                        law.rho0,
                        static_cast<double>(body_number),
-                       static_cast<double>(body.pairs().corrections().neighbours[static_cast<std::size_t>(i)]),
+                       static_cast<double>(body.pairs().corrections().neighbours_of(i)),
                        static_cast<double>(body.id(i)),
                        all_history(body, i)};
       found.put(p, &values[static_cast<std::size_t>(body.id(i) * found.components)]);

@@ -2,6 +2,7 @@
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/instruction_sets.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/actions.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
@@ -68,7 +69,7 @@ class Solver final : public Formulation {
     rule.limit =
         "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
     rule.more_stages = StabilityMonitor::stages_per_step;
-    rule.setup_stages = StabilityMonitor::setup_stages;
+    rule.setup_stages = monitors_.front()->setup_stages();
     return rule;
   }
 
@@ -141,8 +142,9 @@ class Solver final : public Formulation {
 
   int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
   std::size_t memory_bytes() const override {
-    std::size_t total = 0;
+    std::size_t total = set_.bytes();
     for (auto const& body : bodies_) total += body->bytes();
+    for (auto const& monitor : monitors_) total += monitor ? monitor->bytes() : 0;
     return total;
   }
 
@@ -205,7 +207,7 @@ std::optional<Failure> Solver::failure() const {
     auto const v = body->v(slot.index);
     f.values = {{"det F", J},
                 {"J", body->J(slot.index)},
-                {"neighbours", body->pairs().corrections().neighbours[static_cast<std::size_t>(slot.index)]},
+                {"neighbours", body->pairs().corrections().neighbours_of(slot.index)},
                 {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])},
                 {"wave speed [m/s]", JstBody::value(body->state().wave_speed, slot.index)}};
     return f;
@@ -245,11 +247,12 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
-      for (Index i = 0; i < body.particles(); ++i)
+      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
+      exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
         for (int c = 0; c < components; ++c)
           values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] =
               JstBody::value(field, i, c);
+      });
       writer.put(name, values);
     });
     auto const& totals = body.state().totals;
@@ -268,12 +271,13 @@ void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
+      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
       reader.get(name, values);
-      for (Index i = 0; i < body.particles(); ++i)
+      exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
         for (int c = 0; c < components; ++c)
           JstBody::set(field, i, c,
                        values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)]);
+      });
     });
     if (body.options().variables == Variables::displacement)
       for (Index i = 0; i < body.particles(); ++i)

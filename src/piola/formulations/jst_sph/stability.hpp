@@ -22,8 +22,10 @@ double largest_step(double eigenvalue);
 /// The state is left as it was.
 class StabilityMonitor {
  public:
-  /// Right-hand sides that the later measurements cost per step, and the first ones in all, with what is around them.
-  static constexpr double stages_per_step = 4.0 / 50, setup_stages = 2 * 41;
+  /// Right-hand sides that the later measurements cost per step.
+  static constexpr double stages_per_step = 4.0 / 50;
+  /// And the first ones in all, with what is around them.
+  double setup_stages() const;
 
   /// Measures both from a random start.
   StabilityMonitor(JstBody& body, Machine const& machine);
@@ -33,11 +35,15 @@ class StabilityMonitor {
   /// Largest stable step for a state with this largest wave speed [s].
   double step(double wave_speed) const;
 
+  std::size_t bytes() const { return mode_.size() * sizeof(double); }
+
   /// Everything that the next step limit depends on.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 
  private:
+  bool is_large_lattice() const;
+  bool is_undeformed() const;
   void measure(int rounds, double wave_speed);
   void measure_at_rest();
   void measure_all_forces(int rounds, double wave_speed);

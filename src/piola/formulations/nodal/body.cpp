@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
@@ -100,10 +101,11 @@ void NodalBody::allocate() {
 
 void NodalBody::fill_reference() {
   auto const copy = [&](std::vector<double> const& from, Field& to) {
-    for (Index i = 0; i < to.size(); ++i)
+    exec_host::for_each_in_set_up(to.size(), [&](Index i) {
       for (int c = 0; c < to.components(); ++c)
         to.at(i, c) =
             from[static_cast<std::size_t>(i) * static_cast<std::size_t>(to.components()) + static_cast<std::size_t>(c)];
+    });
   };
   copy(reference_.V, fields_.V);
   copy(reference_.mass, fields_.mass);
@@ -116,18 +118,21 @@ void NodalBody::fill_reference() {
   // Slots without a particle hold nothing that counts.
   for (Index i = 0; i < order_.particles; ++i)
     for (int c = 0; c < D_; ++c) fields_.C_measured.at(i, c) = 1;
+  // The fields have them now.
+  for (auto* array : {&reference_.L, &reference_.g, &reference_.k, &reference_.own, &reference_.mu})
+    std::vector<double>().swap(*array);
 }
 
 void NodalBody::fill_initial(Assembly const& assembly) {
   auto const& moved = assembly.initial_displacement;
-  for (Index i = 0; i < order_.particles; ++i) {
+  exec_host::for_each_in_set_up(order_.particles, [&](Index i) {
     auto const at = static_cast<std::size_t>(id(i));
     for (int c = 0; c < D_; ++c) {
       auto const k = static_cast<std::size_t>(c);
       fields_.x.at(i, c) = set_->X[at][k] + (moved.empty() ? 0 : moved[at][k]);
       if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
     }
-  }
+  });
 }
 
 int NodalBody::step(Machine const& machine, double time, double dt) { return step(machine, time, dt, 0); }
@@ -202,7 +207,11 @@ Smoothing const& NodalBody::smoothing() const {
 
 std::size_t NodalBody::bytes() const {
   auto const& r = reference_;
-  std::size_t total = gathered_.bytes() + r.begin.size() * 12 + r.neighbour.size() * 12;
+  std::size_t total = gathered_.bytes() + order_.id.size() * 8 + r.begin.size() * 8 + r.neighbour.size() * 12 +
+                      r.group_of_k.size() * 4 +
+                      (r.V.size() + r.mass.size() + r.X.size() + r.centroid.size() + partial_.size()) * 8;
+  // The smoothing of observers, whose weights are one per pair.
+  if (smoothing_) total += r.neighbour.size() * 8 + r.V.size() * 8;
   const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
   return total;
 }

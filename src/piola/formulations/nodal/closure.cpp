@@ -28,7 +28,8 @@ using Columns = std::array<double, static_cast<std::size_t>(D)>;
 template <int D>
 Columns<D> products(std::vector<double> const& u, std::vector<double> const& v) {
   Columns<D> sum{};
-  for (std::size_t k = 0; k < u.size(); ++k) sum[k % static_cast<std::size_t>(D)] += u[k] * v[k];
+  for (std::size_t k = 0; k < u.size(); k += D)
+    for (std::size_t J = 0; J < D; ++J) sum[J] += u[k + J] * v[k + J];
   return sum;
 }
 
@@ -63,11 +64,13 @@ void remove_quadratic(Points const& X, std::vector<double>& u) {
     std::copy(std::begin(A), std::end(A), copy);
     solve_in_place<values>(copy, column);
   }
-  for (std::size_t a = 0; a < X.size(); ++a) {
-    monomials_at(a, p);
+  exec_host::for_each_in_set_up(static_cast<Index>(X.size()), [&](Index particle) {
+    auto const a = static_cast<std::size_t>(particle);
+    double q[values];
+    monomials_at(a, q);
     for (std::size_t J = 0; J < D; ++J)
-      for (int m = 0; m < values; ++m) u[a * D + J] -= p[m] * b[J][m];
-  }
+      for (int m = 0; m < values; ++m) u[a * D + J] -= q[m] * b[J][m];
+  });
 }
 
 /// One step of refinement of the quadratics: what they leave is orthogonal to quadratics to round-off then, however
@@ -158,24 +161,27 @@ template <int D>
 std::vector<double> Divergence<D>::residual() const {
   auto R = surface_vectors();
   auto const& pairs = fits_.pairs();
-  for (std::size_t a = 0; a < cells_.size(); ++a) {
+  scatter_in_order(static_cast<Index>(cells_.size()), pairs.farthest(), [&](std::size_t a, auto const& mine) {
     double to_gradient[D][terms];  // of sums s p (f_b - f_a)
     for (int l = 0; l < terms; ++l) {
       typename Fits<D>::Monomials column;
       for (int i = 0; i < terms; ++i) column[static_cast<std::size_t>(i)] = fits_.inverse(a, i, l);
       for (int J = 0; J < D; ++J) to_gradient[J][l] = cells_[a].volume * at_centroid<D>(column, cells_[a], J);
     }
+    bool const own = mine(a);
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+      bool const other = mine(pairs.at(k));
+      if (!own && !other) continue;
       auto const p = fits_.monomials_of(a, pairs.at(k));
       for (int J = 0; J < D; ++J) {
         double G = 0;
         for (int l = 0; l < terms; ++l) G += to_gradient[J][l] * p[static_cast<std::size_t>(l)];
         G *= pairs.weight[k];
-        R[pairs.at(k) * D + static_cast<std::size_t>(J)] -= G;
-        R[a * D + static_cast<std::size_t>(J)] += G;
+        if (other) R[pairs.at(k) * D + static_cast<std::size_t>(J)] -= G;
+        if (own) R[a * D + static_cast<std::size_t>(J)] += G;
       }
     }
-  }
+  });
   return R;
 }
 
@@ -186,6 +192,13 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
   Closure closure{std::vector<double>(r.size(), 0), {}};
   std::optional<SplineLevels<D>> levels;
   if (cells_.size() >= worth_levels) set_levels(matrix, cells_, levels.emplace(fits_.X()));
+  // f(particle, number) for the D numbers of each particle.
+  auto const each_particle = [&](auto const& f) {
+    exec_host::for_each_in_set_up(static_cast<Index>(cells_.size()), [&](Index particle) {
+      auto const a = static_cast<std::size_t>(particle);
+      for (std::size_t J = 0; J < D; ++J) f(a, a * D + J);
+    });
+  };
   auto const goal = products<D>(r, r);
   Columns<D> before{};
   for (closure.iterations = 0; closure.iterations < most_iterations; ++closure.iterations) {
@@ -193,18 +206,19 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
     bool done = true;
     for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
     if (done) break;
-    for (std::size_t k = 0; k < r.size(); ++k) z[k] = r[k] / matrix.diagonal()[k / D];
+    each_particle([&](std::size_t a, std::size_t k) { z[k] = r[k] / matrix.diagonal()[a]; });
     if (levels) levels->add(r, z);
     auto const rz = products<D>(r, z);
-    for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + (before[k % D] > 0 ? rz[k % D] / before[k % D] : 0) * p[k];
+    each_particle(
+        [&](std::size_t, std::size_t k) { p[k] = z[k] + (before[k % D] > 0 ? rz[k % D] / before[k % D] : 0) * p[k]; });
     before = rz;
     matrix.apply(p, image);
     auto const curvature = products<D>(p, image);
-    for (std::size_t k = 0; k < p.size(); ++k) {
+    each_particle([&](std::size_t, std::size_t k) {
       double const step = curvature[k % D] > 0 ? rz[k % D] / curvature[k % D] : 0;
       closure.mu[k] += step * p[k];
       r[k] -= step * image[k];
-    }
+    });
   }
   remove_quadratic<D>(fits_.X(), closure.mu);
   matrix.apply(closure.mu, image);

@@ -29,57 +29,79 @@ double weight_of(double square, double reach) {
 
 }  // namespace
 
+Index Pairs::farthest() const {
+  Index most = 0;
+  for (std::size_t a = 0; a + 1 < begin.size(); ++a)
+    if (first(a) < end(a))  // in increasing order
+      most =
+          std::max({most, static_cast<Index>(a) - neighbour[first(a)], neighbour[end(a) - 1] - static_cast<Index>(a)});
+  return most;
+}
+
 Pairs find_pairs(Points const& X, std::vector<double> const& reach) {
   Pairs pairs;
   pairs.begin.push_back(0);
   if (X.empty()) return pairs;
   CellGrid const grid(X, *std::max_element(reach.begin(), reach.end()));
-  std::vector<std::vector<Index>> near(X.size());
-  exec_host::for_each_in_set_up(static_cast<Index>(X.size()), [&](Index particle) {
-    auto const a = static_cast<std::size_t>(particle);
-    grid.visit(X[a], [&](Index other) {
-      auto const b = static_cast<std::size_t>(other);
-      double const longest = edge * std::max(reach[a], reach[b]);
-      if (b != a && square_of_distance(X, a, b) < longest * longest) near[a].push_back(other);
+  auto const particles = static_cast<Index>(X.size());
+  constexpr Index part_size = 4096;
+  Index const parts = (particles + part_size - 1) / part_size;
+  std::vector<std::vector<Index>> found(static_cast<std::size_t>(parts));
+  pairs.begin.assign(X.size() + 1, 0);
+  auto const each_part = [&](auto const& f) {
+    exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
+      f(found[static_cast<std::size_t>(part)], static_cast<std::size_t>(part * part_size),
+        static_cast<std::size_t>(std::min((part + 1) * part_size, particles)));
     });
-    std::sort(near[a].begin(), near[a].end());
+  };
+  each_part([&](std::vector<Index>& near, std::size_t first, std::size_t end) {
+    for (std::size_t a = first; a < end; ++a) {
+      auto const before = std::ssize(near);
+      grid.visit(X[a], [&](Index other) {
+        auto const b = static_cast<std::size_t>(other);
+        double const longest = edge * std::max(reach[a], reach[b]);
+        if (b != a && square_of_distance(X, a, b) < longest * longest) near.push_back(other);
+      });
+      std::sort(near.begin() + before, near.end());
+      pairs.begin[a + 1] = std::ssize(near) - before;
+    }
   });
-  for (auto const& of : near) {
-    pairs.neighbour.insert(pairs.neighbour.end(), of.begin(), of.end());
-    pairs.begin.push_back(static_cast<std::int64_t>(pairs.neighbour.size()));
-  }
+  for (std::size_t a = 0; a < X.size(); ++a) pairs.begin[a + 1] += pairs.begin[a];
+  pairs.neighbour.resize(static_cast<std::size_t>(pairs.begin.back()));
+  each_part([&](std::vector<Index> const& near, std::size_t first, std::size_t) {
+    std::copy(near.begin(), near.end(), pairs.neighbour.begin() + pairs.begin[first]);
+  });
   return pairs;
 }
 
-Pairs lattice_pairs(LatticeShape const& shape) {
-  struct Offset {
-    std::array<int, 3> step;
-    double weight;
-  };
-  std::vector<Offset> offsets;  // in the order of slots
-  int const steps = static_cast<int>(usual_reach);
+Pairs lattice_pairs(LatticeShape const& shape, double reach) {
+  std::vector<std::array<int, 3>> offsets;  // in the order of slots
+  int const steps = static_cast<int>(reach);
   for (int k = -steps; k <= steps; ++k)
     for (int j = -steps; j <= steps; ++j)
       for (int i = -steps; i <= steps; ++i) {
         int const square = i * i + j * j + k * k;
-        if (square > 0 && square < edge * usual_reach * usual_reach)
-          offsets.push_back({{i, j, k}, weight_of(square, usual_reach)});
+        if (square > 0 && square < edge * reach * reach) offsets.push_back({i, j, k});
       }
   Pairs pairs;
-  pairs.begin.push_back(0);
   Index const particles = shape.count[0] * shape.count[1] * shape.count[2];
-  pairs.neighbour.reserve(static_cast<std::size_t>(particles) * offsets.size());
-  pairs.weight.reserve(pairs.neighbour.capacity());
-  for (Index a = 0; a < particles; ++a) {
+  // f(neighbour) for all neighbours of a.
+  auto const each_neighbour = [&](Index a, auto const& f) {
     auto const at = shape.place(a);
     for (auto const& o : offsets) {
-      std::array const to{at[0] + o.step[0], at[1] + o.step[1], at[2] + o.step[2]};
-      if (!shape.has(to)) continue;
-      pairs.neighbour.push_back(shape.slot(to));
-      pairs.weight.push_back(o.weight);
+      std::array const to{at[0] + o[0], at[1] + o[1], at[2] + o[2]};
+      if (shape.has(to)) f(shape.slot(to));
     }
-    pairs.begin.push_back(static_cast<std::int64_t>(pairs.neighbour.size()));
-  }
+  };
+  pairs.begin.assign(static_cast<std::size_t>(particles) + 1, 0);
+  exec_host::for_each_in_set_up(
+      particles, [&](Index a) { each_neighbour(a, [&](Index) { ++pairs.begin[static_cast<std::size_t>(a) + 1]; }); });
+  for (std::size_t a = 0; a < static_cast<std::size_t>(particles); ++a) pairs.begin[a + 1] += pairs.begin[a];
+  pairs.neighbour.resize(static_cast<std::size_t>(pairs.begin.back()));
+  exec_host::for_each_in_set_up(particles, [&](Index a) {
+    auto to = pairs.neighbour.begin() + pairs.begin[static_cast<std::size_t>(a)];
+    each_neighbour(a, [&](Index b) { *to++ = b; });
+  });
   return pairs;
 }
 
@@ -101,7 +123,6 @@ std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond) {
 
 template <int D>
 Fits<D>::Fits(Points const& X, std::optional<LatticeShape> const& lattice) : X_(X), reach_(X.size(), usual_reach) {
-  inverse_.resize(X.size() * static_cast<std::size_t>(terms * terms));
   if (lattice) fit_lattice(*lattice);
   if (!lattice || !usual_) fit_cloud();
 }
@@ -109,22 +130,38 @@ Fits<D>::Fits(Points const& X, std::optional<LatticeShape> const& lattice) : X_(
 /// Particles as far from all faces, or out of their reach, have the same neighbours.
 template <int D>
 void Fits<D>::fit_lattice(LatticeShape const& shape) {
-  pairs_ = lattice_pairs(shape);
+  pairs_ = lattice_pairs(shape, usual_reach);
+  pairs_.weight.resize(pairs_.neighbour.size());
+  exec_host::for_each_in_set_up(static_cast<Index>(X_.size()), [&](Index particle) {
+    auto const from = shape.place(particle);
+    for (std::size_t k = pairs_.first(static_cast<std::size_t>(particle));
+         k < pairs_.end(static_cast<std::size_t>(particle)); ++k) {
+      auto const to = shape.place(pairs_.neighbour[k]);
+      int const i = to[0] - from[0], j = to[1] - from[1], l = to[2] - from[2];
+      pairs_.weight[k] = weight_of(i * i + j * j + l * l, usual_reach);
+    }
+  });
   alike_ = alike_in_lattice(shape, static_cast<int>(usual_reach) + 1);
-  constexpr auto size = std::ptrdiff_t{terms} * terms;
-  for (std::size_t a = 0; a < X_.size() && usual_; ++a) {
-    if (alike(a) == a)
-      usual_ = fit(a);
-    else
-      std::copy_n(inverse_.begin() + static_cast<std::ptrdiff_t>(alike(a)) * size, size,
-                  inverse_.begin() + static_cast<std::ptrdiff_t>(a) * size);
+  kind_.resize(X_.size());
+  std::vector<std::size_t> first;  // of each kind
+  for (std::size_t a = 0; a < X_.size(); ++a) {
+    if (alike(a) == a) {
+      kind_[a] = static_cast<std::int32_t>(first.size());
+      first.push_back(a);
+    } else {
+      kind_[a] = kind_[alike(a)];
+    }
   }
+  inverse_.resize(first.size() * static_cast<std::size_t>(terms * terms));
+  for (std::size_t kind = 0; kind < first.size() && usual_; ++kind) usual_ = fit(first[kind], kind);
 }
 
 template <int D>
 void Fits<D>::fit_cloud() {
   usual_ = true;
   alike_.clear();
+  kind_.clear();
+  inverse_.assign(X_.size() * static_cast<std::size_t>(terms * terms), 0);
   auto const particles = static_cast<Index>(X_.size());
   std::vector<char> fits(X_.size(), 0);
   for (bool complete = false; !complete && hopeless_ < 0;) {
@@ -136,7 +173,7 @@ void Fits<D>::fit_cloud() {
       for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k)
         pairs_.weight[k] =
             weight_of(square_of_distance(X_, a, pairs_.at(k)), std::max(reach_[a], reach_[pairs_.at(k)]));
-      fits[a] = fit(a) ? 1 : 0;
+      fits[a] = fit(a, a) ? 1 : 0;
     });
     for (std::size_t a = 0; a < X_.size() && hopeless_ < 0; ++a) {
       if (fits[a] != 0) continue;
@@ -159,7 +196,7 @@ typename Fits<D>::Monomials Fits<D>::monomials_of(std::size_t a, std::size_t b) 
 }
 
 template <int D>
-bool Fits<D>::fit(std::size_t a) {
+bool Fits<D>::fit(std::size_t a, std::size_t at) {
   double A[terms * terms]{}, inverse[terms * terms];
   for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) {
     auto const p = monomials_of(a, pairs_.at(k));
@@ -170,7 +207,7 @@ bool Fits<D>::fit(std::size_t a) {
   if (!(invert<terms>(A, inverse) > 1e-12)) return false;
   double worst = 0;
   for (int i = 0; i < terms; ++i) worst = std::max(worst, inverse[i * terms + i]);
-  std::copy(inverse, inverse + terms * terms, inverse_.begin() + static_cast<std::ptrdiff_t>(a * terms * terms));
+  std::copy(inverse, inverse + terms * terms, inverse_.begin() + static_cast<std::ptrdiff_t>(at * terms * terms));
   return worst < worst_condition;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/math/lanes.hpp"
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 /// Weighted least-squares quadratics through the neighbours of each particle. All lengths in spacings.
@@ -22,13 +24,34 @@ struct Pairs {
   std::size_t first(std::size_t a) const { return static_cast<std::size_t>(begin[a]); }
   std::size_t end(std::size_t a) const { return static_cast<std::size_t>(begin[a + 1]); }
   std::size_t at(std::size_t k) const { return static_cast<std::size_t>(neighbour[k]); }
+  /// The most that neighbours are apart in the order of particles.
+  Index farthest() const;
 };
 
 /// Per particle of a lattice the first one that is as far from every face, or at least `beyond` spacings as well.
 std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond);
 
-/// All pairs of a lattice nearer than the usual reach, with their weights.
-Pairs lattice_pairs(LatticeShape const& shape);
+/// All pairs of a lattice nearer than `reach`, those at it not among them, without weights. The neighbours of a lattice
+/// need no search.
+Pairs lattice_pairs(LatticeShape const& shape, double reach);
+
+/// f(a, mine) for the particles a = 0 ... n - 1 in order, which adds to numbers of a itself and of others at most
+/// `reach` places away, but to those b alone for which mine(b): threads have parts of the numbers for their own and see
+/// all particles that may add to them, so that each number gets its summands in the order of a for any number of
+/// threads.
+template <class F>
+void scatter_in_order(Index n, Index reach, F const& f) {
+  Index const parts = exec_host::team(n);
+  exec_host::for_each_part_in_set_up(parts, n, [&](Index part) {
+    auto const border = [&](Index k) { return static_cast<Index>(static_cast<std::int64_t>(n) * k / parts); };
+    Index const first = border(part), end = border(part + 1);
+    auto const mine = [&](std::size_t b) {
+      return b >= static_cast<std::size_t>(first) && b < static_cast<std::size_t>(end);
+    };
+    Index const from = first > reach ? first - reach : 0, to = n - end > reach ? end + reach : n;
+    for (Index a = from; a < to; ++a) f(static_cast<std::size_t>(a), mine);
+  });
+}
 
 /// All pairs nearer than the larger of their two reaches.
 Pairs find_pairs(Points const& X, std::vector<double> const& reach);
@@ -49,10 +72,13 @@ class Fits {
   /// A particle whose neighbours determine no quadratic at any reach; -1: none.
   Index hopeless() const { return hopeless_; }
   Pairs const& pairs() const { return pairs_; }
+  /// Hands the pairs over; nothing else may be asked for after it.
+  Pairs take_pairs() { return std::move(pairs_); }
   Points const& X() const { return X_; }
   /// (A^-1)_kl of a particle.
   double inverse(std::size_t a, int k, int l) const {
-    return inverse_[a * static_cast<std::size_t>(terms * terms) + static_cast<std::size_t>(k * terms + l)];
+    return inverse_[(kind_.empty() ? a : static_cast<std::size_t>(kind_[a])) * static_cast<std::size_t>(terms * terms) +
+                    static_cast<std::size_t>(k * terms + l)];
   }
   /// The first particle whose neighbours stand as those of a, in the same order: of a lattice; a itself in other
   /// clouds.
@@ -67,13 +93,15 @@ class Fits {
  private:
   void fit_lattice(LatticeShape const& shape);
   void fit_cloud();
-  bool fit(std::size_t a);
+  /// Finds the inverse stored at `at`.
+  bool fit(std::size_t a, std::size_t at);
 
   Points X_;
   std::vector<double> reach_;
   Pairs pairs_;
   std::vector<double> inverse_;
   std::vector<Index> alike_;
+  std::vector<std::int32_t> kind_;  ///< of a lattice: where the inverse of a particle is
   Index hopeless_ = -1;
   bool usual_ = true;
 };

@@ -28,20 +28,9 @@ bool may_fill(Body const& body, LatticeShape const& shape) {
 SlotOrder slot_order(ParticleSet const& set, Body const& body) {
   LatticeShape const shape = shape_of(set, body);
   if (!may_fill(body, shape)) return pencil_order(set, body);
-  SlotOrder order;
-  order.particles = static_cast<Index>(body.last - body.first);
-  order.id.resize(static_cast<std::size_t>(order.particles));
-  std::iota(order.id.begin(), order.id.end(), body.first);
-  std::stable_sort(order.id.begin(), order.id.end(), [&](std::int64_t a, std::int64_t b) {
-    auto const key = [&](std::int64_t id) {
-      auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
-      return std::array{at[shape.axis[2]], at[shape.axis[1]], at[shape.axis[0]]};
-    };
-    return key(a) < key(b);
-  });
-  auto const slots = (order.particles + SlotOrder::alignment - 1) / SlotOrder::alignment * SlotOrder::alignment;
-  order.id.resize(static_cast<std::size_t>(slots), SlotOrder::no_particle);
-  return order;
+  std::vector<std::size_t> rank(static_cast<std::size_t>(shape.count[1]) * static_cast<std::size_t>(shape.count[2]));
+  std::iota(rank.begin(), rank.end(), std::size_t{0});
+  return order_by_rows(set, body, shape.axis, rank);
 }
 
 std::optional<LatticeShape> lattice_shape(ParticleSet const& set, Body const& body, SlotOrder const& order) {

@@ -68,7 +68,7 @@ void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exch
 template <int D>
 Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells,
                       std::optional<LatticeShape> const& lattice) {
-  Exchange<D> x{find_pairs(X, std::vector<double>(X.size(), reach)), {}};
+  Exchange<D> x{lattice ? lattice_pairs(*lattice, reach) : find_pairs(X, std::vector<double>(X.size(), reach)), {}};
   x.handed.assign(x.pairs.neighbour.size(), 0);
   std::vector<Index> const alike =
       lattice ? alike_in_lattice(*lattice, static_cast<int>(reach)) : std::vector<Index>();  // at `reach` there is none
@@ -94,11 +94,13 @@ class Restraint {
   Restraint(Pairs const& pairs, std::vector<double> const& handed, std::vector<ScaledCell> const& cells, double least)
       : pairs_(pairs), handed_(handed), cells_(cells), least_(least), theta_(cells.size(), 1), mass_(cells.size()) {
     for (std::size_t a = 0; a < mass_.size(); ++a) mass_[a] = cells[a].volume;
-    for (std::size_t a = 0; a < mass_.size(); ++a)
+    scatter_in_order(static_cast<Index>(mass_.size()), pairs.farthest(), [&](std::size_t a, auto const& mine) {
+      bool const own = mine(a);
       for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-        mass_[pairs.at(k)] += handed[k];
-        mass_[a] -= handed[k];
+        if (mine(pairs.at(k))) mass_[pairs.at(k)] += handed[k];
+        if (own) mass_[a] -= handed[k];
       }
+    });
   }
 
   std::vector<double> operator()() {

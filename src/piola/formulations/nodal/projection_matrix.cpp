@@ -76,17 +76,19 @@ void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> cons
   });
   diagonal_.resize(cells.size());
   auto const& pairs = fits.pairs();
-  for (std::size_t a = 0; a < cells.size(); ++a) {
+  scatter_in_order(particles_, pairs.farthest(), [&](std::size_t a, auto const& mine) {
     auto const i = static_cast<Index>(a);
     double const own = fits.own_weight(a);
-    diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse_.at(i, 0));
+    bool const here = mine(a);
+    if (here) diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse_.at(i, 0));
     double all = weights_.at(i, 0);
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-      diagonal_[pairs.at(k)] += cells[a].volume * pairs.weight[k] * (1 - pairs.weight[k] * explained[k]);
+      if (mine(pairs.at(k)))
+        diagonal_[pairs.at(k)] += cells[a].volume * pairs.weight[k] * (1 - pairs.weight[k] * explained[k]);
       all += cells[pairs.at(k)].volume * pairs.weight[k];
     }
-    weights_.at(i, 1) = all;
-  }
+    if (here) weights_.at(i, 1) = all;
+  });
 }
 
 /// The inverse of a particle's normal equations, its sums of weights and, per pair, p(X_b).inverse.p(X_b).
@@ -137,18 +139,24 @@ void ProjectionMatrix<D>::copy_sums(Fits<D> const& fits, std::size_t a, std::vec
 
 template <int D>
 void ProjectionMatrix<D>::apply(std::vector<double> const& x, std::vector<double>& image) {
-  for (std::size_t k = 0; k < x.size(); ++k) fields_.x.at(static_cast<Index>(k / D), static_cast<int>(k % D)) = x[k];
+  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+    for (int c = 0; c < D; ++c) fields_.x.at(i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
+  });
   machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_.ref()});
-  for (std::size_t k = 0; k < x.size(); ++k)
-    image[k] = fields_.a.at(static_cast<Index>(k / D), static_cast<int>(k % D));
+  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+    for (int c = 0; c < D; ++c)
+      image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = fields_.a.at(i, c);
+  });
 }
 
 template <int D>
 std::vector<double> ProjectionMatrix<D>::coefficients() const {
   constexpr auto size = std::size_t{values} * D;
   std::vector<double> c(static_cast<std::size_t>(particles_) * size);
-  for (std::size_t k = 0; k < c.size(); ++k)
-    c[k] = coefficients_.at(static_cast<Index>(k / size), static_cast<int>(k % size));
+  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+    for (std::size_t k = 0; k < size; ++k)
+      c[static_cast<std::size_t>(i) * size + k] = coefficients_.at(i, static_cast<int>(k));
+  });
   return c;
 }
 

@@ -116,7 +116,8 @@ class Tables {
     share_k();
     to_.own.assign(slots_ * (values + dimension), 0);
     to_.centroid.assign(slots_ * dimension, 0);
-    for (std::size_t a = 0; a < scaled_.cells.size(); ++a) {
+    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.cells.size()), [&](Index particle) {
+      auto const a = static_cast<std::size_t>(particle);
       to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
       to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0;
       auto const L = cholesky<D>(scaled_.cells[a], scaled_.h);
@@ -127,10 +128,9 @@ class Tables {
         to_.mu[a * dimension + c] = closure.mu[a * dimension + c] / scaled_.h[c];
       }
       fill_derivatives(a, closure);
-    }
+    });
     exec_host::for_each_in_set_up(static_cast<Index>(scaled_.cells.size()),
                                   [this](Index a) { fill_own(static_cast<std::size_t>(a)); });
-    fill_list();
   }
 
  private:
@@ -180,9 +180,15 @@ class Tables {
     }
     auto const lanes = static_cast<std::size_t>(from_.machine.lanes);
     std::map<std::vector<std::size_t>, std::int32_t> known;
+    std::vector<std::size_t> kinds, last;
     for (std::size_t first = 0; first < slots_; first += lanes) {
-      std::vector<std::size_t> kinds;
+      kinds.clear();
       for (std::size_t a = first; a < std::min(first + lanes, particles); ++a) kinds.push_back(fits_.alike(a));
+      if (kinds == last) {  // as most groups
+        to_.group_of_k.push_back(to_.group_of_k.back());
+        continue;
+      }
+      last = kinds;
       auto const [at, is_new] = known.try_emplace(kinds, static_cast<std::int32_t>(known.size()));
       to_.group_of_k.push_back(at->second);
       if (!is_new) continue;
@@ -202,14 +208,6 @@ class Tables {
       for (std::size_t J = 0; J < dimension; ++J)
         own[values + J] += pairs.weight[n] * to_.mu[pairs.at(n) * dimension + J];
     }
-  }
-
-  /// Slots without a particle have no neighbours.
-  void fill_list() {
-    to_.begin = fits_.pairs().begin;
-    to_.begin.resize(slots_ + 1, to_.begin.back());
-    to_.neighbour = fits_.pairs().neighbour;
-    to_.weight = fits_.pairs().weight;
   }
 
   SetUp const& from_;
@@ -233,7 +231,7 @@ Reference make(SetUp const& from) {
   // Pressures that follow a face ask for gradients particle by particle, which lists give.
   for (auto const& load : from.loads)
     if (load.follows) shape.reset();
-  Fits<D> const fits(scaled.X, shape);
+  Fits<D> fits(scaled.X, shape);
   if (shape && fits.usual()) r.lattice.emplace(*shape, from.order.slots(), from.machine.lanes);
   if (fits.hopeless() >= 0)
     refuse(from, fits.hopeless(),
@@ -248,6 +246,12 @@ Reference make(SetUp const& from) {
   auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass, shape, !has_lattice_cells(from.body));
   r.costs.masses = since(clock);
   Tables<D>(from, scaled, fits, r).fill(closure, mass);
+  Pairs pairs = fits.take_pairs();
+  // Slots without a particle have no neighbours.
+  pairs.begin.resize(static_cast<std::size_t>(from.order.slots()) + 1, pairs.begin.back());
+  r.begin = std::move(pairs.begin);
+  r.neighbour = std::move(pairs.neighbour);
+  r.weight = std::move(pairs.weight);
   r.costs.tables = since(clock);
   return r;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/smoothing.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -27,9 +28,14 @@ Smoothing::Smoothing(Reference const& reference, int dimension, Index particles)
   balance();
 }
 
+template <class F>
+void Smoothing::each_particle(F const& f) const {
+  exec_host::for_each_in_set_up(static_cast<Index>(particles_), [&](Index a) { f(static_cast<std::size_t>(a)); });
+}
+
 void Smoothing::find_weights(Reference const& reference, std::size_t dimension) {
   weight_.resize(neighbour_.size());
-  for (std::size_t a = 0; a < particles_; ++a)
+  each_particle([&](std::size_t a) {
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
       auto const b = static_cast<std::size_t>(neighbour_[k]);
       double square = 0;
@@ -39,6 +45,7 @@ void Smoothing::find_weights(Reference const& reference, std::size_t dimension) 
       }
       weight_[k] = kernel(std::sqrt(square));
     }
+  });
 }
 
 /// d <- sqrt(d / sum_b W_ab V_b d_b), b = a included, as long as a row is off. The sums of rows are exact in the end.
@@ -47,33 +54,34 @@ void Smoothing::balance() {
   for (std::size_t a = 0; a < particles_; ++a) d[a] = 1 / std::sqrt(V_[a]);
   double off = 1;
   for (int sweep = 0; sweep < most_sweeps && off > tolerance; ++sweep) {
-    off = 0;
-    for (std::size_t a = 0; a < particles_; ++a) {
+    each_particle([&](std::size_t a) {
       sum[a] = V_[a] * d[a];
       for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
         auto const b = static_cast<std::size_t>(neighbour_[k]);
         sum[a] += weight_[k] * V_[b] * d[b];
       }
-      off = std::max(off, std::abs(d[a] * sum[a] - 1));
-    }
+    });
+    off = 0;
+    for (std::size_t a = 0; a < particles_; ++a) off = std::max(off, std::abs(d[a] * sum[a] - 1));
     for (std::size_t a = 0; a < particles_; ++a) d[a] = std::sqrt(d[a] / sum[a]);
   }
   own_.assign(particles_, 1);
-  for (std::size_t a = 0; a < particles_; ++a)
+  each_particle([&](std::size_t a) {
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
       auto const b = static_cast<std::size_t>(neighbour_[k]);
       weight_[k] *= d[a] * d[b] * V_[b];
       own_[a] -= weight_[k];
     }
+  });
 }
 
 std::vector<double> Smoothing::once(std::vector<double> const& f) const {
   std::vector<double> smooth(f.size());
-  for (std::size_t a = 0; a < particles_; ++a) {
+  each_particle([&](std::size_t a) {
     smooth[a] = own_[a] * f[a];
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k)
       smooth[a] += weight_[k] * f[static_cast<std::size_t>(neighbour_[k])];
-  }
+  });
   return smooth;
 }
 

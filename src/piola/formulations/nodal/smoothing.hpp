@@ -17,6 +17,8 @@ class Smoothing {
   std::vector<double> operator()(std::vector<double> const& f) const;
 
  private:
+  template <class F>
+  void each_particle(F const& f) const;
   void find_weights(Reference const& reference, std::size_t dimension);
   void balance();
   std::vector<double> once(std::vector<double> const& f) const;

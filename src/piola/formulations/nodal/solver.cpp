@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/actions.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
@@ -125,8 +126,9 @@ class Solver final : public Formulation {
   int stages_per_step() const override { return 1; }
   std::vector<std::pair<std::string, double>> costs() const override;
   std::size_t memory_bytes() const override {
-    std::size_t total = 0;
+    std::size_t total = set_.bytes();
     for (auto const& body : bodies_) total += body->bytes();
+    for (auto const& monitor : monitors_) total += monitor->bytes();
     return total;
   }
 
@@ -204,10 +206,11 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
-      for (Index i = 0; i < body.particles(); ++i)
+      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
+      exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
         for (int c = 0; c < components; ++c)
           values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] = value_at(field, i, c);
+      });
       writer.put(name, values);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
@@ -221,7 +224,7 @@ void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles() * components));
+      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
       reader.get(name, values);
       for (Index i = 0; i < body.particles(); ++i)
         for (int c = 0; c < components; ++c)

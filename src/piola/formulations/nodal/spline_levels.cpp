@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/spline_levels.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -125,6 +126,12 @@ std::vector<double> SplineLevels<D>::probe() const {
 }
 
 template <int D>
+int SplineLevels<D>::interval(std::size_t a, std::size_t axis) const {
+  Level const& level = levels_.front();
+  return std::min(static_cast<int>((X_[a][axis] - low_[axis]) / level.spacing), level.intervals[axis] - 1);
+}
+
+template <int D>
 template <class F>
 void SplineLevels<D>::visit(std::size_t a, F const& f) const {
   Level const& level = levels_.front();
@@ -132,7 +139,7 @@ void SplineLevels<D>::visit(std::size_t a, F const& f) const {
   std::array<std::array<double, 4>, 3> value{{{1, 0, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}}};
   for (std::size_t c = 0; c < D; ++c) {
     double const at = (X_[a][c] - low_[c]) / level.spacing;
-    first[c] = std::min(static_cast<int>(at), level.intervals[c] - 1);
+    first[c] = interval(a, c);
     value[c] = splines_at(at - first[c], 0);
   }
   for (int k = 0; k < (D > 2 ? 4 : 1); ++k)
@@ -161,19 +168,35 @@ void SplineLevels<D>::prolong(Level const& coarse, Level& fine) {
 template <int D>
 void SplineLevels<D>::add(std::vector<double> const& r, std::vector<double>& z) {
   Level& first = levels_.front();
+  auto const particles = static_cast<Index>(X_.size());
   std::fill(first.value.begin(), first.value.end(), 0);
-  for (std::size_t a = 0; a < X_.size(); ++a)
-    visit(a, [&](std::size_t spline, double value) {
-      for (std::size_t J = 0; J < D; ++J) first.value[spline * D + J] += value * r[a * D + J];
-    });
+  // Threads have layers of splines across the last axis for their own and see all particles, so that each spline gets
+  // its summands in the order of particles for any number of threads.
+  constexpr auto last = static_cast<std::size_t>(D - 1);
+  std::size_t const layer = first.value.size() / D / static_cast<std::size_t>(first.splines[last]);
+  Index const parts = std::min<Index>(exec_host::team(particles), first.splines[last]);
+  exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
+    auto const border = [&](Index k) { return static_cast<int>(std::int64_t{first.splines[last]} * k / parts); };
+    int const low = border(part), high = border(part + 1);
+    for (std::size_t a = 0; a < X_.size(); ++a) {
+      int const at = interval(a, last);
+      if (at >= high || at + 4 <= low) continue;
+      visit(a, [&](std::size_t spline, double value) {
+        if (spline < static_cast<std::size_t>(low) * layer || spline >= static_cast<std::size_t>(high) * layer) return;
+        for (std::size_t J = 0; J < D; ++J) first.value[spline * D + J] += value * r[a * D + J];
+      });
+    }
+  });
   for (std::size_t l = 1; l < levels_.size(); ++l) restrict_to(levels_[l - 1], levels_[l]);
   for (Level& level : levels_)
     for (std::size_t k = 0; k < level.value.size(); ++k) level.value[k] /= stiffness_ * level.energy[k / D];
   for (std::size_t l = levels_.size() - 1; l > 0; --l) prolong(levels_[l], levels_[l - 1]);
-  for (std::size_t a = 0; a < X_.size(); ++a)
+  exec_host::for_each_in_set_up(particles, [&](Index particle) {
+    auto const a = static_cast<std::size_t>(particle);
     visit(a, [&](std::size_t spline, double value) {
       for (std::size_t J = 0; J < D; ++J) z[a * D + J] += value * first.value[spline * D + J];
     });
+  });
 }
 
 template class SplineLevels<1>;

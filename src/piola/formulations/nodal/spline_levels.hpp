@@ -35,6 +35,8 @@ class SplineLevels {
   void add_level(double spacing);
   static void restrict_to(Level const& fine, Level& coarse);
   static void prolong(Level const& coarse, Level& fine);
+  /// Which interval of the finest level particle a is in, along an axis.
+  int interval(std::size_t a, std::size_t axis) const;
   /// f(number of the spline, its value) for the splines of the finest level at particle a.
   template <class F>
   void visit(std::size_t a, F const& f) const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/stability.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -91,18 +92,31 @@ StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
   start_ = frequency_;
 }
 
+std::size_t StabilityMonitor::place(Index i, int c) const {
+  return static_cast<std::size_t>(i) * static_cast<std::size_t>(body_.state().dimension) + static_cast<std::size_t>(c);
+}
+
+template <class F>
+void StabilityMonitor::each_number(F const& f) const {
+  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+    for (std::size_t k = place(i, 0); k < place(i + 1, 0); ++k) f(k);
+  });
+}
+
 StabilityMonitor::Vector StabilityMonitor::positions() const {
   int const D = body_.state().dimension;
   Vector x(mode_.size());
-  for (std::size_t k = 0; k < x.size(); ++k)
-    x[k] = value_at(body_.state().x, static_cast<Index>(k) / D, static_cast<int>(k) % D);
+  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+    for (int c = 0; c < D; ++c) x[place(i, c)] = value_at(body_.state().x, i, c);
+  });
   return x;
 }
 
 void StabilityMonitor::put_moved(Vector const& x, double scale, Vector const& mode) {
   int const D = body_.state().dimension;
-  for (std::size_t k = 0; k < x.size(); ++k)
-    value_at(body_.state().x, static_cast<Index>(k) / D, static_cast<int>(k) % D) = x[k] + scale * mode[k];
+  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+    for (int c = 0; c < D; ++c) value_at(body_.state().x, i, c) = x[place(i, c)] + scale * mode[place(i, c)];
+  });
 }
 
 /// Of the internal forces at the positions that the body has now.
@@ -113,8 +127,9 @@ StabilityMonitor::Vector StabilityMonitor::accelerations() {
   trial.failure = &failure;
   machine_.accelerate(trial);
   Vector a(mode_.size());
-  for (std::size_t k = 0; k < a.size(); ++k)
-    a[k] = value_at(trial.a, static_cast<Index>(k) / D, static_cast<int>(k) % D);
+  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+    for (int c = 0; c < D; ++c) a[place(i, c)] = value_at(trial.a, i, c);
+  });
   return a;
 }
 
@@ -156,16 +171,17 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
     double const length = std::sqrt(product(next, next));
     if (!(length > 0) || !std::isfinite(length)) break;
     if (k > 0) beside.push_back(length);
-    for (double& u : next) u /= length;
+    each_number([&](std::size_t i) { next[i] /= length; });
     basis.push_back(next);
     double const scale = size / largest(next);
     put_moved(x, scale, next);
     next = accelerations();
-    for (std::size_t i = 0; i < next.size(); ++i) next[i] = (rest[i] - next[i]) / scale;
+    each_number([&](std::size_t i) { next[i] = (rest[i] - next[i]) / scale; });
     diagonal.push_back(product(next, basis.back()));
-    for (std::size_t i = 0; i < next.size(); ++i)
+    each_number([&](std::size_t i) {
       next[i] -=
           diagonal.back() * basis.back()[i] + (k > 0 ? beside.back() * basis[static_cast<std::size_t>(k) - 1][i] : 0);
+    });
   }
   if (basis.empty()) return {};
   beside.resize(basis.size() - 1);
@@ -173,8 +189,9 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
   found.square = largest_eigenvalue(diagonal, beside, y);
   found.error = std::sqrt(product(next, next)) * std::abs(y.back());
   std::fill(mode_.begin(), mode_.end(), 0);
-  for (std::size_t k = 0; k < basis.size(); ++k)
-    for (std::size_t i = 0; i < mode_.size(); ++i) mode_[i] += y[k] * basis[k][i];
+  each_number([&](std::size_t i) {
+    for (std::size_t k = 0; k < basis.size(); ++k) mode_[i] += y[k] * basis[k][i];
+  });
   return found;
 }
 
@@ -183,8 +200,8 @@ void StabilityMonitor::measure(int cycles) {
   machine_.observe(body_.state());
   double const energy = body_.kinetic_energy() + body_.strain_energy();
   double const most = largest(mode_);
-  for (std::size_t k = 0; k < mode_.size(); ++k)
-    mode_[k] = most > 0 ? mode_[k] / most + fresh * pseudo_random(k) : pseudo_random(k);
+  each_number(
+      [&](std::size_t k) { mode_[k] = most > 0 ? mode_[k] / most + fresh * pseudo_random(k) : pseudo_random(k); });
   auto const x = positions();
   body_.state().marks = true;
   auto const rest = accelerations();

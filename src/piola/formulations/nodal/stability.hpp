@@ -27,12 +27,19 @@ class StabilityMonitor {
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 
+  std::size_t bytes() const { return mode_.size() * sizeof(double); }
+
  private:
   using Vector = std::vector<double>;  ///< D values per particle, in slot order
   /// An approximate eigenvalue omega^2, and by how much the nearest true one differs at most.
   struct Estimate {
     double square = 0, error = 0;
   };
+  /// Of component c of the particle in slot i in a Vector.
+  std::size_t place(Index i, int c) const;
+  /// f(place) for all numbers of a Vector.
+  template <class F>
+  void each_number(F const& f) const;
   void measure(int cycles);
   Estimate iterate(Vector const& x, Vector const& rest, double size);
   Vector accelerations();

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/exec/free_memory.hpp"
+#include <cstdlib>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace piola::exec_host {
+
+void give_back_free_memory() {
+#if defined(__GLIBC__)
+  (void)malloc_trim(0);
+#endif
+}
+
+}  // namespace piola::exec_host

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace piola {
+
+/// A vector whose copies share its memory until one of them is changed: the particles of a run stand once in memory,
+/// whoever keeps them. Every access that may change an element makes the memory the object's own first, so that a
+/// parallel loop must not write through one that may be shared: it takes `own()` before the loop.
+template <class T>
+class SharedVector {
+ public:
+  using value_type = T;
+  using size_type = std::size_t;
+  using const_iterator = typename std::vector<T>::const_iterator;
+  using iterator = typename std::vector<T>::iterator;
+  using const_reference = T const&;
+  using reference = T&;
+
+  SharedVector() = default;
+  SharedVector(std::vector<T> values) : values_(std::make_shared<std::vector<T>>(std::move(values))) {}
+  SharedVector(std::initializer_list<T> values) : SharedVector(std::vector<T>(values)) {}
+
+  template <class Iterator>
+  SharedVector(Iterator first, Iterator last) : SharedVector(std::vector<T>(first, last)) {}
+
+  std::vector<T> const& seen() const { return values_ ? *values_ : nothing(); }
+  operator std::vector<T> const&() const { return seen(); }
+  /// The vector of this object alone.
+  std::vector<T>& own() {
+    if (!values_)
+      values_ = std::make_shared<std::vector<T>>();
+    else if (values_.use_count() > 1)
+      values_ = std::make_shared<std::vector<T>>(*values_);
+    return *values_;
+  }
+  bool shared() const { return values_.use_count() > 1; }  ///< somebody else has the same memory
+
+  std::size_t size() const { return seen().size(); }
+  bool empty() const { return seen().empty(); }
+  T const* data() const { return seen().data(); }
+  T const& operator[](std::size_t k) const { return (*values_)[k]; }
+  T const& front() const { return seen().front(); }
+  T const& back() const { return seen().back(); }
+  const_iterator begin() const { return seen().begin(); }
+  const_iterator end() const { return seen().end(); }
+
+  T& operator[](std::size_t k) { return own()[k]; }
+  void push_back(T const& value) { own().push_back(value); }
+  void resize(std::size_t size) { own().resize(size); }
+  void resize(std::size_t size, T const& value) { own().resize(size, value); }
+  void assign(std::size_t size, T const& value) { own().assign(size, value); }
+  void clear() { values_.reset(); }
+
+  friend bool operator==(SharedVector const& a, SharedVector const& b) { return a.seen() == b.seen(); }
+
+ private:
+  static std::vector<T> const& nothing() {
+    static std::vector<T> const empty;
+    return empty;
+  }
+  std::shared_ptr<std::vector<T>> values_;
+};
+
+}  // namespace piola
