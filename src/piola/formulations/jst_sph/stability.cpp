@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/stability.hpp"
 #include "piola/materials/laws.hpp"
+#include "piola/mechanics/modes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +17,6 @@ constexpr double change = 0.2;
 /// A measured frequency counts at least as this share of the one that follows from the wave speed: it may be out of
 /// date within a few steps of a violent deformation.
 constexpr double trust = 0.65;
-/// Random part that every measurement adds to its start, so that a mode that has grown elsewhere is found.
-constexpr double fresh = 0.05;
 
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
@@ -62,13 +61,6 @@ class Kept {
   std::vector<Part> parts_;
 };
 
-/// Same numbers on every machine, without a pattern that a mode could be orthogonal to.
-double pseudo_random(std::uint64_t k) {
-  k = (k + 0x9e3779b97f4a7c15ULL) * 0xbf58476d1ce4e5b9ULL;
-  k = (k ^ (k >> 29)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((k ^ (k >> 32)) & 0xffffff) / 0x1000000 - 0.5;
-}
-
 /// A linear operator of the body as trial steps see it: displacements to rates of velocity, about F.
 class Operator {
  public:
@@ -94,8 +86,7 @@ class Operator {
     double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
     double ratio = 0;
     for (int round = 0; round < rounds; ++round) {
-      double most = 0;
-      for (double const value : u) most = std::max(most, std::abs(value));
+      double const most = largest_of(u);
       if (!(most > 0) || !std::isfinite(most)) return 0;
       for (double& value : u) value *= size / most;
       double const before = square(u);
@@ -142,21 +133,12 @@ class Operator {
   std::vector<double> F_, x_, rest_;
 };
 
-std::vector<double> current_F(JstBody& body) {
-  auto const& s = body.state();
-  int const size = s.dimension * s.dimension;
-  std::vector<double> F;
+/// Values of a field, particle by particle in slot order.
+std::vector<double> current(JstBody const& body, FieldRef const& field, int components) {
+  std::vector<double> values;
   for (Index i = 0; i < body.particles(); ++i)
-    for (int c = 0; c < size; ++c) F.push_back(JstBody::value(s.F, i, c));
-  return F;
-}
-
-std::vector<double> current_x(JstBody& body) {
-  int const D = body.state().dimension;
-  std::vector<double> x;
-  for (Index i = 0; i < body.particles(); ++i)
-    for (int c = 0; c < D; ++c) x.push_back(JstBody::value(body.state().x, i, c));
-  return x;
+    for (int c = 0; c < components; ++c) values.push_back(value_at(field, i, c));
+  return values;
 }
 
 std::vector<double> places(JstBody const& body) {
@@ -236,13 +218,6 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   frequency_per_speed_ = frequency_ / wave_speed_;
 }
 
-void StabilityMonitor::refresh_mode() {
-  double most = 0;
-  for (double const value : mode_) most = std::max(most, std::abs(value));
-  for (std::size_t i = 0; i < mode_.size(); ++i)
-    mode_[i] = most > 0 ? mode_[i] / most + fresh * pseudo_random(i) : pseudo_random(i);
-}
-
 /// The limit of the undeformed body. The eigenvalue depends on the step in it, which a few measurements find.
 void StabilityMonitor::measure_at_rest() {
   constexpr int repeats = 5;
@@ -250,7 +225,7 @@ void StabilityMonitor::measure_at_rest() {
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
-  refresh_mode();
+  refresh_mode(mode_);
   Operator forces(body_, trial, machine_, identities(body_), places(body_));
   limit_at_rest_ = k.h_min / k.c_p0;
   speed_at_rest_ = k.c_p0;
@@ -264,10 +239,12 @@ void StabilityMonitor::measure_at_rest() {
 /// About the state as it is, with the step of the last measurement.
 void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
   BodyState& state = body_.state();
-  Kept const kept(state, state.dimension);
+  int const D = state.dimension;
+  Kept const kept(state, D);
   FailureSlot failure;
-  refresh_mode();
-  Operator tangent(body_, trial_of(body_, failure), machine_, current_F(body_), current_x(body_));
+  refresh_mode(mode_);
+  Operator tangent(body_, trial_of(body_, failure), machine_, current(body_, state.F, D * D),
+                   current(body_, state.x, D));
   tangent.multiply_damping(2 / limit_);
   limit_ = largest_step(tangent.dominant(mode_, rounds));
   kept.restore();
@@ -278,13 +255,14 @@ void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
 void StabilityMonitor::measure(int rounds, double wave_speed) {
   if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
   BodyState& state = body_.state();
-  Kept const kept(state, state.dimension);
+  int const D = state.dimension;
+  Kept const kept(state, D);
   wave_speed_ = wave_speed;
-  refresh_mode();
+  refresh_mode(mode_);
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
-  Operator tangent(body_, trial, machine_, current_F(body_));
+  Operator tangent(body_, trial, machine_, current(body_, state.F, D * D));
   frequency_ = std::sqrt(tangent.dominant(mode_, rounds));
   kept.restore();
   steps_ = 0;
