@@ -24,8 +24,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       D_(set.dimension),
       order_(slot_order(set, body_)),
       set_(&set),
-      fields_(D_) {
-  fields_.with_viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0;
+      fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0) {
   if (!assembly.initial_deformation_gradient.empty())
     throw InputError(fmt::format(
         "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
@@ -78,6 +77,7 @@ void NodalBody::allocate() {
   }
   fields_.each([&](Field& f) {
     if (f.size() > 0 || (&f == &fields_.products && !reference_.lattice)) return;
+    if (!fields_.with_viscosity && (&f == &fields_.viscous || &f == &fields_.viscous_kept)) return;
     if (f.components() > 1)
       f.allocate_tiled(n);
     else
@@ -138,7 +138,7 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
   state_.constants.least_share = halvings < most_halvings ? least_share : 0;
   machine.step(state_, dt);
   if (!failed() || halvings == most_halvings) {
-    boundary_->end_step(state_, time + dt);
+    boundary_->end_step(state_);
     return 0;
   }
   machine.restore(state_);
@@ -176,18 +176,6 @@ void NodalBody::damp(double factor) {
   damping_loss_ += before - kinetic_energy();
 }
 
-std::array<double, 3> NodalBody::x(Index slot) const {
-  std::array<double, 3> r = X(slot);
-  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.x, slot, c);
-  return r;
-}
-
-std::array<double, 3> NodalBody::v(Index slot) const {
-  std::array<double, 3> r{};
-  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.v, slot, c);
-  return r;
-}
-
 Mat<3> NodalBody::F(Index slot) const {
   Mat<3> r = identity<3>();
   for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
@@ -202,9 +190,7 @@ Smoothing const& NodalBody::smoothing() const {
 
 std::size_t NodalBody::bytes() const {
   auto const& r = reference_;
-  std::size_t total = gathered_.bytes() + r.begin.size() * 12 + r.neighbour.size() * 12;
-  const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
-  return total;
+  return gathered_.bytes() + r.begin.size() * 12 + r.neighbour.size() * 12 + fields_.bytes();
 }
 
 }  // namespace piola::nodal
