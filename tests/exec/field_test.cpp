@@ -3,6 +3,8 @@
 #include "piola/exec/view.hpp"
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <string>
+#include <vector>
 
 namespace piola {
 namespace {
@@ -113,6 +115,29 @@ TEST(Field, KeepsTheComponentsOfATileTogetherWhereItIsOnlyStreamed) {
   EXPECT_EQ(&f.at(0, 1) - &f.at(0, 0), tile_size);
   EXPECT_EQ(&f.at(16, 0) - &f.at(0, 0), 9 * tile_size);
   EXPECT_EQ(read(f.ref()).scalar<double>(37, 5), 3705);
+}
+
+struct Two : FieldSet {
+  ListedField x{*this, "Position", "m", 3, Role::evolved};
+  ListedField J{*this, "VolumeRatio", "1", 1, Role::derived};
+};
+
+TEST(FieldSet, IsMadeOfWhatIsDeclaredInIt) {
+  Two two;
+  std::vector<std::string> names;
+  two.each([&](Field& f) {
+    names.emplace_back(f.name());
+    f.allocate(10, 0);
+  });
+  EXPECT_EQ(names, (std::vector<std::string>{"Position", "VolumeRatio"}));
+  EXPECT_EQ(two.bytes(), two.x.bytes() + two.J.bytes());
+}
+
+TEST(Field, GivesPointsThatKeepWhatTheBodyDoesNotHave) {
+  Field f("Position", "m", 2, Role::evolved);
+  f.allocate(2, 0);
+  f.at(1, 0) = 4;
+  EXPECT_EQ(point_at(f.ref(), 1, 2, {7, 8, 9}), (std::array<double, 3>{4, 0, 9}));
 }
 
 }  // namespace

@@ -118,6 +118,15 @@ inline void advance(Formulation& f, double dt, int n) {
   for (int k = 0; k < n; ++k) f.step(k * dt, dt);
 }
 
+/// By how much of itself the total energy changes in a time, taken in so many steps.
+inline double energy_change(Assembly const& a, double time, int steps) {
+  auto const f = make_formulation(a);
+  double const before = f->diagnose().total_energy();
+  advance(*f, time / steps, steps);
+  EXPECT_FALSE(f->failure().has_value());
+  return std::fabs(f->diagnose().total_energy() / before - 1);
+}
+
 inline double largest(Values const& a) {
   double most = 0;
   for (double const v : a) most = std::isfinite(v) ? std::max(most, std::fabs(v)) : v;

@@ -2,8 +2,8 @@
 #include "piola/simulation/bench_taylor.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
-#include "piola/simulation/bench_support.hpp"
 #include "exec/thread_count.hpp"
+#include "simulation/bench_rows.hpp"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -26,15 +26,11 @@ TEST(TaylorBench, MeasuresEachBodyBesideItsScalarPathInAllDimensions) {
   TaylorBenchReport const report = bench_taylor_sph(small());
   auto const names = beside_scalar(report.machine, taylor_sph::machine_names());
   std::size_t const n = names.size();
-  ASSERT_EQ(report.rows.size(), 9 * n);
+  testing::expect_rows(report, names, 9, 8 * 8);
   for (std::size_t k = 0; k < report.rows.size(); ++k) {
     auto const& row = report.rows[k];
-    EXPECT_EQ(row.machine, names[k % n]);
     EXPECT_EQ(row.particles, k < 5 * n ? 400 : k < 6 * n ? 50 : 125) << row.name;
     EXPECT_EQ(row.neighbours, report.rows[k / n * n].neighbours) << row.name;
-    EXPECT_GT(row.bytes_per_particle, 8 * 8) << row.name;
-    EXPECT_GT(row.per_second, 0) << row.name;
-    EXPECT_GT(row.per_cpu_second, 0) << row.name;
   }
 }
 

@@ -86,5 +86,38 @@ expect 0 "0 findings" check_words
 fresh && write src/piola/base/b.cpp "$licence" '// see /home/someone/notes'
 expect 1 "path of one machine" check_words
 
+# Ratchets: what tools/ratchets.txt allows, and no more.
+allow() { write tools/ratchets.txt "$@"; }
+twins() {  # twins FILE: eight lines of code
+  write "$1" "$licence" "$(for k in 1 2 3 4 5 6 7 8; do echo "int of_both_$k();"; done)" "int of_$2();"
+}
+fresh && allow '# nothing'
+expect 0 "const_cast 0" check_ratchets
+write src/piola/base/b.cpp "$licence" 'auto& x = const_cast<A&>(a);  // mutable const_cast' \
+  'char const* s = "const_cast";'
+expect 1 "src/piola/base/b.cpp:2: const_cast" check_ratchets
+expect 1 "const_cast: 1 (at most 0)" check_ratchets
+allow 'const_cast 2'
+expect 0 "const_cast: 1 (recorded: 2) - record it" check_ratchets
+recorded() {  # recorded WHEN: --record then leaves one
+  "$root/tools/check_ratchets" "$house" --record >/dev/null
+  grep -qx "const_cast 1" "$house/tools/ratchets.txt" && return
+  echo "check_ratchets --record: expected const_cast 1 in ratchets.txt after the count has $1"
+  failures=$((failures + 1))
+}
+recorded fallen
+write src/piola/base/c.cpp "$licence" 'auto& x = const_cast<A&>(a);'
+recorded risen
+fresh && allow && write src/piola/base/b.hpp "$licence" '  mutable int x;' '  static constexpr int size = 12;'
+expect 1 "hand_counts 1, const_cast 0, reinterpret_cast 0, mutable 1" check_ratchets
+fresh && allow && write src/piola/base/b.cpp "$licence" "$(yes '//' | head -n 400)"
+expect 1 "401 lines (more than 400)" check_ratchets
+fresh && allow && write src/piola/base/b.cpp "$licence" 'void tall() {' "$(yes '  ;' | head -n 39)" '}'
+expect 1 "function tall: 41 lines (more than 40)" check_ratchets
+fresh && allow && twins src/piola/base/b.cpp one && twins src/piola/base/c.cpp other
+expect 1 "duplicates: 2 (at most 0)" check_ratchets
+fresh && allow && twins src/piola/base/b.cpp one && twins tests/c.cpp other
+expect 0 "duplicates 0" check_ratchets
+
 echo "check_tools_test: $failures failures"
 [[ $failures -eq 0 ]]

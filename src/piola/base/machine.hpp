@@ -7,6 +7,9 @@
 #ifndef PIOLA_MACHINE
 #define PIOLA_MACHINE host
 #endif
+#define PIOLA_TEXT_OF(x) #x
+#define PIOLA_TEXT(x) PIOLA_TEXT_OF(x)
+#define PIOLA_MACHINE_NAME PIOLA_TEXT(PIOLA_MACHINE)
 
 #if defined(__CUDACC__)
 #define PIOLA_FN __host__ __device__ inline

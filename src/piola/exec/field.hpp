@@ -2,9 +2,11 @@
 #pragma once
 #include "piola/exec/memory.hpp"
 #include "piola/math/lanes.hpp"
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace piola {
 
@@ -51,6 +53,12 @@ struct FieldRef {
 /// Component c of particle i, for set-up and observers.
 inline double& value_at(FieldRef const& f, Index i, int c = 0) {
   return f.data[c * f.component_stride + i * f.particle_stride + (i >> tile_bits) * f.tile_extra];
+}
+
+/// The first D components of particle i as a point, with what `others` has of those that the body does not have.
+inline std::array<double, 3> point_at(FieldRef const& f, Index i, int D, std::array<double, 3> others = {}) {
+  for (int c = 0; c < D; ++c) others[static_cast<std::size_t>(c)] = value_at(f, i, c);
+  return others;
 }
 
 /// A particle field. By itself: one array per component, one after the other, with `guard` readable zeros before the
@@ -110,6 +118,39 @@ class Field {
   FieldRef ref_;
   Memory memory_;
   FieldVersion version_;
+};
+
+/// The fields of a body: what is declared as a ListedField of it, in that order. Memory and sizes follow from the list.
+class FieldSet {
+ public:
+  FieldSet() = default;
+  FieldSet(FieldSet const&) = delete;
+  FieldSet& operator=(FieldSet const&) = delete;
+
+  void add(Field& field) { all_.push_back(&field); }
+  template <class Visit>
+  void each(Visit&& visit) {
+    for (Field* field : all_) visit(*field);
+  }
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (Field const* field : all_) visit(*field);
+  }
+  std::size_t bytes() const {
+    std::size_t total = 0;
+    each([&](Field const& field) { total += field.bytes(); });
+    return total;
+  }
+
+ private:
+  std::vector<Field*> all_;
+};
+
+struct ListedField : Field {
+  ListedField(FieldSet& set, char const* name, char const* unit, int components, Role role)
+      : Field(name, unit, components, role) {
+    set.add(*this);
+  }
 };
 
 }  // namespace piola

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/problems.hpp"
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,11 @@ class MachineChoice {
       if (name == "auto" || name == machine->name) return machine;
     return nullptr;
   }
+  /// The same; throws InputError if it is not usable here.
+  Machine const& choose(std::string_view name) const {
+    if (Machine const* machine = find(name)) return *machine;
+    throw InputError(not_usable(name, names()));
+  }
   char const* const* names() const { return names_.data(); }
 
  private:
@@ -68,3 +74,22 @@ class MachineChoice {
 #define PIOLA_USE_SCALAR(use)
 #endif
 #define PIOLA_EACH_MACHINE(use) PIOLA_USE_V4(use) PIOLA_USE_V3(use) PIOLA_USE_NATIVE(use) PIOLA_USE_SCALAR(use)
+
+// PIOLA_CHOOSE_MACHINE(formulation): find_machine(), machine_names() and choose_machine(), which the formulation's
+// state.hpp declares.
+#define PIOLA_DECLARE_MACHINE(NAME) \
+  namespace NAME {                  \
+  extern Machine const machine;     \
+  }
+#define PIOLA_POINT_TO_MACHINE(NAME) &NAME::machine,
+#define PIOLA_CHOOSE_MACHINE(FORMULATION)                                                             \
+  namespace piola::FORMULATION {                                                                      \
+  PIOLA_EACH_MACHINE(PIOLA_DECLARE_MACHINE)                                                           \
+  static exec_host::MachineChoice<Machine> const& machines() {                                        \
+    static exec_host::MachineChoice<Machine> const all({PIOLA_EACH_MACHINE(PIOLA_POINT_TO_MACHINE)}); \
+    return all;                                                                                       \
+  }                                                                                                   \
+  Machine const* find_machine(char const* name) { return machines().find(name); }                     \
+  char const* const* machine_names() { return machines().names(); }                                   \
+  Machine const& choose_machine(char const* name) { return machines().choose(name); }                 \
+  }

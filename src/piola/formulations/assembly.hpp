@@ -1,54 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/expression.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/mechanics/contact/surface.hpp"
+#include "piola/mechanics/load.hpp"
+#include "piola/mechanics/rigid_shape.hpp"
+#include "piola/mechanics/support.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace piola {
-
-/// Particles whose velocity is prescribed in some directions: at zero, or as `velocity` says.
-struct Support {
-  enum class Frame {
-    axes,    ///< the directions in `fix`
-    normal,  ///< along `normal`: a roller on an oblique plane
-    tangent  ///< across `normal`: the particle may move along the normal alone
-  };
-  std::vector<std::int64_t> particles;  ///< ids
-  std::array<bool, 3> fix{};
-  Frame frame = Frame::axes;
-  std::array<double, 3> normal{};                          ///< unit vector
-  std::optional<std::array<Expression, 3>> velocity;       ///< m/s, in X, Y, Z, t; nothing: at rest
-  double until = std::numeric_limits<double>::infinity();  ///< s: released then
-  std::string name = {};
-  std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
-};
-
-/// A dead load: particle k feels the acceleration value(X, t) * factor[k].
-struct Load {
-  std::vector<std::int64_t> particles;  ///< ids
-  std::vector<double> factor;  ///< traction [Pa]: area / mass; force per volume [N/m^3]: 1 / density; acceleration: 1
-  std::array<Expression, 3> value;
-  double until = std::numeric_limits<double>::infinity();  ///< s: gone then
-  /// Outward unit normal of the loaded face in the reference configuration, if the load is a traction.
-  std::optional<std::array<double, 3>> normal = {};
-  std::vector<std::array<double, 3>> normals = {};  ///< the same particle by particle, of curved faces
-  bool pressure = false;                            ///< the value's first component is a pressure [Pa] on that face
-  bool follows = false;                             ///< a pressure on the deformed face, along its current normal
-  std::string name = {};                            ///< empty: its force is not recorded
-  std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
-
-  bool on_face() const { return normal.has_value() || !normals.empty(); }
-  /// Of the face at particle k.
-  std::array<double, 3> normal_of(std::size_t k) const { return normals.empty() ? *normal : normals[k]; }
-};
 
 /// A face of a box across which the body is continued by its mirror image.
 struct MirrorPlane {
@@ -56,18 +20,6 @@ struct MirrorPlane {
   int axis = 0;
   bool upper = false;  ///< at the largest coordinate, else at the smallest
   bool skew = false;   ///< the image moves the opposite way: zero velocity along the plane; small strains
-};
-
-/// A rigid obstacle that bodies slide on without friction.
-struct RigidShape {
-  enum class Kind { plane, sphere, cylinder, box };
-  std::string name;
-  Kind kind = Kind::plane;
-  std::array<double, 3> centre{};        ///< of sphere, cylinder and box; a point of the plane [m]
-  std::array<double, 3> axis{0, 0, 1};   ///< unit vector: plane: outward normal, towards the bodies; cylinder: its axis
-  std::array<double, 3> half_lengths{};  ///< box: half its edges; cylinder: half its length in the first [m]
-  double radius = 0;                     ///< sphere, cylinder [m]
-  std::array<Expression, 3> velocity;    ///< prescribed, in t [m/s]
 };
 
 /// What keeps bodies of one run apart.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/ensemble.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/actions.hpp"
 #include "piola/formulations/meeting.hpp"
+#include "piola/mechanics/actions.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -184,7 +184,9 @@ class Ensemble : public Formulation {
  public:
   Ensemble(Assembly const& whole, std::vector<EnsemblePart> parts,
            std::vector<std::unique_ptr<Formulation>> formulations)
-      : parts_(std::move(parts)), formulations_(std::move(formulations)), nothing_(whole) {
+      : parts_(std::move(parts)),
+        formulations_(std::move(formulations)),
+        nothing_(whole.supports, whole.loads, whole.rigid_shapes) {
     if (!whole.surfaces.empty()) meeting_ = std::make_unique<Meeting>(whole, parts_);
     if (meeting_) meeting_->look(formulations_);
     support_count_ = whole.supports.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/mechanics/actions.hpp"
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -16,13 +17,6 @@ struct FieldInfo {
   std::string name;  ///< VTK style, e.g. "CauchyStress"
   std::string unit;  ///< SI, UDUNITS notation
   int components;    ///< 1 scalar, 3 vector, 6 symmetric tensor (XX YY ZZ XY YZ XZ), 9 tensor (row by row)
-};
-
-/// What a support, a load or a rigid shape does to the bodies, on average over the last step.
-struct Action {
-  std::string name;
-  std::array<double, 3> force{};   ///< N
-  std::array<double, 3> moment{};  ///< N m, about the middle of its particles at the start or the centre of the shape
 };
 
 /// What one body has of the quantities below.

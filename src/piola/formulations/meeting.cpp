@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/meeting.hpp"
-#include "piola/formulations/prescribed.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,7 +71,7 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       system_(system_of(whole)),
       meets_(who_meets(whole)),
       held_(system_.ids().size()),
-      actions_(whole) {
+      actions_(whole.supports, whole.loads, whole.rigid_shapes) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
   auto const& ids = system_.ids();
   for (std::size_t p = 0; p < parts.size(); ++p) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/actions.hpp"
 #include "piola/formulations/ensemble.hpp"
+#include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <memory>
 #include <span>

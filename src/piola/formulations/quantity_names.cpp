@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/observed.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include <algorithm>
 #include <array>
@@ -9,36 +10,6 @@
 
 namespace piola {
 namespace {
-
-struct FieldWord {
-  std::string_view word, field, unit;
-  int components;
-};
-
-constexpr std::array fields{
-    FieldWord{"position", "Position", "m", 3},
-    FieldWord{"displacement", "Displacement", "m", 3},
-    FieldWord{"velocity", "Velocity", "m/s", 3},
-    FieldWord{"momentum", "Momentum", "kg/m^2/s", 3},
-    FieldWord{"pressure", "Pressure", "Pa", 1},
-    FieldWord{"jacobian", "Jacobian", "1", 1},
-    FieldWord{"von_mises_stress", "VonMisesStress", "Pa", 1},
-    FieldWord{"cauchy_stress", "CauchyStress", "Pa", 6},
-    FieldWord{"first_piola_stress", "FirstPiolaStress", "Pa", 9},
-    FieldWord{"deformation_gradient", "DeformationGradient", "1", 9},
-    FieldWord{"equivalent_plastic_strain", "EquivalentPlasticStrain", "1", 1},
-    FieldWord{"plastic_strain", "EquivalentPlasticStrain", "1", 1},  // the same in short
-    FieldWord{"damage", "Damage", "1", 1},
-    FieldWord{"temperature", "Temperature", "K", 1},
-    FieldWord{"density", "Density", "kg/m^3", 1},
-    FieldWord{"specific_energy", "InternalEnergy", "J/kg", 1},
-    FieldWord{"kernel_type", "KernelType", "1", 1},
-    FieldWord{"cell_pressure", "CellPressure", "Pa", 1},
-    FieldWord{"least_jacobian", "LeastJacobian", "1", 1},
-    FieldWord{"principal_stress", "PrincipalStress", "Pa", 3},
-    FieldWord{"principal_strain", "PrincipalStrain", "1", 3},
-    FieldWord{"parting", "Parting", "1", 1},
-};
 
 constexpr std::array actions{PartQuantity{"force_x", "N"},    PartQuantity{"force_y", "N"},
                              PartQuantity{"force_z", "N"},    PartQuantity{"moment_x", "N m"},
@@ -85,15 +56,12 @@ constexpr std::array derived{DerivedField{"PrincipalStress", "CauchyStress", "Pa
 
 std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;
-  for (FieldWord const& f : fields) {
-    for (int c = 0; c < f.components; ++c) {
-      table.push_back(
-          {std::string(f.word) + suffix(f.word, f.components, c), std::string(f.field), c, std::string(f.unit)});
-    }
-    if (f.components == 3 && !f.word.starts_with("principal_")) {
-      table.push_back(
-          {std::string(f.word) + "_magnitude", std::string(f.field), FieldQuantity::magnitude, std::string(f.unit)});
-    }
+  for (ObservedField const& f : observed_table()) {
+    std::string const word(f.word), field(f.name), unit(f.unit);
+    for (int c = 0; c < f.components && !word.empty(); ++c)
+      table.push_back({word + suffix(f.word, f.components, c), field, c, unit});
+    if (f.components == 3 && !word.starts_with("principal_"))
+      table.push_back({word + "_magnitude", field, FieldQuantity::magnitude, unit});
   }
   return table;
 }

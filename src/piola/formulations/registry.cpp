@@ -2,25 +2,21 @@
 #include "piola/formulations/registry.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/adaptle/doubts.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/solver.hpp"
 #include "piola/formulations/ensemble.hpp"
-#include "piola/formulations/jst_advection/doubts.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/solver.hpp"
-#include "piola/formulations/jst_sph/doubts.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/formulations/make.hpp"
-#include "piola/formulations/nodal/doubts.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/solver.hpp"
-#include "piola/formulations/taylor_sph/doubts.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 
 namespace piola {
 namespace {
@@ -97,6 +93,16 @@ std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> ch
   for (auto const& choice : choices)
     if (choice.name == name) return choice.allowed.front();
   return {};
+}
+
+bool is_stress_free(std::string_view assumption, int dimension, bool otherwise, Problems& problems) {
+  if (assumption == "as_dimension") return otherwise;
+  int const needed = assumption.starts_with("plane") ? 2 : 1;
+  if (dimension != needed)
+    problems.add({}, fmt::format("formulation: assumption = \"{}\" is for bodies in {}D, this one is in {}D - leave it "
+                                 "out",
+                                 assumption, needed, dimension));
+  return assumption.ends_with("stress");
 }
 
 double number_of(FormulationSpec const& spec, std::string_view name, double otherwise) {

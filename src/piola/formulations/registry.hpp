@@ -11,6 +11,8 @@
 
 namespace piola {
 
+class Problems;
+
 /// A number of the whole system that only one formulation has: a column of history.csv.
 struct DiagnosticInfo {
   std::string_view name;
@@ -58,6 +60,20 @@ struct FormulationSpec {
 
 /// The word given for a choice, else the first that is allowed.
 std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name);
+
+/// The same as the member of an enumeration that lists the allowed words in their order.
+template <class Enumeration>
+Enumeration choice_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name) {
+  std::string_view const word = word_of(spec, choices, name);
+  for (Choice const& choice : choices)
+    for (std::size_t k = 0; choice.name == name && k < choice.allowed.size(); ++k)
+      if (choice.allowed[k] == word) return static_cast<Enumeration>(k);
+  return {};
+}
+
+/// What a choice "assumption" says of the directions that a body does not have: whether they are free of stress.
+/// `otherwise`: with as_dimension. Notes an assumption that is for bodies of another dimension.
+bool is_stress_free(std::string_view assumption, int dimension, bool otherwise, Problems& problems);
 
 /// The number given for a parameter, else `otherwise`.
 double number_of(FormulationSpec const& spec, std::string_view name, double otherwise);

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/kernels/registry.hpp"
-#include "piola/kernels/cubic_spline.hpp"
-#include "piola/kernels/quartic_spline.hpp"
-#include "piola/kernels/quintic_spline.hpp"
-#include "piola/kernels/wendland_c2.hpp"
-#include "piola/kernels/wendland_c4.hpp"
-#include <array>
+#include "piola/kernels/list.hpp"
 
 namespace piola {
 namespace {
@@ -26,13 +20,12 @@ double dw_of(int dimension, double q) {
     return K::dw(q);
 }
 
-template <class K>
-constexpr Kernel entry() {
-  return {K::name, K::about, K::support, &K::sigma, &w_of<K>, &dw_of<K>};
+template <class... K>
+constexpr std::array<Kernel, sizeof...(K)> entries(KernelList<K...>) {
+  return {Kernel{K::name, K::about, K::support, &K::sigma, &w_of<K>, &dw_of<K>}...};
 }
 
-constexpr std::array all{entry<CubicSpline>(), entry<QuarticSpline>(), entry<QuinticSpline>(), entry<WendlandC2>(),
-                         entry<WendlandC4>()};
+constexpr auto all = entries(Kernels{});
 
 }  // namespace
 

@@ -15,7 +15,7 @@ struct Kernel {
   double (*dw)(int dimension, double q);
 };
 
-/// All kernels; adding one is a header and a line in registry.cpp.
+/// All kernels, those of list.hpp.
 std::span<Kernel const> kernels();
 /// The kernel of that name, or nullptr.
 Kernel const* find_kernel(std::string_view name);

@@ -9,7 +9,7 @@
 #if defined(PIOLA_MACHINE_IS_V3) || defined(PIOLA_MACHINE_IS_V4) || defined(PIOLA_MACHINE_IS_NATIVE)
 #define PIOLA_HAS_PACKS 1
 #include <experimental/simd>
-#if defined(__AVX512F__)
+#if defined(__AVX__)
 #include <immintrin.h>
 #endif
 #else
@@ -26,8 +26,10 @@ using Index = std::int32_t;
 namespace piola::inline PIOLA_MACHINE {
 
 PIOLA_FN double select(bool condition, double yes, double no) { return condition ? yes : no; }
-PIOLA_FN double minimum(double a, double b) { return a < b ? a : b; }
-PIOLA_FN double maximum(double a, double b) { return a > b ? a : b; }
+/// Not a number if one of the two is none, in whichever place, as IEEE 754-2019 has it: a reduction that meets one ends
+/// with it, so that it reaches whoever reports failures. Slots that hold no particle must be left out before.
+PIOLA_FN double minimum(double a, double b) { return b < a || b != b ? b : a; }
+PIOLA_FN double maximum(double a, double b) { return a < b || b != b ? b : a; }
 PIOLA_FN double square_root(double a) { return std::sqrt(a); }
 PIOLA_FN double inverse_square_root(double a) { return 1.0 / std::sqrt(a); }
 PIOLA_FN bool any(bool condition) { return condition; }
@@ -44,8 +46,33 @@ inline constexpr int lane_count = static_cast<int>(Lanes::size());
   where(condition, r) = yes;
   return r;
 }
-[[gnu::always_inline]] PIOLA_FN Lanes minimum(Lanes const& a, Lanes const& b) { return std::experimental::min(a, b); }
-[[gnu::always_inline]] PIOLA_FN Lanes maximum(Lanes const& a, Lanes const& b) { return std::experimental::max(a, b); }
+/// b where it is less (greater), else a, and so a where it is not a number: as the processor's own instruction has it,
+/// while compilers may take the two of std::experimental::min in either order.
+#if defined(__AVX512F__)
+[[gnu::always_inline]] PIOLA_FN Lanes less_of(Lanes const& a, Lanes const& b) {
+  return Lanes(_mm512_min_pd(static_cast<__m512d>(b), static_cast<__m512d>(a)));
+}
+[[gnu::always_inline]] PIOLA_FN Lanes greater_of(Lanes const& a, Lanes const& b) {
+  return Lanes(_mm512_max_pd(static_cast<__m512d>(b), static_cast<__m512d>(a)));
+}
+#elif defined(__AVX__)
+[[gnu::always_inline]] PIOLA_FN Lanes less_of(Lanes const& a, Lanes const& b) {
+  return Lanes(_mm256_min_pd(static_cast<__m256d>(b), static_cast<__m256d>(a)));
+}
+[[gnu::always_inline]] PIOLA_FN Lanes greater_of(Lanes const& a, Lanes const& b) {
+  return Lanes(_mm256_max_pd(static_cast<__m256d>(b), static_cast<__m256d>(a)));
+}
+#else
+PIOLA_FN Lanes less_of(Lanes const& a, Lanes const& b) { return select(b < a, b, a); }
+PIOLA_FN Lanes greater_of(Lanes const& a, Lanes const& b) { return select(b > a, b, a); }
+#endif
+// Of a b that is known when this is compiled, as bounds are, nothing remains but that one instruction.
+[[gnu::always_inline]] PIOLA_FN Lanes minimum(Lanes const& a, Lanes const& b) {
+  return select(b != b, b, less_of(a, b));
+}
+[[gnu::always_inline]] PIOLA_FN Lanes maximum(Lanes const& a, Lanes const& b) {
+  return select(b != b, b, greater_of(a, b));
+}
 [[gnu::always_inline]] PIOLA_FN Lanes square_root(Lanes const& a) { return std::experimental::sqrt(a); }
 [[gnu::always_inline]] PIOLA_FN bool any(Lanes::mask_type const& condition) { return any_of(condition); }
 PIOLA_FN Lanes power_minus_third_exact(Lanes const& a) {

@@ -16,7 +16,6 @@ struct Prospect {
   std::optional<Diagnostics> start = {};
 };
 
-
 /// All that looks odd about a case that can run: slips of units, settings without effect, laws that lock or cannot
 /// fail, bodies that touch or cannot touch. One sentence each, "file:line:column: what (what is usual) - what to do",
 /// in the order of the file. What `piola check` shows, and `piola run` tells and writes to summary.json and log.txt.

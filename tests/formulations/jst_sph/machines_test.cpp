@@ -110,6 +110,40 @@ TEST(Machines, AreListedBestFirstAndFoundByName) {
   EXPECT_EQ(jst_sph::find_machine("abacus"), nullptr);
 }
 
+/// In whichever lane or block it is: steps would else follow from the others.
+TEST(Machines, NoticeAWaveSpeedThatIsNotANumber) {
+  constexpr Index slots = 192;
+  Field speeds("WaveSpeed", "m/s", 1, Role::evolved);
+  speeds.allocate(slots, 0);
+  for (Index i = 0; i < slots; ++i) speeds.at(i) = 100 + i;
+  Values partial(slots);
+  jst_sph::BodyState body;
+  body.slots = {0, slots};
+  body.wave_speed = speeds.ref();
+  body.partial = partial.data();
+  for (auto const& name : machines()) {
+    auto const largest = jst_sph::find_machine(name.c_str())->largest_wave_speed;
+    EXPECT_EQ(largest(body), 99 + slots) << name;
+    for (Index const at : {0, 5, 63, 64, slots - 1}) {
+      speeds.at(at) = std::nan("");
+      EXPECT_TRUE(std::isnan(largest(body))) << name << " " << at;
+      speeds.at(at) = 100 + at;
+    }
+  }
+}
+
+TEST(Machines, HandAWaveSpeedThatIsNotANumberToTheReportOfFailures) {
+  auto const f = make_formulation(tumbling_box(3, 5));
+  SavedState state = saved(*f);
+  state.values.at("body0_wave_speed")[7] = std::nan("");
+  EXPECT_FALSE(f->failure().has_value());
+  f->load(state);
+  auto const failure = f->failure();
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_EQ(failure->particle, 7);
+  EXPECT_EQ(failure->what, "has a wave speed that is not a number");
+}
+
 TEST(Machines, OfTheSameNameBuildTheSameBitsAgain) {
   Assembly const a = tumbling_box(3, 5);
   EXPECT_EQ(end_state(a), end_state(a));

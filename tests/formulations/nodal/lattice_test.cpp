@@ -138,5 +138,20 @@ TEST(NodalSetUp, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+/// Slots of a lattice that hold no particle hold no numbers; they must not count, on any machine.
+TEST(NodalLattice, MeasuresTheChangesOfItsParticlesAlone) {
+  constexpr Index slots = 192;
+  Field change("ChangeSinceMeasurement", "1", 2, Role::derived);
+  change.allocate_tiled(slots);
+  for (Index i = 0; i < slots; ++i) change.at(i, 0) = i % 3 == 1 ? std::nan("") : 0.001 * i;
+  Values partial(slots);
+  nodal::BodyState body;
+  body.slots = {0, slots};
+  body.change = change.ref();
+  body.partial = partial.data();
+  for (auto names = nodal::machine_names(); *names != nullptr; ++names)
+    EXPECT_EQ(nodal::find_machine(*names)->largest_change(body), 0.001 * (slots - 1)) << *names;
+}
+
 }  // namespace
 }  // namespace piola::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/adaptle/doubts.hpp"
 #include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/solver.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <initializer_list>

@@ -40,14 +40,11 @@ Measures finish(System& s, double dt) {
 }
 void search(MovingSearch const& s) { find_neighbours(s); }
 
-#define PIOLA_NAME_OF(x) #x
-#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
-
 }  // namespace
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{
-    PIOLA_NAME(PIOLA_MACHINE), lane_count, &predict, &deform, &half_state, &correct, &sweep, &finish, &search};
+Machine const machine{PIOLA_MACHINE_NAME, lane_count, &predict, &deform, &half_state,
+                      &correct,           &sweep,     &finish,  &search};
 
 }  // namespace piola::adaptle::inline PIOLA_MACHINE

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of AdapTLE for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this file
 // proves is that the same source makes device code for both dimensions, every strength and every equation of state.
+#include "piola/exec/device_launch.hpp"
 #include "piola/formulations/adaptle/step.hpp"
 
 namespace piola::adaptle::inline PIOLA_MACHINE {
 namespace {
 
-template <class Pass>
-Pass const& as(void const* pass) {
-  return *static_cast<Pass const*>(pass);
-}
-
 template <int D, class Law>
 void launch_law(Range r, void const* pass) {
-  exec::for_each_block(r, as<Predict<D, Law>>(pass));
-  exec::for_each_block(r, as<HalfState<D, false, Law>>(pass));
-  exec::for_each_block(r, as<HalfState<D, true, Law>>(pass));
-  exec::for_each_block(r, as<Finish<D, Law>>(pass));
+  exec::for_each_block(r, exec::as<Predict<D, Law>>(pass));
+  exec::for_each_block(r, exec::as<HalfState<D, false, Law>>(pass));
+  exec::for_each_block(r, exec::as<HalfState<D, true, Law>>(pass));
+  exec::for_each_block(r, exec::as<Finish<D, Law>>(pass));
 }
 
 template <int D, class Gradient>
 void launch_material(Range r, void const* pass) {
-  exec::for_each_block(r, as<DeformSweep<D, Gradient>>(pass));
-  exec::for_each_block(r, as<MaterialSweep<D, Gradient>>(pass));
+  exec::for_each_block(r, exec::as<DeformSweep<D, Gradient>>(pass));
+  exec::for_each_block(r, exec::as<MaterialSweep<D, Gradient>>(pass));
 }
 
 template <int D>
@@ -31,23 +27,23 @@ void launch_all(Range r, void const* pass) {
   launch_law<D, Solid<JohnsonCook, MieGrueneisen>>(r, pass);
   launch_material<D, float>(r, pass);
   launch_material<D, double>(r, pass);
-  exec::for_each_block(r, as<PublishedDeformSweep<D>>(pass));
-  exec::for_each_block(r, as<PublishedMaterialSweep<D>>(pass));
-  exec::for_each_block(r, as<SpatialSweep<D, false, false>>(pass));
-  exec::for_each_block(r, as<SpatialSweep<D, false, true>>(pass));
-  exec::for_each_block(r, as<SpatialSweep<D, true, false>>(pass));
-  exec::for_each_block(r, as<SpatialSweep<D, true, true>>(pass));
-  exec::for_each_block(r, as<RiemannSweep<D>>(pass));
-  exec::for_each_block(r, as<CorrectSpatial<D>>(pass));
-  exec::for_each_block(r, as<FoldCorrection<D>>(pass));
-  exec::for_each_block(r, as<ContactSweep<D>>(pass));
-  exec::for_each_block(r, as<RigidSweep<D>>(pass));
+  exec::for_each_block(r, exec::as<PublishedDeformSweep<D>>(pass));
+  exec::for_each_block(r, exec::as<PublishedMaterialSweep<D>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, false, false>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, false, true>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, true, false>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, true, true>>(pass));
+  exec::for_each_block(r, exec::as<RiemannSweep<D>>(pass));
+  exec::for_each_block(r, exec::as<CorrectSpatial<D>>(pass));
+  exec::for_each_block(r, exec::as<FoldCorrection<D>>(pass));
+  exec::for_each_block(r, exec::as<ContactSweep<D>>(pass));
+  exec::for_each_block(r, exec::as<RigidSweep<D>>(pass));
 }
 
 }  // namespace
 
 void launch(int dimension, Range r, void const* pass) {
-  exec::for_each_block(r, as<FindNeighbours>(pass));
+  exec::for_each_block(r, exec::as<FindNeighbours>(pass));
   if (dimension == 2) launch_all<2>(r, pass);
   if (dimension == 3) launch_all<3>(r, pass);
 }

@@ -3,55 +3,30 @@
 #include "piola/formulations/adaptle/point_passes.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/observation.hpp"
+#include "piola/formulations/observed.hpp"
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 namespace piola::adaptle {
 namespace {
 
-/// Everything an output formula may need of one particle. Pressure is positive in tension, as everywhere in output.
-struct Point {
-  State const& s;
-  Reference const& r;
-  double pressure, rho0, body, neighbours, id;
-};
-
-struct Observed {
-  char const* name;
-  char const* unit;
-  int components;
-  void (*put)(Point const&, double*);
-};
-
-void put_stress(Point const& p, double* out) {
-  for (int c = 0; c < 6; ++c) out[c] = p.s.S[c] + (c < 3 ? p.pressure : 0);
-}
-
-constexpr std::array table{
-    Observed{"Displacement", "m", 3,
-             [](Point const& p, double* out) {
-               for (int c = 0; c < 3; ++c) out[c] = p.s.x[c] - p.r.X[c];
-             }},
-    Observed{"Position", "m", 3, [](Point const& p, double* out) { std::copy_n(p.s.x, 3, out); }},
-    Observed{"Velocity", "m/s", 3, [](Point const& p, double* out) { std::copy_n(p.s.v, 3, out); }},
-    Observed{"Momentum", "kg/(m2 s)", 3,
-             [](Point const& p, double* out) {
-               for (int c = 0; c < 3; ++c) out[c] = p.s.rho * p.s.v[c];
-             }},
-    Observed{"Pressure", "Pa", 1, [](Point const& p, double* out) { *out = p.pressure; }},
-    Observed{"CauchyStress", "Pa", 6, put_stress},
-    Observed{"Jacobian", "1", 1, [](Point const& p, double* out) { *out = p.rho0 / p.s.rho; }},
-    Observed{"VonMisesStress", "Pa", 1, [](Point const& p, double* out) { *out = von_mises(symmetric_of(p.s.S)); }},
-    Observed{"EquivalentPlasticStrain", "1", 1, [](Point const& p, double* out) { *out = p.s.plastic_strain; }},
-    Observed{"Damage", "1", 1, [](Point const& p, double* out) { *out = p.s.damage; }},
-    Observed{"Temperature", "K", 1, [](Point const& p, double* out) { *out = p.s.temperature; }},
-    Observed{"InternalEnergy", "J/kg", 1, [](Point const& p, double* out) { *out = p.s.energy / p.r.mass; }},
-    Observed{"Density", "kg/m3", 1, [](Point const& p, double* out) { *out = p.s.rho; }},
-    Observed{"KernelType", "1", 1, [](Point const& p, double* out) { *out = p.s.phi; }},
-    Observed{"Neighbours", "1", 1, [](Point const& p, double* out) { *out = p.neighbours; }},
-    Observed{"Body", "1", 1, [](Point const& p, double* out) { *out = p.body; }},
-    Observed{"Id", "1", 1, [](Point const& p, double* out) { *out = p.id; }}};
+constexpr std::array<std::string_view, 17> offered{"Displacement",
+                                                   "Position",
+                                                   "Velocity",
+                                                   "Momentum",
+                                                   "Pressure",
+                                                   "CauchyStress",
+                                                   "Jacobian",
+                                                   "VonMisesStress",
+                                                   "EquivalentPlasticStrain",
+                                                   "Damage",
+                                                   "Temperature",
+                                                   "InternalEnergy",
+                                                   "Density",
+                                                   "KernelType",
+                                                   "Neighbours",
+                                                   "Body",
+                                                   "Id"};
 
 /// f(i, pressure positive in tension) for every particle.
 template <class F>
@@ -68,28 +43,31 @@ void each_particle(System const& s, F const& f) {
 
 }  // namespace
 
-std::vector<FieldInfo> observed_fields() {
-  std::vector<FieldInfo> r;
-  r.reserve(std::size(table));
-  for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
-  return r;
-}
+std::vector<FieldInfo> observed_fields() { return field_infos(offered); }
 
 void sample(Particles const& particles, std::string_view field, std::span<double> values) {
-  auto const found = std::find_if(table.begin(), table.end(), [&](auto const& f) { return field == f.name; });
-  if (found == table.end()) throw std::invalid_argument("no field is named '" + std::string(field) + "'");
+  ObservedField const& found = find_observed(field, offered);
   System const& s = particles.system();
   std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
   each_particle(s, [&](Index i, double pressure) {
-    int const body = s.body_of[i];
-    Point const p{s.state[i],
-                  s.reference[i],
-                  pressure,
-                  s.body[body].rho0,
-                  static_cast<double>(body),
-                  static_cast<double>(s.state[i].phi > 0 ? spatial[at(i)] : particles.reference_neighbours(i)),
-                  static_cast<double>(i)};
-    found->put(p, &values[at(i) * static_cast<std::size_t>(found->components)]);
+    State const& now = s.state[i];
+    ObservedParticle p;
+    p.id = static_cast<double>(i);
+    p.body = s.body_of[i];
+    p.neighbours = now.phi > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
+    std::copy_n(now.x, 3, p.x.begin());
+    std::copy_n(now.v, 3, p.v.begin());
+    for (std::size_t c = 0; c < 3; ++c) p.displacement[c] = p.x[c] - s.reference[i].X[c];
+    p.pressure = pressure;
+    for (int c = 0; c < 6; ++c) p.cauchy.c[c] = now.S[c] + (c < 3 ? pressure : 0);
+    p.J = s.body[s.body_of[i]].rho0 / now.rho;
+    p.inertia = p.density = now.rho;
+    p.plastic_strain = now.plastic_strain;
+    p.damage = now.damage;
+    p.temperature = now.temperature;
+    p.specific_energy = now.energy / s.reference[i].mass;
+    p.kernel_type = now.phi;
+    put(found, p, values);
   });
 }
 

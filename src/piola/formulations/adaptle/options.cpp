@@ -120,16 +120,9 @@ double number(FormulationSpec const& spec, std::string_view name) {
   return 0;
 }
 
-template <std::size_t N>
-int place_of_word(FormulationSpec const& spec, std::string_view name, std::array<std::string_view, N> const& words) {
-  for (std::size_t k = 0; k < N; ++k)
-    if (word(spec, name) == words[k]) return static_cast<int>(k);
-  return 0;
-}
-
 BodyOptions read_body(FormulationSpec const& spec, int dimension) {
   BodyOptions o;
-  o.description = static_cast<Description>(place_of_word(spec, "description", description_words));
+  o.description = choice_of<Description>(spec, choices, "description");
   o.smoothing_length = number_of(spec, "smoothing_length", dimension == 2 ? 1.4 : 1.2);
   o.alpha = number(spec, "alpha");
   o.beta = number(spec, "beta");
@@ -159,9 +152,9 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension) {
 
 Settings read_settings(FormulationSpec const& spec) {
   Settings s;
-  s.viscosity = static_cast<Viscosity>(place_of_word(spec, "viscosity", viscosity_words));
-  s.interface_form = word(spec, "interface") == "printed" ? Interface::printed : Interface::owner;
-  s.mixed_stress = static_cast<MixedStress>(place_of_word(spec, "artificial_stress_interface", mixed_words));
+  s.viscosity = choice_of<Viscosity>(spec, choices, "viscosity");
+  s.interface_form = choice_of<Interface>(spec, choices, "interface");
+  s.mixed_stress = choice_of<MixedStress>(spec, choices, "artificial_stress_interface");
   s.corrected = word(spec, "correction") == "mixed";
   s.corrected_material = word(spec, "correction") != "none";
   s.published = s.interface_form == Interface::printed || s.corrected || word(spec, "viscosity_form") == "printed";

@@ -44,7 +44,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
       machine_(&machine),
       supports_(assembly.supports),
       loads_(assembly.loads),
-      actions_(assembly),
+      actions_(assembly.supports, assembly.loads, assembly.rigid_shapes),
       shapes_(assembly.rigid_shapes),
       X_(assembly.particles.X) {
   system_.dimension = assembly.particles.dimension;

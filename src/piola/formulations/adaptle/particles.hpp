@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/actions.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
-#include "piola/formulations/prescribed.hpp"
+#include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <array>
 #include <string>
 #include <vector>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/solver.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/exec/instruction_sets.hpp"
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
-#include "piola/formulations/prescribed.hpp"
+#include "piola/formulations/checkpoint.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -36,15 +36,11 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
-Machine const* choose(std::string const& name) {
-  if (Machine const* machine = find_machine(name.c_str())) return machine;
-  throw InputError(exec_host::not_usable(name, machine_names()));
-}
-
 class Solver final : public Formulation {
  public:
   explicit Solver(Assembly const& assembly)
-      : set_(assembly.particles), particles_(assembly, read_options(assembly), *choose(assembly.machine)) {}
+      : set_(assembly.particles),
+        particles_(assembly, read_options(assembly), choose_machine(assembly.machine.c_str())) {}
 
   double stable_time_step() const override {
     return up_to_release(particles_.stable_time_step(), particles_.next_release() - particles_.books().time);
@@ -140,9 +136,7 @@ void Solver::load(StateReader& reader) {
   });
   reader.get("books", std::span<double>(particles_.books_data(), Books::values));
   reader.get("rigid_centres", particles_.rigid_centres());
-  std::vector<double> actions = particles_.actions().state();
-  reader.get("actions", actions);
-  particles_.actions().restore(actions);
+  load_part(reader, "actions", particles_.actions());
   particles_.resumed();
 }
 

@@ -236,7 +236,9 @@ struct Machine {
   void (*search)(MovingSearch const&);     ///< lists of spatial neighbours
 };
 
+// As those of the other formulations (exec/instruction_sets.hpp).
 Machine const* find_machine(char const* name);
 char const* const* machine_names();
+Machine const& choose_machine(char const* name);
 
 }  // namespace piola::adaptle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/jst_advection/doubts.hpp"
+#include "piola/formulations/jst_advection/solver.hpp"
 
 namespace piola::jst_advection {
 

@@ -461,7 +461,7 @@ double JstBody::reach() const {
 void JstBody::step(Machine const& machine, double time, double dt) {
   boundary_.begin_step(state_, time, dt);
   machine.step(state_, dt);
-  boundary_.end_step(state_, time + dt);
+  boundary_.end_step(state_);
 }
 
 void JstBody::damp(double factor) {
@@ -496,20 +496,6 @@ double JstBody::kinetic_energy() const {
   return 0.5 * state_.constants.rho0 * sum;
 }
 
-std::array<double, 3> JstBody::X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
-
-std::array<double, 3> JstBody::x(Index slot) const {
-  std::array<double, 3> r = X(slot);
-  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.x, slot, c);
-  return r;
-}
-
-std::array<double, 3> JstBody::v(Index slot) const {
-  std::array<double, 3> r{};
-  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.v, slot, c);
-  return r;
-}
-
 Mat<3> JstBody::F(Index slot) const {
   Mat<3> r = identity<3>();
   for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
@@ -531,11 +517,9 @@ double JstBody::J(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  std::size_t total = order_.id.size() * sizeof(order_.id[0]) + partial_.size() * sizeof(double) +
-                      group_.size() * sizeof(group_[0]) + pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() +
-                      second_.memory.bytes() + ahead_.memory.bytes() + kernel_.memory.bytes() + weight_.bytes();
-  const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
-  return total;
+  return order_.id.size() * sizeof(order_.id[0]) + partial_.size() * sizeof(double) +
+         group_.size() * sizeof(group_[0]) + pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() +
+         second_.memory.bytes() + ahead_.memory.bytes() + kernel_.memory.bytes() + weight_.bytes() + fields_.bytes();
 }
 
 }  // namespace piola::jst_sph

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/jst_sph/doubts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
+#include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/materials/solids.hpp"
 #include <fmt/format.h>
 

@@ -63,22 +63,12 @@ double largest_wave_speed(BodyState& body) {
   return largest;
 }
 
-#define PIOLA_NAME_OF(x) #x
-#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
-
 }  // namespace
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE),
-                      lane_count,
-                      &step,
-                      &update_wave_speed,
-                      &largest_wave_speed,
-                      &update_deformation,
-                      &exec::run_fma_chains,
-                      &commit,
-                      &observe_energy,
-                      &exec::copy};
+Machine const machine{
+    PIOLA_MACHINE_NAME,    lane_count, &step,           &update_wave_speed, &largest_wave_speed, &update_deformation,
+    &exec::run_fma_chains, &commit,    &observe_energy, &exec::copy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE

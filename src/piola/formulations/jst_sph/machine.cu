@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of JST-SPH for a GPU. Compiled, not yet run: launching them needs fields in device memory. What this file
 // proves is that the same source makes device code for every dimension, law and stabilisation.
+#include "piola/exec/device_launch.hpp"
 #include "piola/formulations/jst_sph/stress_passes.hpp"
 #include "piola/materials/laws.hpp"
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 namespace {
 
-/// A sweep by itself: sums go to scratch in device memory instead of a core's cache.
-template <class Sweep>
-struct WithScratch {
-  Sweep sweep;
-  exec::Scratch scratch;
-  __host__ __device__ void operator()(Index i) const { sweep(i, scratch); }
-};
-
 template <int D, int Smoothed, class Law>
 void launch_law(Range r, UpdateStress<D, Smoothed, Law> const& stress, exec::Scratch const& scratch) {
-  exec::for_each(r, WithScratch<UpdateStress<D, Smoothed, Law>>{stress, scratch});
+  exec::for_each(r, exec::WithScratch<UpdateStress<D, Smoothed, Law>>{stress, scratch});
 }
 
 template <int D, int Smoothed, class... Law>
@@ -34,8 +27,8 @@ template <int D>
 void launch_all(Range r, void const* passes, exec::Scratch const& scratch, double* partial) {
   using Sweep = DifferentiateVelocity<D, D, ListLoader<D>>;
   using Unstabilised = DifferentiateVelocity<D, 0, ListLoader<D>>;
-  exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
-  exec::for_each(r, WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
+  exec::for_each(r, exec::WithScratch<Sweep>{exec::as<Sweep>(passes), scratch});
+  exec::for_each(r, exec::WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
   launch_laws<D, D>(r, passes, scratch, Laws{});
   launch_laws<D, 0>(r, passes, scratch, Laws{});
   launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, D, ListLoader<D>> const*>(passes),
@@ -46,7 +39,7 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch, doubl
       r, *static_cast<SumForces<D, Biharmonic::literal, D, ListLoader<D>> const*>(passes), partial);
   exec::for_each(r, *static_cast<AdvanceMomentum<D> const*>(passes));
   exec::for_each(r, *static_cast<ComputeWaveSpeed<D, NeoHookean> const*>(passes));
-  exec::for_each(r, WithScratch<StoreDeformation<D>>{*static_cast<StoreDeformation<D> const*>(passes), scratch});
+  exec::for_each(r, exec::WithScratch<StoreDeformation<D>>{*static_cast<StoreDeformation<D> const*>(passes), scratch});
   exec::for_each_item(r.last, *static_cast<HoldSupports const*>(passes));
 }
 

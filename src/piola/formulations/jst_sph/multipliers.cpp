@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/multipliers.hpp"
 #include "piola/math/solve.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@ namespace piola::jst_sph {
 namespace {
 
 using Point = std::array<double, 3>;
-
-double dot(Point const& a, Point const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 struct NearParticle {
   Index slot;
@@ -54,12 +53,6 @@ std::vector<NearParticle> interpolation(Cloud const& cloud, CellGrid const& grid
                                            : correct_linearly<1>(near);
   if (!good) near = {{B, {}, 1}};
   return near;
-}
-
-Point value_of(FieldRef const& field, Index slot, int D) {
-  Point r{};
-  for (int c = 0; c < D; ++c) r[static_cast<std::size_t>(c)] = value_at(field, slot, c);
-  return r;
 }
 
 }  // namespace
@@ -214,8 +207,8 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   bool const kick = call.when == MultiplierCall::When::first_kick, stage = call.when == MultiplierCall::When::stage_1;
   std::vector<Point> v, x;
   for (auto const slot : slots_) {
-    v.push_back(value_of(body.v, slot, D_));
-    x.push_back(value_of(body.x, slot, D_));
+    v.push_back(point_at(body.v, slot, D_));
+    x.push_back(point_at(body.x, slot, D_));
     for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) {
       // Arms of the first stage are x^n = x^(n+1) - dt/2 (v^n + v*), eq. (45).
       if (stage) x.back()[c] -= 0.5 * dt * (value_at(body.v_n, slot, static_cast<int>(c)) + v.back()[c]);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/actions.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/math/envelope_cholesky.hpp"
+#include "piola/mechanics/actions.hpp"
 #include <array>
 #include <span>
 #include <vector>

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/observe.hpp"
+#include "piola/formulations/observed.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <stdexcept>
 
 namespace piola::jst_sph {
 namespace {
-
-using Point = std::array<double, 3>;
 
 bool evolves_volume(JstBody const& body) { return jst_sph::evolves_volume(body.options().variables); }
 
@@ -143,124 +140,69 @@ Diagnostics finish(JstObservation const& o) {
 
 namespace {
 
-/// Everything an output formula may need of one particle.
-struct Particle {
-  Point X, x, v;
-  Mat<3> F, P;
-  double J, pressure, rho0, body, neighbours;
-  double id;
-  std::array<double, SolidFields::size> history;  ///< of solids in rate form; zeros else
-};
+constexpr std::array<std::string_view, 18> offered{"Displacement",
+                                                   "Position",
+                                                   "Velocity",
+                                                   "Momentum",
+                                                   "Pressure",
+                                                   "CauchyStress",
+                                                   "FirstPiolaStress",
+                                                   "DeformationGradient",
+                                                   "Jacobian",
+                                                   "VonMisesStress",
+                                                   "Density",
+                                                   "Neighbours",
+                                                   "Body",
+                                                   "Id",
+                                                   "EquivalentPlasticStrain",
+                                                   "Damage",
+                                                   "Temperature",
+                                                   "InternalEnergy"};
+constexpr std::size_t of_every_law = 14;  ///< the others are of solids in rate form
 
-Mat<3> cauchy(Particle const& p) { return (1.0 / p.J) * (p.P * transpose(p.F)); }
-
-void put_symmetric(Mat<3> const& s, double* out) {
-  static constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
-  for (int k = 0; k < 6; ++k) out[k] = 0.5 * (s(row[k], column[k]) + s(column[k], row[k]));
+ObservedParticle motion_of(JstBody const& body, Index i) {
+  ObservedParticle p;
+  p.id = static_cast<double>(body.id(i));
+  p.x = body.x(i);
+  p.v = body.v(i);
+  auto const X = body.X(i);
+  for (std::size_t c = 0; c < 3; ++c) p.displacement[c] = p.x[c] - X[c];
+  return p;
 }
 
-double von_mises(Mat<3> const& s) {
-  double const p = trace(s) / 3;
-  double sum = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      double const dev = 0.5 * (s(i, j) + s(j, i)) - (i == j ? p : 0);
-      sum += dev * dev;
-    }
-  return std::sqrt(1.5 * sum);
-}
-
-struct Observed {
-  char const* name;
-  char const* unit;
-  int components;
-  void (*put)(Particle const&, double*);
-};
-
-constexpr std::array table{
-    Observed{"Displacement", "m", 3,
-             [](Particle const& p, double* out) {
-               for (std::size_t c = 0; c < 3; ++c) out[c] = p.x[c] - p.X[c];
-             }},
-    Observed{"Position", "m", 3, [](Particle const& p, double* out) { std::copy(p.x.begin(), p.x.end(), out); }},
-    Observed{"Velocity", "m/s", 3, [](Particle const& p, double* out) { std::copy(p.v.begin(), p.v.end(), out); }},
-    Observed{"Momentum", "kg/(m2 s)", 3,
-             [](Particle const& p, double* out) {
-               for (std::size_t c = 0; c < 3; ++c) out[c] = p.rho0 * p.v[c];
-             }},
-    Observed{"Pressure", "Pa", 1, [](Particle const& p, double* out) { *out = p.pressure; }},
-    Observed{"CauchyStress", "Pa", 6, [](Particle const& p, double* out) { put_symmetric(cauchy(p), out); }},
-    Observed{"FirstPiolaStress", "Pa", 9, [](Particle const& p, double* out) { std::copy(p.P.c, p.P.c + 9, out); }},
-    Observed{"DeformationGradient", "1", 9, [](Particle const& p, double* out) { std::copy(p.F.c, p.F.c + 9, out); }},
-    Observed{"Jacobian", "1", 1, [](Particle const& p, double* out) { *out = p.J; }},
-    Observed{"VonMisesStress", "Pa", 1, [](Particle const& p, double* out) { *out = von_mises(cauchy(p)); }},
-    Observed{"Density", "kg/m3", 1, [](Particle const& p, double* out) { *out = p.rho0 / p.J; }},
-    Observed{"Neighbours", "1", 1, [](Particle const& p, double* out) { *out = p.neighbours; }},
-    Observed{"Body", "1", 1, [](Particle const& p, double* out) { *out = p.body; }},
-    Observed{"Id", "1", 1, [](Particle const& p, double* out) { *out = p.id; }}};
-
-constexpr std::array solid_table{
-    Observed{"EquivalentPlasticStrain", "1", 1,
-             [](Particle const& p, double* out) { *out = p.history[SolidFields::plastic_strain]; }},
-    Observed{"Damage", "1", 1, [](Particle const& p, double* out) { *out = p.history[SolidFields::damage]; }},
-    Observed{"Temperature", "K", 1, [](Particle const& p, double* out) { *out = p.history[SolidFields::temperature]; }},
-    Observed{"InternalEnergy", "J/kg", 1,
-             [](Particle const& p, double* out) { *out = p.history[SolidFields::energy]; }}};
-
-Observed find_observed(std::string_view field) {
-  for (auto const& f : table)
-    if (field == f.name) return f;
-  for (auto const& f : solid_table)
-    if (field == f.name) return f;
-  throw std::invalid_argument("no field is named '" + std::string(field) + "'");
-}
-
-std::array<double, SolidFields::size> all_history(JstBody const& body, Index i) {
-  std::array<double, SolidFields::size> r{};
-  for (int c = 0; is_solid(body.state().material) && c < SolidFields::size; ++c)
-    r[static_cast<std::size_t>(c)] = history(body, i, c);
-  return r;
+void add_history(JstBody const& body, Index i, ObservedParticle& p) {
+  p.plastic_strain = history(body, i, SolidFields::plastic_strain);
+  p.damage = history(body, i, SolidFields::damage);
+  p.temperature = history(body, i, SolidFields::temperature);
+  p.specific_energy = history(body, i, SolidFields::energy);
 }
 
 }  // namespace
 
 std::vector<FieldInfo> observed_fields(bool solids) {
-  std::vector<FieldInfo> r;
-  r.reserve(std::size(table));
-  for (auto const& f : table) r.push_back({f.name, f.unit, f.components});
-  for (auto const& f : solid_table)
-    if (solids) r.push_back({f.name, f.unit, f.components});
-  return r;
+  return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
 }
 
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  Observed const found = find_observed(field);
+  ObservedField const& found = find_observed(field, offered);
   if (field == "Displacement" || field == "Position" || field == "Velocity") {  // asked for often, and without stress
-    for (Index i = 0; i < body.particles(); ++i) {
-      Particle p{};
-      p.X = body.X(i);
-      p.x = body.x(i);
-      p.v = body.v(i);
-      found.put(p, &values[static_cast<std::size_t>(body.id(i) * found.components)]);
-    }
+    for (Index i = 0; i < body.particles(); ++i) put(found, motion_of(body, i), values);
     return;
   }
   with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
-      Mat<3> const F = body.F(i);
-      Particle const p{body.X(i),
-                       body.x(i),
-                       body.v(i),
-                       F,
-                       acting_stress(body, law, F, i),
-                       determinant(F),
-                       observed_pressure(body, law, F, i),
-                       law.rho0,
-                       static_cast<double>(body_number),
-                       static_cast<double>(body.pairs().corrections().neighbours_of(i)),
-                       static_cast<double>(body.id(i)),
-                       all_history(body, i)};
-      found.put(p, &values[static_cast<std::size_t>(body.id(i) * found.components)]);
+      ObservedParticle p = motion_of(body, i);
+      p.body = body_number;
+      p.neighbours = body.pairs().corrections().neighbours_of(i);
+      p.F = body.F(i);
+      p.P = acting_stress(body, law, p.F, i);
+      p.J = determinant(p.F);
+      p.cauchy = cauchy_stress(p.P, p.F, p.J);
+      p.pressure = observed_pressure(body, law, p.F, i);
+      p.inertia = law.rho0;
+      p.density = law.rho0 / p.J;
+      if (is_solid(body.state().material)) add_history(body, i, p);
+      put(found, p, values);
     }
   });
 }

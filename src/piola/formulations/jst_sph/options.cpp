@@ -2,6 +2,7 @@
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/kernels/list.hpp"
 #include "piola/materials/solids.hpp"
 #include <array>
 #include <cmath>
@@ -15,8 +16,6 @@ constexpr std::array<std::string_view, 3> gradient_words{"corrected", "uncorrect
 constexpr std::array<std::string_view, 4> force_words{"as_gradient", "corrected", "uncorrected", "corrected_kernel"};
 constexpr std::array<std::string_view, 2> wave_speed_words{"estimate", "exact"};
 constexpr std::array<std::string_view, 4> scheme_words{"conservative", "filtered", "robust", "paper"};
-constexpr std::array<std::string_view, 5> kernel_words{"cubic_spline", "quartic_spline", "quintic_spline",
-                                                       "wendland_c2", "wendland_c4"};
 constexpr std::array<std::string_view, 3> biharmonic_words{"as_scheme", "adjoint", "literal"};
 constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
 constexpr std::array<std::string_view, 3> integrator_words{"as_scheme", "verlet", "tvd_rk2"};
@@ -34,7 +33,7 @@ constexpr std::array choices{
            "filtered: the same with biharmonic dissipation; robust: compact gradient, dissipative "
            "biharmonic, Runge-Kutta; paper: the supports and operators as printed",
            scheme_words},
-    Choice{"kernel", "smoothing kernel; support 2h, quartic_spline 2.5h, quintic_spline 3h", kernel_words},
+    Choice{"kernel", "smoothing kernel; support 2h, quartic_spline 2.5h, quintic_spline 3h", Kernels::names},
     Choice{"biharmonic", "adjoint: -L*(eps4 c h^3 L p), never feeds energy; literal: -eps4 c h^3 L(L p), eq. 37b",
            biharmonic_words},
     Choice{"integrator", "verlet: kick, drift, kick; tvd_rk2: two stages, eq. 43", integrator_words},
@@ -135,17 +134,6 @@ std::string_view chosen(FormulationSpec const& spec, std::string_view name, std:
   return given == "as_scheme" ? by_scheme : given;
 }
 
-Variables variables_of(std::string_view word) {
-  if (word == "pFJ") return Variables::pFJ;
-  if (word == "pFHJ") return Variables::pFHJ;
-  return word == "displacement" ? Variables::displacement : Variables::pF;
-}
-
-GradientForm form_of(std::string_view word) {
-  if (word == "uncorrected") return GradientForm::uncorrected;
-  return word == "corrected_kernel" ? GradientForm::corrected_kernel : GradientForm::corrected;
-}
-
 /// What belongs to the conservative scheme, and what it cannot have.
 void check_hourglass(Options const& o, bool conservative) {
   if (!conservative && (o.hourglass() || o.hourglass_viscosity > 0 || o.bulk_viscosity > 0))
@@ -234,10 +222,11 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   // Solids in rate form keep the biharmonic term: an energy of the whole deformation would also resist plastic flow.
   bool const hourglass = conservative && !is_solid(material);
   bool const paper = scheme == "paper", filtered = scheme == "filtered" || scheme == "conservative";
-  o.variables = variables_of(word(spec, "variables"));
-  o.gradient = form_of(word(spec, "gradient"));
-  auto const force = word(spec, "internal_force");
-  o.force = force == "as_gradient" ? o.gradient : form_of(force);
+  o.variables = choice_of<Variables>(spec, choices, "variables");
+  o.gradient = choice_of<GradientForm>(spec, choices, "gradient");
+  o.force = o.gradient;
+  for (std::size_t k = 0; k < gradient_words.size(); ++k)
+    if (word(spec, "internal_force") == gradient_words[k]) o.force = static_cast<GradientForm>(k);
   o.eps2_J = number_of(spec, "eps2_volume", 0);
   o.eps4_J = number_of(spec, "eps4_volume", 0);
   o.kernel = find_kernel(word(spec, "kernel"));

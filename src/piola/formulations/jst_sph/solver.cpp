@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/solver.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/exec/instruction_sets.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/actions.hpp"
+#include "piola/formulations/bodies.hpp"
+#include "piola/formulations/checkpoint.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
-#include "piola/formulations/prescribed.hpp"
 #include "piola/formulations/slots_by_id.hpp"
+#include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace piola::jst_sph {
@@ -26,7 +26,9 @@ class Solver final : public Formulation {
 
  public:
   explicit Solver(Assembly const& assembly)
-      : set_(assembly.particles), machine_(choose(assembly.machine)), actions_(assembly) {
+      : set_(assembly.particles),
+        machine_(&choose_machine(assembly.machine.c_str())),
+        actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
@@ -42,7 +44,7 @@ class Solver final : public Formulation {
     double dt = settled_time_step();
     bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
     if (monitored) dt = std::min(dt, last_step_ > 0 ? growth_from(last_step_ / dt) * last_step_ : first_share * dt);
-    return up_to_release(dt);
+    return up_to_release_of(bodies_, time_, dt);
   }
 
   double settled_time_step() const override {
@@ -77,7 +79,7 @@ class Solver final : public Formulation {
     actions_.begin(dt);
     for (auto const& body : bodies_) {
       body->step(*machine_, time, dt);
-      body->boundary().add_actions(actions_);
+      body->boundary().hand_over(actions_);
     }
     time_ = time + dt;
     last_step_ = dt;
@@ -108,9 +110,7 @@ class Solver final : public Formulation {
     });
   }
   double kinetic_energy() const override {
-    double sum = 0;
-    for (auto const& body : bodies_) sum += body->kinetic_energy();
-    return sum;
+    return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
@@ -155,26 +155,19 @@ class Solver final : public Formulation {
         std::any_of(bodies_.begin(), bodies_.end(), [](auto const& body) { return body->options().hourglass(); });
     return hourglass && share > near_limit ? growth_near_limit : growth;
   }
-  static Machine const* choose(std::string const& name) {
-    if (Machine const* machine = find_machine(name.c_str())) return machine;
-    throw InputError(exec_host::not_usable(name, machine_names()));
-  }
   void find_largest_speeds() {
     largest_speed_.clear();
     for (auto const& body : bodies_) largest_speed_.push_back(machine_->largest_wave_speed(body->state()));
   }
-  double up_to_release(double dt) const {
-    double rest = std::numeric_limits<double>::infinity();
-    for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
-    return piola::up_to_release(dt, rest);
-  }
   /// Brings what observers see up to date; nothing that steps read changes. Displacement variables keep F of the last
   /// stage; observers want that of x.
   void refresh(JstBody const& body) const {
-    auto& mutable_body = const_cast<JstBody&>(body);
-    if (body.options().variables == Variables::displacement) machine_->update_deformation(mutable_body.state());
-    if (body.options().hourglass()) machine_->observe_energy(mutable_body.state());
+    BodyState seen = body.state();
+    if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
+    if (body.options().hourglass()) machine_->observe_energy(seen);
   }
+  static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
+  static FailureSlot failure_of(JstBody const& body, double largest_speed);
   template <class F>
   void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
 
@@ -190,16 +183,27 @@ class Solver final : public Formulation {
   double time_ = 0;                                          ///< at the end of the last step [s]
 };
 
+/// The particle that the loops have recorded, else the first whose wave speed is not a number: steps would be none.
+FailureSlot Solver::failure_of(JstBody const& body, double largest_speed) {
+  FailureSlot const recorded = *body.state().failure;
+  if (recorded.index < body.particles() || !std::isnan(largest_speed)) return recorded;
+  for (Index i = 0; i < body.particles(); ++i)
+    if (std::isnan(JstBody::value(body.state().wave_speed, i))) return {i, no_wave_speed};
+  return recorded;
+}
+
 std::optional<Failure> Solver::failure() const {
-  for (auto const& body : bodies_) {
-    FailureSlot const& slot = *body->state().failure;
-    if (slot.index == FailureSlot::none || slot.index >= body->particles()) continue;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    auto const& body = bodies_[k];
+    FailureSlot const slot = failure_of(*body, largest_speed_[k]);
+    if (slot.index >= body->particles()) continue;
     Mat<3> F = body->F(slot.index);
     double const J = determinant(F);
     Failure f;
-    f.what = slot.code == 2 ? "has an evolved volume ratio J that is not positive"
-             : J <= 0       ? "is inverted"
-                            : "has a deformation that is not a number";
+    f.what = slot.code == 2               ? "has an evolved volume ratio J that is not positive"
+             : J <= 0                     ? "is inverted"
+             : slot.code == no_wave_speed ? "has a wave speed that is not a number"
+                                          : "has a deformation that is not a number";
     f.particle = body->id(slot.index);
     f.body = body->body().name;
     f.X = body->X(slot.index);
@@ -247,13 +251,7 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
-      exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
-        for (int c = 0; c < components; ++c)
-          values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] =
-              JstBody::value(field, i, c);
-      });
-      writer.put(name, values);
+      save_field(writer, name, body, field, components);
     });
     auto const& totals = body.state().totals;
     std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work, totals.damping_loss,
@@ -271,13 +269,7 @@ void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
-      reader.get(name, values);
-      exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
-        for (int c = 0; c < components; ++c)
-          JstBody::set(field, i, c,
-                       values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)]);
-      });
+      load_field(reader, name, body, field, components);
     });
     if (body.options().variables == Variables::displacement)
       for (Index i = 0; i < body.particles(); ++i)
@@ -286,19 +278,12 @@ void Solver::load(StateReader& reader) {
     std::array<double, 5> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.state().totals = {books[0], books[1], books[2], books[3], books[4]};
-    std::vector<double> supports = body.boundary().state();
-    reader.get(fmt::format("body{}_supports", k), supports);
-    body.boundary().restore(supports);
-    if (!monitors_[k]) continue;
-    std::vector<double> limit = monitors_[k]->state();
-    reader.get(fmt::format("body{}_step_limit", k), limit);
-    monitors_[k]->restore(limit);
+    load_part(reader, fmt::format("body{}_supports", k), body.boundary());
+    if (monitors_[k]) load_part(reader, fmt::format("body{}_step_limit", k), *monitors_[k]);
   }
   std::array<double, 2> clock{};
   reader.get("time", clock);
-  std::vector<double> actions = actions_.state();
-  reader.get("actions", actions);
-  actions_.restore(actions);
+  load_part(reader, "actions", actions_);
   find_largest_speeds();
   time_ = clock[0];
   last_step_ = clock[1];

@@ -2,6 +2,7 @@
 #include "piola/formulations/jst_sph/stability.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/materials/laws.hpp"
+#include "piola/mechanics/modes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,8 +22,6 @@ constexpr double change = 0.2;
 /// A measured frequency counts at least as this share of the one that follows from the wave speed: it may be out of
 /// date within a few steps of a violent deformation.
 constexpr double trust = 0.65;
-/// Random part that every measurement adds to its start, so that a mode that has grown elsewhere is found.
-constexpr double fresh = 0.05;
 
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
@@ -75,26 +74,6 @@ class Kept {
   std::vector<Part> parts_;
 };
 
-/// Same numbers on every machine, without a pattern that a mode could be orthogonal to.
-double pseudo_random(std::uint64_t k) {
-  k = (k + 0x9e3779b97f4a7c15ULL) * 0xbf58476d1ce4e5b9ULL;
-  k = (k ^ (k >> 29)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((k ^ (k >> 32)) & 0xffffff) / 0x1000000 - 0.5;
-}
-
-/// The largest absolute value.
-double largest(std::vector<double> const& values) {
-  constexpr std::size_t part = 1 << 16;
-  std::vector<double> most((values.size() + part - 1) / part, 0);
-  exec_host::for_each_part_in_set_up(
-      static_cast<Index>(most.size()), static_cast<Index>(values.size() / 3), [&](Index k) {
-        auto const first = static_cast<std::size_t>(k) * part;
-        for (std::size_t i = first; i < std::min(first + part, values.size()); ++i)
-          most[static_cast<std::size_t>(k)] = std::max(most[static_cast<std::size_t>(k)], std::abs(values[i]));
-      });
-  return most.empty() ? 0 : *std::max_element(most.begin(), most.end());
-}
-
 /// A linear operator of the body as trial steps see it: displacements to rates of velocity, about a state.
 class Operator {
  public:
@@ -123,7 +102,7 @@ class Operator {
     double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
     double ratio = 0;
     for (int round = 0; round < rounds; ++round) {
-      double const most = largest(u);
+      double const most = largest_of(u);
       if (!(most > 0) || !std::isfinite(most)) return 0;
       each_particle([&](Index i) {
         for (int c = 0; c < D_; ++c) u[at(i, c)] *= size / most;
@@ -275,23 +254,13 @@ double StabilityMonitor::setup_stages() const {
   return 2 * (first_rounds + around);
 }
 
-void StabilityMonitor::refresh_mode() {
-  double const most = largest(mode_);
-  exec_host::for_each_in_set_up(body_.particles(), [&](Index particle) {
-    auto const D = static_cast<std::size_t>(body_.state().dimension);
-    auto const first = static_cast<std::size_t>(particle) * D;
-    for (std::size_t i = first; i < first + D; ++i)
-      mode_[i] = most > 0 ? mode_[i] / most + fresh * pseudo_random(i) : pseudo_random(i);
-  });
-}
-
 /// The limit of the undeformed body. The eigenvalue depends on the step in it, which a few measurements find.
 void StabilityMonitor::measure_at_rest() {
   auto const& k = body_.state().constants;
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
-  refresh_mode();
+  refresh_mode(mode_);
   Operator forces(body_, trial, machine_, nullptr);
   limit_at_rest_ = k.h_min / k.c_p0;
   speed_at_rest_ = k.c_p0;
@@ -305,9 +274,10 @@ void StabilityMonitor::measure_at_rest() {
 /// About the state as it is, with the step of the last measurement.
 void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
   BodyState& state = body_.state();
-  Kept const kept(state, state.dimension);
+  int const D = state.dimension;
+  Kept const kept(state, D);
   FailureSlot failure;
-  refresh_mode();
+  refresh_mode(mode_);
   Operator tangent(body_, trial_of(body_, failure), machine_, &kept);
   tangent.multiply_damping(2 / limit_);
   limit_ = largest_step(tangent.dominant(mode_, rounds));
@@ -319,9 +289,10 @@ void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
 void StabilityMonitor::measure(int rounds, double wave_speed) {
   if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
   BodyState& state = body_.state();
-  Kept const kept(state, state.dimension);
+  int const D = state.dimension;
+  Kept const kept(state, D);
   wave_speed_ = wave_speed;
-  refresh_mode();
+  refresh_mode(mode_);
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;

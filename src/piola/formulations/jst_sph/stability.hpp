@@ -47,7 +47,6 @@ class StabilityMonitor {
   void measure(int rounds, double wave_speed);
   void measure_at_rest();
   void measure_all_forces(int rounds, double wave_speed);
-  void refresh_mode();
 
   JstBody& body_;
   Machine const& machine_;

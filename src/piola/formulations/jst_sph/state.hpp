@@ -3,6 +3,7 @@
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
 #include "piola/materials/registry.hpp"
+#include "piola/mechanics/held.hpp"
 #include "piola/neighbours/tables.hpp"
 
 /// One body of a JST-SPH run as its loops see it: plain data that crosses between machines.
@@ -56,44 +57,18 @@ struct MultiplierCall {
   double dt;
 };
 
-/// A direction in which the velocity of a particle is prescribed: supports that move, end or are oblique, and all that
-/// hold the same particles. The directions of one particle are orthonormal.
-struct HeldDirection {
-  Index slot;
-  std::int32_t axis;        ///< the direction is this axis; -1: oblique
-  bool at_rest;             ///< for as long as it is held
-  double direction[3];      ///< unit vector
-  double position;          ///< of a particle that is held at rest along an axis [m]
-  double mass;              ///< of the particle [kg]
-  bool multiplied;          ///< multipliers hold the velocity that is interpolated there; the particle's own may differ
-  double start_speed;       ///< prescribed velocity at the start of the step [m/s], if multiplied
-  double speed;             ///< prescribed velocity at the end of the step [m/s]
-  double mean_speed;        ///< over the step [m/s]: the displacement is dt times it
-  double work;              ///< of the reaction in this step [J]
-  std::int32_t support;     ///< the one that holds it, in the order of the assembly
-  double at_start, at_end;  ///< changes of velocity by it in this step, at the places of its start and end [m/s]
-};
-
-/// A particle on which a load acts.
-struct LoadedParticle {
-  Index slot;
-  double mass;                 ///< [kg]
-  double dead[2][3];           ///< acceleration by dead loads at the start and at the end of the step [m/s2]
-  double follow[2][3];         ///< the same by pressures that follow the face, before it is deformed [m/s2]
-  double before[3], after[3];  ///< acceleration by all loads at the start and at the end of the step [m/s2]
-  double work;                 ///< in this step [J]
-};
-
 /// Where values lie in the field `history` of solids in rate form.
 struct SolidFields {
-  static constexpr int S = 0;               ///< deviatoric Cauchy stress [Pa], 6 values
-  static constexpr int plastic_strain = 6;  ///< equivalent plastic strain
-  static constexpr int temperature = 7;     ///< [K]
-  static constexpr int damage = 8;          ///< 0 to 1
-  static constexpr int plastic_work = 9;    ///< per reference volume [J/m^3]
-  static constexpr int pressure = 10;       ///< positive in compression [Pa]
-  static constexpr int energy = 11;         ///< specific internal energy [J/kg]
-  static constexpr int size = 12;
+  enum : int {
+    S,                   ///< deviatoric Cauchy stress [Pa], 6 values
+    plastic_strain = 6,  ///< equivalent plastic strain
+    temperature,         ///< [K]
+    damage,              ///< 0 to 1
+    plastic_work,        ///< per reference volume [J/m^3]
+    pressure,            ///< positive in compression [Pa]
+    energy,              ///< specific internal energy [J/kg]
+    size
+  };
 };
 
 /// How a step is taken.
@@ -218,5 +193,7 @@ struct Machine {
 Machine const* find_machine(char const* name);
 /// Names of the machines in this program that this processor can run, best first; ends with nullptr.
 char const* const* machine_names();
+/// As find_machine; throws InputError if there is none.
+Machine const& choose_machine(char const* name);
 
 }  // namespace piola::jst_sph

@@ -25,8 +25,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       D_(set.dimension),
       order_(slot_order(set, body_)),
       set_(&set),
-      fields_(D_) {
-  fields_.with_viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0;
+      fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0) {
   if (!assembly.initial_deformation_gradient.empty())
     throw InputError(fmt::format(
         "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
@@ -79,6 +78,7 @@ void NodalBody::allocate() {
   }
   fields_.each([&](Field& f) {
     if (f.size() > 0 || (&f == &fields_.products && !reference_.lattice)) return;
+    if (!fields_.with_viscosity && (&f == &fields_.viscous || &f == &fields_.viscous_kept)) return;
     if (f.components() > 1)
       f.allocate_tiled(n);
     else
@@ -143,7 +143,7 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
   state_.constants.least_share = halvings < most_halvings ? least_share : 0;
   machine.step(state_, dt);
   if (!failed() || halvings == most_halvings) {
-    boundary_->end_step(state_, time + dt);
+    boundary_->end_step(state_);
     return 0;
   }
   machine.restore(state_);
@@ -181,18 +181,6 @@ void NodalBody::damp(double factor) {
   damping_loss_ += before - kinetic_energy();
 }
 
-std::array<double, 3> NodalBody::x(Index slot) const {
-  std::array<double, 3> r = X(slot);
-  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.x, slot, c);
-  return r;
-}
-
-std::array<double, 3> NodalBody::v(Index slot) const {
-  std::array<double, 3> r{};
-  for (int c = 0; c < D_; ++c) r[static_cast<std::size_t>(c)] = value(state_.v, slot, c);
-  return r;
-}
-
 Mat<3> NodalBody::F(Index slot) const {
   Mat<3> r = identity<3>();
   for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
@@ -212,8 +200,7 @@ std::size_t NodalBody::bytes() const {
                       (r.V.size() + r.mass.size() + r.X.size() + r.centroid.size() + partial_.size()) * 8;
   // The smoothing of observers, whose weights are one per pair.
   if (smoothing_) total += r.neighbour.size() * 8 + r.V.size() * 8;
-  const_cast<Fields&>(fields_).each([&](Field const& f) { total += f.bytes(); });
-  return total;
+  return total + fields_.bytes();
 }
 
 }  // namespace piola::nodal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/nodal/doubts.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/nodal/solver.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 

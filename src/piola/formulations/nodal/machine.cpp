@@ -42,14 +42,11 @@ double largest_change(BodyState& body) {
   return largest;
 }
 
-#define PIOLA_NAME_OF(x) #x
-#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
-
 }  // namespace
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE), lane_count, &step,    &accelerate, &observe,
-                      &largest_change,           &keep,      &restore, &project};
+Machine const machine{PIOLA_MACHINE_NAME, lane_count, &step,    &accelerate, &observe,
+                      &largest_change,    &keep,      &restore, &project};
 
 }  // namespace piola::nodal::inline PIOLA_MACHINE

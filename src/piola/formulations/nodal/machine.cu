@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of the nodal formulation for a GPU. Compiled, not yet run: launching them needs fields in device memory.
 // What this file proves is that the same source makes device code for every dimension and law.
+#include "piola/exec/device_launch.hpp"
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 
 namespace piola::nodal::inline PIOLA_MACHINE {
 namespace {
-
-/// A sweep by itself: sums go to scratch in device memory instead of a core's cache.
-template <class Sweep>
-struct WithScratch {
-  Sweep sweep;
-  exec::Scratch scratch;
-  __host__ __device__ void operator()(Index i) const { sweep(i, scratch); }
-};
 
 template <class Sweep>
 struct WithBlockScratch {
@@ -25,7 +18,7 @@ struct WithBlockScratch {
 
 template <class Sweep>
 void launch_sweep(Range r, void const* passes, exec::Scratch const& scratch) {
-  exec::for_each(r, WithScratch<Sweep>{*static_cast<Sweep const*>(passes), scratch});
+  exec::for_each(r, exec::WithScratch<Sweep>{exec::as<Sweep>(passes), scratch});
 }
 
 template <int D, class... Law>
@@ -35,7 +28,7 @@ void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawL
 
 template <class Pass>
 void launch_each(Range r, void const* passes) {
-  exec::for_each(r, *static_cast<Pass const*>(passes));
+  exec::for_each(r, exec::as<Pass>(passes));
 }
 
 /// Of lattices, a thread per block.

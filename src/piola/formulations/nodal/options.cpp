@@ -34,18 +34,6 @@ constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, Diagnost
 constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
                                                       "saint_venant_kirchhoff", "compressible_neo_hookean"};
 
-bool is_stress_free(FormulationSpec const& spec, int dimension) {
-  auto const assumption = word_of(spec, choices, "assumption");
-  if (assumption == "as_dimension") return false;
-  int const needed = assumption.starts_with("plane") ? 2 : 1;
-  if (dimension != needed)
-    throw InputError(
-        fmt::format("formulation: assumption = \"{}\" is for bodies in {}D, this one is in {}D - leave it "
-                    "out",
-                    assumption, needed, dimension));
-  return assumption.ends_with("stress");
-}
-
 }  // namespace
 
 FormulationInfo info() {
@@ -63,14 +51,16 @@ FormulationInfo info() {
 }
 
 Options read_options(FormulationSpec const& spec, MaterialParameters const& material, int dimension, double cfl) {
+  Problems problems;
   LawInfo const& law = laws()[static_cast<std::size_t>(material.law)];
   if (law.rate_form)
-    throw InputError(fmt::format(
-        "formulation: nodal needs a hyperelastic law, and {} is a solid in rate form, with a history - take "
-        "jst_sph, taylor_sph or adaptle for it",
-        law.name));
+    problems.add({}, fmt::format("formulation: nodal needs a hyperelastic law, and {} is a solid in rate form, with a "
+                                 "history - take jst_sph, taylor_sph or adaptle for it",
+                                 law.name));
+  bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
+  problems.raise_if_any();
   return {number_of(spec, "least_mass", 0.3), number_of(spec, "fluctuation_viscosity", 0),
-          number_of(spec, "shock_viscosity", 0), is_stress_free(spec, dimension), std::isnan(cfl) ? 0 : cfl};
+          number_of(spec, "shock_viscosity", 0), stress_free, std::isnan(cfl) ? 0 : cfl};
 }
 
 }  // namespace piola::nodal

@@ -3,6 +3,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/math/solve.hpp"
 #include <algorithm>
+#include <initializer_list>
 
 namespace piola::nodal {
 namespace {
@@ -41,7 +42,7 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
     Gathered::place_lattice(f, slots_, lattice->guard());
   else
     gathered_.place_records(f, D, slots_);
-  for (Field* field : {&f.V, &f.mass, &f.own, &f.a, &inverse_, &weights_, &coefficients_})
+  for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &inverse_, &weights_, &coefficients_})
     field->allocate_tiled(slots_);
   state_.dimension = D;
   state_.slots = {0, slots_};

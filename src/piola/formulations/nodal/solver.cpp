@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/solver.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/actions.hpp"
+#include "piola/formulations/bodies.hpp"
+#include "piola/formulations/checkpoint.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
-#include "piola/formulations/prescribed.hpp"
 #include "piola/formulations/slots_by_id.hpp"
+#include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,18 +16,13 @@
 namespace piola::nodal {
 namespace {
 
-Machine const& choose(std::string const& name) {
-  if (Machine const* machine = find_machine(name.c_str())) return *machine;
-  std::string known = "auto";
-  for (auto names = machine_names(); *names != nullptr; ++names) known += fmt::format(", {}", *names);
-  throw InputError(fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", name, known));
-}
-
 /// One or more bodies that do not touch each other.
 class Solver final : public Formulation {
  public:
   explicit Solver(Assembly const& assembly)
-      : set_(assembly.particles), machine_(choose(assembly.machine)), actions_(assembly) {
+      : set_(assembly.particles),
+        machine_(choose_machine(assembly.machine.c_str())),
+        actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options =
           read_options(assembly.formulations[k], assembly.materials[k], set_.dimension, assembly.cfl);
@@ -37,11 +32,7 @@ class Solver final : public Formulation {
     if (assembly.pushed) slots_ = SlotsById(set_, bodies_);
   }
 
-  double stable_time_step() const override {
-    double rest = std::numeric_limits<double>::infinity();
-    for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
-    return up_to_release(settled_time_step(), rest);
-  }
+  double stable_time_step() const override { return up_to_release_of(bodies_, time_, settled_time_step()); }
   double settled_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (auto const& monitor : monitors_) dt = std::min(dt, monitor->step());
@@ -93,9 +84,7 @@ class Solver final : public Formulation {
     });
   }
   double kinetic_energy() const override {
-    double sum = 0;
-    for (auto const& body : bodies_) sum += body->kinetic_energy();
-    return sum;
+    return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
@@ -206,12 +195,7 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
-      exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
-        for (int c = 0; c < components; ++c)
-          values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)] = value_at(field, i, c);
-      });
-      writer.put(name, values);
+      save_field(writer, name, body, field, components);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
     writer.put(fmt::format("body{}_energy_books", k), std::array{body.boundary().external_work(), body.damping_loss()});
@@ -224,23 +208,15 @@ void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
-      reader.get(name, values);
-      for (Index i = 0; i < body.particles(); ++i)
-        for (int c = 0; c < components; ++c)
-          value_at(field, i, c) = values[static_cast<std::size_t>((body.id(i) - body.body().first) * components + c)];
+      load_field(reader, name, body, field, components);
     });
-    std::vector<double> limit = monitors_[k]->state();
-    reader.get(fmt::format("body{}_step_limit", k), limit);
-    monitors_[k]->restore(limit);
+    load_part(reader, fmt::format("body{}_step_limit", k), *monitors_[k]);
     std::array<double, 2> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.boundary().set_external_work(books[0]);
     body.set_damping_loss(books[1]);
   }
-  std::vector<double> actions = actions_.state();
-  reader.get("actions", actions);
-  actions_.restore(actions);
+  load_part(reader, "actions", actions_);
   std::array<double, 2> clock{};
   reader.get("time", clock);
   time_ = clock[0];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/doubts.hpp"
 #include "piola/formulations/formulation.hpp"
 #include <memory>
 
@@ -8,5 +9,8 @@ namespace piola::nodal {
 
 /// Makes a nodal run. Throws InputError (unknown machine, too few particles across, laws that it cannot use).
 std::unique_ptr<Formulation> make(Assembly const& assembly);
+
+/// What is odd about one body of a case that this formulation can run.
+void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts);
 
 }  // namespace piola::nodal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/mechanics/modes.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +19,6 @@ constexpr double steady = 0.01;                ///< the interval grows where the
 constexpr double change = 0.1, fewest = 4, much = 0.3;
 /// Iterations come from below: this much is added.
 constexpr double lift = 1.03;
-/// Random part that every measurement adds to its start, so that a mode that has grown elsewhere is found.
-constexpr double fresh = 0.05;
 /// Shares of the limit that are stable: in vibration and steady motion, and where strains change by 0.1 within few
 /// steps, as in impacts: the frequency then rises between measurements.
 constexpr double calm_share = 0.85, brisk_share = 0.75, violent_share = 0.45;
@@ -31,19 +30,6 @@ constexpr double wobble = 3e-4, least_of_limit = 0.25, first_share = 0.35;
 /// Where a cell is crushed the steps that had to be halved say more than the last measurement: each makes the next ones
 /// shorter, down to a share, and steps that went well make them longer again.
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
-
-/// Same numbers on every machine, without a pattern that a mode could be orthogonal to.
-double pseudo_random(std::uint64_t k) {
-  k = (k + 0x9e3779b97f4a7c15ULL) * 0xbf58476d1ce4e5b9ULL;
-  k = (k ^ (k >> 29)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((k ^ (k >> 32)) & 0xffffff) / 0x1000000 - 0.5;
-}
-
-double largest(std::vector<double> const& u) {
-  double most = 0;
-  for (double const value : u) most = std::max(most, std::abs(value));
-  return most;
-}
 
 /// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on the signs of the pivots of T - theta; and the
 /// last component of its normalised eigenvector, with the vector.
@@ -173,7 +159,7 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
     if (k > 0) beside.push_back(length);
     each_number([&](std::size_t i) { next[i] /= length; });
     basis.push_back(next);
-    double const scale = size / largest(next);
+    double const scale = size / largest_of(next);
     put_moved(x, scale, next);
     next = accelerations();
     each_number([&](std::size_t i) { next[i] = (rest[i] - next[i]) / scale; });
@@ -199,9 +185,7 @@ void StabilityMonitor::measure(int cycles) {
   machine_.keep(body_.state());
   machine_.observe(body_.state());
   double const energy = body_.kinetic_energy() + body_.strain_energy();
-  double const most = largest(mode_);
-  each_number(
-      [&](std::size_t k) { mode_[k] = most > 0 ? mode_[k] / most + fresh * pseudo_random(k) : pseudo_random(k); });
+  refresh_mode(mode_);
   auto const x = positions();
   body_.state().marks = true;
   auto const rest = accelerations();

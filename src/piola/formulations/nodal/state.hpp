@@ -4,32 +4,11 @@
 #include "piola/exec/parallel.hpp"
 #include "piola/formulations/nodal/lattice.hpp"
 #include "piola/materials/registry.hpp"
+#include "piola/mechanics/held.hpp"
 #include "piola/neighbours/tables.hpp"
 
 /// One body of a nodal run as its loops see it: plain data that crosses between machines.
 namespace piola::nodal {
-
-/// A direction in which the velocity of a particle is prescribed. The directions of one particle are orthonormal.
-struct HeldDirection {
-  Index slot;
-  double direction[3];   ///< unit vector
-  double mass;           ///< of the particle [kg]
-  double before, after;  ///< prescribed velocity at the ends of the step [m/s]
-  double impulse;        ///< of the reaction in this step [N s]
-  double first_impulse;  ///< of it that of the first kick, where the step starts [N s]
-  double work;           ///< of the reaction in this step [J]
-};
-
-/// A particle on which a load acts.
-struct LoadedParticle {
-  Index slot;
-  double mass;                                   ///< [kg]
-  double before[3]{}, after[3]{};                ///< acceleration by the loads at the ends of the step [m/s2]
-  double work = 0;                               ///< in this step [J]
-  double follow_before[3]{}, follow_after[3]{};  ///< by pressures that follow the face, where it is not deformed
-  double centroid[3]{};                          ///< of the cell, relative to the particle [m]
-  double turn[2][9]{};                           ///< cof F at the ends of the step, of particles with such a pressure
-};
 
 struct Constants {
   double rho0;         ///< reference density [kg/m^3]
@@ -75,9 +54,10 @@ struct BodyState {
   Index held_count = 0;
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
-  bool follows = false;       ///< whether some load turns with the deformed face
-  bool marks = false;         ///< forces at x also leave F^T F there in C_measured
-  double* partial = nullptr;  ///< room for the partial results of blocks
+  double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
+  bool follows = false;                     ///< whether some load turns with the deformed face
+  bool marks = false;                       ///< forces at x also leave F^T F there in C_measured
+  double* partial = nullptr;                ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
 };
 
@@ -106,5 +86,7 @@ struct Machine {
 Machine const* find_machine(char const* name);
 /// Names of the machines in this program that this processor can run, best first; ends with nullptr.
 char const* const* machine_names();
+/// As find_machine; throws InputError if there is none.
+Machine const& choose_machine(char const* name);
 
 }  // namespace piola::nodal

@@ -20,9 +20,11 @@ class Step {
     exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
     accelerate(dt);
     if (b_.follows) turn_loads(true);
-    exec::for_each_item(b_.loaded_count, AddLoads<D>{dt, b_.loaded, read(b_.v), read(b_.a), write(b_.a)});
+    exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
+    exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.a), write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
-    if (dt > 0) exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{b_.held, read(b_.v), write(b_.v)});
+    if (dt > 0)
+      exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.v)});
   }
 
   /// a of the internal forces at x: -dPi/dx over the masses, and of viscous ones if `dt` [s] is what has passed since
@@ -96,8 +98,8 @@ class Step {
 
   void turn_loads(bool at_end) {
     halo_.refresh(b_.first);
-    exec::for_each_item(b_.loaded_count,
-                        TurnLoads<D>{at_end, b_.loaded, of_motion(), read_reference(b_.g), read_reference(b_.k)});
+    exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, b_.loaded_centroid, of_motion(),
+                                                      read_reference(b_.g), read_reference(b_.k)});
   }
 
   void drive(double dt) {

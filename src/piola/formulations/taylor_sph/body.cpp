@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/prescribed.hpp"
 #include "piola/materials/laws.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

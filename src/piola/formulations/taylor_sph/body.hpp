@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/actions.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/taylor_sph/boundary.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 #include "piola/math/tensor.hpp"
+#include "piola/mechanics/actions.hpp"
 #include "piola/neighbours/cells.hpp"
 #include <array>
 #include <optional>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/boundary.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/prescribed.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <numeric>
 
 namespace piola::taylor_sph {
@@ -234,24 +233,24 @@ Point Boundary::traction_on(Side const& side, Point const& X, double time) const
 
 void Boundary::hold(Index particle, double time, double dt, Point const& velocity, BoundaryItem& item) const {
   auto const at = static_cast<std::size_t>(particle);
-  std::vector<Point> chosen;
-  item.held = 0;
+  std::vector<Held> lasting;
+  std::vector<Direction> directions;
   // The support named last decides where several hold a particle.
   for (auto held = held_[at].rbegin(); held != held_[at].rend(); ++held) {
-    Support const& support = supports_[held->support];
-    if (has_ended(support.until, time)) continue;
-    Point d = held->direction;
-    if (!make_orthogonal(d, chosen)) continue;
-    double speed = support.velocity ? speed_along(*support.velocity, held->direction, X_[at], time + dt) : 0;
-    for (int h = 0; h < item.held; ++h)
-      speed -= dot(held->direction, chosen[static_cast<std::size_t>(h)]) * item.speed_after[h];
-    speed /= dot(held->direction, d);
-    std::copy(d.begin(), d.end(), item.direction[item.held]);
-    item.support[item.held] = static_cast<int>(held->support);
-    item.speed_before[item.held] = dot(velocity, d);
-    item.speed_after[item.held] = speed;
+    if (has_ended(supports_[held->support].until, time)) continue;
+    lasting.push_back(*held);
+    directions.push_back(held->direction);
+  }
+  item.held = 0;
+  for (HeldAlong const& along : hold_along(directions)) {
+    std::copy(along.direction.begin(), along.direction.end(), item.direction[item.held]);
+    item.support[item.held] = static_cast<int>(lasting[along.row].support);
+    item.speed_before[item.held] = dot(velocity, along.direction);
+    item.speed_after[item.held] = along.speed([&](std::size_t row) {
+      auto const& given = supports_[lasting[row].support].velocity;
+      return given ? speed_along(*given, lasting[row].direction, X_[at], time + dt) : 0;
+    });
     ++item.held;
-    chosen.push_back(d);
   }
 }
 
@@ -353,14 +352,7 @@ void Boundary::each_acceleration(double time, AddLoad const& add) const {
 }
 
 double Boundary::next_release(double time) const {
-  double next = std::numeric_limits<double>::infinity();
-  auto const see = [&](double until) {
-    if (!has_ended(until, time)) next = std::min(next, until);
-  };
-  for (auto const& support : supports_) see(support.until);
-  for (auto const& load : tractions_) see(load.until);
-  for (auto const& load : accelerations_) see(load.until);
-  return next;
+  return piola::next_release(time, supports_, tractions_, accelerations_);
 }
 
 }  // namespace piola::taylor_sph

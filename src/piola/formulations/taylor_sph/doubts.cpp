@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/taylor_sph/doubts.hpp"
+#include "piola/formulations/taylor_sph/solver.hpp"
 #include <algorithm>
 
 namespace piola::taylor_sph {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops of Taylor-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
 #include "piola/formulations/taylor_sph/step.hpp"
+#include "piola/kernels/list.hpp"
 
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 namespace {
@@ -14,10 +15,7 @@ void with_rate_form(BodyState& body, F const& f) {
 }
 template <int D, class F>
 void with_kernel(BodyState& body, F const& f) {
-  if (body.k.kernel == KernelShape::wendland_c2)
-    with_rate_form<D, WendlandC2>(body, f);
-  else
-    with_rate_form<D, CubicSpline>(body, f);
+  piola::with_kernel(*body.k.kernel, LaneKernels{}, [&]<class K>() { with_rate_form<D, K>(body, f); });
 }
 template <class F>
 void with_step(BodyState& body, F const& f) {
@@ -61,23 +59,11 @@ CellEnergy cell_energy(BodyState& body) {
   return e;
 }
 
-#define PIOLA_NAME_OF(x) #x
-#define PIOLA_NAME(x) PIOLA_NAME_OF(x)
-
 }  // namespace
 
 /// The entry by which the host finds this machine.
 extern Machine const machine;
-Machine const machine{PIOLA_NAME(PIOLA_MACHINE),
-                      lane_count,
-                      &half_step,
-                      &full_step,
-                      &impose,
-                      &filter,
-                      &motion,
-                      &add_rigid,
-                      &place,
-                      &adjoint_step,
-                      &cell_energy};
+Machine const machine{PIOLA_MACHINE_NAME, lane_count, &half_step,    &full_step,  &impose, &filter, &motion,
+                      &add_rigid,         &place,     &adjoint_step, &cell_energy};
 
 }  // namespace piola::taylor_sph::inline PIOLA_MACHINE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/kernels/list.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -14,7 +15,6 @@ constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plan
                                                            "uniaxial_stress", "uniaxial_strain"};
 constexpr std::array<std::string_view, 3> virtual_words{"as_configuration", "delaunay", "lattice_cells"};
 constexpr std::array<std::string_view, 2> gradient_words{"linear_exact", "printed"};
-constexpr std::array<std::string_view, 2> kernel_words{"cubic_spline", "wendland_c2"};
 
 constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
 
@@ -43,7 +43,7 @@ constexpr std::array choices{
            "eqs. "
            "19, 20",
            gradient_words},
-    Choice{"kernel", "smoothing kernel of estimates, support 2h", kernel_words},
+    Choice{"kernel", "smoothing kernel of estimates, support 2h", LaneKernels::names},
     Choice{"momentum_projection",
            "estimates in the updated configuration, bodies without supports: linear and angular momentum change by the "
            "loads alone, by a "
@@ -76,16 +76,6 @@ constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, Diagnostic
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
-bool is_stress_free(std::string_view assumption, int dimension, Problems& problems) {
-  if (assumption == "as_dimension") return dimension == 1;
-  int const needed = assumption.starts_with("plane") ? 2 : 1;
-  if (dimension != needed)
-    problems.add({}, fmt::format("formulation: assumption = \"{}\" is for bodies in {}D, this one is in {}D - leave it "
-                                 "out",
-                                 assumption, needed, dimension));
-  return assumption.ends_with("stress");
-}
-
 }  // namespace
 
 FormulationInfo info() {
@@ -107,14 +97,14 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
   Problems problems;
   Options o;
   o.moving = word(spec, "configuration") == "updated";
-  o.form = word(spec, "gradient") == "printed" ? GradientForm::printed : GradientForm::linear_exact;
-  o.kernel = word(spec, "kernel") == "wendland_c2" ? KernelShape::wendland_c2 : KernelShape::cubic_spline;
+  o.form = choice_of<GradientForm>(spec, choices, "gradient");
+  o.kernel = find_kernel(word(spec, "kernel"));
   auto const virtual_particles = word(spec, "virtual_particles");
   auto const exchange = word(spec, "exchange");
   o.adjoint = exchange == "adjoint" || (exchange == "as_configuration" && o.moving);
   bool const by_configuration = virtual_particles == "as_configuration" && o.moving && !o.adjoint && whole_lattice;
   o.lattice_cells = dimension > 1 && (virtual_particles == "lattice_cells" || by_configuration);
-  o.stress_free = is_stress_free(word(spec, "assumption"), dimension, problems);
+  o.stress_free = is_stress_free(word(spec, "assumption"), dimension, dimension == 1, problems);
   // Moving surfaces need more neighbours than small strains do.
   double const of_cells = o.moving ? 0.9 : 0.6, of_simplices = o.moving && dimension == 2 ? 1.1 : 0.9;
   o.smoothing_length = number_of(spec, "smoothing_length",

@@ -9,7 +9,7 @@ namespace piola::taylor_sph {
 struct Options {
   bool moving = true;  ///< updated Lagrangian; else the configuration of the start
   GradientForm form = GradientForm::linear_exact;
-  KernelShape kernel = KernelShape::cubic_spline;
+  Kernel const* kernel = nullptr;  ///< of estimates
   bool adjoint = true;             ///< the adjoint exchange between the two sets; else estimates by kernel sums
   double memory = 0.2;             ///< adjoint: share of the cells' own stress
   double hourglass_stiffness = 0;  ///< adjoint: of the patterns of boxes, in shares of D_11

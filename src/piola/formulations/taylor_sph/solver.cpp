@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/exec/instruction_sets.hpp"
-#include "piola/formulations/actions.hpp"
+#include "piola/formulations/bodies.hpp"
+#include "piola/formulations/checkpoint.hpp"
 #include "piola/formulations/observation.hpp"
-#include "piola/formulations/prescribed.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/formulations/taylor_sph/observe.hpp"
 #include "piola/materials/laws.hpp"
+#include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -32,31 +33,23 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
-Machine const* choose(std::string const& name) {
-  if (Machine const* machine = find_machine(name.c_str())) return machine;
-  throw InputError(exec_host::not_usable(name, machine_names()));
-}
-
 /// Taylor-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
  public:
   explicit Solver(Assembly const& assembly)
-      : particles_(assembly.particles.size()), D_(assembly.particles.dimension), actions_(assembly) {
-    Machine const* machine = choose(assembly.machine);
+      : particles_(assembly.particles.size()),
+        D_(assembly.particles.dimension),
+        actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
+    Machine const& machine = choose_machine(assembly.machine.c_str());
     for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
       bool const whole = is_whole_lattice(assembly.particles, assembly.particles.bodies[k]);
       Options const options = read_options(assembly.formulations[k], D_, assembly.cfl, whole);
-      bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, *machine));
+      bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, machine));
     }
     set_ = assembly.particles;
   }
 
-  double stable_time_step() const override {
-    double const dt = settled_time_step();
-    double rest = std::numeric_limits<double>::infinity();
-    for (auto const& body : bodies_) rest = std::min(rest, body->next_release(time_) - time_);
-    return up_to_release(dt, rest);
-  }
+  double stable_time_step() const override { return up_to_release_of(bodies_, time_, settled_time_step()); }
   double settled_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (auto const& body : bodies_) dt = std::min(dt, body->stable_time_step());
@@ -81,9 +74,7 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) body->damp(factor);
   }
   double kinetic_energy() const override {
-    double sum = 0;
-    for (auto const& body : bodies_) sum += body->kinetic_energy();
-    return sum;
+    return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
@@ -127,9 +118,7 @@ class Solver final : public Formulation {
     return {{"triangulation", sum.triangulation}, {"neighbour_lists", sum.lists}};
   }
   std::size_t memory_bytes() const override {
-    std::size_t total = 0;
-    for (auto const& body : bodies_) total += body->bytes();
-    return total;
+    return sum_of(bodies_, [](auto const& body) { return body.bytes(); });
   }
 
  private:
@@ -222,9 +211,7 @@ void Solver::load(StateReader& reader) {
   std::array<double, 1> time{};
   reader.get("time", time);
   time_ = time[0];
-  std::vector<double> actions = actions_.state();
-  reader.get("actions", actions);
-  actions_.restore(actions);
+  load_part(reader, "actions", actions_);
 }
 
 }  // namespace

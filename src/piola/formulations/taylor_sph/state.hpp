@@ -2,13 +2,12 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/set_pairs.hpp"
 
 /// One body of a Taylor-SPH run as its loops see it: plain data that crosses between machines.
 namespace piola::taylor_sph {
-
-enum class KernelShape { cubic_spline, wendland_c2 };
 
 /// How values and gradients are estimated from the sources around a target.
 enum class GradientForm {
@@ -23,7 +22,7 @@ struct Constants {
   double modulus;        ///< D_11 of the body's assumption: c = sqrt(D_11 / rho) [Pa]
   double hourglass;      ///< share of the hourglass pattern that each step takes away
   GradientForm form;
-  KernelShape kernel;
+  Kernel const* kernel;            ///< of estimates
   bool moving;                     ///< updated Lagrangian; false: the configuration of the start, geometrically linear
   bool loaded;                     ///< there are accelerations
   bool adjoint = false;            ///< the adjoint exchange; else estimates by kernel sums
@@ -163,5 +162,7 @@ struct Machine {
 Machine const* find_machine(char const* name);
 /// Names of the machines in this program that this processor can run, best first; ends with nullptr.
 char const* const* machine_names();
+/// As find_machine; throws InputError if there is none.
+Machine const& choose_machine(char const* name);
 
 }  // namespace piola::taylor_sph

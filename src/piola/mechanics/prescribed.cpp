@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/prescribed.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +46,32 @@ std::vector<Direction> directions_of(Support const& s, int D) {
     if (make_orthogonal(d, frame)) frame.push_back(d);
   }
   return {frame.begin() + static_cast<std::ptrdiff_t>(along_normal), frame.end()};
+}
+
+std::vector<HeldAlong> hold_along(std::vector<Direction> const& rows) {
+  std::vector<HeldAlong> held;
+  std::vector<Direction> chosen;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    Direction d = rows[row];
+    if (!make_orthogonal(d, chosen)) continue;
+    // row = sum_k (row.q_k) q_k + length d, so that speed = (speed of the row - sum_k (row.q_k) speed_k) / length.
+    double const length = dot(rows[row], d);
+    std::vector<double> of_row(row + 1, 0);
+    of_row[row] = 1;
+    for (HeldAlong const& h : held) {
+      double const part = dot(rows[row], h.direction);
+      for (std::size_t k = 0; k < h.count; ++k) of_row[h.of[k]] -= part * h.weight[k];
+    }
+    HeldAlong next{d, row, {}, {}, 0};
+    for (std::size_t r = 0; r < of_row.size(); ++r) {
+      if (of_row[r] == 0) continue;
+      next.of[next.count] = r;
+      next.weight[next.count++] = of_row[r] / length;
+    }
+    held.push_back(next);
+    chosen.push_back(d);
+  }
+  return held;
 }
 
 double speed_along(std::array<Expression, 3> const& velocity, Direction const& d, Direction const& X, double time) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/actions.hpp"
+#include "piola/mechanics/actions.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -39,10 +39,11 @@ void Impulse::add(Impulse const& other) {
   }
 }
 
-Actions::Actions(Assembly const& assembly) {
-  for (Support const& s : assembly.supports) named_supports_.push_back({s.name, s.about});
-  for (Load const& l : assembly.loads) named_loads_.push_back({l.name, l.about});
-  for (RigidShape const& r : assembly.rigid_shapes) {
+Actions::Actions(std::vector<Support> const& of_supports, std::vector<Load> const& of_loads,
+                 std::vector<RigidShape> const& of_rigids) {
+  for (Support const& s : of_supports) named_supports_.push_back({s.name, s.about});
+  for (Load const& l : of_loads) named_loads_.push_back({l.name, l.about});
+  for (RigidShape const& r : of_rigids) {
     named_rigids_.push_back({r.name, {}});
     rigid_about.push_back(r.centre);
   }

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/assembly.hpp"
+#include "piola/mechanics/support.hpp"
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
-/// What supports and loads mean, for every formulation.
+/// What supports and loads mean.
 namespace piola {
 
 using Direction = std::array<double, 3>;
 
 /// Steps end at releases to round-off of a sum of many steps.
 bool has_ended(double until, double time);
+
+/// The next time after `time` at which one of these supports and loads ends; infinity if there is none.
+template <class... Lists>
+double next_release(double time, Lists const&... lists) {
+  double next = std::numeric_limits<double>::infinity();
+  auto const see = [&](auto const& list) {
+    for (auto const& item : list)
+      if (!has_ended(item.until, time) && item.until < next) next = item.until;
+  };
+  (see(lists), ...);
+  return next;
+}
 
 /// None of the formulas depends on time.
 bool is_steady(std::array<Expression, 3> const& formulas);
@@ -23,6 +36,27 @@ bool make_orthogonal(Direction& d, std::vector<Direction> const& to);
 
 /// The directions that a support holds, in a body of D dimensions; a direction along an axis is that axis.
 std::vector<Direction> directions_of(Support const& support, int D);
+
+/// One of the orthonormal directions in which a particle is held, as it follows from the directions that are asked for.
+struct HeldAlong {
+  Direction direction;
+  std::size_t row;               ///< the first that asks for it
+  std::array<double, 3> weight;  ///< its speed is the sum of weight[k] times the speed of row of[k]
+  std::array<std::size_t, 3> of;
+  std::size_t count;
+
+  /// With speed_of(row).
+  template <class F>
+  double speed(F const& speed_of) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += weight[k] * speed_of(of[k]);
+    return sum;
+  }
+};
+
+/// Row by row the part that those before leave free: where two ask for different speeds in one direction, the first has
+/// its way.
+std::vector<HeldAlong> hold_along(std::vector<Direction> const& rows);
 
 /// Prescribed speed along d of the particle with reference position X [m/s].
 double speed_along(std::array<Expression, 3> const& velocity, Direction const& d, std::array<double, 3> const& X,

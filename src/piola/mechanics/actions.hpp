@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/assembly.hpp"
-#include "piola/formulations/formulation.hpp"
+#include "piola/mechanics/load.hpp"
+#include "piola/mechanics/rigid_shape.hpp"
+#include "piola/mechanics/support.hpp"
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
-/// What acts on the bodies from outside in one step, for every formulation.
+/// What acts on the bodies from outside in one step.
 namespace piola {
+
+/// What a support, a load or a rigid shape does to the bodies, on average over the last step.
+struct Action {
+  std::string name;
+  std::array<double, 3> force{};   ///< N
+  std::array<double, 3> moment{};  ///< N m, about the middle of its particles at the start or the centre of the shape
+};
 
 /// What a support, a load or a rigid shape gave to the bodies.
 struct Impulse {
@@ -23,9 +32,10 @@ struct Impulse {
 /// rigid shapes sum to the rate of the linear momentum. Test: tests/formulations/actions_test.cpp.
 class Actions {
  public:
-  explicit Actions(Assembly const& assembly);
+  Actions(std::vector<Support> const& of_supports, std::vector<Load> const& of_loads,
+          std::vector<RigidShape> const& of_rigids);
 
-  std::vector<Impulse> supports, loads, rigids;    ///< in the order of the assembly
+  std::vector<Impulse> supports, loads, rigids;    ///< in the order they were given
   std::vector<std::array<double, 3>> rigid_about;  ///< points of the moments of rigid shapes now [m]
 
   /// Forgets the step before.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/prescribed.hpp"
+#include "piola/mechanics/prescribed.hpp"
+#include "piola/mechanics/load.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -109,6 +110,37 @@ TEST(StepsBeforeARelease, EndOnItAndAreAlike) {
 TEST(StepsBeforeARelease, AreNeverOfNoLength) {
   EXPECT_GT(up_to_release(1, 0), 0);
   EXPECT_GT(up_to_release(1, 1e-12), 0);
+}
+
+TEST(HeldDirections, OfRowsTakeWhatThoseBeforeLeaveFree) {
+  auto const held = hold_along({{1, 0, 0}, {0.6, 0.8, 0}, {0, 1, 0}, {0, 0, 1}});
+  ASSERT_EQ(held.size(), 3U);
+  EXPECT_EQ(held[0].direction, (Direction{1, 0, 0}));
+  EXPECT_NEAR(held[1].direction[1], 1, round_off);
+  EXPECT_EQ(held[1].row, 1U);
+  EXPECT_EQ(held[2].row, 3U) << "the third asks for nothing that is free";
+}
+
+/// The speeds along all rows that count are then those that were asked for.
+TEST(HeldDirections, MoveAsTheirRowsAsk) {
+  std::vector<Direction> const rows{{1, 0, 0}, {0.6, 0.8, 0}, {0.48, 0.36, 0.8}};
+  std::array const asked{2.0, -1.0, 5.0};
+  Direction v{};
+  for (HeldAlong const& along : hold_along(rows)) {
+    double const speed = along.speed([&](std::size_t row) { return asked[row]; });
+    for (std::size_t c = 0; c < 3; ++c) v[c] += speed * along.direction[c];
+  }
+  for (std::size_t row = 0; row < 3; ++row) EXPECT_NEAR(dot(v, rows[row]), asked[row], 20 * round_off);
+}
+
+TEST(Release, TheNextIsTheFirstAfterATimeOfAllThatEnd) {
+  std::vector<Support> supports(2);
+  supports[0].until = 3;
+  std::vector<Load> loads(2);
+  loads[1].until = 2;
+  EXPECT_EQ(next_release(0, supports, loads), 2);
+  EXPECT_EQ(next_release(2, supports, loads), 3);
+  EXPECT_EQ(next_release(3, supports, loads), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

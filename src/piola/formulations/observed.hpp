@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/math/tensor.hpp"
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// What observers may ask of one particle: a formulation fills what it offers.
+struct ObservedParticle {
+  using Point = std::array<double, 3>;
+  double id = 0, body = 0, neighbours = 0;
+  Point displacement{}, x{}, v{};      ///< [m], [m], [m/s]
+  double inertia = 0;                  ///< momentum per volume over velocity [kg/m3]
+  double density = 0;                  ///< [kg/m3]
+  double J = 1;                        ///< volume ratio
+  double pressure = 0;                 ///< positive in tension [Pa]
+  SymMat<3> cauchy{};                  ///< [Pa]
+  Mat<3> P{}, F{};                     ///< first Piola-Kirchhoff stress [Pa], deformation gradient
+  double cell_pressure = 0;            ///< not smoothed [Pa]
+  double least_J = 1;                  ///< at a point of its cell
+  double plastic_strain = 0;           ///< equivalent
+  double damage = 0, kernel_type = 0;  ///< 0 to 1; 0: total-Lagrangian, 1: Eulerian
+  double temperature = 0;              ///< [K]
+  double specific_energy = 0;          ///< [J/kg]
+  double parting = 0;                  ///< strain that the stress does not have
+};
+
+/// A field of frames, probes and pictures.
+struct ObservedField {
+  std::string_view word;  ///< in names of quantities, as "velocity" in "velocity_x"; empty: no quantity
+  std::string_view name;  ///< VTK style
+  std::string_view unit;  ///< SI, UDUNITS notation
+  int components;
+  void (*put)(ObservedParticle const&, double* out);  ///< nullptr: follows from other fields, whatever the formulation
+};
+
+/// Every field that there is: declared here and nowhere else.
+std::span<ObservedField const> observed_table();
+
+/// The field of that name among those that are offered. Throws std::invalid_argument if there is none.
+ObservedField const& find_observed(std::string_view name, std::span<std::string_view const> offered);
+
+/// What a formulation says of the fields that it offers.
+std::vector<FieldInfo> field_infos(std::span<std::string_view const> offered);
+
+/// values[id * components + c] of one particle.
+inline void put(ObservedField const& field, ObservedParticle const& particle, std::span<double> values) {
+  field.put(particle, &values[static_cast<std::size_t>(particle.id) * static_cast<std::size_t>(field.components)]);
+}
+
+/// (1/J) P F^T [Pa].
+SymMat<3> cauchy_stress(Mat<3> const& P, Mat<3> const& F, double J);
+
+}  // namespace piola

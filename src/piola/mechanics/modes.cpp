@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/modes.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola {
+
+double pseudo_random(std::uint64_t k) {
+  k = (k + 0x9e3779b97f4a7c15ULL) * 0xbf58476d1ce4e5b9ULL;
+  k = (k ^ (k >> 29)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((k ^ (k >> 32)) & 0xffffff) / 0x1000000 - 0.5;
+}
+
+double largest_of(std::vector<double> const& u) {
+  constexpr std::size_t part = 1 << 16;
+  std::vector<double> most((u.size() + part - 1) / part, 0);
+  exec_host::for_each_part_in_set_up(static_cast<Index>(most.size()), static_cast<Index>(u.size() / 3), [&](Index k) {
+    auto const first = static_cast<std::size_t>(k) * part;
+    double& here = most[static_cast<std::size_t>(k)];
+    for (std::size_t i = first; i < std::min(first + part, u.size()); ++i) here = std::max(here, std::abs(u[i]));
+  });
+  return most.empty() ? 0 : *std::max_element(most.begin(), most.end());
+}
+
+void refresh_mode(std::vector<double>& mode) {
+  constexpr double fresh = 0.05;
+  double const most = largest_of(mode);
+  exec_host::for_each_in_set_up(static_cast<Index>(mode.size()), [&](Index at) {
+    auto const k = static_cast<std::size_t>(at);
+    mode[k] = most > 0 ? mode[k] / most + fresh * pseudo_random(k) : pseudo_random(k);
+  });
+}
+
+}  // namespace piola
