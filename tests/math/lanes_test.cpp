@@ -51,5 +51,15 @@ TEST(Extremes, OfPacksAreThoseOfEachLane) {
     }
 }
 
+TEST(Select, TakesEachLaneByItsOwnCondition) {
+  Lanes value(-1.0);
+  value[lane_count - 1] = 1;
+  Lanes const chosen = select(value > 0.0, Lanes(2.0), Lanes(3.0));
+  EXPECT_EQ(lane(chosen, lane_count - 1), 2);
+  if (lane_count > 1) {
+    EXPECT_EQ(lane(chosen, 0), 3);
+  }
+}
+
 }  // namespace
 }  // namespace piola::inline PIOLA_MACHINE
