@@ -12,8 +12,9 @@ namespace {
 TEST(ObservedTable, NamesEveryFieldOnceAndWithAKnownUnit) {
   std::set<std::string_view> words, names;
   for (ObservedField const& field : observed_table()) {
-    if (!field.word.empty()) EXPECT_TRUE(words.insert(field.word).second) << field.word;
-    if (field.put != nullptr) EXPECT_TRUE(names.insert(field.name).second) << field.name;
+    bool const new_word = field.word.empty() || words.insert(field.word).second,
+               new_name = field.put == nullptr || names.insert(field.name).second;
+    EXPECT_TRUE(new_word && new_name) << field.word << " " << field.name;
     EXPECT_TRUE(same_dimension(std::string(field.unit), std::string(field.unit))) << field.unit;
   }
   EXPECT_GT(names.size(), 15U);

@@ -45,9 +45,20 @@ TEST(Extremes, OfPacksAreThoseOfEachLane) {
       expect_equal(maximum(first, second), maximum(a, b));
       expect_equal(maximum(first, Lanes(0.0)), maximum(a, 0.0));
       expect_equal(minimum(first, Lanes(0.0)), minimum(a, 0.0));
-      if (lane_count > 1) EXPECT_EQ(lane(maximum(first, second), 0), 1);
-      if (lane_count > 1) EXPECT_EQ(lane(minimum(first, second), 0), 0.5);
+      if (lane_count == 1) continue;
+      EXPECT_EQ(lane(maximum(first, second), 0), 1);
+      EXPECT_EQ(lane(minimum(first, second), 0), 0.5);
     }
+}
+
+TEST(Select, TakesEachLaneByItsOwnCondition) {
+  Lanes value(-1.0);
+  value[lane_count - 1] = 1;
+  Lanes const chosen = select(value > 0.0, Lanes(2.0), Lanes(3.0));
+  EXPECT_EQ(lane(chosen, lane_count - 1), 2);
+  if (lane_count > 1) {
+    EXPECT_EQ(lane(chosen, 0), 3);
+  }
 }
 
 }  // namespace

@@ -42,9 +42,15 @@ using Lanes = std::experimental::native_simd<double>;
 inline constexpr int lane_count = static_cast<int>(Lanes::size());
 
 [[gnu::always_inline]] PIOLA_FN Lanes select(Lanes::mask_type const& condition, Lanes const& yes, Lanes const& no) {
+#if defined(__clang__) && defined(__AVX512F__)
+  // Where masks are bits, where() of g++ 12's library takes all lanes or none when clang compiles it.
+  auto const bits = static_cast<__mmask8>(condition.__to_bitset().to_ulong());
+  return Lanes(_mm512_mask_blend_pd(bits, static_cast<__m512d>(no), static_cast<__m512d>(yes)));
+#else
   Lanes r = no;
   where(condition, r) = yes;
   return r;
+#endif
 }
 /// b where it is less (greater), else a, and so a where it is not a number: as the processor's own instruction has it,
 /// while compilers may take the two of std::experimental::min in either order.
