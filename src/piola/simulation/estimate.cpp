@@ -27,7 +27,7 @@ struct Pace {
 Pace pace_of(std::string_view formulation) {
   constexpr double ns = 1e-9, us = 1e-6;
   if (formulation == "adaptle")
-    return {{400 * ns, 483 * ns, 1370 * ns}, {300 * ns, 377 * ns, 746 * ns}, {2 * us, 2 * us, 5 * us}, {680, 680, 550}};
+    return {{300 * ns, 345 * ns, 640 * ns}, {300 * ns, 377 * ns, 746 * ns}, {2 * us, 2 * us, 5 * us}, {680, 680, 550}};
   if (formulation == "taylor_sph")
     return {{10 * ns, 98 * ns, 590 * ns},
             {10 * ns, 200 * ns, 1350 * ns},

@@ -35,23 +35,25 @@ class JohnsonCook {
     if (m_ >= 1 && !(mises > a_ * (1 - heat_.homologous(temperature)))) return 0;
     double const soft = softening(temperature);
     if (!(mises > a_ * soft)) return 0;
-    double const start = static_stress(plastic_strain) * soft;
+    double const grown = static_stress(plastic_strain) - a_, start = (a_ + grown) * soft;
     if (!(mises > start)) return 0;
     // The yield stress grows with strain and rate, so the increment without both is an upper bound.
     double low = 0, high = (mises - start) / three_mu, x = high;
     if (last_flow > start && last_flow < mises) x = (mises - last_flow) / three_mu;
+    double const per_time = dt > 0 ? 1 / dt : 0, per_strain = plastic_strain > 0 ? 1 / plastic_strain : 0;
     for (int k = 0; k < 100; ++k) {
-      double const rate = dt > 0 ? x / dt : 0, fast = 1 + c_ * heat_.log_rate(rate);
-      double const strain = plastic_strain + x, hard = static_stress(strain);
-      double const miss = mises - three_mu * x - hard * fast * soft;
+      double const rate = x * per_time, fast = 1 + c_ * heat_.log_rate(rate), strain = plastic_strain + x;
+      double const hard = hardening(grown, x * per_strain, strain);
+      double const miss = mises - three_mu * x - (a_ + hard) * fast * soft;
       if (std::abs(miss) <= 1e-15 * mises) break;
       (miss > 0 ? low : high) = x;
-      double slope = three_mu + n_ * (hard - a_) / strain * fast * soft;
-      if (rate > heat_.reference_rate) slope += hard * c_ / x * soft;
-      double next = x + miss / slope;
-      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      double slope = three_mu * strain * x + n_ * hard * x * fast * soft;  // times x and strain: one division
+      if (rate > heat_.reference_rate) slope += (a_ + hard) * c_ * strain * soft;
+      double next = x + miss * (x * strain) / slope;
+      bool const inside = next > low && next < high;
+      if (!inside) next = 0.5 * (low + high);
       // The error after a step of Newton's is the square of the one before, so a small step is the last one.
-      bool const last = std::abs(next - x) <= 1e-6 * x;
+      bool const last = next == x || (inside && std::abs(next - x) <= 1e-6 * x);
       x = next;
       if (last) break;
     }
@@ -59,6 +61,14 @@ class JohnsonCook {
   }
 
  private:
+  /// B strain^n, strain = (1 + z) times the one where it is `grown`. Most increments are small beside the strain that
+  /// is there already; then the series of (1 + z)^n has all digits.
+  PIOLA_FN double hardening(double grown, double z, double strain) const {
+    if (!(z > 0 && z < 0.01)) return b_ * std::pow(strain, n_);
+    double series = 1;
+    for (int k = 7; k > 0; --k) series = 1 + series * z * (n_ - (k - 1)) * (1.0 / k);
+    return grown * series;
+  }
   PIOLA_FN double static_stress(double strain) const { return a_ + b_ * std::pow(strain > 0 ? strain : 0, n_); }
   PIOLA_FN double softening(double temperature) const {
     double const part = heat_.homologous(temperature);
