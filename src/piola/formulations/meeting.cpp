@@ -160,6 +160,11 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
     }
     formulations[share.part]->push(ids[s], change[s]);
   }
+  book(half);
+}
+
+/// What rigid shapes and pairs of bodies did to each other in `half` [s].
+void Meeting::book(double half) {
   for (std::size_t r = 0; r < shapes_.size(); ++r) {
     auto const& on = system_.on_rigid(r);
     Point const about = actions_.rigid_about[r];

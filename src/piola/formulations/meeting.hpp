@@ -48,6 +48,7 @@ class Meeting {
 
   void read_state(Formulations const& formulations);
   void push(Formulations const& formulations, double time, double half);
+  void book(double half);
   void move_rigids(double time, double dt);
 
   int dimension_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/field.hpp"
 #include "piola/math/lanes.hpp"
 #include "piola/particles/particle_set.hpp"
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,5 +33,29 @@ class SlotsById {
   std::vector<int> body_;
   std::vector<Index> slot_;
 };
+
+/// The three things that Formulation asks of bodies that are pushed between steps.
+template <class Bodies>
+void read_motion_of(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
+                    std::span<std::array<double, 3>> x, std::span<std::array<double, 3>> v) {
+  slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+    x[k] = bodies[body]->x(slot);
+    v[k] = bodies[body]->v(slot);
+  });
+}
+/// mass(body, slot) [kg]
+template <class Bodies, class F>
+void read_masses_of(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
+                    std::span<double> m, F const& mass) {
+  slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) { m[k] = mass(*bodies[body], slot); });
+}
+template <class Bodies>
+void push_all(Bodies const& bodies, int dimension, SlotsById const& slots, std::span<std::int64_t const> ids,
+              std::span<std::array<double, 3> const> change) {
+  slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+    for (int c = 0; c < dimension; ++c)
+      value_at(bodies[body]->state().v, slot, c) += change[k][static_cast<std::size_t>(c)];
+  });
+}
 
 }  // namespace piola

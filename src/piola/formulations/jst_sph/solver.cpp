@@ -93,21 +93,14 @@ class Solver final : public Formulation {
   }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
-    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
-      x[k] = bodies_[body]->x(slot);
-      v[k] = bodies_[body]->v(slot);
-    });
+    read_motion_of(bodies_, slots_, ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
-      m[k] = bodies_[body]->volume(slot) * bodies_[body]->state().constants.rho0;
-    });
+    read_masses_of(bodies_, slots_, ids, m,
+                   [](auto const& body, Index slot) { return body.volume(slot) * body.state().constants.rho0; });
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
-    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
-      for (int c = 0; c < set_.dimension; ++c)
-        value_at(bodies_[body]->state().v, slot, c) += change[k][static_cast<std::size_t>(c)];
-    });
+    push_all(bodies_, set_.dimension, slots_, ids, change);
   }
   double kinetic_energy() const override {
     return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });

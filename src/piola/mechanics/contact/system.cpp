@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/system.hpp"
 #include "piola/exec/set_up_loop.hpp"
-#include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -10,30 +9,7 @@ namespace piola::contact {
 namespace {
 
 constexpr double skin_in_spacings = 0.5;
-/// Planes move a little farther than their particles where these turn; this share of the skin leaves room for that.
-constexpr double share_of_skin = 1.0 / 3;
-constexpr double near = 0.25;    // spacings from which on a gap limits the step
 constexpr double closing = 0.1;  // of a spacing in a step
-
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
-/// The box around some places.
-struct Box {
-  Vec<3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
-  void add(Vec<3> const& y) {
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], y[c]);
-      high[c] = std::max(high[c], y[c]);
-    }
-  }
-  bool holds(Vec<3> const& y, double margin) const {
-    for (int c = 0; c < 3; ++c)
-      if (!(y[c] > low[c] - margin && y[c] < high[c] + margin)) return false;
-    return true;
-  }
-};
-
-double square_of(Vec<3> const& a) { return dot(a, a); }
 
 }  // namespace
 
@@ -70,16 +46,6 @@ void System::set_masses(std::vector<double> const& masses) {
   for (std::size_t k = 0; k < masses.size(); ++k) inverse_mass_[k] = masses[k] > 0 ? 1 / masses[k] : 0;
 }
 
-bool System::lists_hold(std::vector<Vec<3>> const& x) const {
-  if (listed_at_.empty()) return false;
-  double const most = share_of_skin * skin_ * share_of_skin * skin_;
-  for (Index k = 0; k < carriers_.count(); ++k)
-    if (!(square_of(x[at(carriers_.self(k))] - listed_at_[at(k)]) < most)) return false;
-  for (std::size_t r = 0; r < rigids_.size(); ++r)
-    if (!(square_of(rigids_[r].centre - listed_at_[at(carriers_.count()) + r]) < most)) return false;
-  return true;
-}
-
 void System::place_points(std::vector<Vec<3>> const& x) {
   exec_host::for_each_in_set_up(static_cast<Index>(active_carriers_.size()), [&](Index k) {
     Index const carrier = active_carriers_[at(k)];
@@ -92,81 +58,6 @@ void System::place_points(std::vector<Vec<3>> const& x) {
     Vec<3> const m = cofactor(F) * p.N;
     planes_[at(point)] = {x[at(carriers_.self(p.carrier))] + F * p.S, (1 / std::sqrt(square_of(m))) * m};
   });
-}
-
-/// Sources of body b for every point that may be near it.
-void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high) {
-  Box const box{low, high};
-  auto const reach = [&](Point const& p) { return setting_.meets[p.body][b] ? rules_[p.body][b].reach + skin_ : -1.0; };
-  double largest = 0;
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    if (double const r = reach(points_[k]); r > 0 && box.holds(planes_[k].y, r)) largest = std::max(largest, r);
-  if (!(largest > 0)) return;
-  std::vector<std::array<double, 3>> places;
-  for (Index const k : of_body) places.push_back({planes_[at(k)].y[0], planes_[at(k)].y[1], planes_[at(k)].y[2]});
-  CellGrid const grid(places, largest);
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    double const r = reach(points_[k]);
-    Vec<3> const& y = planes_[k].y;
-    if (!(r > 0) || !box.holds(y, r)) continue;
-    std::size_t const first = sources_.size();
-    grid.visit({y[0], y[1], y[2]}, [&](Index j) {
-      Index const source = of_body[at(j)];
-      if (square_of(planes_[at(source)].y - y) < r * r) sources_.push_back(source);
-    });
-    std::sort(sources_.begin() + static_cast<std::ptrdiff_t>(first), sources_.end());
-    if (sources_.size() > first) runs_.push_back({static_cast<Index>(k), b, first, sources_.size()});
-  }
-}
-
-void System::list_points_near_rigids() {
-  near_rigid_.clear();
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    if (!setting_.meets_rigids[points_[k].body]) continue;
-    double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
-    bool const any = std::any_of(rigids_.begin(), rigids_.end(), [&](RigidSurface const& rigid) {
-      return distance_from(rigid, planes_[k].y).value < reach;
-    });
-    if (any) near_rigid_.push_back(static_cast<Index>(k));
-  }
-}
-
-void System::activate(std::vector<char> const& points) {
-  std::vector<char> carries(at(carriers_.count()), 0);
-  active_points_.clear();
-  active_carriers_.clear();
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    if (points[k] == 0) continue;
-    active_points_.push_back(static_cast<Index>(k));
-    carries[at(points_[k].carrier)] = 1;
-  }
-  for (std::size_t k = 0; k < carries.size(); ++k)
-    if (carries[k] != 0) active_carriers_.push_back(static_cast<Index>(k));
-}
-
-void System::make_lists(std::vector<Vec<3>> const& x) {
-  activate(std::vector<char>(points_.size(), 1));
-  place_points(x);
-  std::vector<std::vector<Index>> of_body(surfaces_.size());
-  std::vector<Box> boxes(surfaces_.size());
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    of_body[points_[k].body].push_back(static_cast<Index>(k));
-    boxes[points_[k].body].add(planes_[k].y);
-  }
-  runs_.clear();
-  sources_.clear();
-  for (std::size_t b = 0; b < surfaces_.size(); ++b)
-    if (!of_body[b].empty()) list_sources(b, of_body[b], boxes[b].low, boxes[b].high);
-  list_points_near_rigids();
-
-  std::vector<char> active(points_.size(), 0);
-  for (Run const& run : runs_) active[at(run.target)] = 1;
-  for (Index const k : sources_) active[at(k)] = 1;
-  for (Index const k : near_rigid_) active[at(k)] = 1;
-  activate(active);
-  listed_at_.clear();
-  for (Index k = 0; k < carriers_.count(); ++k) listed_at_.push_back(x[at(carriers_.self(k))]);
-  for (RigidSurface const& rigid : rigids_) listed_at_.push_back(rigid.centre);
 }
 
 void System::note(double gap, double area, double layer_modulus, double length, double spacing, double inverse) {
@@ -227,68 +118,6 @@ void System::push_bodies() {
   }
 }
 
-/// Follows the spring of a point; a new contact starts without one.
-Spring System::drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound) {
-  Stuck const key{point, with, {}, {}};
-  auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), key);
-  bool const known = last != last_stuck_.end() && last->point == point && last->with == with;
-  Mat<3> const& F = F_[at(points_[at(point)].carrier)];
-  Spring const spring = dragged(known ? F * last->stretch : Vec<3>{}, known ? jump : Vec<3>{}, n, k, bound);
-  if (known) totals_.friction_work += friction_work(last->force, spring.force, jump);
-  totals_.spring_energy += 0.5 * k * square_of(spring.stretch);
-  stuck_.push_back({point, with, inverse(F) * spring.stretch, spring.force});
-  return spring;
-}
-
-/// Friction of a target on the planes that it touches. The jump is zero for any rigid motion of all.
-void System::rub(Run const& run, Gap const& gap, double normal_force, double stiffness) {
-  if (!(setting_.friction > 0)) return;
-  Plane const& a = planes_[at(run.target)];
-  double const reach = rules_[points_[at(run.target)].body][run.body].reach;
-  auto const moved = [&](Index point) {
-    Point const& p = points_[at(point)];
-    return planes_[at(point)].y - last_x_[at(carriers_.self(p.carrier))] - carriers_.F(p.carrier, last_x_) * p.S;
-  };
-  Vec<3> jump = moved(run.target), n;
-  std::vector<std::pair<double, Vec<3>>> sources;  // share, F^-1 r
-  for (std::size_t s = run.first; s < run.last; ++s) {
-    Plane const& b = planes_[at(sources_[s])];
-    Vec<3> const r = a.y - b.y;
-    double const share = plane_weight(square_of(r) / (reach * reach), dot(a.n, b.n)) / gap.weight;
-    Index const carrier = points_[at(sources_[s])].carrier;
-    sources.emplace_back(share, share > 0 ? inverse(F_[at(carrier)]) * r : Vec<3>{});
-    if (!(share > 0)) continue;
-    Mat<3> const change = F_[at(carrier)] - carriers_.F(carrier, last_x_);
-    jump = jump - share * (moved(sources_[s]) + change * sources.back().second);
-    n = n + share * b.n;
-  }
-  n = (1 / std::sqrt(square_of(n))) * n;
-  Spring const spring = drag(run.target, run.body, jump, n, stiffness, setting_.friction * normal_force);
-  Vec<3> const& f = spring.force;
-  add_load(run.target, {f, {}, {}});
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    auto const& [share, arm] = sources[k];
-    if (share > 0) add_load(sources_[run.first + k], {-share * f, {}, share * outer(f, arm)});
-  }
-  std::size_t const body = points_[at(run.target)].body;
-  Between &on_target = between_[body][run.body], &on_source = between_[run.body][body];
-  Vec<3> const moment = cross(a.y, f);
-  on_target = {on_target.force + f, on_target.moment + moment};
-  on_source = {on_source.force - f, on_source.moment - moment};
-}
-
-/// Rigid shapes move without turning.
-void System::rub_on_rigid(Index k, std::size_t r, Vec<3> const& n, double normal_force, double stiffness) {
-  if (!(setting_.friction > 0)) return;
-  Point const& p = points_[at(k)];
-  Vec<3> const& y = planes_[at(k)].y;
-  Vec<3> const jump = y - last_x_[at(carriers_.self(p.carrier))] - carriers_.F(p.carrier, last_x_) * p.S -
-                      (rigids_[r].centre - last_centre_[r]);
-  Vec<3> const f = drag(k, surfaces_.size() + r, jump, n, stiffness, setting_.friction * normal_force).force;
-  add_load(k, {f, {}, {}});
-  on_rigid_[r] = {on_rigid_[r].force - f, on_rigid_[r].moment - cross(y - rigids_[r].centre, f)};
-}
-
 void System::push_from_rigids() {
   for (Index const k : near_rigid_) {
     Point const& point = points_[at(k)];
@@ -323,65 +152,6 @@ void System::add_force(Index id, Vec<3> const& f) {
 void System::start(std::vector<Vec<3>> const& x) {
   remember(x);
   evaluate(x);
-}
-
-std::vector<double> System::state() const {
-  std::vector<double> all{totals_.energy,
-                          totals_.deepest,
-                          totals_.frequency2,
-                          totals_.spring_energy,
-                          totals_.friction_work,
-                          static_cast<double>(totals_.touched),
-                          static_cast<double>(pushed_.size())};
-  auto const put = [&](Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); };
-  for (Index const k : pushed_) {
-    all.push_back(k);
-    put(forces_[at(k)]);
-  }
-  auto const put_between = [&](Between const& between) {
-    put(between.force);
-    put(between.moment);
-  };
-  std::for_each(on_rigid_.begin(), on_rigid_.end(), put_between);
-  for (auto const& row : between_) std::for_each(row.begin(), row.end(), put_between);
-  for (Stuck const& s : stuck_) {
-    all.push_back(s.point);
-    all.push_back(static_cast<double>(s.with));
-    put(s.stretch);
-    put(s.force);
-  }
-  return all;
-}
-
-void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
-  make_lists(x);
-  if (!active_points_.empty()) place_points(x);
-  remember(x);
-  auto from = state.begin();
-  auto const number = [&] { return *from++; };
-  auto const take = [&](Vec<3>& a) {
-    std::copy_n(from, 3, a.c);
-    from += 3;
-  };
-  totals_ = {number(), number(), number(), number(), number(), static_cast<std::int64_t>(number())};
-  for (auto n = static_cast<std::size_t>(number()); n > 0; --n) {
-    auto const k = static_cast<Index>(number());
-    add_force(k, {});
-    take(forces_[at(k)]);
-  }
-  auto const take_between = [&](Between& between) {
-    take(between.force);
-    take(between.moment);
-  };
-  std::for_each(on_rigid_.begin(), on_rigid_.end(), take_between);
-  for (auto& row : between_) std::for_each(row.begin(), row.end(), take_between);
-  stuck_.clear();
-  while (from < state.end()) {
-    Stuck s{static_cast<Index>(number()), static_cast<std::size_t>(number()), {}, {}};
-    take(s.stretch);
-    take(s.force);
-    stuck_.push_back(s);
-  }
 }
 
 void System::remember(std::vector<Vec<3>> const& x) {

@@ -9,6 +9,12 @@
 
 namespace piola::contact {
 
+inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+inline double square_of(Vec<3> const& a) { return dot(a, a); }
+
+/// From this many spacings on a gap limits the step.
+inline constexpr double near = 0.25;
+
 /// The contacts of all surfaces of a run at one instant.
 struct Totals {
   double energy = 0;         ///< stored in the layers [J]

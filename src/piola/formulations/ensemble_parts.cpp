@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/ensemble.hpp"
+#include <algorithm>
+#include <utility>
+
+namespace piola {
+namespace {
+
+using Blocks = std::vector<EnsemblePart::Block>;
+
+/// Values of an array by particle that belong to the part. An empty array stays empty.
+template <class T>
+std::vector<T> gathered(std::vector<T> const& whole, Blocks const& blocks) {
+  std::vector<T> out;
+  if (whole.empty()) return out;
+  for (auto const& block : blocks)
+    out.insert(out.end(), whole.begin() + block.there, whole.begin() + block.there + block.count);
+  return out;
+}
+
+ParticleSet particles_of(ParticleSet const& whole, EnsemblePart const& part) {
+  Blocks const& blocks = part.blocks;
+  if (blocks.size() == whole.bodies.size()) return whole;  // shares its memory
+  ParticleSet set;
+  set.dimension = whole.dimension;
+  set.X = gathered(whole.X.seen(), blocks);
+  set.lattice_index = gathered(whole.lattice_index.seen(), blocks);
+  set.volume = gathered(whole.volume.seen(), blocks);
+  set.kernel_volume = gathered(whole.kernel_volume.seen(), blocks);
+  set.crack_side = gathered(whole.crack_side.seen(), blocks);
+  for (auto const& block : blocks) {
+    Body body = whole.bodies[block.body];
+    body.first = block.here;
+    body.last = block.here + block.count;
+    std::vector<int>& owners = set.body.own();
+    owners.insert(owners.end(), static_cast<std::size_t>(block.count), static_cast<int>(set.bodies.size()));
+    set.bodies.push_back(std::move(body));
+  }
+  for (Crack crack : whole.cracks) {
+    auto const body = part.body_in_part(static_cast<std::size_t>(crack.body));
+    if (!body) continue;
+    crack.body = static_cast<int>(*body);
+    set.cracks.push_back(crack);
+  }
+  return set;
+}
+
+void take_supports(Assembly const& whole, EnsemblePart& part) {
+  for (std::size_t k = 0; k < whole.supports.size(); ++k) {
+    Support support = whole.supports[k];
+    std::vector<std::int64_t> ids;
+    for (auto const id : support.particles)
+      if (auto const here = part.id_in_part(id)) ids.push_back(*here);
+    if (ids.empty()) continue;
+    support.particles = std::move(ids);
+    part.assembly.supports.push_back(std::move(support));
+    part.supports.push_back(k);
+  }
+}
+
+void take_loads(Assembly const& whole, EnsemblePart& part) {
+  std::size_t named = 0;  // of the whole so far
+  for (Load const& from : whole.loads) {
+    std::size_t const rank = named;
+    named += from.name.empty() ? 0 : 1;
+    Load load = from;
+    load.particles.clear();
+    load.factor.clear();
+    load.normals.clear();
+    for (std::size_t i = 0; i < from.particles.size(); ++i) {
+      auto const here = part.id_in_part(from.particles[i]);
+      if (!here) continue;
+      load.particles.push_back(*here);
+      load.factor.push_back(from.factor[i]);
+      if (!from.normals.empty()) load.normals.push_back(from.normals[i]);
+    }
+    if (load.particles.empty()) continue;
+    if (!load.name.empty()) part.named_loads.push_back(rank);
+    part.assembly.loads.push_back(std::move(load));
+  }
+}
+
+void fill_part(Assembly const& whole, EnsemblePart& part) {
+  Assembly& a = part.assembly;
+  a.particles = particles_of(whole.particles, part);
+  a.initial_velocity = gathered(whole.initial_velocity, part.blocks);
+  a.initial_displacement = gathered(whole.initial_displacement, part.blocks);
+  a.initial_deformation_gradient = gathered(whole.initial_deformation_gradient, part.blocks);
+  for (auto const& block : part.blocks) {
+    a.materials.push_back(whole.materials[block.body]);
+    a.formulations.push_back(whole.formulations[block.body]);
+  }
+  take_supports(whole, part);
+  take_loads(whole, part);
+  for (MirrorPlane mirror : whole.mirrors) {
+    auto const body = part.body_in_part(mirror.body);
+    if (!body) continue;
+    mirror.body = *body;
+    a.mirrors.push_back(mirror);
+  }
+  auto const info = find_formulation(part.formulation);
+  if (info && info->contact) {
+    a.rigid_shapes = whole.rigid_shapes;
+    a.contact = whole.contact;
+    for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) part.rigid_shapes.push_back(k);
+  }
+  a.pushed = !whole.surfaces.empty();
+  a.cfl = whole.cfl;
+  a.machine = whole.machine;
+}
+
+}  // namespace
+
+std::int64_t EnsemblePart::id_in_whole(std::int64_t id) const {
+  for (Block const& block : blocks)
+    if (id >= block.here && id < block.here + block.count) return id - block.here + block.there;
+  return id;
+}
+
+std::optional<std::int64_t> EnsemblePart::id_in_part(std::int64_t id) const {
+  for (Block const& block : blocks)
+    if (id >= block.there && id < block.there + block.count) return id - block.there + block.here;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> EnsemblePart::body_in_part(std::size_t body) const {
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (blocks[b].body == body) return b;
+  return std::nullopt;
+}
+
+std::vector<EnsemblePart> split_by_formulation(Assembly const& whole) {
+  std::vector<EnsemblePart> parts;
+  for (std::size_t b = 0; b < whole.formulations.size(); ++b) {
+    std::string const& name = whole.formulations[b].name;
+    auto part = std::find_if(parts.begin(), parts.end(), [&](EnsemblePart const& p) { return p.formulation == name; });
+    if (part == parts.end()) {
+      part = parts.emplace(parts.end());
+      part->formulation = name;
+    }
+    Body const& body = whole.particles.bodies[b];
+    std::int64_t const here = part->blocks.empty() ? 0 : part->blocks.back().here + part->blocks.back().count;
+    part->blocks.push_back({b, here, body.first, body.last - body.first});
+  }
+  for (EnsemblePart& part : parts) fill_part(whole, part);
+  return parts;
+}
+
+}  // namespace piola

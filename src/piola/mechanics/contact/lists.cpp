@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/system.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+
+namespace piola::contact {
+namespace {
+
+/// Planes move a little farther than their particles where these turn; this share of the skin leaves room for that.
+constexpr double share_of_skin = 1.0 / 3;
+
+/// The box around some places.
+struct Box {
+  Vec<3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
+  void add(Vec<3> const& y) {
+    for (int c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], y[c]);
+      high[c] = std::max(high[c], y[c]);
+    }
+  }
+  bool holds(Vec<3> const& y, double margin) const {
+    for (int c = 0; c < 3; ++c)
+      if (!(y[c] > low[c] - margin && y[c] < high[c] + margin)) return false;
+    return true;
+  }
+};
+
+}  // namespace
+
+bool System::lists_hold(std::vector<Vec<3>> const& x) const {
+  if (listed_at_.empty()) return false;
+  double const most = share_of_skin * skin_ * share_of_skin * skin_;
+  for (Index k = 0; k < carriers_.count(); ++k)
+    if (!(square_of(x[at(carriers_.self(k))] - listed_at_[at(k)]) < most)) return false;
+  for (std::size_t r = 0; r < rigids_.size(); ++r)
+    if (!(square_of(rigids_[r].centre - listed_at_[at(carriers_.count()) + r]) < most)) return false;
+  return true;
+}
+
+/// Sources of body b for every point that may be near it.
+void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high) {
+  Box const box{low, high};
+  auto const reach = [&](Point const& p) { return setting_.meets[p.body][b] ? rules_[p.body][b].reach + skin_ : -1.0; };
+  double largest = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (double const r = reach(points_[k]); r > 0 && box.holds(planes_[k].y, r)) largest = std::max(largest, r);
+  if (!(largest > 0)) return;
+  std::vector<std::array<double, 3>> places;
+  for (Index const k : of_body) places.push_back({planes_[at(k)].y[0], planes_[at(k)].y[1], planes_[at(k)].y[2]});
+  CellGrid const grid(places, largest);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    double const r = reach(points_[k]);
+    Vec<3> const& y = planes_[k].y;
+    if (!(r > 0) || !box.holds(y, r)) continue;
+    std::size_t const first = sources_.size();
+    grid.visit({y[0], y[1], y[2]}, [&](Index j) {
+      Index const source = of_body[at(j)];
+      if (square_of(planes_[at(source)].y - y) < r * r) sources_.push_back(source);
+    });
+    std::sort(sources_.begin() + static_cast<std::ptrdiff_t>(first), sources_.end());
+    if (sources_.size() > first) runs_.push_back({static_cast<Index>(k), b, first, sources_.size()});
+  }
+}
+
+void System::list_points_near_rigids() {
+  near_rigid_.clear();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (!setting_.meets_rigids[points_[k].body]) continue;
+    double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
+    bool const any = std::any_of(rigids_.begin(), rigids_.end(), [&](RigidSurface const& rigid) {
+      return distance_from(rigid, planes_[k].y).value < reach;
+    });
+    if (any) near_rigid_.push_back(static_cast<Index>(k));
+  }
+}
+
+void System::activate(std::vector<char> const& points) {
+  std::vector<char> carries(at(carriers_.count()), 0);
+  active_points_.clear();
+  active_carriers_.clear();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (points[k] == 0) continue;
+    active_points_.push_back(static_cast<Index>(k));
+    carries[at(points_[k].carrier)] = 1;
+  }
+  for (std::size_t k = 0; k < carries.size(); ++k)
+    if (carries[k] != 0) active_carriers_.push_back(static_cast<Index>(k));
+}
+
+void System::make_lists(std::vector<Vec<3>> const& x) {
+  activate(std::vector<char>(points_.size(), 1));
+  place_points(x);
+  std::vector<std::vector<Index>> of_body(surfaces_.size());
+  std::vector<Box> boxes(surfaces_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    of_body[points_[k].body].push_back(static_cast<Index>(k));
+    boxes[points_[k].body].add(planes_[k].y);
+  }
+  runs_.clear();
+  sources_.clear();
+  for (std::size_t b = 0; b < surfaces_.size(); ++b)
+    if (!of_body[b].empty()) list_sources(b, of_body[b], boxes[b].low, boxes[b].high);
+  list_points_near_rigids();
+
+  std::vector<char> active(points_.size(), 0);
+  for (Run const& run : runs_) active[at(run.target)] = 1;
+  for (Index const k : sources_) active[at(k)] = 1;
+  for (Index const k : near_rigid_) active[at(k)] = 1;
+  activate(active);
+  listed_at_.clear();
+  for (Index k = 0; k < carriers_.count(); ++k) listed_at_.push_back(x[at(carriers_.self(k))]);
+  for (RigidSurface const& rigid : rigids_) listed_at_.push_back(rigid.centre);
+}
+
+}  // namespace piola::contact
