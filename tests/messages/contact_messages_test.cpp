@@ -27,10 +27,20 @@ std::string shaped(std::string const& shape, std::string const& formulation = "j
 }
 
 TEST(ContactMessages, FormulationsWithoutContactRefuseIt) {
-  FormulationInfo const jst = *find_formulation("jst_sph");
-  EXPECT_EQ(rigid("plane = { point = [0, -1, 0], normal = [0, 1, 0] }"),
-            "case.toml:23:1: " + refusal(jst, "rigid shapes"));
-  EXPECT_EQ(contact("law = \"linear\""), "case.toml:23:1: " + refusal(jst, "contact"));
+  FormulationInfo const taylor = *find_formulation("taylor_sph");
+  std::string text = sample_with("neo_hookean", "linear_elastic");
+  text = test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", "name = \"taylor_sph\"");
+  EXPECT_EQ(message_of(text), "");
+  EXPECT_EQ(message_of(text + "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
+            "case.toml:23:1: " + refusal(taylor, "rigid shapes"));
+  EXPECT_EQ(message_of(text + "[contact]\nlaw = \"linear\"\n"), "case.toml:23:1: " + refusal(taylor, "contact"));
+  EXPECT_NE(refusal(taylor, "contact").find("nodal"), std::string::npos) << "who knows it";
+}
+
+TEST(ContactMessages, FrictionIsANumberThatIsNotNegative) {
+  EXPECT_EQ(contact("friction = 0"), "");
+  EXPECT_EQ(contact("friction = -0.1"), "case.toml:24:12: contact.friction is -0.1 (allowed: from 0 to 10)");
+  EXPECT_NE(contact("law = \"none\"\nfriction = 0.1").find("is used only by the law"), std::string::npos);
 }
 
 TEST(ContactMessages, RigidShapesAreOfOneKind) {

@@ -203,10 +203,28 @@ std::string two_cubes(std::string const& formulation, double gap, std::string co
 }
 
 TEST(Warnings, BodiesThatCannotMeet) {
-  EXPECT_EQ(about("contact", warnings(two_cubes("jst_sph", 1))),
-            "case.toml:10:1: the formulation jst_sph knows no contact, so that its 2 bodies do not see each other and "
-            "pass through one another if they meet - take adaptle if they can meet");
   EXPECT_TRUE(warnings(two_cubes("adaptle", 1)).empty());
+  EXPECT_TRUE(warnings(two_cubes("jst_sph", 1)).empty()) << "they have surfaces";
+  EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, "[contact]\nlaw = \"none\"\n")).empty()) << "as was asked for";
+  // A body of adaptle that may convert has no surface that one of jst_sph could push.
+  std::string mixed = two_cubes("jst_sph", 1);
+  mixed.replace(mixed.rfind("jst_sph"), 7, "adaptle");
+  EXPECT_EQ(
+      about("nothing keeps it apart", warnings(mixed)),
+      "case.toml:14:15: body \"right\": nothing keeps it apart from \"left\" (particles of adaptle that may turn "
+      "Eulerian have no surface; description = \"total_lagrangian\" keeps it), so that they pass through one another "
+      "if they meet - take nodal, jst_sph or adaptle without mirrors for bodies that can meet");
+  std::string mirrored = two_cubes("jst_sph", 1, "[[mirror]]\nbody = \"left\"\nface = \"-x\"\n");
+  for (std::size_t at = 0; (at = mirrored.find("cell_centred")) != std::string::npos;)
+    mirrored.replace(at, 12, "on_boundary");
+  EXPECT_NE(about("it has mirror planes", warnings(mirrored)), "");
+}
+
+TEST(Warnings, SettingsOfTheOtherContact) {
+  EXPECT_NE(about("contact.law has no effect", warnings(two_cubes("jst_sph", 1, "[contact]\nlaw = \"linear\"\n"))), "");
+  EXPECT_NE(about("contact.friction has no effect", warnings(two_cubes("adaptle", 1, "[contact]\nfriction = 0.1\n"))),
+            "");
+  EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, "[contact]\nfriction = 0.1\n")).empty());
 }
 
 // The energy of the law "linear" by hand: of each of ten particles of a face with the one across, 0.06 m away, and with

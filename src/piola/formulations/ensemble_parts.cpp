@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/ensemble.hpp"
 #include <algorithm>
 #include <utility>
@@ -130,6 +131,7 @@ std::optional<std::size_t> EnsemblePart::body_in_part(std::size_t body) const {
 }
 
 std::vector<EnsemblePart> split_by_formulation(Assembly const& whole) {
+  PIOLA_EXPECTS(whole.formulations.size() == whole.particles.bodies.size());
   std::vector<EnsemblePart> parts;
   for (std::size_t b = 0; b < whole.formulations.size(); ++b) {
     std::string const& name = whole.formulations[b].name;

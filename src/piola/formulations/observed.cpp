@@ -22,7 +22,7 @@ void put_von_mises(P const& p, double* out) {
   *out = std::sqrt(1.5 * sum);
 }
 
-constexpr void (*derived)(P const&, double*) = nullptr;
+constexpr void (*not_stored)(P const&, double*) = nullptr;
 
 /// Adding a field: a line here and its value where a formulation fills an ObservedParticle.
 constexpr std::array table{
@@ -42,7 +42,7 @@ constexpr std::array table{
                   [](P const& p, double* out) { std::copy_n(p.F.c, 9, out); }},
     ObservedField{"equivalent_plastic_strain", "EquivalentPlasticStrain", "1", 1,
                   [](P const& p, double* out) { *out = p.plastic_strain; }},
-    ObservedField{"plastic_strain", "EquivalentPlasticStrain", "1", 1, derived},  // the same in short
+    ObservedField{"plastic_strain", "EquivalentPlasticStrain", "1", 1, not_stored},  // the same in short
     ObservedField{"damage", "Damage", "1", 1, [](P const& p, double* out) { *out = p.damage; }},
     ObservedField{"temperature", "Temperature", "K", 1, [](P const& p, double* out) { *out = p.temperature; }},
     ObservedField{"density", "Density", "kg/m^3", 1, [](P const& p, double* out) { *out = p.density; }},
@@ -51,8 +51,8 @@ constexpr std::array table{
     ObservedField{"kernel_type", "KernelType", "1", 1, [](P const& p, double* out) { *out = p.kernel_type; }},
     ObservedField{"cell_pressure", "CellPressure", "Pa", 1, [](P const& p, double* out) { *out = p.cell_pressure; }},
     ObservedField{"least_jacobian", "LeastJacobian", "1", 1, [](P const& p, double* out) { *out = p.least_J; }},
-    ObservedField{"principal_stress", "PrincipalStress", "Pa", 3, derived},
-    ObservedField{"principal_strain", "PrincipalStrain", "1", 3, derived},
+    ObservedField{"principal_stress", "PrincipalStress", "Pa", 3, not_stored},
+    ObservedField{"principal_strain", "PrincipalStrain", "1", 3, not_stored},
     ObservedField{"parting", "Parting", "1", 1, [](P const& p, double* out) { *out = p.parting; }},
     ObservedField{"", "Neighbours", "1", 1, [](P const& p, double* out) { *out = p.neighbours; }},
     ObservedField{"", "Body", "1", 1, [](P const& p, double* out) { *out = p.body; }},

@@ -39,7 +39,7 @@ std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4
 bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;
   if (what == "mirrors") return info.mirrors;
-  return what == "rings" ? info.rings : info.contact;
+  return what == "rings" ? info.rings : info.contact || info.pushable;
 }
 
 bool has_rings(ParticleSet const& particles) {

@@ -160,7 +160,7 @@ constexpr std::array boundary_keys{
             "friction",
             quantity,
             "1",
-            {0, 10, true, true},
+            {0, 10, false, false},
             "0",
             "coefficient of Coulomb friction between surfaces, and of surfaces on rigid shapes (not in the contact of "
             "adaptle)",

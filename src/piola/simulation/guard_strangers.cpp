@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/input/formulations_of.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include "piola/simulation/guard.hpp"
 #include <algorithm>
@@ -37,6 +38,11 @@ class StrangerGuard : public Guard {
       finest_.push_back(*least);
       coarsest_.push_back(*most);
     }
+    // Surfaces that meet may bring particles onto each other; how deep they are is another guard's.
+    for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
+      surfaces_.emplace_back();
+      for (std::size_t b = 0; b < spec.bodies.size(); ++b) surfaces_.back().push_back(pushed_by_surface(spec, a, b));
+    }
   }
 
   void look(Look const& look) override {
@@ -62,7 +68,7 @@ class StrangerGuard : public Guard {
     if (!(m_.nearest < limit_)) return "";
     auto const body = [&](Suspect const& s) { return particles_.body[static_cast<std::size_t>(s.id)]; };
     return fmt::format(
-        "{}: at t = {:.6g} s {} was {:.2g} spacings from {} (limit {}) - only adaptle has contact, between bodies; see "
+        "{}: at t = {:.6g} s {} was {:.2g} spacings from {} (limit {}) - nothing keeps them apart there; see "
         "docs/user/when-it-stops.md",
         body(m_.a) == body(m_.b) ? "a body goes through itself" : "bodies go through each other", m_.a.time,
         m_.a.text(particles_), m_.nearest, m_.b.text(particles_), limit_);
@@ -130,6 +136,7 @@ class StrangerGuard : public Guard {
       if (!(now < finest) || !(now < neighbour)) return;
       auto const its = static_cast<std::size_t>(particles_.body[b]);
       double const before = length_between(particles_.X[a], particles_.X[b]);
+      if (its < surfaces_.size() && body < surfaces_.size() && surfaces_[body][its]) return;
       bool const same = its == body, both_eulerian = !eulerian_.empty() && eulerian_[a] != 0 && eulerian_[b] != 0,
                  one_eulerian = !eulerian_.empty() && (eulerian_[a] != 0 || eulerian_[b] != 0);
       if (same && before < neighbours_within * coarsest) neighbour = now;
@@ -151,7 +158,8 @@ class StrangerGuard : public Guard {
   double limit_;
   bool merging_;
   ParticleSet const& particles_;
-  std::vector<double> finest_, coarsest_;  ///< spacings of each body [m]
+  std::vector<double> finest_, coarsest_;    ///< spacings of each body [m]
+  std::vector<std::vector<bool>> surfaces_;  ///< of pairs of bodies: pushed by their surfaces
   Memory m_;
   std::vector<Point> x_;
   std::vector<char> eulerian_;

@@ -246,13 +246,10 @@ TEST(Solver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
   for (auto const& name : machines()) EXPECT_NE(text.find(name), std::string::npos) << text;
 }
 
-TEST(Solver, RefusesAFormulationThatDoesNotExistAndMixtures) {
+TEST(Solver, RefusesAFormulationThatDoesNotExist) {
   Assembly a = assemble(unit_box(2, 5));
   a.formulations[0].name = "alchemy";
   EXPECT_NE(refusal(a).find("'alchemy'"), std::string::npos);
-  a.formulations[0].name = "jst_sph";
-  a.formulations.push_back({"alchemy", {}, {}});
-  EXPECT_NE(refusal(a).find("cannot run together"), std::string::npos);
 }
 
 TEST(Solver, RefusesABodyWithTooFewParticles) {

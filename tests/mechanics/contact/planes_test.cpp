@@ -33,7 +33,7 @@ double energy(Face const& f) {
   auto const source = [&](Index k) -> Plane const& { return f.sources[static_cast<std::size_t>(k)]; };
   Gap const g = blended_gap(f.target, static_cast<Index>(f.sources.size()), source, f.rule.reach);
   return 0.7 * layer(g.gap, f.rule.stiffness, f.rule.length).energy *
-         fade(g.tau2(), f.rule.fade_from, f.rule.fade_to).value;
+         fade(g.tau2(), f.rule.fade_from, f.rule.fade_to).value * presence(g.weight).value;
 }
 
 struct Loads {
@@ -86,6 +86,29 @@ TEST(BlendedPlanes, FadeIsSmooth) {
     constexpr double h = 1e-6;
     double const slope = (fade(tau2 + h, 0.45, 0.75).value - fade(tau2 - h, 0.45, 0.75).value) / (2 * h);
     EXPECT_NEAR(fade(tau2, 0.45, 0.75).slope, slope, 1e-8);
+  }
+}
+
+TEST(BlendedPlanes, PlanesComeIntoSightWithoutAJump) {
+  EXPECT_EQ(presence(0).value, 0);
+  EXPECT_EQ(presence(0.5).value, 1);
+  for (double const weight : {0.05, 0.15, 0.29}) {
+    constexpr double h = 1e-6;
+    EXPECT_NEAR(presence(weight).slope, (presence(weight + h).value - presence(weight - h).value) / (2 * h), 1e-8);
+  }
+  // A few planes far off their normals: the slopes of the energy still hold.
+  Face face = rough_face(11, -0.2);
+  face.sources.resize(2);
+  for (Plane& b : face.sources) b.n = unit({{0.9, 0.3, 0.25}});
+  Loads const exact = loads(face);
+  for (int c = 0; c < 3; ++c) {
+    constexpr double h = 1e-7;
+    face.target.y[c] += h;
+    double const up = energy(face);
+    face.target.y[c] -= 2 * h;
+    double const down = energy(face);
+    face.target.y[c] += h;
+    EXPECT_NEAR(exact.target.force[c], -(up - down) / (2 * h), 1e-7);
   }
 }
 

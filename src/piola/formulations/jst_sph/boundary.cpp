@@ -15,7 +15,7 @@ bool is_plain(Support const& s) {
 
 int axis_of(Direction const& d) { return d[0] == 1 ? 0 : d[1] == 1 ? 1 : 2; }
 
-std::vector<Support> joined(std::vector<Support> supports, std::vector<Support> const& mirrors) {
+std::vector<Support> connected(std::vector<Support> supports, std::vector<Support> const& mirrors) {
   supports.insert(supports.end(), mirrors.begin(), mirrors.end());
   return supports;
 }
@@ -27,12 +27,12 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& 
     : body_(assembly.particles.bodies[body]),
       D_(assembly.particles.dimension),
       cloud_(std::move(cloud)),
-      driven_(D_, joined(assembly.supports, mirrors), assembly.loads, cloud_.has_value()) {
+      driven_(D_, connected(assembly.supports, mirrors), assembly.loads, cloud_.has_value()) {
   with_any_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < order.particles; ++i)
     slot_of[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
-  take_supports(assembly, joined(assembly.supports, mirrors), slot_of);
+  take_supports(assembly, connected(assembly.supports, mirrors), slot_of);
   take_loads(assembly, slot_of);
 }
 

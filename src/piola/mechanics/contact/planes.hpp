@@ -61,6 +61,18 @@ inline Fade fade(double tau2, double from, double to) {
   return {s * s * (3 - 2 * s), -6 * s * (1 - s) / (b - a)};
 }
 
+/// How much of a face there is before a point: 0 where the weights Sw of all its planes are next to nothing, 1 where
+/// they are those of a face; a plane that comes into sight, or turns towards the point, does so without a jump. Slope
+/// by Sw.
+inline Fade presence(double weight) {
+  constexpr double none = 0.02,
+                   whole = 0.3;  // a flat face has pi R^2 / (4 dp^2) = 3.1 in 3D, its corner a quarter of it
+  if (!(weight > none)) return {0, 0};
+  if (!(weight < whole)) return {1, 0};
+  double const s = (weight - none) / (whole - none);
+  return {s * s * (3 - 2 * s), 6 * s * (1 - s) / (whole - none)};
+}
+
 /// The blended gap of a point from the planes near it.
 struct Gap {
   double weight = 0;  ///< Sw
@@ -95,13 +107,15 @@ struct PointLoad {
   Mat<3> on_gradient = {};  ///< of friction: minus the force on F [N m]
 };
 
-/// What one target with area A [m2] does: the full derivative of E = A psi(g) theta. on_source(k, load) takes the load
-/// of source k; the result is that of the target.
+/// What one target with area A [m2] does: the full derivative of E = A psi(g) theta p(Sw). on_source(k, load) takes the
+/// load of source k; the result is that of the target.
 template <class Sources, class OnSource>
 PointLoad contact_loads(Plane const& a, double area, Gap const& g, Layer const& psi, Fade const& theta, Index count,
                         Sources const& sources, double reach, OnSource const& on_source) {
-  double const alpha = area * (psi.slope * theta.value - 2 * g.gap * psi.energy * theta.slope);
-  Vec<3> const gamma = (2 * area * psi.energy * theta.slope) * g.centroid;
+  Fade const p = presence(g.weight);
+  double const alpha = p.value * area * (psi.slope * theta.value - 2 * g.gap * psi.energy * theta.slope);
+  Vec<3> const gamma = (2 * p.value * area * psi.energy * theta.slope) * g.centroid;
+  double const by_presence = area * psi.energy * theta.value * p.slope;
   PointLoad target;
   for (Index k = 0; k < count; ++k) {
     Plane const& b = sources(k);
@@ -109,7 +123,7 @@ PointLoad contact_loads(Plane const& a, double area, Gap const& g, Layer const& 
     double const c = dot(a.n, b.n), rest = 1 - dot(r, r) / (reach * reach), w = plane_weight(1 - rest, c);
     if (!(w > 0)) continue;
     double const share = w / g.weight, distance = dot(b.n, r);
-    double const by_weight = (alpha * (distance - g.gap) + dot(gamma, r - g.centroid)) / g.weight;
+    double const by_weight = (alpha * (distance - g.gap) + dot(gamma, r - g.centroid)) / g.weight + by_presence;
     double const w0 = rest * rest * rest, w1 = -6 * rest * rest / (reach * reach);
     Vec<3> const h = share * (alpha * b.n + gamma) + (by_weight * c * c * w1) * r;
     target.force = target.force - h;

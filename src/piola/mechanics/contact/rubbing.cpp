@@ -23,7 +23,6 @@ Spring System::drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> co
 void System::rub(Run const& run, Gap const& gap, double normal_force, double stiffness) {
   if (!(setting_.friction > 0)) return;
   Plane const& a = planes_[at(run.target)];
-  double const reach = rules_[points_[at(run.target)].body][run.body].reach;
   auto const moved = [&](Index point) {
     Point const& p = points_[at(point)];
     return planes_[at(point)].y - last_x_[at(carriers_.self(p.carrier))] - carriers_.F(p.carrier, last_x_) * p.S;
@@ -33,7 +32,7 @@ void System::rub(Run const& run, Gap const& gap, double normal_force, double sti
   for (std::size_t s = run.first; s < run.last; ++s) {
     Plane const& b = planes_[at(sources_[s])];
     Vec<3> const r = a.y - b.y;
-    double const share = plane_weight(square_of(r) / (reach * reach), dot(a.n, b.n)) / gap.weight;
+    double const share = weight_of(run, sources_[s]) / gap.weight;
     Index const carrier = points_[at(sources_[s])].carrier;
     sources.emplace_back(share, share > 0 ? inverse(F_[at(carrier)]) * r : Vec<3>{});
     if (!(share > 0)) continue;

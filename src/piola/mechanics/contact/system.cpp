@@ -77,6 +77,12 @@ void System::add_load(Index point, PointLoad const& load) {
   sum.on_gradient = sum.on_gradient + load.on_gradient;
 }
 
+double System::weight_of(Run const& run, Index source) const {
+  Plane const &a = planes_[at(run.target)], &b = planes_[at(source)];
+  double const reach = rules_[points_[at(run.target)].body][run.body].reach;
+  return plane_weight(square_of(a.y - b.y) / (reach * reach), dot(a.n, b.n));
+}
+
 void System::push_bodies() {
   gaps_.resize(runs_.size());
   auto const sources_of = [this](Run const& run) {
@@ -95,22 +101,25 @@ void System::push_bodies() {
     double const dp = 2 * rule.length;
     if (!gap.seen() || !(gap.gap < near * dp)) continue;
     Fade const theta = fade(gap.tau2(), rule.fade_from, rule.fade_to);
-    if (!(theta.value > 0)) continue;
+    double const seen = theta.value * presence(gap.weight).value;
+    if (!(seen > 0)) continue;
     double inverse = 0;
-    for (std::size_t s = run.first; s < run.last; ++s) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
+    // Of planes that count: others are listed or not as it happens.
+    for (std::size_t s = run.first; s < run.last; ++s)
+      if (weight_of(run, sources_[s]) > 0) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
     // Of both passes, C_s Mbar / dpbar.
     note(std::min(gap.gap, 0.0), target.area, 2 * rule.stiffness, rule.length, dp,
          inverse + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;
     Layer const psi = layer(gap.gap, rule.stiffness, rule.length);
-    totals_.energy += target.area * psi.energy * theta.value;
+    totals_.energy += target.area * psi.energy * seen;
     ++totals_.touched;
     PointLoad const own =
         contact_loads(planes_[at(run.target)], target.area, gap, psi, theta, static_cast<Index>(run.last - run.first),
                       sources_of(run), rule.reach,
                       [&](Index s, PointLoad const& load) { add_load(sources_[run.first + at(s)], load); });
     add_load(run.target, own);
-    rub(run, gap, -target.area * psi.slope * theta.value, rule.stiffness * target.area);
+    rub(run, gap, -target.area * psi.slope * seen, rule.stiffness * target.area);
     Between &on_target = between_[target.body][run.body], &on_source = between_[run.body][target.body];
     Vec<3> const moment = cross(planes_[at(run.target)].y, own.force);
     on_target = {on_target.force + own.force, on_target.moment + moment};
