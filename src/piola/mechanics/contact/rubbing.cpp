@@ -48,11 +48,7 @@ void System::rub(Run const& run, Gap const& gap, double normal_force, double sti
     auto const& [share, arm] = sources[k];
     if (share > 0) add_load(sources_[run.first + k], {-share * f, {}, share * outer(f, arm)});
   }
-  std::size_t const body = points_[at(run.target)].body;
-  Between &on_target = between_[body][run.body], &on_source = between_[run.body][body];
-  Vec<3> const moment = cross(a.y, f);
-  on_target = {on_target.force + f, on_target.moment + moment};
-  on_source = {on_source.force - f, on_source.moment - moment};
+  add_between(run, f);
 }
 
 /// Rigid shapes move without turning.

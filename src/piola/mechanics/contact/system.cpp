@@ -77,6 +77,15 @@ void System::add_load(Index point, PointLoad const& load) {
   sum.on_gradient = sum.on_gradient + load.on_gradient;
 }
 
+/// The force f on the target, against the body that it touches.
+void System::add_between(Run const& run, Vec<3> const& f) {
+  std::size_t const body = points_[at(run.target)].body;
+  Vec<3> const moment = cross(planes_[at(run.target)].y, f);
+  Between &on_target = between_[body][run.body], &on_source = between_[run.body][body];
+  on_target = {on_target.force + f, on_target.moment + moment};
+  on_source = {on_source.force - f, on_source.moment - moment};
+}
+
 double System::weight_of(Run const& run, Index source) const {
   Plane const &a = planes_[at(run.target)], &b = planes_[at(source)];
   double const reach = rules_[points_[at(run.target)].body][run.body].reach;
@@ -120,10 +129,7 @@ void System::push_bodies() {
                       [&](Index s, PointLoad const& load) { add_load(sources_[run.first + at(s)], load); });
     add_load(run.target, own);
     rub(run, gap, -target.area * psi.slope * seen, rule.stiffness * target.area);
-    Between &on_target = between_[target.body][run.body], &on_source = between_[run.body][target.body];
-    Vec<3> const moment = cross(planes_[at(run.target)].y, own.force);
-    on_target = {on_target.force + own.force, on_target.moment + moment};
-    on_source = {on_source.force - own.force, on_source.moment - moment};
+    add_between(run, own.force);
   }
 }
 

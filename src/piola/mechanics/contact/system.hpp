@@ -98,6 +98,7 @@ class System {
   Spring drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound);
   void add_load(Index point, PointLoad const& load);
   void add_force(Index id, Vec<3> const& f);
+  void add_between(Run const& run, Vec<3> const& f);
   double weight_of(Run const& run, Index source) const;
   void note(double gap, double area, double layer_modulus, double length, double spacing, double inverse);
   double inverse_mass_of(Index point) const {
