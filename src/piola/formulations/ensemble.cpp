@@ -44,12 +44,13 @@ void add(std::array<double, N>& sum, std::array<double, N> const& more) {
 /// Adds up columns by name, in the order of their first appearance.
 void add_columns(std::vector<std::pair<std::string, double>>& sum,
                  std::vector<std::pair<std::string, double>> const& more) {
-  for (auto const& [name, value] : more) {
-    auto const same = std::find_if(sum.begin(), sum.end(), [&](auto const& column) { return column.first == name; });
+  for (auto const& column : more) {
+    auto const same =
+        std::find_if(sum.begin(), sum.end(), [&](auto const& known) { return known.first == column.first; });
     if (same == sum.end())
-      sum.emplace_back(name, value);
+      sum.push_back(column);
     else
-      same->second += value;
+      same->second += column.second;
   }
 }
 

@@ -46,6 +46,7 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
     if (double const r = reach(points_[k]); r > 0 && box.holds(planes_[k].y, r)) largest = std::max(largest, r);
   if (!(largest > 0)) return;
   std::vector<std::array<double, 3>> places;
+  places.reserve(of_body.size());
   for (Index const k : of_body) places.push_back({planes_[at(k)].y[0], planes_[at(k)].y[1], planes_[at(k)].y[2]});
   CellGrid const grid(places, largest);
   for (std::size_t k = 0; k < points_.size(); ++k) {

@@ -27,7 +27,7 @@ struct Stencil {
 /// Weighted least squares: g_j = w_j M^-1 r_j, M = sum w r (x) r, r = X_j - X_p.
 bool fit(ParticleSet const& set, std::int64_t p, std::vector<std::int64_t> const& around, double reach, Stencil& out) {
   int const D = set.dimension;
-  double M[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  Mat<3> M;
   std::vector<Vec<3>> r;
   std::vector<double> weight;
   for (auto const id : around) {
@@ -35,14 +35,14 @@ bool fit(ParticleSet const& set, std::int64_t p, std::vector<std::int64_t> const
     double const rest = 1 - dot(r.back(), r.back()) / (reach * reach);
     weight.push_back(rest > 0 ? rest * rest : 0);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) M[3 * i + j] += weight.back() * r.back()[i] * r.back()[j];
+      for (int j = 0; j < 3; ++j) M(i, j) += weight.back() * r.back()[i] * r.back()[j];
   }
-  double const scale = (M[0] + M[4] + M[8]) / D;
-  for (int c = D; c < 3; ++c) M[4 * c] = scale;
+  double const scale = trace(M) / D;
+  for (int c = D; c < 3; ++c) M(c, c) = scale;
   double columns[3][3];
   for (int c = 0; c < 3; ++c) {
     double A[9];
-    std::copy(M, M + 9, A);
+    std::copy(M.c, M.c + 9, A);
     for (int k = 0; k < 3; ++k) columns[c][k] = k == c ? 1 : 0;
     if (!(solve_in_place<3>(A, columns[c]) > flat)) return false;
   }
