@@ -334,7 +334,13 @@ TEST_P(InDimensions, RestoredStateGoesOnBitForBit) {
     move();
     whole.evaluate(x);
   }
+  // A run that resumes has looked at its start before.
+  auto pressed = places(resumed, blocks.set);
+  for (Vec<3>& y : pressed) y[D - 1] -= 0.02;
+  resumed.start(pressed);
+  ASSERT_FALSE(resumed.pushed().empty());
   resumed.restore(x, whole.state());
+  EXPECT_EQ(resumed.pushed(), whole.pushed());
   EXPECT_EQ(resumed.state(), whole.state());
   for (int k = 0; k < 20; ++k) {
     move();

@@ -36,6 +36,7 @@ void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& st
   make_lists(x);
   if (!active_points_.empty()) place_points(x);
   remember(x);
+  forget_forces();
   auto from = state.begin();
   auto const number = [&] { return *from++; };
   auto const take = [&](Vec<3>& a) {

@@ -184,7 +184,7 @@ void System::evaluate(std::vector<Vec<3>> const& x) {
   remember(x);
 }
 
-void System::push_all(std::vector<Vec<3>> const& x) {
+void System::forget_forces() {
   for (Index const k : pushed_) {
     forces_[at(k)] = {};
     is_pushed_[at(k)] = 0;
@@ -195,6 +195,10 @@ void System::push_all(std::vector<Vec<3>> const& x) {
   totals_ = {};
   std::fill(on_rigid_.begin(), on_rigid_.end(), Between{});
   for (auto& row : between_) std::fill(row.begin(), row.end(), Between{});
+}
+
+void System::push_all(std::vector<Vec<3>> const& x) {
+  forget_forces();
   if (active_points_.empty()) return;
   place_points(x);
   push_bodies();

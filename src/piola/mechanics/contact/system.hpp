@@ -90,6 +90,7 @@ class System {
   bool lists_hold(std::vector<Vec<3>> const& x) const;
   void place_points(std::vector<Vec<3>> const& x);
   void push_all(std::vector<Vec<3>> const& x);
+  void forget_forces();
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
   void push_from_rigids();
