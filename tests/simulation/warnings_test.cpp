@@ -220,6 +220,16 @@ TEST(Warnings, BodiesThatCannotMeet) {
   EXPECT_NE(about("it has mirror planes", warnings(mirrored)), "");
 }
 
+// Particles may stand before the plane while the surface of their body is behind it.
+TEST(Warnings, SurfacesThatOverlapAtTheStart) {
+  auto const plane = [](double x) {
+    return "[[rigid]]\nname = \"wall\"\nplane = { point = [" + std::to_string(x) + ", 0], normal = [1, 0] }\n";
+  };
+  EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, plane(0))).empty()) << "touching";
+  std::string const text = about("overlap at the start", warnings(two_cubes("jst_sph", 1, plane(0.03))));
+  EXPECT_NE(text.find("by 0.3 spacings; contact holds "), std::string::npos) << text;
+}
+
 TEST(Warnings, SettingsOfTheOtherContact) {
   EXPECT_NE(about("contact.law has no effect", warnings(two_cubes("jst_sph", 1, "[contact]\nlaw = \"linear\"\n"))), "");
   EXPECT_NE(about("contact.friction has no effect", warnings(two_cubes("adaptle", 1, "[contact]\nfriction = 0.1\n"))),

@@ -86,10 +86,13 @@ void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
         "or jst_sph for one of them");
 }
 
-std::optional<double> contact_energy(std::optional<Diagnostics> const& start) {
+std::optional<double> column_at_start(std::optional<Diagnostics> const& start, std::string_view name) {
   for (std::size_t k = 0; start && k < start->more.size(); ++k)
-    if (start->more[k].first == "contact_energy") return start->more[k].second;
+    if (start->more[k].first == name) return start->more[k].second;
   return std::nullopt;
+}
+std::optional<double> contact_energy(std::optional<Diagnostics> const& start) {
+  return column_at_start(start, "contact_energy");
 }
 
 std::string energy_text(std::optional<Diagnostics> const& start) {
@@ -109,9 +112,13 @@ void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::opti
   if (energy && !(*energy > 0)) return;
   bool const counts = energy && *energy > much * start->total_energy();
   std::string const held = energy_text(start);
-  if (surfaces_meet(spec) && counts)
-    found.add(place_of(spec.bodies.back().places, "shape"),
-              fmt::format("surfaces of bodies or rigid shapes overlap at the start{} - move them apart", held));
+  constexpr double deep = 0.05;  // of a spacing; touching faces overlap by rounding
+  double const overlap = column_at_start(start, "contact_overlap").value_or(0);
+  if (surfaces_meet(spec) && !knows_contact(spec) && overlap > deep)
+    found.add(
+        place_of(spec.bodies.back().places, "shape"),
+        fmt::format("surfaces of bodies or rigid shapes overlap at the start by {:.2g} spacings{} - move them apart",
+                    overlap, held));
   for (Closeness const& pair : close_bodies(spec, particles, counts ? reach : touching)) {
     if (merged) break;
     if (!knows_contact(spec, pair.body) || !knows_contact(spec, pair.other)) continue;
