@@ -235,6 +235,16 @@ TEST(Warnings, SettingsOfTheOtherContact) {
   EXPECT_NE(about("contact.friction has no effect", warnings(two_cubes("adaptle", 1, "[contact]\nfriction = 0.1\n"))),
             "");
   EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, "[contact]\nfriction = 0.1\n")).empty());
+  auto const rubber = [](std::string const& settings) {
+    std::string text = two_cubes("nodal\"" + settings + ", name_end = \"", 1, "[contact]\nfriction = 0.1\n");
+    for (std::size_t at = 0; (at = text.find(", name_end = \"\"")) != std::string::npos;) text.erase(at, 15);
+    for (std::size_t at = 0; (at = text.find("\"elastic\"")) != std::string::npos;)
+      text.replace(at, 9, "\"neo_hookean\"");
+    return warnings(text);
+  };
+  EXPECT_EQ(rubber("").size(), 2U) << "one for each body";
+  EXPECT_NE(rubber("").front().find("chatter"), std::string::npos);
+  EXPECT_TRUE(rubber(", fluctuation_viscosity = 0.3").empty());
 }
 
 // The energy of the law "linear" by hand: of each of ten particles of a face with the one across, 0.06 m away, and with

@@ -24,10 +24,11 @@ class Meeting {
 
   /// The step that contact leaves of one that the bodies bear [s].
   double limit(double step) const;
-  /// Energy, work and columns; actions are added by name and place to `all`, those of the whole.
+  /// Adds energy, work and columns.
   void report(Diagnostics& sum) const;
-  /// Supports, named loads and rigid shapes, in this order, then pairs of bodies.
+  /// What supports took and rigid shapes gave, in the order of the case: supports, loads with a name, rigid shapes.
   std::vector<Action> actions() const { return actions_.report(); }
+  /// What body B did to body A, named "A-B"; the moment about the origin.
   std::vector<Action> pairs() const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);

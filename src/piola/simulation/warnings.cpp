@@ -79,6 +79,14 @@ void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
     if (!own && is_given(places, key))
       found.add(place_of(places, key),
                 fmt::format("contact.{} has no effect here (it is for bodies of adaptle) - remove it", key));
+  for (BodySpec const& body : spec.bodies)
+    if (spec.contact->friction > 0 && body.formulation.name == "nodal" &&
+        !body.formulation.numbers.contains("fluctuation_viscosity"))
+      found.add(
+          place_of(body.places, "formulation"),
+          fmt::format("body {}: nothing damps the chatter of a sliding surface under nodal, which lowers friction by a "
+                      "tenth - give fluctuation_viscosity = 0.3, or take jst_sph",
+                      in_quotes(body.name)));
   if (!surfaces_meet(spec) && is_given(places, "friction"))
     found.add(
         place_of(places, "friction"),
