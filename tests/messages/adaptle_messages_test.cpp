@@ -47,7 +47,7 @@ TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
   for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "printed"},
                                            {"correction", "material", "mixed"},
                                            {"viscosity", "monaghan", "balsara"},
-                                           {"viscosity_form", "central", "printed"},
+                                           {"viscosity_form", "printed", "central"},
                                            {"artificial_stress_interface", "both", "none"},
                                            {"assumption", "plane_strain", "plane_stress"}}) {
     Assembly a = two_boxes();

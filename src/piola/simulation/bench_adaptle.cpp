@@ -46,9 +46,10 @@ Assembly body(ImpactSubject const& subject, int cube_side, std::string const& ma
     if (!law.parameters[k].required()) material.value[k] = law.parameters[k].default_value;
   std::copy(steel.begin(), steel.end(), material.value);
   a.materials = {material};
-  FormulationSpec spec{"adaptle",
-                       {{"smoothing_length", 1.2}, {"artificial_stress", subject.artificial_stress}, {"blend", 0}},
-                       {{"description", subject.description}, {"correction", subject.correction}}};
+  FormulationSpec spec{
+      "adaptle",
+      {{"smoothing_length", 1.2}, {"artificial_stress", subject.artificial_stress}, {"blend", 0}},
+      {{"description", subject.description}, {"correction", subject.correction}, {"viscosity_form", "central"}}};
   if (std::string_view(subject.description) == "patch") spec.formulas.emplace("eulerian_where", Expression("X > 0.5"));
   a.formulations = {spec};
   for (auto const& X : a.particles.X) a.initial_velocity.push_back({std::sin(6 * X[0]), std::cos(5 * X[1]), 0});

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 4> description_words{"adaptive", "total_l
 constexpr std::array<std::string_view, 2> interface_words{"owner", "printed"};
 constexpr std::array<std::string_view, 3> correction_words{"material", "none", "mixed"};
 constexpr std::array<std::string_view, 4> viscosity_words{"monaghan", "balsara", "morris_monaghan", "riemann"};
-constexpr std::array<std::string_view, 2> form_words{"central", "printed"};
+constexpr std::array<std::string_view, 2> form_words{"printed", "central"};
 constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
 constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
@@ -40,8 +40,10 @@ constexpr std::array choices{
            viscosity_words},
     Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
     Choice{"viscosity_form",
-           "force of viscosity between total-Lagrangian particles; central: along the line between them, keeps angular "
-           "momentum, fast; printed: set (2), which correction = \"mixed\" and interface = \"printed\" always have",
+           "force of viscosity between total-Lagrangian particles; printed: set (2), which correction = \"mixed\" and "
+           "interface = \"printed\" always have; central: along the line between them, keeps angular momentum, twice "
+           "as fast, "
+           "for little viscosity",
            form_words},
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
     Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
