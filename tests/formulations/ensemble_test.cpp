@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/ensemble.hpp"
+#include "piola/setup/contact_surface.hpp"
 #include "formulations/small_bodies.hpp"
 #include "materials/solid_samples.hpp"
 #include <numeric>
@@ -222,6 +223,29 @@ TEST(Ensemble, NamesTheFailedParticleByItsIdInTheWhole) {
   EXPECT_GE(failure->particle, second.first);
   EXPECT_LT(failure->particle, second.last);
   EXPECT_EQ(failure->X, row.particles.X[static_cast<std::size_t>(failure->particle)]);
+}
+
+// The guard of energy looks at the sum that does not rise, where one of the formulations tells one.
+TEST(Ensemble, CountsTheEnergyOfContactInTheCentredSum) {
+  Assembly row = row_of_boxes({"taylor_sph", "nodal"});
+  row.materials[0] = rubber("linear_elastic");
+  give_velocity(row, [](Point const&) { return Point{}; });
+  ShapeSpec shape;
+  shape.min[0] = apart;
+  shape.max = {apart + 1, 1, 1};
+  shape.particles = {6, 6, 6};
+  row.surfaces = {{}, contact_surface(shape, row.particles, row.particles.bodies[1])};
+  row.surfaces[1].modulus = 2e7;
+  RigidShape wall;
+  wall.axis = {1, 0, 0};
+  wall.centre = {apart + 0.05, 0, 0};
+  row.rigid_shapes.push_back(wall);
+  Diagnostics const d = make_formulation(row)->diagnose();
+  auto const column = [&](std::string_view name) {
+    return std::find_if(d.more.begin(), d.more.end(), [&](auto const& c) { return c.first == name; })->second;
+  };
+  ASSERT_GT(column("contact_energy"), 0);
+  EXPECT_NEAR(column("centred_energy"), d.total_energy(), 1e-12 * d.total_energy());
 }
 
 TEST(Ensemble, DampsAllOfIt) {

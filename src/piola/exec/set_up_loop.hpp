@@ -5,7 +5,8 @@
 
 namespace piola::exec_host {
 
-/// f(k) for the particles k = 0 ... n - 1, for set-up: each call writes what belongs to k alone and throws nothing.
+/// f(k) for the particles k = 0 ... n - 1, for set-up, checkpoints and contact: each call writes what belongs to k
+/// alone and throws nothing.
 template <class F>
 void for_each_in_set_up(Index n, F const& f) {
 #pragma omp parallel for schedule(static) num_threads(team(n))

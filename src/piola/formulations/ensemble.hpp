@@ -32,7 +32,7 @@ struct EnsemblePart {
 };
 
 /// One part per formulation, in the order of their first bodies. Rigid shapes and the contact rule go to the parts
-/// whose formulation knows contact. Throws InputError for a name that is no formulation's.
+/// whose formulation knows contact.
 std::vector<EnsemblePart> split_by_formulation(Assembly const& whole);
 
 /// The formulations of all parts as one. Each step is taken by all of them, the shortest that one of them bears.

@@ -20,13 +20,7 @@ Vec<3> vector_of(Point const& a) { return {{a[0], a[1], a[2]}}; }
 std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   std::vector<contact::RigidSurface> all;
   for (RigidShape const& shape : whole.rigid_shapes)
-    all.push_back({static_cast<contact::RigidSurface::Kind>(shape.kind),
-                   whole.particles.dimension,
-                   vector_of(shape.centre),
-                   vector_of(shape.axis),
-                   vector_of(shape.half_lengths),
-                   shape.radius,
-                   {{shape.velocity[0]({}, 0), shape.velocity[1]({}, 0), shape.velocity[2]({}, 0)}}});
+    all.push_back(contact::surface_of(shape, whole.particles.dimension));
   return all;
 }
 
@@ -69,7 +63,6 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       shapes_(whole.rigid_shapes),
       supports_(whole.supports),
       system_(system_of(whole)),
-      meets_(who_meets(whole)),
       held_(system_.ids().size()),
       actions_(whole.supports, whole.loads, whole.rigid_shapes) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
@@ -137,7 +130,6 @@ void Meeting::look(Formulations const& formulations) {
 void Meeting::push(Formulations const& formulations, double time, double half) {
   std::vector<std::vector<std::int64_t>> ids(shares_.size());
   std::vector<std::vector<Point>> change(shares_.size());
-  std::vector<Vec<3>> by_index;
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     Share const& share = shares_[s];
     auto pushed = system_.pushed().begin();
@@ -225,7 +217,7 @@ std::vector<Action> Meeting::pairs() const {
   double const scale = last_dt_ > 0 ? 1 / last_dt_ : 0;
   for (std::size_t a = 0; a < names_.size(); ++a)
     for (std::size_t b = a + 1; b < names_.size(); ++b) {
-      if (!meets_[a][b]) continue;
+      if (!system_.meets(a, b)) continue;
       auto const& sum = pair_impulses_[a * names_.size() + b];
       all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
     }
@@ -234,7 +226,10 @@ std::vector<Action> Meeting::pairs() const {
 
 void Meeting::report(Diagnostics& sum) const {
   contact::Totals const& now = system_.totals();
-  sum.strain_energy += now.energy + now.spring_energy;
+  double const stored = now.energy + now.spring_energy;
+  sum.strain_energy += stored;
+  for (auto& [name, value] : sum.more)
+    if (name == "centred_energy") value += stored;  // the sum that does not rise
   sum.external_work += work_;
   auto const column = [&](char const* name) -> double& {
     for (auto& [known, value] : sum.more)

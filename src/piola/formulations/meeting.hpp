@@ -57,7 +57,6 @@ class Meeting {
   std::vector<RigidShape> shapes_;
   std::vector<Support> supports_;
   contact::System system_;
-  std::vector<std::vector<bool>> meets_;
   std::vector<Share> shares_;
   std::vector<std::vector<Held>> held_;  ///< by index into System::ids()
   std::vector<double> mass_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/mechanics/contact/rigid.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +10,6 @@ namespace piola {
 namespace {
 
 using Vec3 = std::array<double, 3>;
-using Kind = RigidShape::Kind;
-
-double dot(Vec3 const& a, Vec3 const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Where the shape itself stands in the file.
 Place place_of_shape(RigidSpec const& rigid) {
@@ -48,20 +46,6 @@ void check_velocity(RigidSpec const& rigid, int dimension, Problems& problems) {
   }
 }
 
-/// How far a point lies outside each face of a shape whose sides are its axes [m]; negative: inside.
-std::array<double, 3> outside_faces(RigidShape const& shape, Vec3 const& r, int dimension) {
-  std::array<double, 3> q;
-  q.fill(-std::numeric_limits<double>::infinity());
-  if (shape.kind == Kind::cylinder) {
-    double const along = dot(r, shape.axis);
-    q[0] = std::abs(along) - shape.half_lengths[0];
-    q[1] = std::sqrt(std::max(0.0, dot(r, r) - along * along)) - shape.radius;
-    return q;
-  }
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) q[d] = std::abs(r[d]) - shape.half_lengths[d];
-  return q;
-}
-
 }  // namespace
 
 Vec3 start_of(BodySpec const& body, Vec3 const& X) {
@@ -71,12 +55,7 @@ Vec3 start_of(BodySpec const& body, Vec3 const& X) {
 }
 
 double distance_to(RigidShape const& shape, Vec3 const& x, int dimension) {
-  Vec3 const r{x[0] - shape.centre[0], x[1] - shape.centre[1], x[2] - shape.centre[2]};
-  if (shape.kind == Kind::plane) return dot(r, shape.axis);
-  if (shape.kind == Kind::sphere) return std::sqrt(dot(r, r)) - shape.radius;
-  auto const q = outside_faces(shape, r, dimension);
-  double const nearest = std::max({q[0], q[1], q[2]});
-  return nearest < 0 ? nearest : std::hypot(std::max(q[0], 0.0), std::max(q[1], 0.0), std::max(q[2], 0.0));
+  return contact::distance_from(contact::surface_of(shape, dimension), {{x[0], x[1], x[2]}}).value;
 }
 
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {

@@ -154,8 +154,7 @@ void measure_rates(BenchReport& report, BenchOptions const& options) {
 }  // namespace
 
 BenchReport bench_jst_sph(BenchOptions const& options) {
-  jst_sph::Machine const* const machine = jst_sph::find_machine(options.machine.c_str());
-  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, jst_sph::machine_names()));
+  jst_sph::Machine const* const machine = &jst_sph::choose_machine(options.machine.c_str());
   BenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;

@@ -155,8 +155,7 @@ std::string prices_text(AccuracyReport const& report) {
 }  // namespace
 
 AccuracyReport bench_accuracy(AccuracyOptions const& options) {
-  nodal::Machine const* const machine = nodal::find_machine(options.machine.c_str());
-  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, nodal::machine_names()));
+  nodal::Machine const* const machine = &nodal::choose_machine(options.machine.c_str());
   AccuracyReport report;
   report.machine = machine->name;
   pin_to(1);

@@ -93,8 +93,7 @@ void measure(AdaptleBenchReport& report, AdaptleBenchOptions const& options, Imp
 }  // namespace
 
 AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options) {
-  adaptle::Machine const* const machine = adaptle::find_machine(options.machine.c_str());
-  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, adaptle::machine_names()));
+  adaptle::Machine const* const machine = &adaptle::choose_machine(options.machine.c_str());
   AdaptleBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;

@@ -88,8 +88,7 @@ void measure_set_up(NodalBenchReport& report, NodalBenchOptions const& options, 
 }  // namespace
 
 NodalBenchReport bench_nodal(NodalBenchOptions const& options) {
-  nodal::Machine const* const machine = nodal::find_machine(options.machine.c_str());
-  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, nodal::machine_names()));
+  nodal::Machine const* const machine = &nodal::choose_machine(options.machine.c_str());
   NodalBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;

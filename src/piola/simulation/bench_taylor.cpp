@@ -132,8 +132,7 @@ TaylorUpkeep measure_upkeep(TaylorBenchOptions const& options, TaylorSubject con
 }  // namespace
 
 TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options) {
-  taylor_sph::Machine const* const machine = taylor_sph::find_machine(options.machine.c_str());
-  if (machine == nullptr) throw InputError(exec_host::not_usable(options.machine, taylor_sph::machine_names()));
+  taylor_sph::Machine const* const machine = &taylor_sph::choose_machine(options.machine.c_str());
   TaylorBenchReport report;
   report.machine = machine->name;
   report.lanes = machine->lanes;

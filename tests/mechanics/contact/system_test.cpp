@@ -72,6 +72,23 @@ void distort(std::vector<Vec<3>>& x, int dimension, double amount) {
   }
 }
 
+/// There are forces, without a resultant and without a moment.
+void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
+  Vec<3> force, moment;
+  double size = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    Vec<3> const& f = system.forces()[k];
+    force = force + f;
+    moment = moment + cross(x[k], f);
+    size += std::sqrt(dot(f, f));
+  }
+  ASSERT_GT(size, 0);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(force[c], 0, 1e-12 * size);
+    EXPECT_NEAR(moment[c], 0, 1e-11 * size);
+  }
+}
+
 TEST(ContactSurface, HasTheAreaOfTheShape) {
   Blocks const blocks(3, 0);
   double area = 0;
@@ -185,19 +202,7 @@ TEST_P(InDimensions, MomentaAreKept) {
   auto x = places(system, blocks.set);
   distort(x, D, 0.3);
   system.evaluate(x);
-  Vec<3> force, moment;
-  double size = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    Vec<3> const& f = system.forces()[k];
-    force = force + f;
-    moment = moment + cross(x[k], f);
-    size += std::sqrt(dot(f, f));
-  }
-  ASSERT_GT(size, 0);
-  for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(force[c], 0, 1e-12 * size);
-    EXPECT_NEAR(moment[c], 0, 1e-11 * size);
-  }
+  expect_balance(system, x);
 }
 
 TEST_P(InDimensions, RigidShapesTakeTheReaction) {
@@ -293,18 +298,7 @@ TEST_P(InDimensions, FrictionKeepsMomentaAndIsBlindToRigidMotion) {
   system.start(x);
   distort(x, D, 0.1);
   system.evaluate(x);
-  Vec<3> force, moment;
-  double size = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    Vec<3> const& f = system.forces()[k];
-    force = force + f;
-    moment = moment + cross(x[k], f);
-    size += std::sqrt(dot(f, f));
-  }
-  for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(force[c], 0, 1e-12 * size);
-    EXPECT_NEAR(moment[c], 0, 1e-11 * size);
-  }
+  expect_balance(system, x);
   double const energy = system.totals().spring_energy;
   ASSERT_GT(energy, 0);
   double const c = std::cos(0.3), s = std::sin(0.3);

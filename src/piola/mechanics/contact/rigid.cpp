@@ -44,7 +44,20 @@ Distance from_box(RigidSurface const& shape, Vec<3> const& r) {
   return from_faces(q, d, shape.dimension);
 }
 
+Vec<3> vector_of(std::array<double, 3> const& a) { return {{a[0], a[1], a[2]}}; }
+
 }  // namespace
+
+RigidSurface surface_of(RigidShape const& shape, int dimension) {
+  auto const& v = shape.velocity;
+  return {shape.kind,
+          dimension,
+          vector_of(shape.centre),
+          vector_of(shape.axis),
+          vector_of(shape.half_lengths),
+          shape.radius,
+          {{v[0]({}, 0), v[1]({}, 0), v[2]({}, 0)}}};
+}
 
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x) {
   Vec<3> r = x - shape.centre;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/tensor.hpp"
+#include "piola/mechanics/rigid_shape.hpp"
 
 namespace piola::contact {
 
 /// The surface of a rigid shape where it is now.
 struct RigidSurface {
-  enum class Kind { plane, sphere, cylinder, box };
+  using Kind = RigidShape::Kind;
   Kind kind = Kind::plane;
   int dimension = 3;
   Vec<3> centre;           ///< of sphere, cylinder and box; a point of the plane [m]
@@ -15,6 +16,9 @@ struct RigidSurface {
   double radius = 0;       ///< sphere, cylinder [m]
   Vec<3> velocity;         ///< [m/s]
 };
+
+/// The surface of a shape at the start, in a space of so many dimensions.
+RigidSurface surface_of(RigidShape const& shape, int dimension);
 
 /// Signed distance of a point from it, negative inside [m], and its gradient, the outward normal.
 struct Distance {

@@ -6,6 +6,20 @@
 
 namespace piola::contact {
 
+Mat<3> const& System::last_F(Index carrier) {
+  if (knows_last_F_[at(carrier)] == 0) {
+    knows_last_F_[at(carrier)] = 1;
+    last_F_[at(carrier)] = carriers_.F(carrier, last_x_);
+  }
+  return last_F_[at(carrier)];
+}
+
+/// How far a point has moved since the evaluation before [m].
+Vec<3> System::moved(Index point) {
+  Point const& p = points_[at(point)];
+  return planes_[at(point)].y - last_x_[at(carriers_.self(p.carrier))] - last_F(p.carrier) * p.S;
+}
+
 /// Follows the spring of a point; a new contact starts without one.
 Spring System::drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound) {
   Stuck const key{point, with, {}, {}};
@@ -23,10 +37,6 @@ Spring System::drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> co
 void System::rub(Run const& run, Gap const& gap, double normal_force, double stiffness) {
   if (!(setting_.friction > 0)) return;
   Plane const& a = planes_[at(run.target)];
-  auto const moved = [&](Index point) {
-    Point const& p = points_[at(point)];
-    return planes_[at(point)].y - last_x_[at(carriers_.self(p.carrier))] - carriers_.F(p.carrier, last_x_) * p.S;
-  };
   Vec<3> jump = moved(run.target), n;
   std::vector<std::pair<double, Vec<3>>> sources;  // share, F^-1 r
   for (std::size_t s = run.first; s < run.last; ++s) {
@@ -36,7 +46,7 @@ void System::rub(Run const& run, Gap const& gap, double normal_force, double sti
     Index const carrier = points_[at(sources_[s])].carrier;
     sources.emplace_back(share, share > 0 ? inverse(F_[at(carrier)]) * r : Vec<3>{});
     if (!(share > 0)) continue;
-    Mat<3> const change = F_[at(carrier)] - carriers_.F(carrier, last_x_);
+    Mat<3> const change = F_[at(carrier)] - last_F(carrier);
     jump = jump - share * (moved(sources_[s]) + change * sources.back().second);
     n = n + share * b.n;
   }
@@ -54,10 +64,8 @@ void System::rub(Run const& run, Gap const& gap, double normal_force, double sti
 /// Rigid shapes move without turning.
 void System::rub_on_rigid(Index k, std::size_t r, Vec<3> const& n, double normal_force, double stiffness) {
   if (!(setting_.friction > 0)) return;
-  Point const& p = points_[at(k)];
   Vec<3> const& y = planes_[at(k)].y;
-  Vec<3> const jump = y - last_x_[at(carriers_.self(p.carrier))] - carriers_.F(p.carrier, last_x_) * p.S -
-                      (rigids_[r].centre - last_centre_[r]);
+  Vec<3> const jump = moved(k) - (rigids_[r].centre - last_centre_[r]);
   Vec<3> const f = drag(k, surfaces_.size() + r, jump, n, stiffness, setting_.friction * normal_force).force;
   add_load(k, {f, {}, {}});
   on_rigid_[r] = {on_rigid_[r].force - f, on_rigid_[r].moment - cross(y - rigids_[r].centre, f)};

@@ -33,6 +33,10 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
           pair_rule(setting_.factor, surface.modulus, surface.spacing, other.modulus, other.spacing));
   }
   F_.resize(at(carriers_.count()));
+  if (setting_.friction > 0) {
+    last_F_.resize(F_.size());
+    knows_last_F_.resize(F_.size());
+  }
   planes_.resize(points_.size());
   loads_.resize(points_.size());
   loaded_.resize(points_.size());
@@ -201,6 +205,7 @@ void System::push_all(std::vector<Vec<3>> const& x) {
   forget_forces();
   if (active_points_.empty()) return;
   place_points(x);
+  std::fill(knows_last_F_.begin(), knows_last_F_.end(), 0);
   push_bodies();
   push_from_rigids();
   std::sort(loaded_points_.begin(), loaded_points_.end());
@@ -244,9 +249,10 @@ double System::closing_step(std::vector<Vec<3>> const& v) const {
 
 std::size_t System::bytes() const {
   std::size_t const stencils = carriers_.count() > 0 ? carriers_.last(carriers_.count() - 1) : 0;
-  return points_.size() * (sizeof(Point) + sizeof(Plane) + sizeof(PointLoad)) + F_.size() * sizeof(Mat<3>) +
-         ids().size() * (sizeof(Vec<3>) + 2 * sizeof(double)) + sources_.size() * sizeof(Index) +
-         runs_.size() * (sizeof(Run) + sizeof(Gap)) + stencils * sizeof(Carriers::Neighbour);
+  return points_.size() * (sizeof(Point) + sizeof(Plane) + sizeof(PointLoad)) +
+         (F_.size() + last_F_.size()) * sizeof(Mat<3>) + ids().size() * (sizeof(Vec<3>) + 2 * sizeof(double)) +
+         sources_.size() * sizeof(Index) + runs_.size() * (sizeof(Run) + sizeof(Gap)) +
+         stencils * sizeof(Carriers::Neighbour);
 }
 
 }  // namespace piola::contact

@@ -42,6 +42,8 @@ class System {
   std::vector<std::int64_t> const& ids() const { return carriers_.ids(); }
   /// Inverse masses by index into ids() [1/kg].
   void set_masses(std::vector<double> const& masses);
+  /// Whether body b pushes body a here.
+  bool meets(std::size_t a, std::size_t b) const { return setting_.meets[a][b]; }
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
 
@@ -96,6 +98,8 @@ class System {
   void push_from_rigids();
   void rub(Run const& run, Gap const& gap, double normal_force, double stiffness);
   void rub_on_rigid(Index point, std::size_t rigid, Vec<3> const& n, double normal_force, double stiffness);
+  Mat<3> const& last_F(Index carrier);
+  Vec<3> moved(Index point);
   Spring drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound);
   void add_load(Index point, PointLoad const& load);
   void add_force(Index id, Vec<3> const& f);
@@ -134,6 +138,8 @@ class System {
     bool operator<(Stuck const& o) const { return with != o.with ? with < o.with : point < o.point; }
   };
   std::vector<Stuck> stuck_, last_stuck_;
+  std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before, made when friction asks
+  std::vector<char> knows_last_F_;
   std::vector<Vec<3>> last_x_, last_centre_;  ///< of the evaluation before
   std::vector<Vec<3>> forces_;
   std::vector<Index> pushed_;
