@@ -170,24 +170,36 @@ std::string shape_text(RigidShape const& shape, int dimension) {
   return "box about " + centre + ", edges " + point(lengths, " m");
 }
 
+std::string friction_text(contact::FrictionLaw const& law) {
+  if (!law.any()) return "without friction";
+  std::string text = "friction " + number_text(law.kinetic);
+  if (law.still > 0)
+    text += fmt::format(" ({} at rest, over {})", number_text(law.still), quantity_text(law.decay_speed, "m/s"));
+  if (std::isfinite(law.shear_limit)) text += ", at most " + quantity_text(law.shear_limit, "Pa");
+  return text;
+}
+
 /// Who is pushed by whom, where surfaces meet.
 void print_surfaces(CaseSpec const& spec) {
   if (!surfaces_meet(spec)) return;
   std::vector<std::string> pairs;
-  for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
-    for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
-      if (pushed_by_surface(spec, a, b)) pairs.push_back(spec.bodies[a].name + "-" + spec.bodies[b].name);
-    for (RigidSpec const& rigid : spec.rigids)
-      if (has_surface(spec, a) && !knows_contact(spec, a)) pairs.push_back(spec.bodies[a].name + "-" + rigid.name);
+  auto const& bodies = spec.bodies;
+  for (std::size_t a = 0; a < bodies.size(); ++a) {
+    for (std::size_t b = a; b < bodies.size(); ++b)
+      if (pushed_by_surface(spec, a, b)) pairs.push_back(bodies[a].name + "-" + bodies[b].name);
+    for (std::size_t r = 0; r < spec.rigids.size(); ++r)
+      if (pushed_by_rigid(spec, a, r)) pairs.push_back(bodies[a].name + "-" + spec.rigids[r].name);
   }
   constexpr std::size_t most = 8;
   std::size_t const left_out = pairs.size() > most ? pairs.size() - most : 0;
   pairs.resize(pairs.size() - left_out);
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
-  say("contact of surfaces: {}{}{}{}\n", joined(pairs),
+  say("contact of surfaces: {}{}, {}{}\n", joined(pairs),
       left_out > 0 ? " and " + count_text(static_cast<std::int64_t>(left_out)) + " more" : "",
-      rule.friction > 0 ? ", friction " + number_text(rule.friction) : ", without friction",
-      rule.scale != 1 ? ", scale " + number_text(rule.scale) : "");
+      friction_text(rule.friction), rule.scale != 1 ? ", scale " + number_text(rule.scale) : "");
+  for (ContactPairSpec const& pair : spec.contact_pairs)
+    say("  {}-{}: {}{}\n", pair.between[0], pair.between[1], pair.off ? "no contact" : friction_text(pair.friction),
+        !pair.off && pair.scale != 1 ? ", scale " + number_text(pair.scale) : "");
 }
 
 void print_contact(CaseSpec const& spec, int dimension) {

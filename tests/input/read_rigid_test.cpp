@@ -28,7 +28,11 @@ RigidSpec rigid(std::string const& text, int dimension = 3) {
 }
 
 ContactSpec contact(std::string const& text, int dimension = 3) {
-  return read_table(text + "\n", "contact", [&](Section const& section) { return read_contact(section, dimension); });
+  return read_table(text + "\n", "contact", [&](Section const& section) {
+    CaseSpec spec;
+    read_contact({section.node(), "contact"}, dimension, section.problems(), spec);
+    return spec.contact.value_or(ContactSpec{});
+  });
 }
 
 TEST(ReadRigid, APlaneHasAPointAndAUnitNormal) {

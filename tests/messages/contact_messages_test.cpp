@@ -43,6 +43,61 @@ TEST(ContactMessages, FrictionIsANumberThatIsNotNegative) {
   EXPECT_NE(contact("law = \"none\"\nfriction = 0.1").find("is used only by the law"), std::string::npos);
 }
 
+std::string pairs(std::string const& more) {
+  return with("[[rigid]]\nname = \"wall\"\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n[[contact]]\n" + more +
+              "\n");
+}
+
+TEST(ContactMessages, PairsNameWhatIsThere) {
+  EXPECT_EQ(pairs("between = [\"column\", \"wall\"]\nfriction = 0.3"), "");
+  EXPECT_EQ(pairs("friction = 0.2\n[[contact]]\nbetween = [\"column\", \"column\"]"), "");
+  EXPECT_EQ(pairs("between = [\"column\", \"wal\"]"),
+            "case.toml:27:11: contact.between names \"wal\" (allowed: column, wall) - did you mean \"wall\"?");
+  EXPECT_EQ(pairs("between = [\"wall\", \"wall\"]"),
+            "case.toml:27:11: contact.between names two rigid shapes (allowed: one) - name a body");
+  EXPECT_NE(pairs("between = [\"column\"]").find("case.toml:27:11: contact.between"), std::string::npos);
+  EXPECT_NE(pairs("between = [\"column\", \"wall\"]\n[[contact]]\nbetween = [\"wall\", \"column\"]")
+                .find("case.toml:29:11: contact.between names a pair for the second time"),
+            std::string::npos);
+  EXPECT_NE(pairs("friction = 0.1\n[[contact]]\nfriction = 0.2").find("a second [[contact]] without between"),
+            std::string::npos);
+}
+
+TEST(ContactMessages, PairsHaveKeysOfTheirOwn) {
+  std::string const pair = "between = [\"column\", \"wall\"]\n";
+  EXPECT_EQ(pairs(pair + "closing_speed = 1"),
+            "case.toml:28:17: contact.closing_speed is for all bodies together, not for a pair - remove it");
+  EXPECT_NE(pairs(pair + "law = \"linear\"").find("contact.law of a pair is \"linear\""), std::string::npos);
+  EXPECT_NE(pairs(pair + "law = \"none\"\nfriction = 0.1").find("is used only by the law"), std::string::npos);
+  EXPECT_NE(pairs("law = \"none\"\n[[contact]]\n" + pair).find("contact.law is \"none\" for all"), std::string::npos);
+  EXPECT_EQ(message_of("contact = \"none\"\n" + sample_case()), "");
+  EXPECT_EQ(message_of("contact = \"off\"\n" + sample_case()),
+            "case.toml:1:11: contact is the text \"off\" (allowed: a table such as contact = { ... }, tables [[contact]], "
+            "\"none\")");
+}
+
+TEST(ContactMessages, FrictionAtRestNeedsASpeed) {
+  EXPECT_EQ(contact("friction = 0.2\nstatic_friction = 0.3\ndecay_speed = \"1 cm/s\""), "");
+  EXPECT_EQ(contact("static_friction = 0.3"),
+            "case.toml:23:1: contact needs \"decay_speed\" (the speed over which friction falls from static_friction to "
+            "friction) - add decay_speed = \"10 mm/s\"");
+  EXPECT_EQ(contact("friction = 0.4\nstatic_friction = 0.3\ndecay_speed = 1"),
+            "case.toml:25:19: contact.static_friction is 0.3 (allowed: at least friction, which is 0.4)");
+  EXPECT_NE(contact("decay_speed = 1").find("is used only with static_friction"), std::string::npos);
+  EXPECT_NE(contact("shear_limit = \"1 MPa\"").find("is used only with friction"), std::string::npos);
+}
+
+TEST(ContactMessages, PairsOfAdaptleAreItsOwn) {
+  std::string const pair = "[[contact]]\nbetween = [\"column\", \"wall\"]\nfriction = 0.3\n[[rigid]]\nname = \"wall\"\n"
+                           "plane = { point = [0, -1, 0], normal = [0, 1, 0] }\n";
+  std::string text = sample_with("neo_hookean", "elastic");
+  text = test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)",
+                        R"(name = "adaptle", description = "total_lagrangian")");
+  EXPECT_NE(message_of(text + pair).find("adaptle keeps apart by a contact of its own"), std::string::npos);
+  text = test::replaced(text, "total_lagrangian", "adaptive");
+  EXPECT_NE(message_of(text + pair).find("has no surface by which others could push it"), std::string::npos);
+}
+
 TEST(ContactMessages, RigidShapesAreOfOneKind) {
   EXPECT_EQ(rigid(""),
             "case.toml:23:1: rigid has no of plane, sphere, cylinder, box (allowed: one) - add or remove one");

@@ -43,7 +43,7 @@ class SurfaceContact : public ::testing::TestWithParam<Meeting> {
     Assembly a;
     add(a, GetParam().left, {-1.02, 0, 0}, 4, 0.25);
     add(a, GetParam().right, {0, 0.3, GetParam().dimension == 3 ? 0.2 : 0}, 5, 0.18);
-    a.contact.friction = friction;
+    a.contact.friction.kinetic = friction;
     give_velocity(a, [](Point const& X) { return X[0] < -0.01 ? Point{4, 0.5, 0} : Point{-3, 0, 0}; });
     return a;
   }

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
+#include "piola/mechanics/contact/friction.hpp"
 #include "piola/mechanics/contact/surface.hpp"
 #include "piola/mechanics/load.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
@@ -34,9 +35,26 @@ struct ContactRule {
   double scale = 1;                                                 ///< factor on the stiffness
   double stiffness = std::numeric_limits<double>::quiet_NaN();      ///< printed: K [Pa/m^D]; nan: not given
   double closing_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]; nan: from the initial velocities
-  double friction = 0;  ///< mu of Coulomb's law, between surfaces and on rigid shapes that surfaces meet
-  double exponent = 4;  ///< n of eq. (15)
+  contact::FrictionLaw friction;  ///< between surfaces and on rigid shapes that surfaces meet
+  bool self = false;              ///< whether surfaces meet themselves
+  double exponent = 4;            ///< n of eq. (15)
 };
+
+/// What is different between two bodies, a body and a rigid shape, or a body and itself, where surfaces meet.
+struct ContactPair {
+  std::array<std::string, 2> between;  ///< names
+  bool off = false;                    ///< nothing keeps them apart
+  double scale = 1;                    ///< factor on the stiffness
+  contact::FrictionLaw friction;
+};
+
+/// What is said of two, in either order; null: nothing.
+template <class Pair>
+Pair const* find_pair(std::vector<Pair> const& pairs, std::string const& a, std::string const& b) {
+  for (Pair const& pair : pairs)
+    if ((pair.between[0] == a && pair.between[1] == b) || (pair.between[0] == b && pair.between[1] == a)) return &pair;
+  return nullptr;
+}
 
 /// Everything that a formulation is built from: plain numbers in Id order, no input text.
 struct Assembly {
@@ -52,6 +70,7 @@ struct Assembly {
   std::vector<MirrorPlane> mirrors;
   std::vector<RigidShape> rigid_shapes;
   ContactRule contact;
+  std::vector<ContactPair> contact_pairs;
   std::vector<contact::Surface> surfaces;                 ///< one per body, or empty: no surface contact
   bool pushed = false;                                    ///< Formulation::push will be called
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default

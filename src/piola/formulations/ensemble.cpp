@@ -177,6 +177,7 @@ class Ensemble : public Formulation {
     return all > 0 ? sum / all : 0;
   }
   std::vector<Action> actions_of(std::vector<Diagnostics> const& of_parts) const;
+  std::vector<FieldInfo> with_contact(std::vector<FieldInfo> all) const;
 
   std::vector<EnsemblePart> parts_;
   std::vector<std::unique_ptr<Formulation>> formulations_;
@@ -267,17 +268,24 @@ std::vector<FieldInfo> Ensemble::fields() const {
     for (FieldInfo& info : formulation->fields())
       if (std::none_of(all.begin(), all.end(), [&](FieldInfo const& known) { return known.name == info.name; }))
         all.push_back(std::move(info));
+  return with_contact(std::move(all));
+}
+
+std::vector<FieldInfo> Ensemble::with_contact(std::vector<FieldInfo> all) const {
+  if (meeting_)
+    for (FieldInfo& info : Meeting::fields()) all.push_back(std::move(info));
   return all;
 }
 
 std::vector<FieldInfo> Ensemble::fields_of(std::size_t body) const {
   for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (parts_[k].body_in_part(body)) return formulations_[k]->fields();
+    if (parts_[k].body_in_part(body)) return with_contact(formulations_[k]->fields());
   return {};
 }
 
 void Ensemble::sample(std::string_view field, std::span<double> values) const {
   std::fill(values.begin(), values.end(), 0.0);
+  if (meeting_ && meeting_->sample(field, values)) return;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const fields = formulations_[k]->fields();
     auto const info = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == field; });

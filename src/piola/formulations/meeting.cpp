@@ -14,6 +14,8 @@ using Point = std::array<double, 3>;
 /// Share of the stability limit of a pair of kicks that is used; the steps of formulations have theirs in them.
 constexpr double margin = 0.85;
 
+constexpr std::array<std::string_view, 4> offered_by_contact{"ContactPressure", "ContactGap", "Slip", "FrictionHeat"};
+
 Point array_of(Vec<3> const& a) { return {a[0], a[1], a[2]}; }
 Vec<3> vector_of(Point const& a) { return {{a[0], a[1], a[2]}}; }
 
@@ -24,36 +26,32 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
-/// Bodies with a surface, except two of a formulation that has a contact of its own.
-std::vector<std::vector<bool>> who_meets(Assembly const& whole) {
+/// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own, and such a body
+/// and a rigid shape; what is said of a pair goes before what is said of all.
+contact::System::Setting touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
     return info && info->contact;
   };
-  std::size_t const n = whole.particles.bodies.size();
-  std::vector<std::vector<bool>> meets(n, std::vector<bool>(n));
+  auto const& bodies = whole.particles.bodies;
+  std::size_t const n = bodies.size(), all = n + whole.rigid_shapes.size();
+  contact::System::Setting touches(n, std::vector<contact::System::Touch>(all));
   for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < n; ++b)
-      meets[a][b] =
-          a != b && !whole.surfaces[a].points.empty() && !whole.surfaces[b].points.empty() && !(own(a) && own(b));
-  return meets;
-}
-
-/// Rigid shapes are seen here by the bodies of formulations that have no contact of their own.
-std::vector<bool> who_meets_rigids(Assembly const& whole) {
-  std::vector<bool> meets;
-  for (FormulationSpec const& spec : whole.formulations) {
-    auto const info = find_formulation(spec.name);
-    meets.push_back(info && !info->contact);
-  }
-  return meets;
+    for (std::size_t b = 0; b < all; ++b) {
+      bool const rigid = b >= n;
+      std::string const& name = rigid ? whole.rigid_shapes[b - n].name : bodies[b].name;
+      ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, name);
+      bool const surfaces = !whole.surfaces[a].points.empty() && (rigid || !whole.surfaces[b].points.empty());
+      bool const others = a == b ? pair != nullptr || whole.contact.self : !(own(a) && (rigid || own(b)));
+      touches[a][b] = {surfaces && others && (pair == nullptr || !pair->off),
+                       0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
+                       pair != nullptr ? pair->friction : whole.contact.friction};
+    }
+  return touches;
 }
 
 contact::System system_of(Assembly const& whole) {
-  return {whole.particles,
-          whole.surfaces,
-          rigid_surfaces(whole),
-          {0.5 * whole.contact.scale, whole.contact.friction, who_meets(whole), who_meets_rigids(whole)}};
+  return {whole.particles, whole.surfaces, rigid_surfaces(whole), touches_of(whole)};
 }
 
 }  // namespace
@@ -199,7 +197,7 @@ void Meeting::begin(Formulations const& formulations, double time, double dt) {
 
 void Meeting::finish(Formulations const& formulations, double time, double dt) {
   read_state(formulations);
-  system_.evaluate(x_);
+  system_.evaluate(x_, dt);
   friction_work_ += system_.totals().friction_work;
   push(formulations, time, 0.5 * dt);
   closing_ = system_.closing_step(v_);
@@ -241,6 +239,23 @@ void Meeting::report(Diagnostics& sum) const {
   overlap = std::max(overlap, now.deepest);
   column("friction_heat") = friction_work_ - now.spring_energy;
   column("contact_points") = static_cast<double>(now.touched);
+}
+
+std::vector<FieldInfo> Meeting::fields() { return field_infos(offered_by_contact); }
+
+bool Meeting::sample(std::string_view field, std::span<double> values) const {
+  if (std::find(offered_by_contact.begin(), offered_by_contact.end(), field) == offered_by_contact.end()) return false;
+  ObservedField const& observed = find_observed(field, offered_by_contact);
+  for (auto const& at : system_.at_particles()) {
+    ObservedParticle p;
+    p.id = static_cast<double>(at.id);
+    p.contact_pressure = at.pressure;
+    p.contact_gap = at.gap;
+    p.slip = at.slid;
+    p.friction_heat = at.heat;
+    put(observed, p, values);
+  }
+  return true;
 }
 
 void Meeting::save(StateWriter& writer) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/ensemble.hpp"
+#include "piola/formulations/observed.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <memory>
@@ -30,6 +31,10 @@ class Meeting {
   std::vector<Action> actions() const { return actions_.report(); }
   /// What body B did to body A, named "A-B"; the moment about the origin.
   std::vector<Action> pairs() const;
+  /// Fields of surfaces: pressure, gap, slip and heat of friction, zero for particles without a surface point.
+  static std::vector<FieldInfo> fields();
+  /// Whether the field is one of these; then values[id].
+  bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
   std::size_t bytes() const { return system_.bytes(); }

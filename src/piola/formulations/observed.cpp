@@ -54,6 +54,12 @@ constexpr std::array table{
     ObservedField{"principal_stress", "PrincipalStress", "Pa", 3, not_stored},
     ObservedField{"principal_strain", "PrincipalStrain", "1", 3, not_stored},
     ObservedField{"parting", "Parting", "1", 1, [](P const& p, double* out) { *out = p.parting; }},
+    ObservedField{"contact_pressure", "ContactPressure", "Pa", 1,
+                  [](P const& p, double* out) { *out = p.contact_pressure; }},
+    ObservedField{"contact_gap", "ContactGap", "m", 1, [](P const& p, double* out) { *out = p.contact_gap; }},
+    ObservedField{"slip", "Slip", "m", 1, [](P const& p, double* out) { *out = p.slip; }},
+    ObservedField{"friction_heat", "FrictionHeat", "J/m^2", 1,
+                  [](P const& p, double* out) { *out = p.friction_heat; }},
     ObservedField{"", "Neighbours", "1", 1, [](P const& p, double* out) { *out = p.neighbours; }},
     ObservedField{"", "Body", "1", 1, [](P const& p, double* out) { *out = p.body; }},
     ObservedField{"", "Id", "1", 1, [](P const& p, double* out) { *out = p.id; }}};

@@ -27,6 +27,9 @@ struct ObservedParticle {
   double temperature = 0;              ///< [K]
   double specific_energy = 0;          ///< [J/kg]
   double parting = 0;                  ///< strain that the stress does not have
+  double contact_pressure = 0;         ///< [Pa]
+  double contact_gap = 0, slip = 0;    ///< [m]
+  double friction_heat = 0;            ///< [J/m2]
 };
 
 /// A field of frames, probes and pictures.

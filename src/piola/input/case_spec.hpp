@@ -99,6 +99,11 @@ struct ContactSpec : ContactRule {
   Places places;
 };
 
+/// [[contact]] with `between`.
+struct ContactPairSpec : ContactPair {
+  Places places;
+};
+
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
   enum class Kind {
@@ -203,6 +208,7 @@ struct CaseSpec {
   std::vector<CrackSpec> cracks;
   std::vector<RigidSpec> rigids;
   std::optional<ContactSpec> contact;  ///< nothing: the formulation's rule
+  std::vector<ContactPairSpec> contact_pairs;
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;

@@ -34,7 +34,15 @@ bool has_surface(CaseSpec const& spec, std::size_t body) {
 }
 
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return has_surface(spec, a) && has_surface(spec, b) && !(knows_contact(spec, a) && knows_contact(spec, b));
+  ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
+  if (!has_surface(spec, a) || !has_surface(spec, b)) return false;
+  if (a == b) return pair != nullptr ? !pair->off : spec.contact && spec.contact->self;
+  return (pair == nullptr || !pair->off) && !(knows_contact(spec, a) && knows_contact(spec, b));
+}
+
+bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid) {
+  ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[body].name, spec.rigids[rigid].name);
+  return has_surface(spec, body) && !knows_contact(spec, body) && (pair == nullptr || !pair->off);
 }
 
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b) {
@@ -47,9 +55,9 @@ bool meets_rigids(CaseSpec const& spec, std::size_t body) {
 
 bool surfaces_meet(CaseSpec const& spec) {
   for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
-    if (!has_surface(spec, a)) continue;
-    if (!spec.rigids.empty() && !knows_contact(spec, a)) return true;
-    for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
+    for (std::size_t r = 0; r < spec.rigids.size(); ++r)
+      if (pushed_by_rigid(spec, a, r)) return true;
+    for (std::size_t b = a; b < spec.bodies.size(); ++b)
       if (pushed_by_surface(spec, a, b)) return true;
   }
   return false;

@@ -23,8 +23,12 @@ bool has_surface(CaseSpec const& spec, std::size_t body);
 /// Whether something keeps two bodies apart: the contact of their formulation, or their surfaces.
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether two bodies push each other by their surfaces: not if their formulation keeps them apart itself.
+/// Whether two bodies push each other by their surfaces: not if their formulation keeps them apart itself. Of a body
+/// and itself: whether its surface does.
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b);
+
+/// Whether a rigid shape pushes a body by its surface.
+bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid);
 
 /// Whether something keeps a body apart from rigid shapes.
 bool meets_rigids(CaseSpec const& spec, std::size_t body);

@@ -150,7 +150,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   int const dimension = names.empty() ? 3 : names.front().dimension;
   std::vector<Section> const rigids = tables_of(top, "rigid");
   for (Section const& section : rigids) spec.rigids.push_back(read_rigid(section, dimension, constants));
-  if (auto const contact = top.table("contact")) spec.contact = read_contact(*contact, dimension);
+  if (auto const contact = top.find("contact")) read_contact(*contact, dimension, problems, spec);
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   std::vector<ColumnOwner> owners;

@@ -7,8 +7,6 @@
 namespace piola {
 namespace {
 
-using Law = ContactRule::Law;
-
 void read_point(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
   if (auto const point = read_components(section, key, dimension)) target = *point;
 }
@@ -102,21 +100,6 @@ void refuse_places(Section const& section, std::array<Expression, 3> const& velo
   }
 }
 
-void refuse_for(Section const& section, std::string_view key, bool refused, std::string const& laws) {
-  if (refused) section.refuse(key, "is used only by the law " + laws);
-}
-
-void read_stiffness(Section const& section, int dimension, ContactRule& contact) {
-  if (contact.law != Law::printed) return;
-  std::string const unit = dimension == 1 ? "Pa/m" : "Pa/m^" + std::to_string(dimension);
-  if (auto const value = section.find("stiffness")) {
-    if (auto const number = read_number(*value, unit, positive, section.problems())) contact.stiffness = *number;
-  } else {
-    section.report_missing("stiffness", "the constant of the law \"printed\", in " + unit,
-                           "stiffness = \"1e16 " + unit + "\"");
-  }
-}
-
 }  // namespace
 
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants) {
@@ -133,28 +116,6 @@ RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string
   section.refuse_unknown();
   rigid.places = places_of(section, {"name", "plane", "sphere", "cylinder", "box", "velocity"});
   return rigid;
-}
-
-ContactSpec read_contact(Section const& section, int dimension) {
-  ContactSpec contact;
-  // The words stand in the order of the manual, not of the enumerators.
-  constexpr std::array laws{Law::kernel, Law::linear, Law::printed, Law::none};
-  if (int const word = section.word_index("law"); word >= 0 && word < static_cast<int>(laws.size()))
-    contact.law = laws[static_cast<std::size_t>(word)];
-  Law const law = contact.law;
-  refuse_for(section, "scale", law == Law::none, "\"kernel\", \"linear\" or \"printed\"");
-  refuse_for(section, "friction", law == Law::none, "\"kernel\", \"linear\" or \"printed\"");
-  refuse_for(section, "stiffness", law != Law::printed, "\"printed\"");
-  refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
-  refuse_for(section, "exponent", law != Law::kernel && law != Law::printed, "\"kernel\" or \"printed\"");
-  section.read("scale", contact.scale);
-  read_stiffness(section, dimension, contact);
-  section.read("friction", contact.friction);
-  section.read("closing_speed", contact.closing_speed);
-  section.read("exponent", contact.exponent);
-  section.refuse_unknown();
-  contact.places = places_of(section, {"law", "scale", "friction", "stiffness", "closing_speed", "exponent"});
-  return contact;
 }
 
 }  // namespace piola

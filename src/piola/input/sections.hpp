@@ -58,7 +58,8 @@ bool measures_debris(ProbeSpec::Kind kind);
 void read_debris(Section const& section, BodyNames const* body, ProbeSpec& probe);
 /// `dimension` is that of the bodies; `constants` may be used in the velocity.
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
-ContactSpec read_contact(Section const& section, int dimension);
+/// The rule for all, and those of pairs: a table, a list of tables, or "none".
+void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,

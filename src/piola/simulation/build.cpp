@@ -227,6 +227,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
+  a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());
   if (surfaces_meet(spec)) a.surfaces = surfaces_of(spec, a);
   return a;
 }

@@ -55,7 +55,7 @@ bool is_given(Places const& places, char const* key) {
 
 /// Settings of contact that find nothing to act on.
 void warn_of_idle_contact(CaseSpec const& spec, Problems& found) {
-  if (!spec.contact || spec.bodies.size() > 1) return;
+  if (!spec.contact || spec.bodies.size() > 1 || spec.contact->self) return;
   Places const& places = spec.contact->places;
   if (spec.rigids.empty()) {
     found.add(place_of(places, ""), "contact has no effect here (there is one body and no rigid shape) - remove it");
@@ -70,6 +70,23 @@ void warn_of_idle_contact(CaseSpec const& spec, Problems& found) {
   }
 }
 
+bool rubs(CaseSpec const& spec) {
+  return (spec.contact && spec.contact->friction.any()) ||
+         std::any_of(spec.contact_pairs.begin(), spec.contact_pairs.end(),
+                     [](ContactPairSpec const& pair) { return pair.friction.any(); });
+}
+
+void warn_of_chatter(CaseSpec const& spec, Problems& found) {
+  for (BodySpec const& body : spec.bodies)
+    if (rubs(spec) && body.formulation.name == "nodal" &&
+        !body.formulation.numbers.contains("fluctuation_viscosity"))
+      found.add(
+          place_of(body.places, "formulation"),
+          fmt::format("body {}: nothing damps the chatter of a sliding surface under nodal, which lowers friction by a "
+                      "tenth - give fluctuation_viscosity = 0.3, or take jst_sph",
+                      in_quotes(body.name)));
+}
+
 /// Settings of one kind of contact where there is only the other one.
 void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
   if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
@@ -79,14 +96,10 @@ void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
     if (!own && is_given(places, key))
       found.add(place_of(places, key),
                 fmt::format("contact.{} has no effect here (it is for bodies of adaptle) - remove it", key));
-  for (BodySpec const& body : spec.bodies)
-    if (spec.contact->friction > 0 && body.formulation.name == "nodal" &&
-        !body.formulation.numbers.contains("fluctuation_viscosity"))
-      found.add(
-          place_of(body.places, "formulation"),
-          fmt::format("body {}: nothing damps the chatter of a sliding surface under nodal, which lowers friction by a "
-                      "tenth - give fluctuation_viscosity = 0.3, or take jst_sph",
-                      in_quotes(body.name)));
+  if (!surfaces_meet(spec) && is_given(places, "self"))
+    found.add(place_of(places, "self"),
+              "contact.self has no effect here (no body has a surface that could touch itself) - remove it, or take "
+              "nodal or jst_sph without mirrors");
   if (!surfaces_meet(spec) && is_given(places, "friction"))
     found.add(
         place_of(places, "friction"),
@@ -155,6 +168,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   for (Doubt const& doubt : doubts(assembly)) found.add(place_of_doubt(spec.bodies[doubt.body], doubt.key), doubt.text);
   warn_of_strangers(spec, found);
   warn_of_idle_contact(spec, found);
+  warn_of_chatter(spec, found);
   warn_of_other_contact(spec, found);
   warn_of_touch(spec, assembly.particles, prospect.start, found);
   found.sort_by_place();

@@ -8,6 +8,9 @@ namespace {
 
 /// Planes move a little farther than their particles where these turn; this share of the skin leaves room for that.
 constexpr double share_of_skin = 1.0 / 3;
+/// Normals that face each other have a negative product; before the lists are made anew they turn by no more than this
+/// leaves room for.
+constexpr double facing = 0.8;
 
 /// The box around some places.
 struct Box {
@@ -37,10 +40,17 @@ bool System::lists_hold(std::vector<Vec<3>> const& x) const {
   return true;
 }
 
+/// Whether two points that are near each other may push: those of one body not across its own thickness or corners.
+bool System::may_touch(Index target, Index source) const {
+  Point const &a = points_[at(target)], &b = points_[at(source)];
+  if (a.body != b.body) return true;
+  return dot(planes_[at(target)].n, planes_[at(source)].n) < facing && !own_[a.body].hold(a.carrier, b.carrier);
+}
+
 /// Sources of body b for every point that may be near it.
 void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high) {
   Box const box{low, high};
-  auto const reach = [&](Point const& p) { return setting_.meets[p.body][b] ? rules_[p.body][b].reach + skin_ : -1.0; };
+  auto const reach = [&](Point const& p) { return meets(p.body, b) ? rules_[p.body][b].reach + skin_ : -1.0; };
   double largest = 0;
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (double const r = reach(points_[k]); r > 0 && box.holds(planes_[k].y, r)) largest = std::max(largest, r);
@@ -56,7 +66,8 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
     std::size_t const first = sources_.size();
     grid.visit({y[0], y[1], y[2]}, [&](Index j) {
       Index const source = of_body[at(j)];
-      if (square_of(planes_[at(source)].y - y) < r * r) sources_.push_back(source);
+      if (square_of(planes_[at(source)].y - y) < r * r && may_touch(static_cast<Index>(k), source))
+        sources_.push_back(source);
     });
     std::sort(sources_.begin() + static_cast<std::ptrdiff_t>(first), sources_.end());
     if (sources_.size() > first) runs_.push_back({static_cast<Index>(k), b, first, sources_.size()});
@@ -66,11 +77,11 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
 void System::list_points_near_rigids() {
   near_rigid_.clear();
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    if (!setting_.meets_rigids[points_[k].body]) continue;
     double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
-    bool const any = std::any_of(rigids_.begin(), rigids_.end(), [&](RigidSurface const& rigid) {
-      return distance_from(rigid, planes_[k].y).value < reach;
-    });
+    bool any = false;
+    for (std::size_t r = 0; r < rigids_.size() && !any; ++r)
+      any = setting_[points_[k].body][surfaces_.size() + r].meets &&
+            distance_from(rigids_[r], planes_[k].y).value < reach;
     if (any) near_rigid_.push_back(static_cast<Index>(k));
   }
 }

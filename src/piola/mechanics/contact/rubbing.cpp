@@ -20,22 +20,48 @@ Vec<3> System::moved(Index point) {
   return planes_[at(point)].y - last_x_[at(carriers_.self(p.carrier))] - last_F(p.carrier) * p.S;
 }
 
+void System::trace(Index point, double slid, double heat) {
+  traces_[at(point)].slid += slid;
+  traces_[at(point)].heat += heat;
+}
+
 /// Follows the spring of a point; a new contact starts without one.
-Spring System::drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound) {
-  Stuck const key{point, with, {}, {}};
+System::Rubbed System::drag(Press const& press, Vec<3> const& jump, Vec<3> const& n) {
+  Stuck const key{press.point, press.with, {}, {}, 0};
   auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), key);
-  bool const known = last != last_stuck_.end() && last->point == point && last->with == with;
-  Mat<3> const& F = F_[at(points_[at(point)].carrier)];
-  Spring const spring = dragged(known ? F * last->stretch : Vec<3>{}, known ? jump : Vec<3>{}, n, k, bound);
-  if (known) totals_.friction_work += friction_work(last->force, spring.force, jump);
-  totals_.spring_energy += 0.5 * k * square_of(spring.stretch);
-  stuck_.push_back({point, with, inverse(F) * spring.stretch, spring.force});
-  return spring;
+  bool const known = last != last_stuck_.end() && last->point == press.point && last->with == press.with;
+  Mat<3> const& F = F_[at(points_[at(press.point)].carrier)];
+  Vec<3> const along = jump - dot(n, jump) * n;
+  double const way = known ? std::sqrt(square_of(along)) : 0;
+  FrictionLaw const& law = setting_[points_[at(press.point)].body][press.with].friction;
+  double const bound = friction_bound(law, press.force, press.area, dt_ > 0 ? way / dt_ : 0);
+  Vec<3> const before = known ? F * last->stretch : Vec<3>{};
+  Spring const spring = dragged(before, known ? jump : Vec<3>{}, n, press.stiffness, bound);
+  Rubbed rubbed{spring.force, 0};
+  double const energy = 0.5 * press.stiffness * square_of(spring.stretch);
+  totals_.spring_energy += energy;
+  stuck_.push_back({press.point, press.with, inverse(F) * spring.stretch, spring.force, energy});
+  if (!known) return rubbed;
+  double const work = friction_work(last->force, spring.force, jump);
+  totals_.friction_work += work;
+  rubbed.heat = work + last->energy - energy;
+  // What the spring did not take up.
+  trace(press.point, std::sqrt(square_of(before + along - spring.stretch)), 0);
+  return rubbed;
+}
+
+/// Springs of contacts that have opened leave their energy as heat.
+void System::book_lost_springs() {
+  auto kept = stuck_.begin();
+  for (Stuck const& last : last_stuck_) {
+    kept = std::lower_bound(kept, stuck_.end(), last);
+    if (kept == stuck_.end() || last < *kept) trace(last.point, 0, last.energy);
+  }
 }
 
 /// Friction of a target on the planes that it touches. The jump is zero for any rigid motion of all.
-void System::rub(Run const& run, Gap const& gap, double normal_force, double stiffness) {
-  if (!(setting_.friction > 0)) return;
+void System::rub(Run const& run, Gap const& gap, Press const& press) {
+  if (!setting_[points_[at(run.target)].body][run.body].friction.any()) return;
   Plane const& a = planes_[at(run.target)];
   Vec<3> jump = moved(run.target), n;
   std::vector<std::pair<double, Vec<3>>> sources;  // share, F^-1 r
@@ -51,23 +77,29 @@ void System::rub(Run const& run, Gap const& gap, double normal_force, double sti
     n = n + share * b.n;
   }
   n = (1 / std::sqrt(square_of(n))) * n;
-  Spring const spring = drag(run.target, run.body, jump, n, stiffness, setting_.friction * normal_force);
-  Vec<3> const& f = spring.force;
+  Rubbed const rubbed = drag(press, jump, n);
+  Vec<3> const& f = rubbed.force;
   add_load(run.target, {f, {}, {}});
+  trace(run.target, 0, 0.5 * rubbed.heat);
   for (std::size_t k = 0; k < sources.size(); ++k) {
     auto const& [share, arm] = sources[k];
-    if (share > 0) add_load(sources_[run.first + k], {-share * f, {}, share * outer(f, arm)});
+    if (!(share > 0)) continue;
+    add_load(sources_[run.first + k], {-share * f, {}, share * outer(f, arm)});
+    trace(sources_[run.first + k], 0, 0.5 * share * rubbed.heat);
   }
   add_between(run, f);
 }
 
 /// Rigid shapes move without turning.
-void System::rub_on_rigid(Index k, std::size_t r, Vec<3> const& n, double normal_force, double stiffness) {
-  if (!(setting_.friction > 0)) return;
+void System::rub_on_rigid(Press const& press, std::size_t r, Vec<3> const& n) {
+  Index const k = press.point;
+  if (!setting_[points_[at(k)].body][press.with].friction.any()) return;
   Vec<3> const& y = planes_[at(k)].y;
   Vec<3> const jump = moved(k) - (rigids_[r].centre - last_centre_[r]);
-  Vec<3> const f = drag(k, surfaces_.size() + r, jump, n, stiffness, setting_.friction * normal_force).force;
+  Rubbed const rubbed = drag(press, jump, n);
+  Vec<3> const& f = rubbed.force;
   add_load(k, {f, {}, {}});
+  trace(k, 0, 0.5 * rubbed.heat);
   on_rigid_[r] = {on_rigid_[r].force - f, on_rigid_[r].moment - cross(y - rigids_[r].centre, f)};
 }
 

@@ -28,15 +28,21 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
       points_.push_back({carriers_.of(b, k), b, p.offset, p.normal, p.area});
     }
     rules_.emplace_back();
-    for (Surface const& other : surfaces_)
-      rules_.back().push_back(
-          pair_rule(setting_.factor, surface.modulus, surface.spacing, other.modulus, other.spacing));
+    for (std::size_t o = 0; o < surfaces_.size(); ++o)
+      rules_.back().push_back(pair_rule(setting_[b][o].factor, surface.modulus, surface.spacing, surfaces_[o].modulus,
+                                        surfaces_[o].spacing));
+    own_.emplace_back();
+    if (setting_[b][b].meets) own_.back() = OwnNeighbours(particles, b, carriers_, surface.spacing);
+    for (Touch const& touch : setting_[b]) rubs_ = rubs_ || (touch.meets && touch.friction.any());
   }
   F_.resize(at(carriers_.count()));
-  if (setting_.friction > 0) {
+  if (rubs_) {
     last_F_.resize(F_.size());
     knows_last_F_.resize(F_.size());
+    traces_.resize(points_.size());
   }
+  gap_.resize(points_.size());
+  normal_force_.resize(points_.size());
   planes_.resize(points_.size());
   loads_.resize(points_.size());
   loaded_.resize(points_.size());
@@ -64,9 +70,13 @@ void System::place_points(std::vector<Vec<3>> const& x) {
   });
 }
 
-void System::note(double gap, double area, double layer_modulus, double length, double spacing, double inverse) {
-  totals_.deepest = std::max(totals_.deepest, -gap / spacing);
-  totals_.frequency2 = std::max(totals_.frequency2, frequency2(layer_modulus, area, gap, length, inverse));
+/// A point that is near a surface. inverse: sum of inverse masses on both sides [1/kg].
+void System::note(Index point, double gap, double layer_modulus, double length, double spacing, double inverse) {
+  double const depth = std::max(-gap, 0.0);
+  gap_[at(point)] = std::min(gap_[at(point)], gap);
+  totals_.deepest = std::max(totals_.deepest, depth / spacing);
+  totals_.frequency2 =
+      std::max(totals_.frequency2, frequency2(layer_modulus, points_[at(point)].area, -depth, length, inverse));
 }
 
 void System::add_load(Index point, PointLoad const& load) {
@@ -121,8 +131,7 @@ void System::push_bodies() {
     for (std::size_t s = run.first; s < run.last; ++s)
       if (weight_of(run, sources_[s]) > 0) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
     // Of both passes, C_s Mbar / dpbar.
-    note(std::min(gap.gap, 0.0), target.area, 2 * rule.stiffness, rule.length, dp,
-         inverse + inverse_mass_of(run.target));
+    note(run.target, gap.gap, 2 * rule.stiffness, rule.length, dp, inverse + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;
     Layer const psi = layer(gap.gap, rule.stiffness, rule.length);
     totals_.energy += target.area * psi.energy * seen;
@@ -132,7 +141,8 @@ void System::push_bodies() {
                       sources_of(run), rule.reach,
                       [&](Index s, PointLoad const& load) { add_load(sources_[run.first + at(s)], load); });
     add_load(run.target, own);
-    rub(run, gap, -target.area * psi.slope * seen, rule.stiffness * target.area);
+    rub(run, gap,
+        {run.target, run.body, -target.area * psi.slope * seen, rule.stiffness * target.area, 0.5 * target.area});
     add_between(run, own.force);
   }
 }
@@ -141,18 +151,22 @@ void System::push_from_rigids() {
   for (Index const k : near_rigid_) {
     Point const& point = points_[at(k)];
     Surface const& surface = surfaces_[point.body];
-    double const layer_modulus = setting_.factor * surface.modulus / surface.spacing, length = 0.5 * surface.spacing;
+    double const length = 0.5 * surface.spacing;
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
+      Touch const& touch = setting_[point.body][surfaces_.size() + r];
+      if (!touch.meets) continue;
+      double const layer_modulus = layer_stiffness(1, touch.factor, surface.modulus, surface.spacing);
       Distance const d = distance_from(rigids_[r], planes_[at(k)].y);
       if (!(d.value < near * surface.spacing)) continue;
-      note(std::min(d.value, 0.0), point.area, layer_modulus, length, surface.spacing, inverse_mass_of(k));
+      note(k, d.value, layer_modulus, length, surface.spacing, inverse_mass_of(k));
       if (!(d.value < 0)) continue;
       Layer const psi = layer(d.value, layer_modulus, length);
       Vec<3> const f = (-point.area * psi.slope) * d.normal;
       totals_.energy += point.area * psi.energy;
       ++totals_.touched;
       add_load(k, {f, {}, {}});
-      rub_on_rigid(k, r, d.normal, -point.area * psi.slope, layer_modulus * point.area);
+      rub_on_rigid({k, surfaces_.size() + r, -point.area * psi.slope, layer_modulus * point.area, point.area}, r,
+                   d.normal);
       on_rigid_[r].force = on_rigid_[r].force - f;
       on_rigid_[r].moment = on_rigid_[r].moment - cross(planes_[at(k)].y - rigids_[r].centre, f);
     }
@@ -170,7 +184,7 @@ void System::add_force(Index id, Vec<3> const& f) {
 
 void System::start(std::vector<Vec<3>> const& x) {
   remember(x);
-  evaluate(x);
+  evaluate(x, 0);
 }
 
 void System::remember(std::vector<Vec<3>> const& x) {
@@ -179,12 +193,14 @@ void System::remember(std::vector<Vec<3>> const& x) {
   for (RigidSurface const& rigid : rigids_) last_centre_.push_back(rigid.centre);
 }
 
-void System::evaluate(std::vector<Vec<3>> const& x) {
+void System::evaluate(std::vector<Vec<3>> const& x, double dt) {
   if (!lists_hold(x)) make_lists(x);
+  dt_ = dt;
   std::swap(stuck_, last_stuck_);
   stuck_.clear();
   push_all(x);
   std::sort(stuck_.begin(), stuck_.end());
+  book_lost_springs();
   remember(x);
 }
 
@@ -194,6 +210,8 @@ void System::forget_forces() {
     is_pushed_[at(k)] = 0;
   }
   for (Index const k : loaded_points_) loaded_[at(k)] = 0;
+  std::fill(normal_force_.begin(), normal_force_.end(), 0.0);
+  std::fill(gap_.begin(), gap_.end(), std::numeric_limits<double>::infinity());
   pushed_.clear();
   loaded_points_.clear();
   totals_ = {};
@@ -211,6 +229,7 @@ void System::push_all(std::vector<Vec<3>> const& x) {
   std::sort(loaded_points_.begin(), loaded_points_.end());
   for (Index const k : loaded_points_) {
     Point const& p = points_[at(k)];
+    normal_force_[at(k)] = -dot(loads_[at(k)].force, planes_[at(k)].n);
     Mat<3> const T = couple(p.S, p.N, F_[at(p.carrier)], loads_[at(k)]);
     Vec<3> own = loads_[at(k)].force;
     for (std::size_t j = carriers_.first(p.carrier); j < carriers_.last(p.carrier); ++j) {
@@ -237,7 +256,9 @@ double System::closing_step(std::vector<Vec<3>> const& v) const {
     }
   }
   for (Index const k : near_rigid_)
-    for (RigidSurface const& rigid : rigids_) {
+    for (std::size_t r = 0; r < rigids_.size(); ++r) {
+      RigidSurface const& rigid = rigids_[r];
+      if (!setting_[points_[at(k)].body][surfaces_.size() + r].meets) continue;
       Distance const d = distance_from(rigid, planes_[at(k)].y);
       double const spacing = surfaces_[points_[at(k)].body].spacing;
       if (!(d.value < near * spacing)) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/mechanics/contact/friction.hpp"
+#include "piola/mechanics/contact/own_neighbours.hpp"
 #include "piola/mechanics/contact/planes.hpp"
 #include "piola/mechanics/contact/rigid.hpp"
 #include "piola/mechanics/contact/surface.hpp"
@@ -29,13 +30,14 @@ struct Totals {
 /// positions and gives forces; both by index into ids().
 class System {
  public:
-  struct Setting {
+  /// What happens between a body and another one, itself, or a rigid shape.
+  struct Touch {
+    bool meets = false;   ///< whether they are kept apart here
     double factor = 0.5;  ///< C_s
-    double friction = 0;  ///< mu of Coulomb's law
-    /// Whether the bodies a and b are kept apart here, [a][b].
-    std::vector<std::vector<bool>> meets;
-    std::vector<bool> meets_rigids;  ///< by body
+    FrictionLaw friction;
   };
+  /// [body][other]: bodies first, then rigid shapes; the same for [a][b] and [b][a].
+  using Setting = std::vector<std::vector<Touch>>;
   System(ParticleSet const& particles, std::vector<Surface> surfaces, std::vector<RigidSurface> rigids,
          Setting setting);
 
@@ -43,13 +45,13 @@ class System {
   /// Inverse masses by index into ids() [1/kg].
   void set_masses(std::vector<double> const& masses);
   /// Whether body b pushes body a here.
-  bool meets(std::size_t a, std::size_t b) const { return setting_.meets[a][b]; }
+  bool meets(std::size_t a, std::size_t b) const { return setting_[a][b].meets; }
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
 
   /// Forces [N] at x [m]: functions of x and of the places of rigid shapes and, with friction, of the springs and of
-  /// where all was at the evaluation before.
-  void evaluate(std::vector<Vec<3>> const& x);
+  /// where all was at the evaluation before, dt [s] ago.
+  void evaluate(std::vector<Vec<3>> const& x, double dt);
   /// The same without a move since then: at the start.
   void start(std::vector<Vec<3>> const& x);
   /// What came of the last evaluation, for a checkpoint; places of rigid shapes are not in it.
@@ -68,6 +70,16 @@ class System {
   /// What body b does to body a; the moment about the origin.
   Between const& between(std::size_t a, std::size_t b) const { return between_[a][b]; }
 
+  /// What a particle with surface points feels and has felt.
+  struct AtParticle {
+    std::int64_t id = 0;
+    double pressure = 0;     ///< of contact, mean over its points [Pa]
+    double gap = 0;          ///< smallest one; at most `near` spacings, beyond which nobody looks [m]
+    double slid = 0;         ///< way that it has slid, most of its points [m]
+    double heat = 0;         ///< of friction, its half [J/m2]
+  };
+  std::vector<AtParticle> at_particles() const;
+
   /// The step in which the fastest pair of near points closes a tenth of a spacing [s]. v [m/s].
   double closing_step(std::vector<Vec<3>> const& v) const;
   std::size_t bytes() const;
@@ -85,8 +97,22 @@ class System {
     std::size_t first, last;
   };
 
+  /// What pushes a point on something.
+  struct Press {
+    Index point;
+    std::size_t with;  ///< see Stuck
+    double force;      ///< along the normal [N]
+    double stiffness;  ///< [N/m]
+    double area;       ///< share of this pass [m2]
+  };
+  struct Rubbed {
+    Vec<3> force;     ///< on the point [N]
+    double heat = 0;  ///< [J]
+  };
+
   void make_lists(std::vector<Vec<3>> const& x);
   void list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high);
+  bool may_touch(Index target, Index source) const;
   void list_points_near_rigids();
   void activate(std::vector<char> const& points);
   bool lists_hold(std::vector<Vec<3>> const& x) const;
@@ -96,16 +122,18 @@ class System {
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
   void push_from_rigids();
-  void rub(Run const& run, Gap const& gap, double normal_force, double stiffness);
-  void rub_on_rigid(Index point, std::size_t rigid, Vec<3> const& n, double normal_force, double stiffness);
+  void rub(Run const& run, Gap const& gap, Press const& press);
+  void rub_on_rigid(Press const& press, std::size_t rigid, Vec<3> const& n);
   Mat<3> const& last_F(Index carrier);
   Vec<3> moved(Index point);
-  Spring drag(Index point, std::size_t with, Vec<3> const& jump, Vec<3> const& n, double k, double bound);
+  Rubbed drag(Press const& press, Vec<3> const& jump, Vec<3> const& n);
+  void book_lost_springs();
+  void trace(Index point, double slid, double heat);
   void add_load(Index point, PointLoad const& load);
   void add_force(Index id, Vec<3> const& f);
   void add_between(Run const& run, Vec<3> const& f);
   double weight_of(Run const& run, Index source) const;
-  void note(double gap, double area, double layer_modulus, double length, double spacing, double inverse);
+  void note(Index point, double gap, double layer_modulus, double length, double spacing, double inverse);
   double inverse_mass_of(Index point) const {
     return inverse_mass_[static_cast<std::size_t>(carriers_.self(points_[static_cast<std::size_t>(point)].carrier))];
   }
@@ -116,6 +144,9 @@ class System {
   Carriers carriers_;
   std::vector<Point> points_;
   std::vector<std::vector<PairRule>> rules_;
+  std::vector<OwnNeighbours> own_;  ///< by body: empty but for bodies that meet themselves
+  bool rubs_ = false;               ///< whether anything has friction
+  double dt_ = 0;                   ///< since the evaluation before [s]
   std::vector<double> inverse_mass_;
   std::vector<Vec<3>> listed_at_;  ///< positions of carriers when the lists were made [m]
   double skin_ = 0;                ///< [m]
@@ -135,9 +166,16 @@ class System {
     Index point;
     std::size_t with;
     Vec<3> stretch, force;  ///< [m] in the reference configuration of the point, [N]
+    double energy;          ///< [J]
     bool operator<(Stuck const& o) const { return with != o.with ? with < o.with : point < o.point; }
   };
   std::vector<Stuck> stuck_, last_stuck_;
+  std::vector<double> gap_;           ///< by point: smallest one of the last evaluation [m]
+  std::vector<double> normal_force_;  ///< by point: outward, of the last evaluation [N]
+  struct Trace {
+    double slid = 0, heat = 0;  ///< [m], [J]
+  };
+  std::vector<Trace> traces_;  ///< by point, where anything has friction
   std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before, made when friction asks
   std::vector<char> knows_last_F_;
   std::vector<Vec<3>> last_x_, last_centre_;  ///< of the evaluation before
