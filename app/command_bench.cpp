@@ -3,6 +3,7 @@
 #include "piola/simulation/bench.hpp"
 #include "piola/simulation/bench_accuracy.hpp"
 #include "piola/simulation/bench_adaptle.hpp"
+#include "piola/simulation/bench_contact.hpp"
 #include "piola/simulation/bench_nodal.hpp"
 #include "piola/simulation/bench_taylor.hpp"
 #include "commands.hpp"
@@ -116,6 +117,16 @@ int bench_of_nodal(BenchArguments const& options) {
   return print(bench_nodal(bench), options.json);
 }
 
+int bench_of_contact(BenchArguments const& options) {
+  refuse_parts(options);
+  ContactBenchOptions bench;
+  bench.machine = options.machine;
+  bench.repeats = options.quick ? 3 : options.repeats;
+  if (options.quick) bench.cube_side = 20;
+  if (options.side > 0) bench.cube_side = options.side;
+  return print(bench_contact(bench), options.json);
+}
+
 int bench(BenchArguments const& options) {
   if (std::find(options.parts.begin(), options.parts.end(), "accuracy") != options.parts.end())
     return bench_columns(options);
@@ -123,9 +134,10 @@ int bench(BenchArguments const& options) {
   if (options.formulation == "taylor_sph") return bench_taylor(options);
   if (options.formulation == "adaptle") return bench_impact(options);
   if (options.formulation == "nodal") return bench_of_nodal(options);
-  throw InputError(
-      fmt::format("no benchmark is named '{}' (known: nodal, jst_sph, taylor_sph, adaptle) - give one of these",
-                  options.formulation));
+  if (options.formulation == "contact") return bench_of_contact(options);
+  throw InputError(fmt::format(
+      "no benchmark is named '{}' (known: nodal, jst_sph, taylor_sph, adaptle, contact) - give one of these",
+      options.formulation));
 }
 
 }  // namespace
@@ -134,7 +146,7 @@ void add_bench(CLI::App& program, Action& action) {
   auto const options = std::make_shared<BenchArguments>();
   CLI::App* command = program.add_subcommand("bench", "Measure the speed of the solver on this computer");
   command->add_option("formulation", options->formulation,
-                      "What to measure: jst_sph (default), nodal, taylor_sph or adaptle");
+                      "What to measure: jst_sph (default), nodal, taylor_sph, adaptle or contact");
   command
       ->add_option(
           "--only", options->parts,
@@ -147,7 +159,8 @@ void add_bench(CLI::App& program, Action& action) {
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quick", options->quick, "A few seconds only: fewer particles and steps");
   command
-      ->add_option("--side", options->side, "Particles per side of the cube (default 64; nodal 60), of the plate (320)")
+      ->add_option("--side", options->side,
+                   "Particles per side of the cube (default 64; nodal 60; contact 40), of the plate (320)")
       ->check(CLI::Range(8, 512));
   command->add_option("--repeats", options->repeats, "Time steps per measurement, the fastest counts (default 8)")
       ->check(CLI::Range(1, 1000));

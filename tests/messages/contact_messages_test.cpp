@@ -71,16 +71,18 @@ TEST(ContactMessages, PairsHaveKeysOfTheirOwn) {
   EXPECT_NE(pairs(pair + "law = \"none\"\nfriction = 0.1").find("is used only by the law"), std::string::npos);
   EXPECT_NE(pairs("law = \"none\"\n[[contact]]\n" + pair).find("contact.law is \"none\" for all"), std::string::npos);
   EXPECT_EQ(message_of("contact = \"none\"\n" + sample_case()), "");
-  EXPECT_EQ(message_of("contact = \"off\"\n" + sample_case()),
-            "case.toml:1:11: contact is the text \"off\" (allowed: a table such as contact = { ... }, tables [[contact]], "
-            "\"none\")");
+  EXPECT_EQ(
+      message_of("contact = \"off\"\n" + sample_case()),
+      "case.toml:1:11: contact is the text \"off\" (allowed: a table such as contact = { ... }, tables [[contact]], "
+      "\"none\")");
 }
 
 TEST(ContactMessages, FrictionAtRestNeedsASpeed) {
   EXPECT_EQ(contact("friction = 0.2\nstatic_friction = 0.3\ndecay_speed = \"1 cm/s\""), "");
-  EXPECT_EQ(contact("static_friction = 0.3"),
-            "case.toml:23:1: contact needs \"decay_speed\" (the speed over which friction falls from static_friction to "
-            "friction) - add decay_speed = \"10 mm/s\"");
+  EXPECT_EQ(
+      contact("static_friction = 0.3"),
+      "case.toml:23:1: contact needs \"decay_speed\" (the speed over which friction falls from static_friction to "
+      "friction) - add decay_speed = \"10 mm/s\"");
   EXPECT_EQ(contact("friction = 0.4\nstatic_friction = 0.3\ndecay_speed = 1"),
             "case.toml:25:19: contact.static_friction is 0.3 (allowed: at least friction, which is 0.4)");
   EXPECT_NE(contact("decay_speed = 1").find("is used only with static_friction"), std::string::npos);
@@ -88,8 +90,9 @@ TEST(ContactMessages, FrictionAtRestNeedsASpeed) {
 }
 
 TEST(ContactMessages, PairsOfAdaptleAreItsOwn) {
-  std::string const pair = "[[contact]]\nbetween = [\"column\", \"wall\"]\nfriction = 0.3\n[[rigid]]\nname = \"wall\"\n"
-                           "plane = { point = [0, -1, 0], normal = [0, 1, 0] }\n";
+  std::string const pair =
+      "[[contact]]\nbetween = [\"column\", \"wall\"]\nfriction = 0.3\n[[rigid]]\nname = \"wall\"\n"
+      "plane = { point = [0, -1, 0], normal = [0, 1, 0] }\n";
   std::string text = sample_with("neo_hookean", "elastic");
   text = test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)",
                         R"(name = "adaptle", description = "total_lagrangian")");

@@ -132,7 +132,7 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
     Share const& share = shares_[s];
     auto pushed = system_.pushed().begin();
     for (std::size_t k = 0; k < share.at.size() && pushed != system_.pushed().end(); ++k) {
-      pushed = std::lower_bound(pushed, system_.pushed().end(), share.at[k]);
+      while (pushed != system_.pushed().end() && *pushed < share.at[k]) ++pushed;
       if (pushed == system_.pushed().end() || *pushed != share.at[k]) continue;
       auto const i = static_cast<std::size_t>(share.at[k]);
       Vec<3> impulse = half * system_.forces()[i];

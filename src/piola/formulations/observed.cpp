@@ -58,8 +58,7 @@ constexpr std::array table{
                   [](P const& p, double* out) { *out = p.contact_pressure; }},
     ObservedField{"contact_gap", "ContactGap", "m", 1, [](P const& p, double* out) { *out = p.contact_gap; }},
     ObservedField{"slip", "Slip", "m", 1, [](P const& p, double* out) { *out = p.slip; }},
-    ObservedField{"friction_heat", "FrictionHeat", "J/m^2", 1,
-                  [](P const& p, double* out) { *out = p.friction_heat; }},
+    ObservedField{"friction_heat", "FrictionHeat", "J/m^2", 1, [](P const& p, double* out) { *out = p.friction_heat; }},
     ObservedField{"", "Neighbours", "1", 1, [](P const& p, double* out) { *out = p.neighbours; }},
     ObservedField{"", "Body", "1", 1, [](P const& p, double* out) { *out = p.body; }},
     ObservedField{"", "Id", "1", 1, [](P const& p, double* out) { *out = p.id; }}};

@@ -56,13 +56,15 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
   if (bodies.empty()) problems.add(place, "contact.between names two rigid shapes (allowed: one) - name a body");
   for (std::size_t const body : bodies)
     if (auto const why = why_not_in_pair(spec, body); !why.empty())
-      problems.add(place, "contact.between: " + why + " (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and "
-                          "3D, without mirrors) - change its formulation, or remove the table");
+      problems.add(place, "contact.between: " + why +
+                              " (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and "
+                              "3D, without mirrors) - change its formulation, or remove the table");
   bool const own = std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return knows_contact(spec, b); });
   bool const self = bodies.size() == 2 && bodies[0] == bodies[1];
   if (own && !bodies.empty() && !self)
-    problems.add(place, "contact.between names what adaptle keeps apart by a contact of its own (allowed: pairs with a "
-                        "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
+    problems.add(place,
+                 "contact.between names what adaptle keeps apart by a contact of its own (allowed: pairs with a "
+                 "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
 }
 
 void check_contact_pairs(CaseSpec const& spec, Problems& problems) {
@@ -70,8 +72,9 @@ void check_contact_pairs(CaseSpec const& spec, Problems& problems) {
     ContactPairSpec const& pair = spec.contact_pairs[k];
     check_contact_pair(spec, pair, problems);
     if (find_pair(spec.contact_pairs, pair.between[0], pair.between[1]) != &pair)
-      problems.add(place_of(pair.places, "between"), "contact.between names a pair for the second time (allowed: one "
-                                                     "table a pair) - remove one");
+      problems.add(place_of(pair.places, "between"),
+                   "contact.between names a pair for the second time (allowed: one "
+                   "table a pair) - remove one");
   }
 }
 

@@ -35,10 +35,9 @@ void read_friction(Section const& section, contact::FrictionLaw& friction) {
                            "decay_speed = \"10 mm/s\"");
   if (!still && !(friction.still > 0)) section.refuse("decay_speed", "is used only with static_friction");
   if (friction.still > 0 && friction.still < friction.kinetic)
-    section.problems().add(
-        section.place_of(still ? "static_friction" : "friction"),
-        "contact.static_friction is " + number_text(friction.still) + " (allowed: at least friction, which is " +
-            number_text(friction.kinetic) + ")");
+    section.problems().add(section.place_of(still ? "static_friction" : "friction"),
+                           "contact.static_friction is " + number_text(friction.still) +
+                               " (allowed: at least friction, which is " + number_text(friction.kinetic) + ")");
   if (!friction.any()) section.refuse("shear_limit", "is used only with friction");
 }
 
@@ -68,8 +67,8 @@ ContactSpec read_whole(Section const& section, int dimension) {
   section.read("closing_speed", contact.closing_speed);
   section.read("exponent", contact.exponent);
   section.refuse_unknown();
-  contact.places = places_of(section, {"law", "scale", "friction", "static_friction", "self", "stiffness",
-                                       "closing_speed", "exponent"});
+  contact.places = places_of(
+      section, {"law", "scale", "friction", "static_friction", "self", "stiffness", "closing_speed", "exponent"});
   return contact;
 }
 
@@ -79,8 +78,9 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
   pair.scale = whole.scale;
   pair.friction = whole.friction;
   if (whole.law == Law::none)
-    section.problems().add(section.place(), "contact between a pair is given, and contact.law is \"none\" for all "
-                                            "(allowed: one of them) - remove one");
+    section.problems().add(section.place(),
+                           "contact between a pair is given, and contact.law is \"none\" for all "
+                           "(allowed: one of them) - remove one");
   if (auto const between = section.find("between"))
     if (auto const items = read_list(*between, 2, 2, section.problems()))
       for (std::size_t k = 0; k < 2; ++k)

@@ -78,8 +78,7 @@ bool rubs(CaseSpec const& spec) {
 
 void warn_of_chatter(CaseSpec const& spec, Problems& found) {
   for (BodySpec const& body : spec.bodies)
-    if (rubs(spec) && body.formulation.name == "nodal" &&
-        !body.formulation.numbers.contains("fluctuation_viscosity"))
+    if (rubs(spec) && body.formulation.name == "nodal" && !body.formulation.numbers.contains("fluctuation_viscosity"))
       found.add(
           place_of(body.places, "formulation"),
           fmt::format("body {}: nothing damps the chatter of a sliding surface under nodal, which lowers friction by a "

@@ -25,14 +25,11 @@ struct Ring {
     surfaces.push_back(contact_surface(shape, set, set.bodies[0]));
     surfaces[0].modulus = 2e6;
   }
-  System system(FrictionLaw const& friction = {}) const {
-    return {set, surfaces, {}, {{{true, 0.5, friction}}}};
-  }
+  System system(FrictionLaw const& friction = {}) const { return {set, surfaces, {}, {{{true, 0.5, friction}}}}; }
   /// The walls bulged in until the inner faces overlap by `depth` in the middle.
   std::vector<Vec<3>> closed(System const& system, double depth) const {
     auto x = places(system, set);
-    for (Vec<3>& y : x)
-      y[1] -= std::copysign(8 + 0.5 * depth, y[1]) * std::exp(-y[0] * y[0] / (3.5 * 3.5));
+    for (Vec<3>& y : x) y[1] -= std::copysign(8 + 0.5 * depth, y[1]) * std::exp(-y[0] * y[0] / (3.5 * 3.5));
     return x;
   }
 };

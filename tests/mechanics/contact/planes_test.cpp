@@ -31,7 +31,8 @@ Face rough_face(unsigned seed, double height) {
 
 double energy(Face const& f) {
   auto const source = [&](Index k) -> Plane const& { return f.sources[static_cast<std::size_t>(k)]; };
-  Gap const g = blended_gap(f.target, static_cast<Index>(f.sources.size()), source, f.rule.reach);
+  std::vector<double> weights(f.sources.size());
+  Gap const g = blended_gap(f.target, static_cast<Index>(f.sources.size()), source, f.rule.reach, weights.data());
   return 0.7 * layer(g.gap, f.rule.stiffness, f.rule.length).energy *
          fade(g.tau2(), f.rule.fade_from, f.rule.fade_to).value * presence(g.weight).value;
 }
@@ -44,7 +45,8 @@ struct Loads {
 Loads loads(Face const& f) {
   auto const source = [&](Index k) -> Plane const& { return f.sources[static_cast<std::size_t>(k)]; };
   auto const n = static_cast<Index>(f.sources.size());
-  Gap const g = blended_gap(f.target, n, source, f.rule.reach);
+  std::vector<double> weights(f.sources.size());
+  Gap const g = blended_gap(f.target, n, source, f.rule.reach, weights.data());
   Loads all;
   all.sources.resize(f.sources.size());
   all.target = contact_loads(f.target, 0.7, g, layer(g.gap, f.rule.stiffness, f.rule.length),
@@ -58,10 +60,11 @@ TEST(BlendedPlanes, GapFromAFlatFaceIsTheDistance) {
   for (int i = -3; i <= 3; ++i)
     for (int j = -3; j <= 3; ++j) face.push_back({{{0.9 * i, 1.1 * j, 0}}, {{0, 0, 1}}});
   auto const source = [&](Index k) -> Plane const& { return face[static_cast<std::size_t>(k)]; };
+  std::vector<double> weights(face.size());
   for (double const x : {0.0, 0.123, 0.41})
     for (double const z : {-0.3, 0.02, 0.5}) {
       Plane const a{{{x, -2 * x, z}}, {{0, 0, -1}}};
-      EXPECT_NEAR(blended_gap(a, static_cast<Index>(face.size()), source, 2.2).gap, z, 1e-15);
+      EXPECT_NEAR(blended_gap(a, static_cast<Index>(face.size()), source, 2.2, weights.data()).gap, z, 1e-15);
     }
 }
 

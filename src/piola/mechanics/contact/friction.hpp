@@ -10,9 +10,9 @@ namespace piola::contact {
 
 /// How much friction two surfaces have.
 struct FrictionLaw {
-  double kinetic = 0;                                             ///< mu_k, where they slide fast
-  double still = 0;                                               ///< mu_s of surfaces at rest; 0: as mu_k
-  double decay_speed = 0;                                         ///< v_d, between the two [m/s]
+  double kinetic = 0;                                            ///< mu_k, where they slide fast
+  double still = 0;                                              ///< mu_s of surfaces at rest; 0: as mu_k
+  double decay_speed = 0;                                        ///< v_d, between the two [m/s]
   double shear_limit = std::numeric_limits<double>::infinity();  ///< tau_max: no shear stress is larger [Pa]
   bool any() const { return kinetic > 0 || still > 0; }
 };

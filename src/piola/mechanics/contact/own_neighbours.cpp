@@ -4,8 +4,9 @@
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <functional>
+#include <limits>
+#include <queue>
 #include <utility>
 
 namespace piola::contact {
@@ -13,44 +14,52 @@ namespace {
 
 constexpr double longest_bond = 1.5, nearest_stranger = 4;  // in spacings
 
-/// The particles of a body and the bonds between them.
+/// The bonds between the particles of a body.
 class Bonds {
  public:
   Bonds(ParticleSet const& particles, Body const& body, double spacing)
-      : X_(particles.X.begin() + body.first, particles.X.begin() + body.last),
-        longest_(longest_bond * spacing),
-        grid_(X_, longest_) {}
-
-  /// All particles nearer than `reach` [m] to the particle k along bonds, k included, ascending.
-  std::vector<Index> within(Index k, double reach) const {
-    std::set<std::pair<double, Index>> ahead{{0.0, k}};
-    std::map<Index, double> distance{{k, 0.0}};
-    while (!ahead.empty()) {
-      auto const [far, here] = *ahead.begin();
-      ahead.erase(ahead.begin());
-      grid_.visit(X_[static_cast<std::size_t>(here)], [&, far = far, here = here](Index j) {
-        double const bond = length(here, j), there = far + bond;
-        if (!(bond < longest_) || !(there < reach)) return;
-        auto const [entry, fresh] = distance.try_emplace(j, there);
-        if (!fresh && !(there < entry->second)) return;
-        if (!fresh) ahead.erase({entry->second, j});
-        entry->second = there;
-        ahead.insert({there, j});
+      : bonds_(static_cast<std::size_t>(body.last - body.first)) {
+    std::vector<std::array<double, 3>> const X(particles.X.begin() + body.first, particles.X.begin() + body.last);
+    double const longest = longest_bond * spacing;
+    CellGrid const grid(X, longest);
+    exec_host::for_each_in_set_up(static_cast<Index>(X.size()), [&](Index k) {
+      auto const& here = X[static_cast<std::size_t>(k)];
+      grid.visit(here, [&](Index j) {
+        auto const& there = X[static_cast<std::size_t>(j)];
+        double const length = std::hypot(here[0] - there[0], here[1] - there[1], here[2] - there[2]);
+        if (j != k && length < longest) bonds_[static_cast<std::size_t>(k)].push_back({length, j});
       });
+    });
+  }
+  std::size_t count() const { return bonds_.size(); }
+
+  /// Calls found(j) for all particles nearer than `reach` [m] to the particle k along bonds, k included, by distance.
+  /// `distance` has one entry for each particle, infinite before and after.
+  template <class Found>
+  void within(Index k, double reach, std::vector<double>& distance, Found const& found) const {
+    using Far = std::pair<double, Index>;
+    std::priority_queue<Far, std::vector<Far>, std::greater<>> ahead;
+    std::vector<Index> seen{k};
+    distance[static_cast<std::size_t>(k)] = 0;
+    for (ahead.push({0, k}); !ahead.empty();) {
+      auto const [far, here] = ahead.top();
+      ahead.pop();
+      if (far > distance[static_cast<std::size_t>(here)]) continue;  // found nearer since
+      found(here);
+      for (auto const& [length, j] : bonds_[static_cast<std::size_t>(here)]) {
+        double const there = far + length;
+        double& known = distance[static_cast<std::size_t>(j)];
+        if (!(there < reach) || !(there < known)) continue;
+        known = there;
+        seen.push_back(j);
+        ahead.push({there, j});
+      }
     }
-    std::vector<Index> all;
-    for (auto const& [particle, d] : distance) all.push_back(particle);
-    return all;
+    for (Index const j : seen) distance[static_cast<std::size_t>(j)] = std::numeric_limits<double>::infinity();
   }
 
  private:
-  double length(Index a, Index b) const {
-    auto const &p = X_[static_cast<std::size_t>(a)], &q = X_[static_cast<std::size_t>(b)];
-    return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-  }
-  std::vector<std::array<double, 3>> X_;
-  double longest_;
-  CellGrid grid_;
+  std::vector<std::vector<std::pair<double, Index>>> bonds_;  ///< length [m], particle
 };
 
 }  // namespace
@@ -58,21 +67,25 @@ class Bonds {
 OwnNeighbours::OwnNeighbours(ParticleSet const& particles, std::size_t b, Carriers const& carriers, double spacing) {
   Body const& body = particles.bodies[b];
   Bonds const bonds(particles, body, spacing);
-  std::map<Index, Index> carrier_of;  // by particle of the body
+  constexpr Index none = -1;
+  std::vector<Index> carrier_of(bonds.count(), none), particle_of;  // particles count from the body's first
   for (Index k = 0; k < carriers.count(); ++k) {
     auto const id = carriers.ids()[static_cast<std::size_t>(carriers.self(k))];
     if (id < body.first || id >= body.last) continue;
-    if (carrier_of.empty()) first_ = k;
-    carrier_of.emplace(static_cast<Index>(id - body.first), k);
+    if (particle_of.empty()) first_ = k;
+    particle_of.push_back(static_cast<Index>(id - body.first));
+    carrier_of[static_cast<std::size_t>(id - body.first)] = k;
   }
-  std::vector<std::pair<Index, Index>> const known(carrier_of.begin(), carrier_of.end());
-  near_.resize(known.size());
-  exec_host::for_each_in_set_up(static_cast<Index>(known.size()), [&](Index n) {
-    auto const& [particle, carrier] = known[static_cast<std::size_t>(n)];
-    auto& near = near_[static_cast<std::size_t>(carrier - first_)];
-    for (Index const other : bonds.within(particle, nearest_stranger * spacing))
-      if (auto const found = carrier_of.find(other); found != carrier_of.end()) near.push_back(found->second);
-    std::sort(near.begin(), near.end());
+  near_.resize(particle_of.size());
+  constexpr Index parts = 64;
+  exec_host::for_each_part_in_set_up(parts, static_cast<Index>(near_.size()), [&](Index part) {
+    std::vector<double> distance(bonds.count(), std::numeric_limits<double>::infinity());
+    for (auto n = static_cast<std::size_t>(part); n < near_.size(); n += parts) {
+      bonds.within(particle_of[n], nearest_stranger * spacing, distance, [&](Index other) {
+        if (Index const k = carrier_of[static_cast<std::size_t>(other)]; k != none) near_[n].push_back(k);
+      });
+      std::sort(near_[n].begin(), near_[n].end());
+    }
   });
 }
 

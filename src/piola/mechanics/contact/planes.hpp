@@ -82,14 +82,15 @@ struct Gap {
   double tau2() const { return dot(centroid, centroid) - gap * gap; }
 };
 
-/// sources(k) is the plane k = 0 ... count - 1.
+/// sources(k) is the plane k = 0 ... count - 1; weights[k] becomes its weight.
 template <class Sources>
-Gap blended_gap(Plane const& a, Index count, Sources const& sources, double reach) {
+Gap blended_gap(Plane const& a, Index count, Sources const& sources, double reach, double* weights) {
   Gap g;
   for (Index k = 0; k < count; ++k) {
     Plane const& b = sources(k);
     Vec<3> const r = a.y - b.y;
     double const w = plane_weight(dot(r, r) / (reach * reach), dot(a.n, b.n));
+    weights[k] = w;
     if (!(w > 0)) continue;
     g.weight += w;
     g.gap += w * dot(b.n, r);

@@ -64,16 +64,16 @@ void System::rub(Run const& run, Gap const& gap, Press const& press) {
   if (!setting_[points_[at(run.target)].body][run.body].friction.any()) return;
   Plane const& a = planes_[at(run.target)];
   Vec<3> jump = moved(run.target), n;
-  std::vector<std::pair<double, Vec<3>>> sources;  // share, F^-1 r
+  rubbed_.clear();
   for (std::size_t s = run.first; s < run.last; ++s) {
     Plane const& b = planes_[at(sources_[s])];
     Vec<3> const r = a.y - b.y;
-    double const share = weight_of(run, sources_[s]) / gap.weight;
+    double const share = weights_[s] / gap.weight;
     Index const carrier = points_[at(sources_[s])].carrier;
-    sources.emplace_back(share, share > 0 ? inverse(F_[at(carrier)]) * r : Vec<3>{});
+    rubbed_.emplace_back(share, share > 0 ? inverse(F_[at(carrier)]) * r : Vec<3>{});
     if (!(share > 0)) continue;
     Mat<3> const change = F_[at(carrier)] - last_F(carrier);
-    jump = jump - share * (moved(sources_[s]) + change * sources.back().second);
+    jump = jump - share * (moved(sources_[s]) + change * rubbed_.back().second);
     n = n + share * b.n;
   }
   n = (1 / std::sqrt(square_of(n))) * n;
@@ -81,8 +81,8 @@ void System::rub(Run const& run, Gap const& gap, Press const& press) {
   Vec<3> const& f = rubbed.force;
   add_load(run.target, {f, {}, {}});
   trace(run.target, 0, 0.5 * rubbed.heat);
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    auto const& [share, arm] = sources[k];
+  for (std::size_t k = 0; k < rubbed_.size(); ++k) {
+    auto const& [share, arm] = rubbed_[k];
     if (!(share > 0)) continue;
     add_load(sources_[run.first + k], {-share * f, {}, share * outer(f, arm)});
     trace(sources_[run.first + k], 0, 0.5 * share * rubbed.heat);

@@ -35,9 +35,13 @@ std::vector<double> System::state() const {
     }
   };
   put_some([&](std::size_t k) { return std::isfinite(gap_[k]) || normal_force_[k] != 0; },
-           [&](std::size_t k) { all.insert(all.end(), {gap_[k], normal_force_[k]}); });
+           [&](std::size_t k) {
+             all.insert(all.end(), {gap_[k], normal_force_[k]});
+           });
   put_some([&](std::size_t k) { return k < traces_.size() && (traces_[k].slid != 0 || traces_[k].heat != 0); },
-           [&](std::size_t k) { all.insert(all.end(), {traces_[k].slid, traces_[k].heat}); });
+           [&](std::size_t k) {
+             all.insert(all.end(), {traces_[k].slid, traces_[k].heat});
+           });
   for (Stuck const& s : stuck_) {
     all.push_back(s.point);
     all.push_back(static_cast<double>(s.with));
@@ -49,6 +53,7 @@ std::vector<double> System::state() const {
 }
 
 void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
+  std::fill(knows_F_.begin(), knows_F_.end(), 0);
   make_lists(x);
   if (!active_points_.empty()) place_points(x);
   remember(x);

@@ -38,6 +38,7 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
   F_.resize(at(carriers_.count()));
   if (rubs_) {
     last_F_.resize(F_.size());
+    knows_F_.resize(F_.size());
     knows_last_F_.resize(F_.size());
     traces_.resize(points_.size());
   }
@@ -60,6 +61,7 @@ void System::place_points(std::vector<Vec<3>> const& x) {
   exec_host::for_each_in_set_up(static_cast<Index>(active_carriers_.size()), [&](Index k) {
     Index const carrier = active_carriers_[at(k)];
     F_[at(carrier)] = carriers_.F(carrier, x);
+    if (rubs_) knows_F_[at(carrier)] = 1;
   });
   exec_host::for_each_in_set_up(static_cast<Index>(active_points_.size()), [&](Index k) {
     Index const point = active_points_[at(k)];
@@ -100,21 +102,16 @@ void System::add_between(Run const& run, Vec<3> const& f) {
   on_source = {on_source.force - f, on_source.moment - moment};
 }
 
-double System::weight_of(Run const& run, Index source) const {
-  Plane const &a = planes_[at(run.target)], &b = planes_[at(source)];
-  double const reach = rules_[points_[at(run.target)].body][run.body].reach;
-  return plane_weight(square_of(a.y - b.y) / (reach * reach), dot(a.n, b.n));
-}
-
 void System::push_bodies() {
   gaps_.resize(runs_.size());
+  weights_.resize(sources_.size());
   auto const sources_of = [this](Run const& run) {
     return [this, &run](Index k) -> Plane const& { return planes_[at(sources_[run.first + at(k)])]; };
   };
   exec_host::for_each_in_set_up(static_cast<Index>(runs_.size()), [&](Index k) {
     Run const& run = runs_[at(k)];
     gaps_[at(k)] = blended_gap(planes_[at(run.target)], static_cast<Index>(run.last - run.first), sources_of(run),
-                               rules_[points_[at(run.target)].body][run.body].reach);
+                               rules_[points_[at(run.target)].body][run.body].reach, &weights_[run.first]);
   });
   for (std::size_t k = 0; k < runs_.size(); ++k) {
     Run const& run = runs_[k];
@@ -129,7 +126,7 @@ void System::push_bodies() {
     double inverse = 0;
     // Of planes that count: others are listed or not as it happens.
     for (std::size_t s = run.first; s < run.last; ++s)
-      if (weight_of(run, sources_[s]) > 0) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
+      if (weights_[s] > 0) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
     // Of both passes, C_s Mbar / dpbar.
     note(run.target, gap.gap, 2 * rule.stiffness, rule.length, dp, inverse + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;
@@ -194,6 +191,11 @@ void System::remember(std::vector<Vec<3>> const& x) {
 }
 
 void System::evaluate(std::vector<Vec<3>> const& x, double dt) {
+  if (rubs_) {
+    std::swap(F_, last_F_);
+    std::swap(knows_F_, knows_last_F_);
+    std::fill(knows_F_.begin(), knows_F_.end(), 0);
+  }
   if (!lists_hold(x)) make_lists(x);
   dt_ = dt;
   std::swap(stuck_, last_stuck_);
@@ -223,7 +225,6 @@ void System::push_all(std::vector<Vec<3>> const& x) {
   forget_forces();
   if (active_points_.empty()) return;
   place_points(x);
-  std::fill(knows_last_F_.begin(), knows_last_F_.end(), 0);
   push_bodies();
   push_from_rigids();
   std::sort(loaded_points_.begin(), loaded_points_.end());

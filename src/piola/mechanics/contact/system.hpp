@@ -6,6 +6,7 @@
 #include "piola/mechanics/contact/rigid.hpp"
 #include "piola/mechanics/contact/surface.hpp"
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace piola::contact {
@@ -73,10 +74,10 @@ class System {
   /// What a particle with surface points feels and has felt.
   struct AtParticle {
     std::int64_t id = 0;
-    double pressure = 0;     ///< of contact, mean over its points [Pa]
-    double gap = 0;          ///< smallest one; at most `near` spacings, beyond which nobody looks [m]
-    double slid = 0;         ///< way that it has slid, most of its points [m]
-    double heat = 0;         ///< of friction, its half [J/m2]
+    double pressure = 0;  ///< of contact, mean over its points [Pa]
+    double gap = 0;       ///< smallest one; at most `near` spacings, beyond which nobody looks [m]
+    double slid = 0;      ///< way that it has slid, most of its points [m]
+    double heat = 0;      ///< of friction, its half [J/m2]
   };
   std::vector<AtParticle> at_particles() const;
 
@@ -132,7 +133,6 @@ class System {
   void add_load(Index point, PointLoad const& load);
   void add_force(Index id, Vec<3> const& f);
   void add_between(Run const& run, Vec<3> const& f);
-  double weight_of(Run const& run, Index source) const;
   void note(Index point, double gap, double layer_modulus, double length, double spacing, double inverse);
   double inverse_mass_of(Index point) const {
     return inverse_mass_[static_cast<std::size_t>(carriers_.self(points_[static_cast<std::size_t>(point)].carrier))];
@@ -153,6 +153,7 @@ class System {
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run
+  std::vector<double> weights_;    ///< of sources
   std::vector<Index> near_rigid_;  ///< points near a rigid shape
   std::vector<Index> active_points_, active_carriers_;
   std::vector<Mat<3>> F_;         ///< of active carriers, by carrier
@@ -175,9 +176,11 @@ class System {
   struct Trace {
     double slid = 0, heat = 0;  ///< [m], [J]
   };
-  std::vector<Trace> traces_;  ///< by point, where anything has friction
-  std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before, made when friction asks
-  std::vector<char> knows_last_F_;
+  std::vector<Trace> traces_;   ///< by point, where anything has friction
+  std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before; who was not active then is asked for later
+  std::vector<char> knows_F_, knows_last_F_;
+  /// Sources of a target that rubs: share, F^-1 r.
+  std::vector<std::pair<double, Vec<3>>> rubbed_;
   std::vector<Vec<3>> last_x_, last_centre_;  ///< of the evaluation before
   std::vector<Vec<3>> forces_;
   std::vector<Index> pushed_;
