@@ -212,7 +212,7 @@ void print_contact(CaseSpec const& spec, int dimension) {
   print_surfaces(spec);
   bool const own = knows_contact(spec);
   if (!own) return;
-  constexpr std::array<std::string_view, 4> laws{"none", "kernel", "linear", "printed"};
+  constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "printed", "surface"};
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
   std::string text;
   if (rule.scale != 1) text += ", scale " + number_text(rule.scale);

@@ -67,7 +67,7 @@ TEST(ContactMessages, PairsHaveKeysOfTheirOwn) {
   std::string const pair = "between = [\"column\", \"wall\"]\n";
   EXPECT_EQ(pairs(pair + "closing_speed = 1"),
             "case.toml:28:17: contact.closing_speed is for all bodies together, not for a pair - remove it");
-  EXPECT_NE(pairs(pair + "law = \"linear\"").find("contact.law of a pair is \"linear\""), std::string::npos);
+  EXPECT_NE(pairs(pair + "law = \"linear\"").find("contact.law of a pair is neither"), std::string::npos);
   EXPECT_NE(pairs(pair + "law = \"none\"\nfriction = 0.1").find("is used only by the law"), std::string::npos);
   EXPECT_NE(pairs("law = \"none\"\n[[contact]]\n" + pair).find("contact.law is \"none\" for all"), std::string::npos);
   EXPECT_EQ(message_of("contact = \"none\"\n" + sample_case()), "");
@@ -99,6 +99,17 @@ TEST(ContactMessages, PairsOfAdaptleAreItsOwn) {
   EXPECT_NE(message_of(text + pair).find("adaptle keeps apart by a contact of its own"), std::string::npos);
   text = test::replaced(text, "total_lagrangian", "adaptive");
   EXPECT_NE(message_of(text + pair).find("has no surface by which others could push it"), std::string::npos);
+}
+
+TEST(ContactMessages, TheLawOfSurfacesNeedsSurfaces) {
+  std::string text = sample_with("neo_hookean", "elastic");
+  text = test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)",
+                        R"(name = "adaptle", description = "total_lagrangian")");
+  std::string const law = "[contact]\nlaw = \"surface\"\nfriction = 0.2\n";
+  EXPECT_EQ(message_of(text + law), "");
+  EXPECT_EQ(message_of(test::replaced(text, "total_lagrangian", "adaptive") + law),
+            "case.toml:24:7: contact.law is \"surface\", but body \"column\" keeps none (allowed: bodies of adaptle with "
+            "description = \"total_lagrangian\", in 2D and 3D) - choose another law or description");
 }
 
 TEST(ContactMessages, RigidShapesAreOfOneKind) {

@@ -29,7 +29,8 @@ struct ContactRule {
     none,    ///< bodies see each other as one
     kernel,  ///< repulsion by the kernel, stiffness from the impedances
     linear,  ///< linear spring with the stiffness of the material: slow impacts
-    printed  ///< repulsion by the kernel with a constant and current volumes, as published
+    printed,  ///< repulsion by the kernel with a constant and current volumes, as published
+    surface   ///< surfaces push each other, also those of a formulation that has a contact of its own
   };
   Law law = Law::kernel;
   double scale = 1;                                                 ///< factor on the stiffness

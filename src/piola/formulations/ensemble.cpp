@@ -41,7 +41,7 @@ void add(std::array<double, N>& sum, std::array<double, N> const& more) {
   for (std::size_t c = 0; c < N; ++c) sum[c] += more[c];
 }
 
-/// Adds up columns by name, in the order of their first appearance.
+/// Adds up columns by name, in the order of their first appearance; of largest values takes the larger one.
 void add_columns(std::vector<std::pair<std::string, double>>& sum,
                  std::vector<std::pair<std::string, double>> const& more) {
   for (auto const& column : more) {
@@ -49,6 +49,8 @@ void add_columns(std::vector<std::pair<std::string, double>>& sum,
         std::find_if(sum.begin(), sum.end(), [&](auto const& known) { return known.first == column.first; });
     if (same == sum.end())
       sum.push_back(column);
+    else if (column.first.ends_with("_max"))
+      same->second = std::max(same->second, column.second);
     else
       same->second += column.second;
   }
@@ -124,14 +126,14 @@ class Ensemble : public Formulation {
   void sample(std::string_view field, std::span<double> values) const override;
   void save(StateWriter& writer) const override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      PartWriter part(writer, parts_[k].formulation + ".");
+      PartWriter part(writer, parts_[k].name + ".");
       formulations_[k]->save(part);
     }
     if (meeting_) meeting_->save(writer);
   }
   void load(StateReader& reader) override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      PartReader part(reader, parts_[k].formulation + ".");
+      PartReader part(reader, parts_[k].name + ".");
       formulations_[k]->load(part);
     }
     if (!meeting_) return;
@@ -146,7 +148,7 @@ class Ensemble : public Formulation {
     std::vector<std::pair<std::string, double>> all;
     for (std::size_t k = 0; k < parts_.size(); ++k)
       for (auto const& [name, seconds] : formulations_[k]->costs())
-        all.emplace_back(parts_[k].formulation + "_" + name, seconds);
+        all.emplace_back(parts_[k].name + "_" + name, seconds);
     return all;
   }
   std::size_t memory_bytes() const override {

@@ -20,6 +20,7 @@ struct EnsemblePart {
     std::int64_t count;
   };
   std::string formulation;
+  std::string name;  ///< of its own in the run: that of the formulation, and of the body where it stands alone
   Assembly assembly;
   std::vector<Block> blocks;
   /// Of what tells its action in Diagnostics, the positions among those of the whole: supports, loads with a name,
@@ -32,7 +33,7 @@ struct EnsemblePart {
 };
 
 /// One part per formulation, in the order of their first bodies. Rigid shapes and the contact rule go to the parts
-/// whose formulation knows contact.
+/// whose formulation knows contact; if surfaces are to push its bodies instead, each is a part for itself without them.
 std::vector<EnsemblePart> split_by_formulation(Assembly const& whole);
 
 /// The formulations of all parts as one. Each step is taken by all of them, the shortest that one of them bears.

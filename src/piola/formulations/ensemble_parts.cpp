@@ -100,7 +100,7 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
     a.mirrors.push_back(mirror);
   }
   auto const info = find_formulation(part.formulation);
-  if (info && info->contact) {
+  if (info && info->contact && whole.contact.law != ContactRule::Law::surface) {
     a.rigid_shapes = whole.rigid_shapes;
     a.contact = whole.contact;
     for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) part.rigid_shapes.push_back(k);
@@ -134,13 +134,17 @@ std::vector<EnsemblePart> split_by_formulation(Assembly const& whole) {
   PIOLA_EXPECTS(whole.formulations.size() == whole.particles.bodies.size());
   std::vector<EnsemblePart> parts;
   for (std::size_t b = 0; b < whole.formulations.size(); ++b) {
-    std::string const& name = whole.formulations[b].name;
-    auto part = std::find_if(parts.begin(), parts.end(), [&](EnsemblePart const& p) { return p.formulation == name; });
+    Body const& body = whole.particles.bodies[b];
+    std::string const& formulation = whole.formulations[b].name;
+    auto const info = find_formulation(formulation);
+    bool const alone = info && info->contact && whole.contact.law == ContactRule::Law::surface;
+    std::string const name = alone ? formulation + "." + body.name : formulation;
+    auto part = std::find_if(parts.begin(), parts.end(), [&](EnsemblePart const& p) { return p.name == name; });
     if (part == parts.end()) {
       part = parts.emplace(parts.end());
-      part->formulation = name;
+      part->formulation = formulation;
+      part->name = name;
     }
-    Body const& body = whole.particles.bodies[b];
     std::int64_t const here = part->blocks.empty() ? 0 : part->blocks.back().here + part->blocks.back().count;
     part->blocks.push_back({b, here, body.first, body.last - body.first});
   }

@@ -31,7 +31,7 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
 contact::System::Setting touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
-    return info && info->contact;
+    return info && info->contact && whole.contact.law != ContactRule::Law::surface;
   };
   auto const& bodies = whole.particles.bodies;
   std::size_t const n = bodies.size(), all = n + whole.rigid_shapes.size();

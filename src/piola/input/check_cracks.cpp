@@ -67,6 +67,19 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
                  "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
 }
 
+/// Whoever may turn Eulerian loses its surface.
+void check_surface_law(CaseSpec const& spec, Problems& problems) {
+  if (!spec.contact || spec.contact->law != ContactRule::Law::surface) return;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    auto const info = find_formulation(spec.bodies[b].formulation.name);
+    if (info && info->contact && !has_surface(spec, b))
+      problems.add(place_of(spec.contact->places, "law"),
+                   "contact.law is \"surface\", but body " + in_quotes(spec.bodies[b].name) +
+                       " keeps none (allowed: bodies of adaptle with description = \"total_lagrangian\", in 2D and 3D) - "
+                       "choose another law or description");
+  }
+}
+
 void check_contact_pairs(CaseSpec const& spec, Problems& problems) {
   for (std::size_t k = 0; k < spec.contact_pairs.size(); ++k) {
     ContactPairSpec const& pair = spec.contact_pairs[k];
@@ -95,6 +108,7 @@ void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problem
 void check_abilities(CaseSpec const& spec, Problems& problems) {
   check_contact_ability(spec, problems);
   check_contact_pairs(spec, problems);
+  check_surface_law(spec, problems);
   for (CrackSpec const& crack : spec.cracks) {
     auto const info = formulation_of(spec, crack.body);
     if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));

@@ -17,7 +17,8 @@ std::vector<FormulationInfo> formulations_of(CaseSpec const& spec) {
 
 bool knows_contact(CaseSpec const& spec, std::size_t body) {
   auto const info = find_formulation(spec.bodies[body].formulation.name);
-  return info && info->contact;
+  bool const surfaces = spec.contact && spec.contact->law == ContactRule::Law::surface;
+  return info && info->contact && !surfaces;
 }
 
 bool has_surface(CaseSpec const& spec, std::size_t body) {
@@ -64,8 +65,9 @@ bool surfaces_meet(CaseSpec const& spec) {
 }
 
 bool knows_contact(CaseSpec const& spec) {
-  auto const all = formulations_of(spec);
-  return std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.contact; });
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (knows_contact(spec, b)) return true;
+  return false;
 }
 
 bool any_contact(CaseSpec const& spec) { return surfaces_meet(spec) || knows_contact(spec); }

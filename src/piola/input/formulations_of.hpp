@@ -10,7 +10,8 @@ namespace piola {
 /// The formulations of a case's bodies, each once, in the order of the bodies. Unknown names are left out.
 std::vector<FormulationInfo> formulations_of(CaseSpec const& spec);
 
-/// Whether the formulation of a body has a contact of its own, between its bodies and with rigid shapes.
+/// Whether a contact of its formulation's own acts on a body, between such bodies and with rigid shapes: not where the
+/// case gives that to surfaces.
 bool knows_contact(CaseSpec const& spec, std::size_t body);
 
 /// Whether any body's formulation has.

@@ -7,7 +7,7 @@ namespace {
 
 using enum KeyInfo::Kind;
 
-constexpr std::array<std::string_view, 4> contact_words{"kernel", "linear", "printed", "none"};
+constexpr std::array<std::string_view, 5> contact_words{"kernel", "linear", "printed", "surface", "none"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 8> surface_words{"-x", "+x", "-y", "+y", "-z", "+z", "outer", "inner"};
 
@@ -153,7 +153,8 @@ constexpr std::array boundary_keys{
         {},
         "\"kernel\"",
         "kernel: repulsion by the kernel, stiffness from the impedances; linear: a spring with the stiffness of the "
-        "material, for slow impacts; printed: as published, with a constant that you give; none: bodies merge",
+        "material, for slow impacts; printed: as published, with a constant that you give; surface: as other formulations "
+        "meet, with friction, if all stay total-Lagrangian; none: bodies merge",
         contact_words},
     KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},
     KeyInfo{"contact",

@@ -43,7 +43,7 @@ void read_friction(Section const& section, contact::FrictionLaw& friction) {
 
 /// Index of a word of the manual, whose order is not that of the enumerators.
 void read_law(Section const& section, Law& law) {
-  constexpr std::array laws{Law::kernel, Law::linear, Law::printed, Law::none};
+  constexpr std::array laws{Law::kernel, Law::linear, Law::printed, Law::surface, Law::none};
   if (int const word = section.word_index("law"); word >= 0 && word < static_cast<int>(laws.size()))
     law = laws[static_cast<std::size_t>(word)];
 }
@@ -54,7 +54,7 @@ ContactSpec read_whole(Section const& section, int dimension) {
   ContactSpec contact;
   read_law(section, contact.law);
   Law const law = contact.law;
-  std::string const all = "\"kernel\", \"linear\" or \"printed\"";
+  std::string const all = "\"kernel\", \"linear\", \"printed\" or \"surface\"";
   for (char const* key : {"scale", "self"}) refuse_for(section, key, law == Law::none, all);
   for (char const* key : friction_keys) refuse_for(section, key, law == Law::none, all);
   refuse_for(section, "stiffness", law != Law::printed, "\"printed\"");
@@ -87,10 +87,10 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
         if (auto const name = read_text((*items)[k], section.problems())) pair.between[k] = *name;
   Law law = Law::kernel;
   read_law(section, law);
-  if (law == Law::linear || law == Law::printed)
+  if (law != Law::kernel && law != Law::none)
     section.problems().add(section.place_of("law"),
-                           "contact.law of a pair is " + in_quotes(law == Law::linear ? "linear" : "printed") +
-                               " (allowed: none, or leave it out) - write it once, without between");
+                           "contact.law of a pair is neither left out nor none (allowed: these) - write it once, without "
+                           "between");
   pair.off = law == Law::none;
   for (char const* key : {"self", "stiffness", "closing_speed", "exponent"})
     section.refuse(key, "is for all bodies together, not for a pair");

@@ -90,7 +90,8 @@ void warn_of_chatter(CaseSpec const& spec, Problems& found) {
 void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
   if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
   Places const& places = spec.contact->places;
-  bool const own = knows_contact(spec);
+  auto const all = formulations_of(spec);
+  bool const own = std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.contact; });
   for (char const* key : {"law", "stiffness", "closing_speed", "exponent"})
     if (!own && is_given(places, key))
       found.add(place_of(places, key),

@@ -89,7 +89,8 @@ void SpatialLists::build(System const& s, Machine const& machine) {
   if (!eulerian_) return;
   if (record_room_ < s.particles + 1) {
     record_room_ = s.particles + 1;
-    records_ = Memory(static_cast<std::size_t>(record_room_) * static_cast<std::size_t>(s.spatial.stride));
+    // Loads of a part of a record reach beyond its end, of the last record by less than a pack of eight.
+    records_ = Memory(static_cast<std::size_t>(record_room_) * static_cast<std::size_t>(s.spatial.stride) + 8);
     double* filler = records_.data() + static_cast<std::ptrdiff_t>(s.particles) * s.spatial.stride;
     for (int c = 0; c < s.dimension; ++c) filler[c] = far_away;
     filler[2 * s.dimension + 1] = 1;  // density: it divides
