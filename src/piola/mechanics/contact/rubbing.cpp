@@ -61,11 +61,10 @@ void System::rub(Run const& run, Gap const& gap, double normal_force, double sti
   add_between(run, f);
 }
 
-/// Rigid shapes move without turning.
 void System::rub_on_rigid(Index k, std::size_t r, Vec<3> const& n, double normal_force, double stiffness) {
   if (!(setting_.friction > 0)) return;
   Vec<3> const& y = planes_[at(k)].y;
-  Vec<3> const jump = moved(k) - (rigids_[r].centre - last_centre_[r]);
+  Vec<3> const jump = moved(k) - moved_from(last_pose_[r], rigids_[r], y);
   Vec<3> const f = drag(k, surfaces_.size() + r, jump, n, stiffness, setting_.friction * normal_force).force;
   add_load(k, {f, {}, {}});
   on_rigid_[r] = {on_rigid_[r].force - f, on_rigid_[r].moment - cross(y - rigids_[r].centre, f)};

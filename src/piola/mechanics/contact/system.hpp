@@ -46,6 +46,8 @@ class System {
   bool meets(std::size_t a, std::size_t b) const { return setting_.meets[a][b]; }
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
+  std::vector<RigidSurface>& rigids() { return rigids_; }
+  std::vector<RigidSurface> const& rigids() const { return rigids_; }
 
   /// Forces [N] at x [m]: functions of x and of the places of rigid shapes and, with friction, of the springs and of
   /// where all was at the evaluation before.
@@ -65,6 +67,12 @@ class System {
   };
   /// What bodies do to a rigid shape; the moment about its centre.
   Between const& on_rigid(std::size_t k) const { return on_rigid_[k]; }
+  /// Springs between a free rigid shape and the points near it: the largest square of the frequency that one of them
+  /// gives its point, and the sum of the squares that they give the shape [1/s2]. The sum of both is a bound.
+  struct Frequencies {
+    double of_points = 0, of_shape = 0;
+  };
+  Frequencies const& frequencies(std::size_t k) const { return frequencies_[k]; }
   /// What body b does to body a; the moment about the origin.
   Between const& between(std::size_t a, std::size_t b) const { return between_[a][b]; }
 
@@ -90,12 +98,16 @@ class System {
   void list_points_near_rigids();
   void activate(std::vector<char> const& points);
   bool lists_hold(std::vector<Vec<3>> const& x) const;
+  bool meets_rigid(std::size_t body, RigidSurface const& rigid) const {
+    return setting_.meets_rigids[body] || rigid.for_all;
+  }
   void place_points(std::vector<Vec<3>> const& x);
   void push_all(std::vector<Vec<3>> const& x);
   void forget_forces();
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
   void push_from_rigids();
+  void note_spring(std::size_t rigid, Index point, Vec<3> const& n, double stiffness);
   void rub(Run const& run, Gap const& gap, double normal_force, double stiffness);
   void rub_on_rigid(Index point, std::size_t rigid, Vec<3> const& n, double normal_force, double stiffness);
   Mat<3> const& last_F(Index carrier);
@@ -117,8 +129,9 @@ class System {
   std::vector<Point> points_;
   std::vector<std::vector<PairRule>> rules_;
   std::vector<double> inverse_mass_;
-  std::vector<Vec<3>> listed_at_;  ///< positions of carriers when the lists were made [m]
-  double skin_ = 0;                ///< [m]
+  std::vector<Vec<3>> listed_at_;         ///< positions of carriers when the lists were made [m]
+  std::vector<RigidPose> listed_rigids_;  ///< and rigid shapes
+  double skin_ = 0;                       ///< [m]
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run
@@ -140,11 +153,13 @@ class System {
   std::vector<Stuck> stuck_, last_stuck_;
   std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before, made when friction asks
   std::vector<char> knows_last_F_;
-  std::vector<Vec<3>> last_x_, last_centre_;  ///< of the evaluation before
+  std::vector<Vec<3>> last_x_;        ///< of the evaluation before
+  std::vector<RigidPose> last_pose_;  ///< of rigid shapes
   std::vector<Vec<3>> forces_;
   std::vector<Index> pushed_;
   std::vector<char> is_pushed_;
   std::vector<Between> on_rigid_;
+  std::vector<Frequencies> frequencies_;
   std::vector<std::vector<Between>> between_;
   Totals totals_;
 };
