@@ -178,7 +178,7 @@ void print_surfaces(CaseSpec const& spec) {
     for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
       if (pushed_by_surface(spec, a, b)) pairs.push_back(spec.bodies[a].name + "-" + spec.bodies[b].name);
     for (RigidSpec const& rigid : spec.rigids)
-      if (has_surface(spec, a) && !knows_contact(spec, a)) pairs.push_back(spec.bodies[a].name + "-" + rigid.name);
+      if (pushed_by_rigid(spec, a, rigid)) pairs.push_back(spec.bodies[a].name + "-" + rigid.name);
   }
   constexpr std::size_t most = 8;
   std::size_t const left_out = pairs.size() > most ? pairs.size() - most : 0;
@@ -194,8 +194,14 @@ void print_contact(CaseSpec const& spec, int dimension) {
   for (RigidSpec const& rigid : spec.rigids) {
     bool const moves = std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
                                    [](Expression const& component) { return component.text() != "0"; });
-    say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension),
-        moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
+    std::string const speed = moves ? vector_text(rigid.velocity, dimension) + " m/s" : "";
+    std::string motion = moves ? ", driven at " + speed : "";
+    if (rigid.free)
+      motion = ", free, mass " + quantity_text(rigid.mass, dimension == 2 ? "kg/m" : "kg") +
+               (moves ? ", starts at " + speed : "");
+    else if (rigid.turns())
+      motion += ", turning";
+    say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension), motion);
   }
   print_surfaces(spec);
   bool const own = knows_contact(spec);

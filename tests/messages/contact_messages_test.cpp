@@ -49,8 +49,8 @@ TEST(ContactMessages, RigidShapesAreOfOneKind) {
   EXPECT_EQ(rigid("sphere = { centre = [0, 0, 0], radius = 1 }\nplane = { point = [0, 0, 0], normal = [0, 1, 0] }"),
             "case.toml:23:1: rigid has 2 of plane, sphere, cylinder, box (allowed: one) - add or remove one");
   EXPECT_EQ(rigid("cone = 1\nsphere = { centre = [0, 0, 0], radius = 1 }"),
-            "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity) - "
-            "choose one of these");
+            "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity, "
+            "angular_velocity, motion, mass, density, gravity, fix, turns) - choose one of these");
   EXPECT_EQ(with("[[rigid]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
             "case.toml:23:1: rigid needs \"name\" (name in messages and of columns) - add name = \"column\"");
 }

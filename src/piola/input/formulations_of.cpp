@@ -41,6 +41,10 @@ bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b) {
   return (knows_contact(spec, a) && knows_contact(spec, b)) || pushed_by_surface(spec, a, b);
 }
 
+bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, RigidShape const& rigid) {
+  return has_surface(spec, body) && (rigid.turns() || !knows_contact(spec, body));
+}
+
 bool meets_rigids(CaseSpec const& spec, std::size_t body) {
   return knows_contact(spec, body) || has_surface(spec, body);
 }
@@ -48,7 +52,8 @@ bool meets_rigids(CaseSpec const& spec, std::size_t body) {
 bool surfaces_meet(CaseSpec const& spec) {
   for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
     if (!has_surface(spec, a)) continue;
-    if (!spec.rigids.empty() && !knows_contact(spec, a)) return true;
+    for (RigidSpec const& rigid : spec.rigids)
+      if (pushed_by_rigid(spec, a, rigid)) return true;
     for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
       if (pushed_by_surface(spec, a, b)) return true;
   }

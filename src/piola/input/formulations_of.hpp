@@ -26,6 +26,10 @@ bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b);
 /// Whether two bodies push each other by their surfaces: not if their formulation keeps them apart itself.
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b);
 
+/// Whether a rigid shape pushes a body by its surface: not if the body's formulation keeps them apart itself, which it
+/// cannot where the shape is free or turns.
+bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, RigidShape const& rigid);
+
 /// Whether something keeps a body apart from rigid shapes.
 bool meets_rigids(CaseSpec const& spec, std::size_t body);
 
