@@ -206,8 +206,14 @@ void print_contact(CaseSpec const& spec, int dimension) {
   for (RigidSpec const& rigid : spec.rigids) {
     bool const moves = std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
                                    [](Expression const& component) { return component.text() != "0"; });
-    say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension),
-        moves ? ", driven at " + vector_text(rigid.velocity, dimension) + " m/s" : "");
+    std::string const speed = moves ? vector_text(rigid.velocity, dimension) + " m/s" : "";
+    std::string motion = moves ? ", driven at " + speed : "";
+    if (rigid.free)
+      motion = ", free, mass " + quantity_text(rigid.mass, dimension == 2 ? "kg/m" : "kg") +
+               (moves ? ", starts at " + speed : "");
+    else if (rigid.turns())
+      motion += ", turning";
+    say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension), motion);
   }
   print_surfaces(spec);
   bool const own = knows_contact(spec);

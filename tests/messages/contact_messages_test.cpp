@@ -107,9 +107,10 @@ TEST(ContactMessages, TheLawOfSurfacesNeedsSurfaces) {
                         R"(name = "adaptle", description = "total_lagrangian")");
   std::string const law = "[contact]\nlaw = \"surface\"\nfriction = 0.2\n";
   EXPECT_EQ(message_of(text + law), "");
-  EXPECT_EQ(message_of(test::replaced(text, "total_lagrangian", "adaptive") + law),
-            "case.toml:24:7: contact.law is \"surface\", but body \"column\" keeps none (allowed: bodies of adaptle with "
-            "description = \"total_lagrangian\", in 2D and 3D) - choose another law or description");
+  EXPECT_EQ(
+      message_of(test::replaced(text, "total_lagrangian", "adaptive") + law),
+      "case.toml:24:7: contact.law is \"surface\", but body \"column\" keeps none (allowed: bodies of adaptle with "
+      "description = \"total_lagrangian\", in 2D and 3D) - choose another law or description");
 }
 
 TEST(ContactMessages, RigidShapesAreOfOneKind) {
@@ -118,8 +119,8 @@ TEST(ContactMessages, RigidShapesAreOfOneKind) {
   EXPECT_EQ(rigid("sphere = { centre = [0, 0, 0], radius = 1 }\nplane = { point = [0, 0, 0], normal = [0, 1, 0] }"),
             "case.toml:23:1: rigid has 2 of plane, sphere, cylinder, box (allowed: one) - add or remove one");
   EXPECT_EQ(rigid("cone = 1\nsphere = { centre = [0, 0, 0], radius = 1 }"),
-            "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity) - "
-            "choose one of these");
+            "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity, "
+            "angular_velocity, motion, mass, density, gravity, fix, turns) - choose one of these");
   EXPECT_EQ(with("[[rigid]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
             "case.toml:23:1: rigid needs \"name\" (name in messages and of columns) - add name = \"column\"");
 }

@@ -26,9 +26,9 @@ struct MirrorPlane {
 /// What keeps bodies of one run apart.
 struct ContactRule {
   enum class Law {
-    none,    ///< bodies see each other as one
-    kernel,  ///< repulsion by the kernel, stiffness from the impedances
-    linear,  ///< linear spring with the stiffness of the material: slow impacts
+    none,     ///< bodies see each other as one
+    kernel,   ///< repulsion by the kernel, stiffness from the impedances
+    linear,   ///< linear spring with the stiffness of the material: slow impacts
     printed,  ///< repulsion by the kernel with a constant and current volumes, as published
     surface   ///< surfaces push each other, also those of a formulation that has a contact of its own
   };

@@ -113,12 +113,14 @@ class Ensemble : public Formulation {
   }
   void damp(double factor) override {
     for (auto const& formulation : formulations_) formulation->damp(factor);
+    if (meeting_) meeting_->damp(factor);
   }
   double kinetic_energy() const override {
     double sum = 0;
     for (auto const& formulation : formulations_) sum += formulation->kinetic_energy();
-    return sum;
+    return meeting_ ? sum + meeting_->kinetic_energy() : sum;
   }
+  std::vector<RigidState> rigids() const override { return meeting_ ? meeting_->rigids() : std::vector<RigidState>{}; }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override;
   std::vector<FieldInfo> fields() const override;

@@ -101,9 +101,12 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
   }
   auto const info = find_formulation(part.formulation);
   if (info && info->contact && whole.contact.law != ContactRule::Law::surface) {
-    a.rigid_shapes = whole.rigid_shapes;
     a.contact = whole.contact;
-    for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) part.rigid_shapes.push_back(k);
+    for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) {
+      if (whole.rigid_shapes[k].turns()) continue;  // surfaces alone meet those
+      a.rigid_shapes.push_back(whole.rigid_shapes[k]);
+      part.rigid_shapes.push_back(k);
+    }
   }
   a.pushed = !whole.surfaces.empty();
   a.cfl = whole.cfl;

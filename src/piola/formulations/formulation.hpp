@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/rigid_state.hpp"
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -42,6 +43,7 @@ struct Diagnostics {
   std::vector<std::pair<std::string, double>> more;  ///< columns of this formulation only
   std::vector<BodyShare> bodies;
   std::vector<Action> actions;
+  std::vector<RigidState> rigids;  ///< shapes that are free or turn
   double total_energy() const { return kinetic_energy + strain_energy; }
 };
 
@@ -106,6 +108,9 @@ class Formulation {
   virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]
   /// Adds to velocities, also to prescribed ones [m/s].
   virtual void push(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3> const> /*change*/) {}
+
+  /// Rigid shapes that are free or turn, as they stand; of the others the case tells where they are.
+  virtual std::vector<RigidState> rigids() const { return {}; }
 
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;

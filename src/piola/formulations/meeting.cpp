@@ -27,7 +27,7 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
 }
 
 /// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own, and such a body
-/// and a rigid shape; what is said of a pair goes before what is said of all.
+/// and a rigid shape that does not turn; what is said of a pair goes before what is said of all.
 contact::System::Setting touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
@@ -42,7 +42,8 @@ contact::System::Setting touches_of(Assembly const& whole) {
       std::string const& name = rigid ? whole.rigid_shapes[b - n].name : bodies[b].name;
       ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, name);
       bool const surfaces = !whole.surfaces[a].points.empty() && (rigid || !whole.surfaces[b].points.empty());
-      bool const others = a == b ? pair != nullptr || whole.contact.self : !(own(a) && (rigid || own(b)));
+      bool const apart = own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b));  // by that contact
+      bool const others = a == b ? pair != nullptr || whole.contact.self : !apart;
       touches[a][b] = {surfaces && others && (pair == nullptr || !pair->off),
                        0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
                        pair != nullptr ? pair->friction : whole.contact.friction};
@@ -54,6 +55,17 @@ contact::System system_of(Assembly const& whole) {
   return {whole.particles, whole.surfaces, rigid_surfaces(whole), touches_of(whole)};
 }
 
+/// The layer between rigid shapes is that of the stiffest body that has a surface.
+contact::RigidMotion motion_of(Assembly const& whole) {
+  contact::RigidPairs::Setting between{0, 0, whole.contact.friction.kinetic};
+  for (contact::Surface const& surface : whole.surfaces) {
+    if (surface.points.empty()) continue;
+    double const k = contact::layer_stiffness(1, 0.5 * whole.contact.scale, surface.modulus, surface.spacing);
+    if (k > between.stiffness) between = {k, surface.spacing, whole.contact.friction.kinetic};
+  }
+  return {whole.rigid_shapes, whole.particles.dimension, between};
+}
+
 }  // namespace
 
 Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
@@ -61,9 +73,11 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       shapes_(whole.rigid_shapes),
       supports_(whole.supports),
       system_(system_of(whole)),
+      motion_(motion_of(whole)),
       held_(system_.ids().size()),
       actions_(whole.supports, whole.loads, whole.rigid_shapes) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
+  motion_.place(system_.rigids());
   auto const& ids = system_.ids();
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Share share{.part = p, .at = {}, .local = {}};
@@ -116,11 +130,13 @@ void Meeting::look(Formulations const& formulations) {
   }
   system_.set_masses(mass_);
   read_state(formulations);
-  if (loaded_.empty())
+  if (loaded_.empty()) {
     system_.start(x_);
-  else
+    motion_.start(system_);
+  } else {
     system_.restore(x_, std::exchange(loaded_, {}));
-  closing_ = system_.closing_step(v_);
+  }
+  closing_ = closing_step();
 }
 
 /// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
@@ -151,14 +167,16 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
     formulations[share.part]->push(ids[s], change[s]);
   }
   book(half);
+  motion_.kick(system_, time, half);
 }
 
 /// What rigid shapes and pairs of bodies did to each other in `half` [s].
 void Meeting::book(double half) {
   for (std::size_t r = 0; r < shapes_.size(); ++r) {
-    auto const& on = system_.on_rigid(r);
+    auto const on = motion_.on(system_, r);
     Point const about = actions_.rigid_about[r];
-    work_ -= half * dot(on.force, system_.rigid(r).velocity);
+    contact::RigidSurface const& rigid = system_.rigid(r);
+    if (!shapes_[r].free) work_ -= half * (dot(on.force, rigid.velocity) + dot(on.moment, rigid.angular_velocity));
     Impulse by;
     by.linear = array_of(-half * on.force);
     by.angular = array_of(-half * (on.moment + cross(vector_of(about), on.force)));
@@ -173,18 +191,8 @@ void Meeting::book(double half) {
     }
 }
 
-void Meeting::move_rigids(double time, double dt) {
-  for (std::size_t r = 0; r < shapes_.size(); ++r) {
-    auto& rigid = system_.rigid(r);
-    Vec<3> middle;
-    for (int c = 0; c < 3; ++c) {
-      auto const& formula = shapes_[r].velocity[static_cast<std::size_t>(c)];
-      middle[c] = formula({}, time + 0.5 * dt);
-      rigid.velocity[c] = formula({}, time + dt);
-    }
-    rigid.centre = rigid.centre + dt * middle;
-    actions_.rigid_about[r] = array_of(rigid.centre);
-  }
+double Meeting::closing_step() const {
+  return std::min(system_.closing_step(v_), motion_.closing_step(system_.rigids()));
 }
 
 void Meeting::begin(Formulations const& formulations, double time, double dt) {
@@ -192,19 +200,21 @@ void Meeting::begin(Formulations const& formulations, double time, double dt) {
   std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::System::Between{});
   last_dt_ = dt;
   push(formulations, time, 0.5 * dt);
-  move_rigids(time, dt);
+  motion_.move(system_.rigids(), time, dt);
+  for (std::size_t r = 0; r < shapes_.size(); ++r) actions_.rigid_about[r] = array_of(system_.rigid(r).centre);
 }
 
 void Meeting::finish(Formulations const& formulations, double time, double dt) {
   read_state(formulations);
   system_.evaluate(x_, dt);
-  friction_work_ += system_.totals().friction_work;
+  motion_.evaluate(system_);
+  friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
   push(formulations, time, 0.5 * dt);
-  closing_ = system_.closing_step(v_);
+  closing_ = closing_step();
 }
 
 double Meeting::limit(double step) const {
-  double const omega2 = system_.totals().frequency2;
+  double const omega2 = std::max(system_.totals().frequency2, motion_.frequency2());
   // Of a step h = 2 margin / omega: contact adds to the square of the frequency of the bodies.
   double const together = 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin));
   return std::min(omega2 > 0 ? together : step, closing_);
@@ -223,12 +233,22 @@ std::vector<Action> Meeting::pairs() const {
 }
 
 void Meeting::report(Diagnostics& sum) const {
-  contact::Totals const& now = system_.totals();
-  double const stored = now.energy + now.spring_energy;
+  contact::Totals now = system_.totals();
+  contact::RigidPairs::Totals const& between = motion_.between_shapes();
+  now.energy += between.energy;
+  now.spring_energy += between.spring_energy;
+  double const stored = now.energy + now.spring_energy, moving = motion_.kinetic_energy();
   sum.strain_energy += stored;
+  sum.kinetic_energy += moving;
   for (auto& [name, value] : sum.more)
-    if (name == "centred_energy") value += stored;  // the sum that does not rise
-  sum.external_work += work_;
+    if (name == "centred_energy") value += stored + moving;  // the sum that does not rise
+  sum.external_work += work_ + motion_.work();
+  sum.damping_loss += motion_.damping_loss();
+  for (int c = 0; c < 3; ++c) {
+    sum.linear_momentum[static_cast<std::size_t>(c)] += motion_.linear_momentum()[c];
+    sum.angular_momentum[static_cast<std::size_t>(c)] += motion_.angular_momentum()[c];
+  }
+  sum.rigids = rigids();
   auto const column = [&](char const* name) -> double& {
     for (auto& [known, value] : sum.more)
       if (known == name) return value;
@@ -236,9 +256,9 @@ void Meeting::report(Diagnostics& sum) const {
   };
   column("contact_energy") += now.energy;
   double& overlap = column("contact_overlap");
-  overlap = std::max(overlap, now.deepest);
+  overlap = std::max({overlap, now.deepest, between.deepest});
   column("friction_heat") = friction_work_ - now.spring_energy;
-  column("contact_points") = static_cast<double>(now.touched);
+  column("contact_points") = static_cast<double>(now.touched) + between.touched;
 }
 
 std::vector<FieldInfo> Meeting::fields() { return field_infos(offered_by_contact); }
@@ -270,6 +290,10 @@ void Meeting::save(StateWriter& writer) const {
     for (Vec<3> const& a : {pair.force, pair.moment}) rigid.insert(rigid.end(), a.c, a.c + 3);
   writer.put("contact", rigid);
   writer.put("contact_actions", actions_.state());
+  if (!motion_.any()) return;
+  std::vector<double> const motion = motion_.state();
+  writer.put("rigid_count", std::array{static_cast<double>(motion.size())});
+  writer.put("rigid_state", motion);
 }
 
 void Meeting::load(StateReader& reader) {
@@ -298,6 +322,11 @@ void Meeting::load(StateReader& reader) {
   std::vector<double> actions = actions_.state();
   reader.get("contact_actions", actions);
   actions_.restore(actions);
+  if (!motion_.any()) return;
+  reader.get("rigid_count", count);
+  std::vector<double> motion(static_cast<std::size_t>(count[0]));
+  reader.get("rigid_state", motion);
+  motion_.restore(system_.rigids(), motion);
 }
 
 }  // namespace piola

@@ -3,6 +3,7 @@
 #include "piola/formulations/ensemble.hpp"
 #include "piola/formulations/observed.hpp"
 #include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/contact/rigid_motion.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <memory>
 #include <span>
@@ -27,6 +28,10 @@ class Meeting {
   double limit(double step) const;
   /// Adds energy, work and columns.
   void report(Diagnostics& sum) const;
+  /// Rigid shapes that are free or turn, as they stand.
+  std::vector<RigidState> rigids() const { return motion_.states(system_.rigids()); }
+  double kinetic_energy() const { return motion_.kinetic_energy(); }  ///< of free rigid shapes [J]
+  void damp(double factor) { motion_.damp(system_, factor); }         ///< free rigid shapes
   /// What supports took and rigid shapes gave, in the order of the case: supports, loads with a name, rigid shapes.
   std::vector<Action> actions() const { return actions_.report(); }
   /// What body B did to body A, named "A-B"; the moment about the origin.
@@ -55,13 +60,14 @@ class Meeting {
   void read_state(Formulations const& formulations);
   void push(Formulations const& formulations, double time, double half);
   void book(double half);
-  void move_rigids(double time, double dt);
+  double closing_step() const;
 
   int dimension_;
   std::vector<std::string> names_;  ///< of bodies
   std::vector<RigidShape> shapes_;
   std::vector<Support> supports_;
   contact::System system_;
+  contact::RigidMotion motion_;
   std::vector<Share> shares_;
   std::vector<std::vector<Held>> held_;  ///< by index into System::ids()
   std::vector<double> mass_;

@@ -14,6 +14,20 @@ namespace {
 constexpr std::array actions{PartQuantity{"force_x", "N"},    PartQuantity{"force_y", "N"},
                              PartQuantity{"force_z", "N"},    PartQuantity{"moment_x", "N m"},
                              PartQuantity{"moment_y", "N m"}, PartQuantity{"moment_z", "N m"}};
+constexpr std::array rigids{PartQuantity{"x", "m"},
+                            PartQuantity{"y", "m"},
+                            PartQuantity{"z", "m"},
+                            PartQuantity{"velocity_x", "m/s"},
+                            PartQuantity{"velocity_y", "m/s"},
+                            PartQuantity{"velocity_z", "m/s"},
+                            PartQuantity{"turn_x", "rad"},
+                            PartQuantity{"turn_y", "rad"},
+                            PartQuantity{"turn_z", "rad"},
+                            PartQuantity{"angular_velocity_x", "rad/s"},
+                            PartQuantity{"angular_velocity_y", "rad/s"},
+                            PartQuantity{"angular_velocity_z", "rad/s"},
+                            PartQuantity{"kinetic_energy", "J"},
+                            PartQuantity{"rotational_energy", "J"}};
 constexpr std::array bodies{PartQuantity{"kinetic_energy", "J"}, PartQuantity{"strain_energy", "J"},
                             PartQuantity{"linear_momentum_x", "kg m/s"}, PartQuantity{"linear_momentum_y", "kg m/s"},
                             PartQuantity{"linear_momentum_z", "kg m/s"}};
@@ -74,6 +88,7 @@ bool is_derived(std::string_view field) {
 }
 
 std::span<PartQuantity const> action_quantities() { return actions; }
+std::span<PartQuantity const> rigid_quantities() { return rigids; }
 std::span<PartQuantity const> body_quantities() { return bodies; }
 
 std::vector<FieldQuantity> const& all_quantities() {

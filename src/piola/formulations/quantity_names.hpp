@@ -43,6 +43,8 @@ struct PartQuantity {
 
 /// Of every support, rigid shape and named load: its force and moment on the bodies, in the order of Action.
 std::span<PartQuantity const> action_quantities();
+/// Of every rigid shape that is free or turns, in the order of RigidState.
+std::span<PartQuantity const> rigid_quantities();
 /// Of every body where there are several, in the order of BodyShare.
 std::span<PartQuantity const> body_quantities();
 

@@ -124,6 +124,10 @@ std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
   bool const mixed =
       std::any_of(assembly.formulations.begin(), assembly.formulations.end(),
                   [&](FormulationSpec const& spec) { return spec.name != assembly.formulations.front().name; });
+  bool const turning = std::any_of(assembly.rigid_shapes.begin(), assembly.rigid_shapes.end(),
+                                   [](RigidShape const& shape) { return shape.turns(); });
+  if (turning && assembly.surfaces.empty())
+    throw InputError("rigid shapes that are free or turn push surfaces of bodies, and no body has one");
   if (!mixed && assembly.surfaces.empty()) return make_one(assembly);
   std::vector<EnsemblePart> parts = split_by_formulation(assembly);
   bool const contact = std::any_of(parts.begin(), parts.end(), [](EnsemblePart const& part) {

@@ -89,8 +89,9 @@ bool has_moving_boundary(CaseSpec const& spec) {
                                                   [](SupportSpec const& support) { return support.velocity; });
   // The formula that is left out is the constant 0.
   for (RigidSpec const& rigid : spec.rigids)
-    moves = moves || std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
-                                 [](Expression const& component) { return component.text() != "0"; });
+    for (auto const* formulas : {&rigid.velocity, &rigid.angular_velocity, &rigid.gravity})
+      moves = moves || std::any_of(formulas->begin(), formulas->end(),
+                                   [](Expression const& component) { return component.text() != "0"; });
   return moves;
 }
 

@@ -27,7 +27,7 @@ constexpr std::array sections{
     SectionInfo{"load", "[[load]]", "a load: exactly one of traction, pressure, body_force, acceleration"},
     SectionInfo{"mirror", "[[mirror]]", "a face of a box across which the body goes on as its mirror image"},
     SectionInfo{"crack", "[[crack]]", "a straight crack in a two-dimensional box, without traction on its faces"},
-    SectionInfo{"rigid", "[[rigid]]", "a rigid obstacle: exactly one of plane, sphere, cylinder, box"},
+    SectionInfo{"rigid", "[[rigid]]", "a rigid obstacle or free body: exactly one of plane, sphere, cylinder, box"},
     SectionInfo{"rigid.plane", "plane = { ... }", "the half-space behind a plane (2D: a line)"},
     SectionInfo{"rigid.sphere", "sphere = { ... }", "a sphere (2D: a disc)"},
     SectionInfo{"rigid.cylinder", "cylinder = { ... }", "a circular cylinder, three dimensions only"},

@@ -143,6 +143,7 @@ void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems&
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);
   check_boundaries(spec, particles, problems);
   check_rigid(spec, particles, problems);
+  check_free_rigids(spec, particles.dimension, problems);
   check_overlap(spec, particles, problems);
   check_abilities(spec, problems);
   for (ProbeSpec const& probe : spec.probes) {

@@ -73,10 +73,11 @@ void check_surface_law(CaseSpec const& spec, Problems& problems) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     auto const info = find_formulation(spec.bodies[b].formulation.name);
     if (info && info->contact && !has_surface(spec, b))
-      problems.add(place_of(spec.contact->places, "law"),
-                   "contact.law is \"surface\", but body " + in_quotes(spec.bodies[b].name) +
-                       " keeps none (allowed: bodies of adaptle with description = \"total_lagrangian\", in 2D and 3D) - "
-                       "choose another law or description");
+      problems.add(
+          place_of(spec.contact->places, "law"),
+          "contact.law is \"surface\", but body " + in_quotes(spec.bodies[b].name) +
+              " keeps none (allowed: bodies of adaptle with description = \"total_lagrangian\", in 2D and 3D) - "
+              "choose another law or description");
   }
 }
 

@@ -36,13 +36,14 @@ void check_overlap(RigidSpec const& rigid, BodySpec const& spec, ParticleSet con
                                           " (allowed: none) - move the shape or the body");
 }
 
-void check_velocity(RigidSpec const& rigid, int dimension, Problems& problems) {
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
-    double const value = rigid.velocity[d]({});
+void check_formulas(RigidSpec const& rigid, std::string const& key, std::array<Expression, 3> const& formulas,
+                    Problems& problems) {
+  for (std::size_t d = 0; d < formulas.size(); ++d) {
+    double const value = formulas[d]({});
     if (std::isfinite(value)) continue;
-    problems.add(place_of(rigid.places, "velocity"), "rigid.velocity[" + std::to_string(d) + "], formula " +
-                                                         in_quotes(rigid.velocity[d].text()) + " is " +
-                                                         number_text(value) + " at t = 0 (allowed: a finite number)");
+    problems.add(place_of(rigid.places, key), "rigid." + key + "[" + std::to_string(d) + "], formula " +
+                                                  in_quotes(formulas[d].text()) + " is " + number_text(value) +
+                                                  " at t = 0 (allowed: a finite number)");
   }
 }
 
@@ -60,7 +61,9 @@ double distance_to(RigidShape const& shape, Vec3 const& x, int dimension) {
 
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
   for (RigidSpec const& rigid : spec.rigids) {
-    check_velocity(rigid, particles.dimension, problems);
+    check_formulas(rigid, "velocity", rigid.velocity, problems);
+    check_formulas(rigid, "angular_velocity", rigid.angular_velocity, problems);
+    check_formulas(rigid, "gravity", rigid.gravity, problems);
     for (std::size_t b = 0; b < spec.bodies.size(); ++b)
       check_overlap(rigid, spec.bodies[b], particles, particles.bodies[b], problems);
   }

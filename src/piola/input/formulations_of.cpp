@@ -43,7 +43,8 @@ bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
 
 bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid) {
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[body].name, spec.rigids[rigid].name);
-  return has_surface(spec, body) && !knows_contact(spec, body) && (pair == nullptr || !pair->off);
+  return has_surface(spec, body) && (spec.rigids[rigid].turns() || !knows_contact(spec, body)) &&
+         (pair == nullptr || !pair->off);
 }
 
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b) {

@@ -28,7 +28,8 @@ bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b);
 /// and itself: whether its surface does.
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether a rigid shape pushes a body by its surface.
+/// Whether a rigid shape pushes a body by its surface: not if the body's formulation keeps them apart itself, which it
+/// cannot where the shape is free or turns.
 bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid);
 
 /// Whether something keeps a body apart from rigid shapes.

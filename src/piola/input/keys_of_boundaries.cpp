@@ -8,6 +8,7 @@ namespace {
 using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 5> contact_words{"kernel", "linear", "printed", "surface", "none"};
+constexpr std::array<std::string_view, 3> motion_words{"fixed", "driven", "free"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 8> surface_words{"-x", "+x", "-y", "+y", "-z", "+z", "outer", "inner"};
 
@@ -130,8 +131,50 @@ constexpr std::array boundary_keys{
             "m/s",
             {},
             "at rest",
-            "prescribed velocity, one formula in t and the constants per direction",
+            "prescribed velocity, one formula in t and the constants per direction; of a free shape that at the start",
             {}},
+    KeyInfo{"rigid",
+            "angular_velocity",
+            formulas,
+            "rad/s",
+            {},
+            "none",
+            "the same about the centre: formulas for x, y and z; in 2D a list of one",
+            {}},
+    KeyInfo{"rigid",
+            "motion",
+            word,
+            "",
+            {},
+            "driven with a velocity or angular_velocity, else fixed",
+            "fixed: at rest; driven: as prescribed; free: a rigid body that what it touches moves, not for planes",
+            motion_words},
+    KeyInfo{"rigid",
+            "mass",
+            quantity,
+            "",
+            positive,
+            "from density",
+            "free (one of mass and density is required there): mass, in kg; in 2D per length, in kg/m",
+            {}},
+    KeyInfo{"rigid", "density", quantity, "kg/m^3", positive, "from mass", "free: density of the whole shape", {}},
+    KeyInfo{"rigid",
+            "gravity",
+            formulas,
+            "m/s^2",
+            {},
+            "none",
+            "free: acceleration, one formula in t and the constants per direction",
+            {}},
+    KeyInfo{"rigid",
+            "fix",
+            text,
+            "",
+            {},
+            "none",
+            "free: directions in which it keeps the velocity of the start: letters of \"xyz\"",
+            {}},
+    KeyInfo{"rigid", "turns", flag, "", {}, "true", "free: false keeps it from turning", {}},
     KeyInfo{"rigid.plane", "point", point, "m", place_range, "", "a point of the plane", {}},
     KeyInfo{"rigid.plane", "normal", point, "1", place_range, "", "direction towards the bodies, of any length", {}},
     KeyInfo{"rigid.sphere", "centre", point, "m", place_range, "", "centre", {}},
@@ -153,7 +196,8 @@ constexpr std::array boundary_keys{
         {},
         "\"kernel\"",
         "kernel: repulsion by the kernel, stiffness from the impedances; linear: a spring with the stiffness of the "
-        "material, for slow impacts; printed: as published, with a constant that you give; surface: as other formulations "
+        "material, for slow impacts; printed: as published, with a constant that you give; surface: as other "
+        "formulations "
         "meet, with friction, if all stay total-Lagrangian; none: bodies merge",
         contact_words},
     KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},

@@ -88,9 +88,10 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
   Law law = Law::kernel;
   read_law(section, law);
   if (law != Law::kernel && law != Law::none)
-    section.problems().add(section.place_of("law"),
-                           "contact.law of a pair is neither left out nor none (allowed: these) - write it once, without "
-                           "between");
+    section.problems().add(
+        section.place_of("law"),
+        "contact.law of a pair is neither left out nor none (allowed: these) - write it once, without "
+        "between");
   pair.off = law == Law::none;
   for (char const* key : {"self", "stiffness", "closing_speed", "exponent"})
     section.refuse(key, "is for all bodies together, not for a pair");

@@ -131,7 +131,10 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
   for (SupportSpec const& support : spec.supports) add_all(support.name, action_quantities());
   for (LoadSpec const& load : spec.loads)
     if (!load.name.empty()) add_all(load.name, action_quantities());
-  for (RigidSpec const& rigid : spec.rigids) add_all(rigid.name, action_quantities());
+  for (RigidSpec const& rigid : spec.rigids) {
+    add_all(rigid.name, action_quantities());
+    if (rigid.turns()) add_all(rigid.name, rigid_quantities());
+  }
   if (surfaces_meet(spec)) {
     for (auto const& [name, unit] :
          {std::pair{"contact_energy", "J"}, {"contact_overlap", "1"}, {"contact_points", "1"}, {"friction_heat", "J"}})

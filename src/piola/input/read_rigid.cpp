@@ -87,34 +87,16 @@ void read_kind(Section const& section, int dimension, RigidShape& shape) {
                                               " of plane, sphere, cylinder, box (allowed: one) - add or remove one");
 }
 
-// A rigid shape has one velocity at a time, so that no place can be meant.
-void refuse_places(Section const& section, std::array<Expression, 3> const& velocity) {
-  for (std::size_t d = 0; d < velocity.size(); ++d) {
-    for (std::string const& word : expression_words(velocity[d].text())) {
-      if (word != "X" && word != "Y" && word != "Z") continue;
-      section.problems().add(section.place_of("velocity"),
-                             "rigid.velocity[" + std::to_string(d) + "], formula " + in_quotes(velocity[d].text()) +
-                                 " uses " + word + " (allowed: t and the constants) - a rigid shape moves as one");
-      break;
-    }
-  }
-}
-
 }  // namespace
 
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants) {
   RigidSpec rigid;
   section.read("name", rigid.name);
   read_kind(section, dimension, rigid);
-  BodyNames names;
-  names.dimension = dimension;
-  names.names.constants = constants;
-  if (auto velocity = read_vector(section, "velocity", names)) {
-    refuse_places(section, *velocity);
-    rigid.velocity = std::move(*velocity);
-  }
+  read_rigid_motion(section, dimension, constants, rigid);
   section.refuse_unknown();
-  rigid.places = places_of(section, {"name", "plane", "sphere", "cylinder", "box", "velocity"});
+  rigid.places = places_of(section, {"name", "plane", "sphere", "cylinder", "box", "motion", "velocity",
+                                     "angular_velocity", "gravity", "mass"});
   return rigid;
 }
 

@@ -57,6 +57,8 @@ double distance_to(RigidShape const& shape, std::array<double, 3> const& x, int 
 
 /// Reports rigid shapes that hold particles at the start, and velocities of theirs that are not finite then.
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+/// Reports what cannot be done with rigid shapes that are free, or turn.
+void check_free_rigids(CaseSpec const& spec, int dimension, Problems& problems);
 
 /// Reports bodies that overlap at the start.
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);

@@ -95,8 +95,19 @@ std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {
   if (diagnostics.bodies.size() > 1)
     for (BodyShare const& body : diagnostics.bodies) add(body.name, body_quantities());
   for (Action const& action : diagnostics.actions) add(action.name, action_quantities());
+  for (RigidState const& rigid : diagnostics.rigids) add(rigid.name, rigid_quantities());
   return columns;
 }
+
+namespace {
+
+void add_rigid(std::vector<double>& row, RigidState const& rigid) {
+  for (auto const& vector : {rigid.centre, rigid.velocity, rigid.turn, rigid.angular_velocity})
+    row.insert(row.end(), vector.begin(), vector.end());
+  row.insert(row.end(), {rigid.kinetic_energy, rigid.rotational_energy});
+}
+
+}  // namespace
 
 std::vector<double> diagnostic_values(double time, std::int64_t step, double dt, Diagnostics const& d) {
   auto const& p = d.linear_momentum;
@@ -133,6 +144,7 @@ std::vector<double> diagnostic_values(double time, std::int64_t step, double dt,
     add(action.force);
     add(action.moment);
   }
+  for (RigidState const& rigid : d.rigids) add_rigid(row, rigid);
   return row;
 }
 

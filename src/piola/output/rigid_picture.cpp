@@ -96,6 +96,7 @@ Solid solid_of(RigidShape const& shape, Stage const& stage) {
   solid.half = shape.half_lengths;
   solid.radius = shape.radius;
   if (shape.kind == Kind::cylinder) solid.axes[0] = shape.axis;
+  if (shape.kind == Kind::box) solid.axes = shape.edges;
   if (shape.kind != Kind::plane) return solid;
   double const thick = 0.02 * stage.size(), wide = 0.7 * stage.size();
   Point const middle = stage.middle();

@@ -240,6 +240,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     simulation.mass += mass_of(assembly.materials[b], assembly.particles.bodies[b], assembly.particles);
   }
+  for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
   simulation.formulation = make_formulation(assembly);
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);

@@ -21,6 +21,14 @@ PictureObserver::PictureObserver(Results results)
   stage_high_ = stage.high;
 }
 
+/// Those whose places a kept picture holds.
+std::vector<RigidState> PictureObserver::turning_shapes() const {
+  std::vector<RigidState> shapes;
+  for (RigidSpec const& rigid : results_.spec.rigids)
+    if (rigid.turns()) shapes.emplace_back().name = rigid.name;
+  return shapes;
+}
+
 std::filesystem::path PictureObserver::path(std::size_t number) const {
   return results_.folder / "pictures" / picture_name(field_.name, field_.components, component_, number);
 }
@@ -30,14 +38,18 @@ std::filesystem::path PictureObserver::kept_path(std::size_t number) const {
 }
 
 void PictureObserver::keep(std::size_t number, Kept const& kept) const {
+  std::vector<double> head{kept.time};
+  for (RigidState const& rigid : kept.rigids)
+    for (auto const& part : {rigid.centre, rigid.turn}) head.insert(head.end(), part.begin(), part.end());
   std::vector<float> numbers;
   numbers.reserve(4 * kept.values.size() + 2);
   for (auto const& p : kept.points)
     for (double const c : p) numbers.push_back(static_cast<float>(c));
   for (double const v : kept.values) numbers.push_back(static_cast<float>(v));
-  std::vector<std::byte> bytes(sizeof kept.time + numbers.size() * sizeof(float));
-  std::memcpy(bytes.data(), &kept.time, sizeof kept.time);
-  if (!numbers.empty()) std::memcpy(bytes.data() + sizeof kept.time, numbers.data(), numbers.size() * sizeof(float));
+  std::size_t const before = head.size() * sizeof(double);
+  std::vector<std::byte> bytes(before + numbers.size() * sizeof(float));
+  std::memcpy(bytes.data(), head.data(), before);
+  if (!numbers.empty()) std::memcpy(bytes.data() + before, numbers.data(), numbers.size() * sizeof(float));
   write_whole_file(kept_path(number), bytes);
 }
 
@@ -46,9 +58,19 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
   std::string const bytes = read_text_file(kept_path(number));
   std::size_t const n = radii_.size();
   std::vector<float> numbers(4 * n);
-  if (bytes.size() != sizeof kept.time + numbers.size() * sizeof(float)) return false;
-  std::memcpy(&kept.time, bytes.data(), sizeof kept.time);
-  if (n > 0) std::memcpy(numbers.data(), bytes.data() + sizeof kept.time, numbers.size() * sizeof(float));
+  kept.rigids = turning_shapes();
+  std::vector<double> head(1 + 6 * kept.rigids.size());
+  std::size_t const before = head.size() * sizeof(double);
+  if (bytes.size() != before + numbers.size() * sizeof(float)) return false;
+  std::memcpy(head.data(), bytes.data(), before);
+  if (n > 0) std::memcpy(numbers.data(), bytes.data() + before, numbers.size() * sizeof(float));
+  auto from = head.begin();
+  kept.time = *from++;
+  for (RigidState& rigid : kept.rigids)
+    for (auto* part : {&rigid.centre, &rigid.turn}) {
+      std::copy_n(from, 3, part->begin());
+      from += 3;
+    }
   kept.points.resize(n);
   for (std::size_t i = 0; i < 3 * n; ++i) kept.points[i / 3][i % 3] = static_cast<double>(numbers[i]);
   kept.values.assign(numbers.begin() + static_cast<std::ptrdiff_t>(3 * n), numbers.end());
@@ -57,7 +79,7 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
 
 void PictureObserver::draw(std::size_t number, Kept const& kept) {
   auto const& output = results_.spec.output;
-  auto const shapes = shapes_at(results_.spec.rigids, kept.time);
+  auto const shapes = shapes_at(results_.spec.rigids, kept.time, kept.rigids);
   PictureData const data{.points = kept.points,
                          .radius = radii_,
                          .values = kept.values,
@@ -97,13 +119,13 @@ bool PictureObserver::prepare(Formulation const& formulation) {
 void PictureObserver::see_now(Formulation const& formulation, double time) {
   if (!prepare(formulation)) return;
   FieldCache cache(formulation, results_.particles);
-  Kept kept{time, std::vector<std::array<double, 3>>(radii_.size()), {}};
+  Kept kept{time, std::vector<std::array<double, 3>>(radii_.size()), {}, formulation.rigids()};
   auto const x = cache.values("Position");
   for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = x[i];
   kept.values = picture_values(cache.values(field_.name), field_.components, component_);
 
   window_.include(view_, kept.points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
-  show_shapes(window_, view_, shapes_at(results_.spec.rigids, time), {stage_low_, stage_high_});
+  show_shapes(window_, view_, shapes_at(results_.spec.rigids, time, kept.rigids), {stage_low_, stage_high_});
   auto const range = typical_range(kept.values);
   range_ = {std::min(range_[0], range[0]), std::max(range_[1], range[1])};
   make_folder(results_.folder / "pictures");

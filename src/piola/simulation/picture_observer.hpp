@@ -27,7 +27,9 @@ class PictureObserver : public Observer {
     double time = 0;
     std::vector<std::array<double, 3>> points;
     std::vector<double> values;
+    std::vector<RigidState> rigids = {};  ///< that are free or turn
   };
+  std::vector<RigidState> turning_shapes() const;
   void see_now(Formulation const& formulation, double time);
   void draw(std::size_t number, Kept const& kept);
   bool prepare(Formulation const& formulation);

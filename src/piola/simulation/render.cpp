@@ -5,6 +5,7 @@
 #include "piola/output/files.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/rigid_picture.hpp"
+#include "piola/simulation/rigid_history.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -63,6 +64,7 @@ class Renderer {
  public:
   Renderer(fs::path const& folder, RenderOptions const& options)
       : options_(options), title_(title_of(folder)), spec_(case_of(folder)), frames_(list_frames(folder)) {
+    if (spec_) rigids_.emplace(folder / "history.csv", spec_->rigids);
     for (auto const& entry : frames_) survey(read(entry.second));
   }
   std::size_t count() const { return frames_.size(); }
@@ -94,7 +96,8 @@ class Renderer {
  private:
   Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
   std::vector<RigidShape> shapes_of(Frame const& frame) const {
-    return spec_ ? shapes_at(spec_->rigids, frame.time) : std::vector<RigidShape>{};
+    if (!spec_) return {};
+    return shapes_at(spec_->rigids, frame.time, rigids_->at(frame.time));
   }
   int component_of(Frame const& frame) const {
     if (auto const found = find_component(options_.component, frame.info.components)) return *found;
@@ -116,6 +119,7 @@ class Renderer {
   RenderOptions const& options_;
   std::string title_;
   std::optional<CaseSpec> spec_;
+  std::optional<RigidHistory> rigids_;  ///< where there is a case
   std::vector<std::pair<double, fs::path>> frames_;
   Window window_;
   Stage stage_;

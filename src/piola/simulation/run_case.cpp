@@ -212,6 +212,13 @@ double half_diagonal(ParticleSet const& particles) {
   return std::sqrt(sum) / 2;
 }
 
+/// Whether nothing but bodies and other shapes act on a rigid shape.
+bool is_left_alone(RigidSpec const& rigid) {
+  bool const weightless = std::all_of(rigid.gravity.begin(), rigid.gravity.end(),
+                                      [](Expression const& component) { return component.text() == "0"; });
+  return rigid.free && weightless && rigid.can_turn && rigid.held == std::array<bool, 3>{};
+}
+
 void add_conservation(Summary& summary, HistoryTable const& history, Simulation const& s) {
   if (history.rows.empty()) return;
   auto const energy = history.values("total_energy");
@@ -219,7 +226,8 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.energy_final = energy.back();
   summary.energy_max_increase = energy_increase(history);
   summary.energy_max_decrease = energy_decrease(history);
-  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() && s.spec.rigids.empty();
+  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() &&
+                    std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
   if (!free) return;
   // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
   double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));

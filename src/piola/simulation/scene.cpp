@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/scene.hpp"
+#include "piola/math/quaternion.hpp"
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -29,12 +30,26 @@ std::optional<Up> against_gravity(CaseSpec const& spec) {
     }
     if (auto const axis = axis_of(up); axis && constant) return axis;
   }
+  for (RigidSpec const& rigid : spec.rigids)
+    if (auto const axis = axis_of({-rigid.gravity[0]({}), -rigid.gravity[1]({}), -rigid.gravity[2]({})})) return axis;
   return std::nullopt;
 }
 
+/// Where a shape stands and how it has turned.
+void put(RigidShape& shape, RigidState const& state) {
+  Mat<3> const turn = matrix_of(turn_by({{state.turn[0], state.turn[1], state.turn[2]}}));
+  auto const turned = [&](std::array<double, 3> const& a) {
+    Vec<3> const b = turn * Vec<3>{{a[0], a[1], a[2]}};
+    return std::array{b[0], b[1], b[2]};
+  };
+  shape.centre = state.centre;
+  shape.axis = turned(shape.axis);
+  for (auto& edge : shape.edges) edge = turned(edge);
+}
+
 bool rests(RigidShape const& shape) {
-  return std::all_of(shape.velocity.begin(), shape.velocity.end(),
-                     [](Expression const& v) { return v({}) == 0 && !v.depends_on_time(); });
+  return !shape.turns() && std::all_of(shape.velocity.begin(), shape.velocity.end(),
+                                       [](Expression const& v) { return v({}) == 0 && !v.depends_on_time(); });
 }
 
 }  // namespace
@@ -50,12 +65,20 @@ Up upwards(CaseSpec const& spec) {
   return Up::y;
 }
 
-std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time) {
+std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
+                                  std::vector<RigidState> const& states) {
   // Midpoints of so many intervals: exact for the constant and linear velocities of most cases.
   constexpr int intervals = 1000;
   std::vector<RigidShape> shapes;
   for (RigidSpec const& rigid : rigids) {
     RigidShape shape = rigid;
+    if (shape.turns()) {
+      auto const state =
+          std::find_if(states.begin(), states.end(), [&](RigidState const& known) { return known.name == shape.name; });
+      if (state != states.end()) put(shape, *state);
+      shapes.push_back(std::move(shape));
+      continue;
+    }
     for (std::size_t c = 0; c < 3; ++c) {
       Expression const& velocity = rigid.velocity[c];
       int const parts = velocity.depends_on_time() ? intervals : 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
+#include "piola/mechanics/rigid_state.hpp"
 #include "piola/output/picture.hpp"
 #include <vector>
 
@@ -11,7 +12,9 @@ namespace piola {
 /// axis; else y.
 Up upwards(CaseSpec const& spec);
 
-/// The rigid shapes of a case as they stand at a time [s].
-std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time);
+/// The rigid shapes of a case as they stand at a time [s]; those that are free or turn as `states` says, where it does:
+/// else they stand where they started.
+std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
+                                  std::vector<RigidState> const& states = {});
 
 }  // namespace piola

@@ -36,7 +36,7 @@ bool System::lists_hold(std::vector<Vec<3>> const& x) const {
   for (Index k = 0; k < carriers_.count(); ++k)
     if (!(square_of(x[at(carriers_.self(k))] - listed_at_[at(k)]) < most)) return false;
   for (std::size_t r = 0; r < rigids_.size(); ++r)
-    if (!(square_of(rigids_[r].centre - listed_at_[at(carriers_.count()) + r]) < most)) return false;
+    if (!(travel_from(listed_rigids_[r], rigids_[r]) < share_of_skin * skin_)) return false;
   return true;
 }
 
@@ -80,8 +80,7 @@ void System::list_points_near_rigids() {
     double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
     bool any = false;
     for (std::size_t r = 0; r < rigids_.size() && !any; ++r)
-      any = setting_[points_[k].body][surfaces_.size() + r].meets &&
-            distance_from(rigids_[r], planes_[k].y).value < reach;
+      any = with_rigid(points_[k].body, r).meets && distance_from(rigids_[r], planes_[k].y).value < reach;
     if (any) near_rigid_.push_back(static_cast<Index>(k));
   }
 }
@@ -121,7 +120,8 @@ void System::make_lists(std::vector<Vec<3>> const& x) {
   activate(active);
   listed_at_.clear();
   for (Index k = 0; k < carriers_.count(); ++k) listed_at_.push_back(x[at(carriers_.self(k))]);
-  for (RigidSurface const& rigid : rigids_) listed_at_.push_back(rigid.centre);
+  listed_rigids_.clear();
+  for (RigidSurface const& rigid : rigids_) listed_rigids_.push_back(pose_of(rigid));
 }
 
 }  // namespace piola::contact

@@ -2,6 +2,7 @@
 #include "piola/mechanics/contact/rigid.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace piola::contact {
 namespace {
@@ -37,9 +38,11 @@ Distance from_cylinder(RigidSurface const& shape, Vec<3> const& r) {
 Distance from_box(RigidSurface const& shape, Vec<3> const& r) {
   double q[3];
   Vec<3> d[3];
+  Vec<3> const along = transpose(shape.turn) * r;
   for (int c = 0; c < shape.dimension; ++c) {
-    q[c] = std::fabs(r[c]) - shape.half_lengths[c];
-    d[c][c] = r[c] < 0 ? -1 : 1;
+    double const side = along[c] < 0 ? -1 : 1;
+    q[c] = std::fabs(along[c]) - shape.half_lengths[c];
+    d[c] = {{side * shape.turn(0, c), side * shape.turn(1, c), side * shape.turn(2, c)}};
   }
   return from_faces(q, d, shape.dimension);
 }
@@ -49,14 +52,44 @@ Vec<3> vector_of(std::array<double, 3> const& a) { return {{a[0], a[1], a[2]}}; 
 }  // namespace
 
 RigidSurface surface_of(RigidShape const& shape, int dimension) {
-  auto const& v = shape.velocity;
-  return {shape.kind,
-          dimension,
-          vector_of(shape.centre),
-          vector_of(shape.axis),
-          vector_of(shape.half_lengths),
-          shape.radius,
-          {{v[0]({}, 0), v[1]({}, 0), v[2]({}, 0)}}};
+  auto const &v = shape.velocity, &w = shape.angular_velocity;
+  RigidSurface surface{shape.kind,
+                       dimension,
+                       vector_of(shape.centre),
+                       vector_of(shape.axis),
+                       vector_of(shape.half_lengths),
+                       shape.radius,
+                       {{v[0]({}, 0), v[1]({}, 0), v[2]({}, 0)}}};
+  surface.angular_velocity = {{w[0]({}, 0), w[1]({}, 0), w[2]({}, 0)}};
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < 3; ++c)
+      surface.turn(c, k) = shape.edges[static_cast<std::size_t>(k)][static_cast<std::size_t>(c)];
+  return surface;
+}
+
+double RigidSurface::mobility(Vec<3> const& y, Vec<3> const& n) const {
+  Vec<3> const arm = cross(y - centre, n);
+  return inverse_mass + dot(arm, inverse_inertia * arm);
+}
+
+double RigidSurface::mobility(Vec<3> const& y) const {
+  Vec<3> const r = y - centre;
+  return inverse_mass + dot(r, r) * trace(inverse_inertia) - dot(r, inverse_inertia * r);
+}
+
+double reach_of(RigidSurface const& shape) {
+  switch (shape.kind) {
+    case RigidSurface::Kind::plane: return std::numeric_limits<double>::infinity();
+    case RigidSurface::Kind::sphere: return shape.radius;
+    default: return std::hypot(length_of(shape.half_lengths), shape.radius);
+  }
+}
+
+double travel_from(RigidPose const& last, RigidSurface const& now) {
+  double const way = length_of(now.centre - last.centre);
+  Mat<3> const turned = now.turn - last.turn;
+  double const size = std::sqrt(contract(turned, turned));
+  return size > 0 ? way + size * reach_of(now) : way;
 }
 
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x) {

@@ -15,7 +15,35 @@ struct RigidSurface {
   Vec<3> half_lengths;     ///< box: half its edges; cylinder: half its length in the first [m]
   double radius = 0;       ///< sphere, cylinder [m]
   Vec<3> velocity;         ///< [m/s]
+
+  Mat<3> turn = identity<3>();   ///< since the start, when the edges of a box lie along the axes
+  Vec<3> angular_velocity = {};  ///< about the centre [rad/s]
+  double inverse_mass = 0;       ///< of a free body [1/kg]
+  Mat<3> inverse_inertia = {};   ///< of a free body, about its centre [1/(kg m2)]
+
+  Vec<3> velocity_at(Vec<3> const& y) const { return velocity + cross(angular_velocity, y - centre); }
+  /// How fast unit impulses at y make it there, at most: along n, or in any directions at once [1/kg].
+  double mobility(Vec<3> const& y, Vec<3> const& n) const;
+  double mobility(Vec<3> const& y) const;
 };
+
+/// Where a rigid shape stands.
+struct RigidPose {
+  Vec<3> centre;
+  Mat<3> turn = identity<3>();
+};
+inline RigidPose pose_of(RigidSurface const& shape) { return {shape.centre, shape.turn}; }
+
+/// How far the point of a shape that is now at y has come since it stood in another pose [m].
+inline Vec<3> moved_from(RigidPose const& last, RigidSurface const& now, Vec<3> const& y) {
+  return now.centre - last.centre + (now.turn - last.turn) * (transpose(now.turn) * (y - now.centre));
+}
+
+/// No point of its surface is farther from the centre [m]; infinite of a plane.
+double reach_of(RigidSurface const& shape);
+
+/// Bounds how far points of its surface have come since it stood in another pose [m].
+double travel_from(RigidPose const& last, RigidSurface const& now);
 
 /// The surface of a shape at the start, in a space of so many dimensions.
 RigidSurface surface_of(RigidShape const& shape, int dimension);

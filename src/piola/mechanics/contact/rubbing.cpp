@@ -90,12 +90,11 @@ void System::rub(Run const& run, Gap const& gap, Press const& press) {
   add_between(run, f);
 }
 
-/// Rigid shapes move without turning.
 void System::rub_on_rigid(Press const& press, std::size_t r, Vec<3> const& n) {
   Index const k = press.point;
-  if (!setting_[points_[at(k)].body][press.with].friction.any()) return;
+  if (!with_rigid(points_[at(k)].body, r).friction.any()) return;
   Vec<3> const& y = planes_[at(k)].y;
-  Vec<3> const jump = moved(k) - (rigids_[r].centre - last_centre_[r]);
+  Vec<3> const jump = moved(k) - moved_from(last_pose_[r], rigids_[r], y);
   Rubbed const rubbed = drag(press, jump, n);
   Vec<3> const& f = rubbed.force;
   add_load(k, {f, {}, {}});

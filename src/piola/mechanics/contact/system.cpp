@@ -51,6 +51,7 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
   is_pushed_.resize(ids().size());
   inverse_mass_.resize(ids().size());
   on_rigid_.resize(rigids_.size());
+  frequencies_.resize(rigids_.size());
 }
 
 void System::set_masses(std::vector<double> const& masses) {
@@ -144,17 +145,30 @@ void System::push_bodies() {
   }
 }
 
+/// The spring between a point and a free rigid shape, of a stiffness [N/m].
+void System::note_spring(std::size_t r, Index point, Vec<3> const& n, double stiffness) {
+  RigidSurface const& rigid = rigids_[r];
+  if (!(rigid.inverse_mass > 0)) return;
+  Vec<3> const& y = planes_[at(point)].y;
+  Frequencies& f = frequencies_[r];
+  f.of_points = std::max(f.of_points, 2.5 * stiffness * inverse_mass_of(point));
+  f.of_shape +=
+      stiffness * (with_rigid(points_[at(point)].body, r).friction.any() ? rigid.mobility(y) : rigid.mobility(y, n));
+}
+
 void System::push_from_rigids() {
   for (Index const k : near_rigid_) {
     Point const& point = points_[at(k)];
     Surface const& surface = surfaces_[point.body];
     double const length = 0.5 * surface.spacing;
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
-      Touch const& touch = setting_[point.body][surfaces_.size() + r];
+      Touch const& touch = with_rigid(point.body, r);
       if (!touch.meets) continue;
       double const layer_modulus = layer_stiffness(1, touch.factor, surface.modulus, surface.spacing);
       Distance const d = distance_from(rigids_[r], planes_[at(k)].y);
       if (!(d.value < near * surface.spacing)) continue;
+      double const in_lengths = std::min(d.value, 0.0) / length;
+      note_spring(r, k, d.normal, layer_modulus * point.area * (1 + 3 * in_lengths * in_lengths));
       note(k, d.value, layer_modulus, length, surface.spacing, inverse_mass_of(k));
       if (!(d.value < 0)) continue;
       Layer const psi = layer(d.value, layer_modulus, length);
@@ -186,8 +200,8 @@ void System::start(std::vector<Vec<3>> const& x) {
 
 void System::remember(std::vector<Vec<3>> const& x) {
   last_x_ = x;
-  last_centre_.clear();
-  for (RigidSurface const& rigid : rigids_) last_centre_.push_back(rigid.centre);
+  last_pose_.clear();
+  for (RigidSurface const& rigid : rigids_) last_pose_.push_back(pose_of(rigid));
 }
 
 void System::evaluate(std::vector<Vec<3>> const& x, double dt) {
@@ -218,6 +232,7 @@ void System::forget_forces() {
   loaded_points_.clear();
   totals_ = {};
   std::fill(on_rigid_.begin(), on_rigid_.end(), Between{});
+  std::fill(frequencies_.begin(), frequencies_.end(), Frequencies{});
   for (auto& row : between_) std::fill(row.begin(), row.end(), Between{});
 }
 
@@ -259,11 +274,11 @@ double System::closing_step(std::vector<Vec<3>> const& v) const {
   for (Index const k : near_rigid_)
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
       RigidSurface const& rigid = rigids_[r];
-      if (!setting_[points_[at(k)].body][surfaces_.size() + r].meets) continue;
+      if (!with_rigid(points_[at(k)].body, r).meets) continue;
       Distance const d = distance_from(rigid, planes_[at(k)].y);
       double const spacing = surfaces_[points_[at(k)].body].spacing;
       if (!(d.value < near * spacing)) continue;
-      double const speed = -dot(velocity(k) - rigid.velocity, d.normal);
+      double const speed = -dot(velocity(k) - rigid.velocity_at(planes_[at(k)].y), d.normal);
       if (speed > 0) step = std::min(step, closing * spacing / speed);
     }
   return step;

@@ -49,6 +49,8 @@ class System {
   bool meets(std::size_t a, std::size_t b) const { return setting_[a][b].meets; }
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
+  std::vector<RigidSurface>& rigids() { return rigids_; }
+  std::vector<RigidSurface> const& rigids() const { return rigids_; }
 
   /// Forces [N] at x [m]: functions of x and of the places of rigid shapes and, with friction, of the springs and of
   /// where all was at the evaluation before, dt [s] ago.
@@ -68,6 +70,12 @@ class System {
   };
   /// What bodies do to a rigid shape; the moment about its centre.
   Between const& on_rigid(std::size_t k) const { return on_rigid_[k]; }
+  /// Springs between a free rigid shape and the points near it: the largest square of the frequency that one of them
+  /// gives its point, and the sum of the squares that they give the shape [1/s2]. The sum of both is a bound.
+  struct Frequencies {
+    double of_points = 0, of_shape = 0;
+  };
+  Frequencies const& frequencies(std::size_t k) const { return frequencies_[k]; }
   /// What body b does to body a; the moment about the origin.
   Between const& between(std::size_t a, std::size_t b) const { return between_[a][b]; }
 
@@ -117,12 +125,16 @@ class System {
   void list_points_near_rigids();
   void activate(std::vector<char> const& points);
   bool lists_hold(std::vector<Vec<3>> const& x) const;
+  Touch const& with_rigid(std::size_t body, std::size_t rigid) const {
+    return setting_[body][surfaces_.size() + rigid];
+  }
   void place_points(std::vector<Vec<3>> const& x);
   void push_all(std::vector<Vec<3>> const& x);
   void forget_forces();
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
   void push_from_rigids();
+  void note_spring(std::size_t rigid, Index point, Vec<3> const& n, double stiffness);
   void rub(Run const& run, Gap const& gap, Press const& press);
   void rub_on_rigid(Press const& press, std::size_t rigid, Vec<3> const& n);
   Mat<3> const& last_F(Index carrier);
@@ -148,8 +160,9 @@ class System {
   bool rubs_ = false;               ///< whether anything has friction
   double dt_ = 0;                   ///< since the evaluation before [s]
   std::vector<double> inverse_mass_;
-  std::vector<Vec<3>> listed_at_;  ///< positions of carriers when the lists were made [m]
-  double skin_ = 0;                ///< [m]
+  std::vector<Vec<3>> listed_at_;         ///< positions of carriers when the lists were made [m]
+  std::vector<RigidPose> listed_rigids_;  ///< and rigid shapes
+  double skin_ = 0;                       ///< [m]
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run
@@ -181,11 +194,13 @@ class System {
   std::vector<char> knows_F_, knows_last_F_;
   /// Sources of a target that rubs: share, F^-1 r.
   std::vector<std::pair<double, Vec<3>>> rubbed_;
-  std::vector<Vec<3>> last_x_, last_centre_;  ///< of the evaluation before
+  std::vector<Vec<3>> last_x_;        ///< of the evaluation before
+  std::vector<RigidPose> last_pose_;  ///< of rigid shapes
   std::vector<Vec<3>> forces_;
   std::vector<Index> pushed_;
   std::vector<char> is_pushed_;
   std::vector<Between> on_rigid_;
+  std::vector<Frequencies> frequencies_;
   std::vector<std::vector<Between>> between_;
   Totals totals_;
 };

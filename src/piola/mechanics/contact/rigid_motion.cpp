@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/rigid_motion.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace piola::contact {
+namespace {
+
+constexpr double widest_turn = 0.2;  // of a shape in a step [rad]
+
+Vec<3> value_at(std::array<Expression, 3> const& formulas, double time) {
+  return {{formulas[0]({}, time), formulas[1]({}, time), formulas[2]({}, time)}};
+}
+
+std::array<double, 3> array_of(Vec<3> const& a) { return {a[0], a[1], a[2]}; }
+
+}  // namespace
+
+RigidMotion::RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between)
+    : dimension_(dimension), pairs_(shapes, dimension, between) {
+  for (RigidShape const& given : shapes) {
+    Shape shape{given, {{given.axis[0], given.axis[1], given.axis[2]}}, {}, {}, 0, value_at(given.angular_velocity, 0)};
+    if (given.free) shape.body.emplace(given, dimension);
+    any_ = any_ || given.turns();
+    shapes_.push_back(std::move(shape));
+  }
+}
+
+void RigidMotion::place(std::vector<RigidSurface>& surfaces) const {
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    Shape const& shape = shapes_[k];
+    RigidSurface& surface = surfaces[k];
+    if (!shape.given.turns()) continue;
+    surface.turn = matrix_of(shape.body ? shape.body->turn : shape.turn);
+    surface.axis = surface.turn * shape.axis;
+    surface.angular_velocity = shape.body ? shape.body->angular_velocity() : shape.rate;
+    if (!shape.body) continue;
+    surface.centre = shape.body->centre;
+    surface.velocity = shape.body->velocity;
+    surface.inverse_mass = 1 / shape.body->mass();
+    surface.inverse_inertia = shape.body->inverse_inertia();
+  }
+}
+
+void RigidMotion::drive(Shape& shape, RigidSurface& surface, double time, double dt) const {
+  surface.velocity = value_at(shape.given.velocity, time + dt);
+  surface.centre = surface.centre + dt * value_at(shape.given.velocity, time + 0.5 * dt);
+  if (!shape.given.turns()) return;
+  Vec<3> const rate = value_at(shape.given.angular_velocity, time + 0.5 * dt);
+  shape.rate = value_at(shape.given.angular_velocity, time + dt);
+  if (dimension_ < 3) {
+    shape.angle += dt * rate[2];
+    shape.turn = turn_about({{0, 0, 1}}, shape.angle);
+  } else {
+    shape.turn = of_unit_length(turn_by(dt * rate) * shape.turn);
+  }
+}
+
+void RigidMotion::move(std::vector<RigidSurface>& surfaces, double time, double dt) {
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    if (shapes_[k].body)
+      shapes_[k].body->drift(dt);
+    else
+      drive(shapes_[k], surfaces[k], time, dt);
+  }
+  place(surfaces);
+}
+
+/// Of springs between shapes and of those to points of bodies.
+void RigidMotion::bound_frequency(System const& bodies) {
+  std::vector<double> of_shapes;
+  for (std::size_t k = 0; k < shapes_.size(); ++k) of_shapes.push_back(bodies.frequencies(k).of_shape);
+  frequency2_ = pairs_.frequency2(of_shapes);
+  for (std::size_t k = 0; k < shapes_.size(); ++k)
+    if (shapes_[k].body) frequency2_ = std::max(frequency2_, bodies.frequencies(k).of_points + of_shapes[k]);
+}
+
+void RigidMotion::start(System const& bodies) {
+  pairs_.start(bodies.rigids());
+  bound_frequency(bodies);
+}
+
+void RigidMotion::evaluate(System const& bodies) {
+  pairs_.evaluate(bodies.rigids());
+  bound_frequency(bodies);
+}
+
+RigidPairs::Load RigidMotion::on(System const& bodies, std::size_t k) const {
+  auto const& by_bodies = bodies.on_rigid(k);
+  RigidPairs::Load const& by_shapes = pairs_.on(k);
+  return {by_bodies.force + by_shapes.force, by_bodies.moment + by_shapes.moment};
+}
+
+void RigidMotion::kick(System& bodies, double time, double half) {
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    if (!shapes_[k].body) continue;
+    RigidBody& body = *shapes_[k].body;
+    RigidPairs::Load const load = on(bodies, k);
+    Vec<3> const weight = (half * body.mass()) * value_at(shapes_[k].given.gravity, time);
+    Vec<3> const impulse = half * load.force + weight, before = body.velocity;
+    body.kick(impulse, half * load.moment);
+    // What holds the body gives back what is not free to act.
+    Vec<3> const outside = weight + body.free_part(impulse) - impulse;
+    work_ += 0.5 * dot(outside, before + body.velocity);
+  }
+  place(bodies.rigids());
+}
+
+void RigidMotion::damp(System& bodies, double factor) {
+  for (Shape& shape : shapes_) {
+    if (!shape.body) continue;
+    double const before = shape.body->moving_energy() + shape.body->turning_energy();
+    shape.body->velocity = shape.body->velocity - (1 - factor) * shape.body->free_part(shape.body->velocity);
+    shape.body->spin = factor * shape.body->spin;
+    damping_loss_ += before - shape.body->moving_energy() - shape.body->turning_energy();
+  }
+  place(bodies.rigids());
+}
+
+double RigidMotion::closing_step(std::vector<RigidSurface> const& surfaces) const {
+  double step = any_ ? pairs_.closing_step(surfaces) : std::numeric_limits<double>::infinity();
+  for (RigidSurface const& surface : surfaces) {
+    double const rate = std::sqrt(square_of(surface.angular_velocity));
+    if (rate > 0) step = std::min(step, widest_turn / rate);
+  }
+  return step;
+}
+
+double RigidMotion::kinetic_energy() const {
+  double sum = 0;
+  for (Shape const& shape : shapes_)
+    if (shape.body) sum += shape.body->moving_energy() + shape.body->turning_energy();
+  return sum;
+}
+
+Vec<3> RigidMotion::linear_momentum() const {
+  Vec<3> sum;
+  for (Shape const& shape : shapes_)
+    if (shape.body) sum = sum + shape.body->mass() * shape.body->velocity;
+  return sum;
+}
+
+Vec<3> RigidMotion::angular_momentum() const {
+  Vec<3> sum;
+  for (Shape const& shape : shapes_)
+    if (shape.body) sum = sum + shape.body->spin + shape.body->mass() * cross(shape.body->centre, shape.body->velocity);
+  return sum;
+}
+
+std::vector<RigidState> RigidMotion::states(std::vector<RigidSurface> const& surfaces) const {
+  std::vector<RigidState> all;
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    Shape const& shape = shapes_[k];
+    if (!shape.given.turns()) continue;
+    RigidState state;
+    state.name = shape.given.name;
+    state.centre = array_of(surfaces[k].centre);
+    state.velocity = array_of(surfaces[k].velocity);
+    state.angular_velocity = array_of(surfaces[k].angular_velocity);
+    state.turn = dimension_ < 3 ? std::array<double, 3>{0, 0, shape.body ? shape.body->angle : shape.angle}
+                                : array_of(rotation_vector(shape.body ? shape.body->turn : shape.turn));
+    if (shape.body) {
+      state.rotational_energy = shape.body->turning_energy();
+      state.kinetic_energy = shape.body->moving_energy() + state.rotational_energy;
+    }
+    all.push_back(std::move(state));
+  }
+  return all;
+}
+
+std::vector<double> RigidMotion::state() const {
+  std::vector<double> all{work_, damping_loss_, frequency2_};
+  auto const put = [&](Vec<3> const& v) { all.insert(all.end(), v.c, v.c + 3); };
+  for (Shape const& shape : shapes_) {
+    Quaternion const& turn = shape.body ? shape.body->turn : shape.turn;
+    all.push_back(shape.body ? shape.body->angle : shape.angle);
+    all.push_back(turn.w);
+    put(turn.v);
+    for (Vec<3> const& v : shape.body ? std::array{shape.body->centre, shape.body->velocity, shape.body->spin}
+                                      : std::array{Vec<3>{}, Vec<3>{}, shape.rate})
+      put(v);
+  }
+  std::vector<double> const pairs = pairs_.state();
+  all.insert(all.end(), pairs.begin(), pairs.end());
+  return all;
+}
+
+void RigidMotion::restore(std::vector<RigidSurface>& surfaces, std::vector<double> const& state) {
+  auto from = state.begin();
+  auto const take = [&](Vec<3>& v) {
+    std::copy_n(from, 3, v.c);
+    from += 3;
+  };
+  for (double* number : {&work_, &damping_loss_, &frequency2_}) *number = *from++;
+  for (Shape& shape : shapes_) {
+    double& angle = shape.body ? shape.body->angle : shape.angle;
+    Quaternion& turn = shape.body ? shape.body->turn : shape.turn;
+    angle = *from++;
+    turn.w = *from++;
+    take(turn.v);
+    std::array<Vec<3>, 3> motion;
+    for (Vec<3>& v : motion) take(v);
+    if (shape.body)
+      std::tie(shape.body->centre, shape.body->velocity, shape.body->spin) = std::tie(motion[0], motion[1], motion[2]);
+    else
+      shape.rate = motion[2];
+  }
+  place(surfaces);
+  pairs_.restore(surfaces, {from, state.end()});
+}
+
+}  // namespace piola::contact

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/mechanics/contact/rigid_body.hpp"
+#include "piola/mechanics/contact/rigid_pairs.hpp"
+#include "piola/mechanics/contact/system.hpp"
+#include "piola/mechanics/rigid_state.hpp"
+#include <optional>
+#include <vector>
+
+namespace piola::contact {
+
+/// All rigid shapes of a run as they move: driven ones as prescribed, free ones by what bodies, gravity and other
+/// shapes do to them. It places the surfaces of a System and takes what the bodies do from it.
+class RigidMotion {
+ public:
+  RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between);
+
+  /// Puts velocities, turns and masses into the surfaces.
+  void place(std::vector<RigidSurface>& surfaces) const;
+  /// From time to time + dt [s].
+  void move(std::vector<RigidSurface>& surfaces, double time, double dt);
+  /// Forces between shapes as they stand, after those of the bodies.
+  void start(System const& bodies);
+  void evaluate(System const& bodies);
+  /// The impulses of `half` [s] by the forces as they are and by gravity at a time; the velocities of the surfaces
+  /// follow.
+  void kick(System& bodies, double time, double half);
+  void damp(System& bodies, double factor);
+
+  /// What other shapes and bodies do to a shape; the moment about its centre.
+  RigidPairs::Load on(System const& bodies, std::size_t shape) const;
+  RigidPairs::Totals const& between_shapes() const { return pairs_.totals(); }
+  double frequency2() const { return frequency2_; }                      ///< bound of free shapes [1/s2]
+  double closing_step(std::vector<RigidSurface> const& surfaces) const;  ///< also one in which nothing turns far [s]
+
+  double kinetic_energy() const;         ///< of free shapes [J]
+  double work() const { return work_; }  ///< of gravity and of what holds free shapes, since the start [J]
+  double damping_loss() const { return damping_loss_; }  ///< [J]
+  Vec<3> linear_momentum() const;                        ///< of free shapes [kg m/s]
+  Vec<3> angular_momentum() const;                       ///< about the origin [kg m2/s]
+  std::vector<RigidState> states(std::vector<RigidSurface> const& surfaces) const;
+
+  /// Whether some shape is free or turns: else a checkpoint needs nothing of this.
+  bool any() const { return any_; }
+  std::vector<double> state() const;
+  /// Before the surfaces are used again; their centres and velocities are not in it.
+  void restore(std::vector<RigidSurface>& surfaces, std::vector<double> const& state);
+
+ private:
+  struct Shape {
+    RigidShape given;
+    Vec<3> axis;                    ///< at the start
+    std::optional<RigidBody> body;  ///< free
+    Quaternion turn;                ///< driven, since the start
+    double angle = 0;               ///< driven, in 2D [rad]
+    Vec<3> rate;                    ///< driven [rad/s]
+  };
+  void bound_frequency(System const& bodies);
+  void drive(Shape& shape, RigidSurface& surface, double time, double dt) const;
+
+  int dimension_;
+  bool any_ = false;
+  std::vector<Shape> shapes_;
+  RigidPairs pairs_;
+  double work_ = 0, damping_loss_ = 0, frequency2_ = 0;
+};
+
+}  // namespace piola::contact

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/rigid_pairs.hpp"
+#include "piola/mechanics/contact/system.hpp"
+#include "piola/mechanics/rigid_mass.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace piola::contact {
+namespace {
+
+using Kind = RigidSurface::Kind;
+
+constexpr double closing_share = 0.1;  // of a spacing in a step
+constexpr double resolved = 0.15;      // of 1/omega: what two shapes lose or gain in a blow falls with its square
+/// Sine of the slope below which the deepest point of the rim of a cylinder's end goes over into its middle.
+constexpr double upright = 0.02;
+
+/// Area that a shape pushes with [m2]; in 2D a length.
+double size_of(RigidShape const& shape, int dimension) {
+  double const volume = volume_of(shape, dimension);
+  return std::pow(volume, (dimension - 1.0) / dimension);
+}
+
+int points_of(Kind kind, int dimension) {
+  if (kind == Kind::sphere) return 1;
+  if (kind == Kind::cylinder) return 2;
+  return dimension == 3 ? 4 : 2;  // corners of a face
+}
+
+}  // namespace
+
+RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Setting const& setting)
+    : setting_(setting), loads_(shapes.size()), frequency2_(shapes.size()) {
+  for (std::size_t a = 0; a < shapes.size(); ++a)
+    for (std::size_t b = 0; b < shapes.size(); ++b) {
+      RigidShape const &one = shapes[a], &other = shapes[b];
+      // The points are those of the sphere, else those that stand before the plane; of two spheres of the first.
+      bool const points = one.kind == Kind::sphere || (other.kind == Kind::plane && one.kind != Kind::plane);
+      if (a == b || !(one.free || other.free) || !points || (other.kind == Kind::sphere && b < a)) continue;
+      double const area = std::min(size_of(one, dimension), size_of(other, dimension));
+      pairs_.push_back({a, b, setting.stiffness * area / points_of(one.kind, dimension)});
+    }
+}
+
+std::vector<RigidPairs::Touch> RigidPairs::touches(RigidSurface const& a, RigidSurface const& b) {
+  if (a.kind == Kind::sphere) {
+    Distance const d = distance_from(b, a.centre);
+    double const gap = d.value - a.radius;
+    return {{a.centre - (a.radius + 0.5 * gap) * d.normal, d.normal, gap}};
+  }
+  std::vector<Touch> all;
+  auto const add = [&](Vec<3> const& y) { all.push_back({y, b.axis, distance_from(b, y).value}); };
+  if (a.kind == Kind::cylinder) {
+    double const along = dot(b.axis, a.axis);
+    Vec<3> const across = b.axis - along * a.axis;
+    double const sine2 = square_of(across), length = std::sqrt(sine2 + upright * upright);
+    for (double const end : {-1.0, 1.0}) {
+      // Its gap is -radius (length - upright) from that of the middle of the end: an energy with smooth slopes.
+      Vec<3> const middle = a.centre + (end * a.half_lengths[0]) * a.axis;
+      all.push_back({middle - (a.radius / length) * across, b.axis,
+                     distance_from(b, middle).value - a.radius * (length - upright)});
+    }
+    return all;
+  }
+  for (int corner = 0; corner < (a.dimension == 3 ? 8 : 4); ++corner) {
+    Vec<3> r;
+    for (int c = 0; c < a.dimension; ++c) r[c] = (corner >> c & 1 ? 1 : -1) * a.half_lengths[c];
+    add(a.centre + a.turn * r);
+  }
+  return all;
+}
+
+void RigidPairs::add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force) {
+  loads_[shape] = {loads_[shape].force + force, loads_[shape].moment + cross(arm, force)};
+}
+
+/// Friction on shape a.
+Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, Touch const& touch, double normal_force,
+                       std::vector<RigidSurface> const& shapes) {
+  Pair const& p = pairs_[pair];
+  RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
+  auto const last = std::find_if(last_stuck_.begin(), last_stuck_.end(),
+                                 [&](Stuck const& s) { return s.pair == pair && s.point == point; });
+  bool const known = last != last_stuck_.end();
+  Vec<3> const jump = moved_from(last_[p.a], a, touch.y) - moved_from(last_[p.b], b, touch.y);
+  Spring const spring = dragged(known ? b.turn * last->stretch : Vec<3>{}, known ? jump : Vec<3>{}, touch.normal,
+                                p.stiffness, setting_.friction * normal_force);
+  if (known) totals_.friction_work += friction_work(last->force, spring.force, jump);
+  totals_.spring_energy += 0.5 * p.stiffness * square_of(spring.stretch);
+  stuck_.push_back({pair, point, transpose(b.turn) * spring.stretch, spring.force});
+  return spring.force;
+}
+
+void RigidPairs::push(std::size_t pair, std::size_t point, Touch const& touch,
+                      std::vector<RigidSurface> const& shapes) {
+  Pair const& p = pairs_[pair];
+  RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
+  double const length = 0.5 * setting_.spacing;
+  if (!(touch.gap < near * setting_.spacing)) return;
+  double const over = std::min(touch.gap, 0.0) / length, stiffness = p.stiffness * (1 + 3 * over * over);
+  for (std::size_t const shape : {p.a, p.b}) {
+    RigidSurface const& s = shapes[shape];
+    frequency2_[shape] += stiffness * (setting_.friction > 0 ? s.mobility(touch.y) : s.mobility(touch.y, touch.normal));
+  }
+  if (!(touch.gap < 0)) return;
+  Layer const psi = layer(touch.gap, p.stiffness, length);
+  totals_.energy += psi.energy;
+  totals_.deepest = std::max(totals_.deepest, -touch.gap / setting_.spacing);
+  totals_.touched += 1;
+  Vec<3> f = (-psi.slope) * touch.normal;
+  if (setting_.friction > 0) f = f + rub(pair, point, touch, -psi.slope, shapes);
+  add(p.a, touch.y - a.centre, f);
+  add(p.b, touch.y - b.centre, -1.0 * f);
+}
+
+void RigidPairs::start(std::vector<RigidSurface> const& shapes) {
+  remember(shapes);
+  evaluate(shapes);
+}
+
+void RigidPairs::remember(std::vector<RigidSurface> const& shapes) {
+  last_.clear();
+  for (RigidSurface const& shape : shapes) last_.push_back(pose_of(shape));
+}
+
+void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes) {
+  std::swap(stuck_, last_stuck_);
+  stuck_.clear();
+  totals_ = {};
+  std::fill(loads_.begin(), loads_.end(), Load{});
+  std::fill(frequency2_.begin(), frequency2_.end(), 0.0);
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+    std::vector<Touch> const all = touches(shapes[pairs_[pair].a], shapes[pairs_[pair].b]);
+    for (std::size_t point = 0; point < all.size(); ++point) push(pair, point, all[point], shapes);
+  }
+  remember(shapes);
+}
+
+double RigidPairs::frequency2(std::vector<double>& of_shapes) const {
+  for (std::size_t k = 0; k < of_shapes.size(); ++k) of_shapes[k] += frequency2_[k];
+  double largest = 0;
+  for (Pair const& p : pairs_)
+    if (frequency2_[p.a] > 0 || frequency2_[p.b] > 0) largest = std::max(largest, of_shapes[p.a] + of_shapes[p.b]);
+  return largest;
+}
+
+double RigidPairs::closing_step(std::vector<RigidSurface> const& shapes) const {
+  double step = std::numeric_limits<double>::infinity();
+  for (Pair const& p : pairs_)
+    if (double const omega2 = frequency2_[p.a] + frequency2_[p.b]; omega2 > 0)
+      step = std::min(step, resolved / std::sqrt(omega2));
+  for (Pair const& p : pairs_)
+    for (Touch const& touch : touches(shapes[p.a], shapes[p.b])) {
+      double const speed = dot(shapes[p.b].velocity_at(touch.y) - shapes[p.a].velocity_at(touch.y), touch.normal);
+      double const way = closing_share * setting_.spacing + 0.5 * std::max(touch.gap, 0.0);
+      if (speed > 0) step = std::min(step, way / speed);
+    }
+  return step;
+}
+
+std::vector<double> RigidPairs::state() const {
+  std::vector<double> all{totals_.energy, totals_.spring_energy, totals_.friction_work, totals_.deepest,
+                          totals_.touched};
+  auto const put = [&](Vec<3> const& v) { all.insert(all.end(), v.c, v.c + 3); };
+  for (Load const& load : loads_) {
+    put(load.force);
+    put(load.moment);
+  }
+  all.insert(all.end(), frequency2_.begin(), frequency2_.end());
+  for (Stuck const& s : stuck_) {
+    all.push_back(static_cast<double>(s.pair));
+    all.push_back(static_cast<double>(s.point));
+    put(s.stretch);
+    put(s.force);
+  }
+  return all;
+}
+
+void RigidPairs::restore(std::vector<RigidSurface> const& shapes, std::vector<double> const& state) {
+  remember(shapes);
+  auto from = state.begin();
+  auto const number = [&] { return *from++; };
+  auto const take = [&](Vec<3>& v) {
+    std::copy_n(from, 3, v.c);
+    from += 3;
+  };
+  totals_ = {number(), number(), number(), number(), number()};
+  for (Load& load : loads_) {
+    take(load.force);
+    take(load.moment);
+  }
+  for (double& f : frequency2_) f = number();
+  stuck_.clear();
+  while (from < state.end()) {
+    Stuck s{static_cast<std::size_t>(number()), static_cast<std::size_t>(number()), {}, {}};
+    take(s.stretch);
+    take(s.force);
+    stuck_.push_back(s);
+  }
+}
+
+}  // namespace piola::contact

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/tensor.hpp"
+#include "piola/mechanics/rigid_shape.hpp"
+
+namespace piola {
+
+/// Volume of a rigid shape [m3]; in 2D its area [m2]; infinite of a plane.
+double volume_of(RigidShape const& shape, int dimension);
+
+/// How the mass of a homogeneous shape lies about its centre.
+struct PrincipalInertia {
+  Vec<3> moment;  ///< about the axes below [kg m2]; in 2D the last, per length [kg m]
+  Mat<3> axes;    ///< columns: unit vectors
+};
+PrincipalInertia inertia_of(RigidShape const& shape, int dimension);
+
+}  // namespace piola

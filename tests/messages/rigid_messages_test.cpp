@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user is told about rigid shapes that are free, or turn, word for word.
+#include "support/sample_case.hpp"
+#include <gtest/gtest.h>
+
+namespace piola {
+namespace {
+
+using test::message_of;
+using test::replaced;
+using test::sample_case;
+using test::sample_with;
+
+constexpr char const* ball = "sphere = { centre = [20, 0, 0], radius = 1 }\n";
+
+// The sample has 22 lines, so that the motion starts in line 26.
+std::string moving(std::string const& more, std::string const& shape = ball) {
+  return message_of(sample_case() + "[[rigid]]\nname = \"stone\"\n" + shape + more + "\n");
+}
+std::string free(std::string const& more, std::string const& shape = ball) {
+  return moving("motion = \"free\"\n" + more, shape);
+}
+
+TEST(RigidMessages, FreeShapesHaveAMass) {
+  EXPECT_EQ(free("mass = \"2 kg\""), "");
+  EXPECT_EQ(free("density = \"7.8 g/cm^3\""), "");
+  EXPECT_EQ(free(""), "case.toml:26:10: a free rigid shape has no mass (allowed: mass or density) - give one of them");
+  EXPECT_EQ(free("mass = 1\ndensity = 2"),
+            "case.toml:27:8: a free rigid shape has mass and density (allowed: mass or density) - give one of them");
+  EXPECT_EQ(free("mass = \"1 kg/m\""),
+            "case.toml:27:8: rigid.mass cannot be read: \"1 kg/m\" is not a quantity in kg (expected a unit "
+            "such as kg)");
+  EXPECT_EQ(free("mass = -1"), "case.toml:27:8: rigid.mass is -1 kg (allowed: above 0)");
+  EXPECT_EQ(free("mass = 1", "plane = { point = [0, -9, 0], normal = [0, 1, 0] }\n"),
+            "case.toml:26:10: a plane is free (allowed: sphere, cylinder, box) - a half-space has no mass; take a box");
+}
+
+TEST(RigidMessages, FreeShapesStartWithAVelocity) {
+  EXPECT_EQ(free("mass = 1\nvelocity = [\"5 m/s\", 0, 0]\nangular_velocity = [0, \"90 rad/s\", \"Omega\"]"), "");
+  EXPECT_EQ(free("mass = 1\nvelocity = [\"t\", \"X\", 0]\nangular_velocity = [1, 2]"),
+            "case.toml:28:12: rigid.velocity[0], formula \"t\" uses t (allowed: the constants) - of a free shape it is "
+            "the value at the start\n"
+            "case.toml:28:12: rigid.velocity[1], formula \"X\" uses X (allowed: t and the constants) - a rigid shape "
+            "moves as one\n"
+            "case.toml:29:20: rigid.angular_velocity is a list of 2 (allowed: a list of 3)");
+  EXPECT_EQ(free("mass = 1\nfix = \"xq\"\nturns = false\nangular_velocity = [1, 0, 0]"),
+            "case.toml:28:7: rigid.fix is \"xq\" (allowed: one or more of the letters xyz)\n"
+            "case.toml:30:20: rigid.angular_velocity has no meaning with turns = false - remove it");
+  EXPECT_EQ(free("mass = 1\ngravity = [0, \"1/t\", 0]"),
+            "case.toml:28:11: rigid.gravity[1], formula \"1/t\" is inf at t = 0 (allowed: a finite number)");
+}
+
+TEST(RigidMessages, OtherShapesAreFixedOrDriven) {
+  EXPECT_EQ(moving("motion = \"fixed\""), "");
+  EXPECT_EQ(moving("motion = \"driven\"\nangular_velocity = [\"sin(t)\", 0, 0]"), "");
+  EXPECT_EQ(moving("motion = \"fixed\"\nvelocity = [1, 0, 0]"),
+            "case.toml:27:12: rigid.velocity is used only by shapes that move - remove it");
+  EXPECT_EQ(moving("motion = \"driven\""),
+            "case.toml:23:1: rigid needs \"velocity\" (how it is driven) - add velocity = [\"1 m/s\", ...], or "
+            "angular_velocity");
+  EXPECT_EQ(moving("motion = \"loose\""),
+            "case.toml:26:10: rigid.motion is \"loose\" (allowed: fixed, driven, free) - choose one of these");
+  EXPECT_EQ(moving("mass = 1\ngravity = [0, 0, -9.81]\nturns = false"),
+            "case.toml:26:8: rigid.mass is used only with motion = \"free\" - remove it\n"
+            "case.toml:27:11: rigid.gravity is used only with motion = \"free\" - remove it\n"
+            "case.toml:28:9: rigid.turns is used only with motion = \"free\" - remove it");
+}
+
+TEST(RigidMessages, FreeShapesNeedSurfacesAndPartners) {
+  std::string const stone = std::string("[[rigid]]\nname = \"stone\"\nmotion = \"free\"\nmass = 1\n") + ball;
+  std::string text = sample_with("neo_hookean", "linear_elastic");
+  text = replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", "name = \"taylor_sph\"");
+  std::string const surfaces =
+      "(allowed: bodies with a surface: nodal, jst_sph, or adaptle with description = \"total_lagrangian\", in 2D or "
+      "3D, without mirrors, with a contact.law) - change the body, or let the shape be fixed or driven without turning";
+  EXPECT_NE(message_of(text + stone)
+                .find("nothing keeps the free rigid shape \"stone\" apart from body \"column\" " + surfaces),
+            std::string::npos);
+  EXPECT_NE(message_of(sample_case() + stone + "[contact]\nlaw = \"none\"\n")
+                .find("nothing keeps the free rigid shape \"stone\" apart from body \"column\" " + surfaces),
+            std::string::npos);
+  EXPECT_EQ(message_of(sample_case() + replaced(stone, "stone", "column")),
+            "case.toml:24:8: the name \"column\" is taken by a body (allowed: one name for one of them, whose columns "
+            "are alike) - choose another name");
+  std::string const wall = "[[rigid]]\nname = \"wall\"\n";
+  EXPECT_EQ(message_of(sample_case() + stone + wall + "plane = { point = [22, 0, 0], normal = [-1, 0, 0] }\n"), "");
+  EXPECT_EQ(
+      message_of(sample_case() + stone + wall + "plane = { point = [20.5, 0, 0], normal = [-1, 0, 0] }\n"),
+      "case.toml:28:1: the rigid shapes \"stone\" and \"wall\" start 500 mm inside each other (allowed: apart, or "
+      "touching) - move one of them");
+  std::string const crate =
+      "[[rigid]]\nname = \"crate\"\nmotion = \"free\"\nmass = 1\nbox = { min = [30, 0, 0], max = "
+      "[31, 1, 1] }\n";
+  EXPECT_EQ(message_of(sample_case() + crate + wall + "box = { min = [40, 0, 0], max = [41, 1, 1] }\n"),
+            "case.toml:28:1: the rigid shapes \"crate\" and \"wall\" would go through each other (allowed where one of "
+            "them is free: a plane and any shape, a sphere and any shape) - make one of them a sphere or a plane, or a "
+            "stiff body of particles");
+}
+
+}  // namespace
+}  // namespace piola

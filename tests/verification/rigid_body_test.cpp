@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/setup/contact_surface.hpp"
+#include "formulations/small_bodies.hpp"
+#include "materials/solid_samples.hpp"
+
+/// Free rigid bodies among deformable ones: momenta, energy, threads, checkpoints.
+namespace piola {
+namespace {
+
+using namespace testing;
+using Kind = RigidShape::Kind;
+
+struct Throw {
+  std::string name, formulation;
+  int dimension;
+  Kind kind;
+};
+
+RigidShape thrown(Kind kind, int dimension) {
+  RigidShape s;
+  s.name = "stone";
+  s.kind = kind;
+  s.free = true;
+  s.centre = {0.55, 1.55, dimension == 3 ? 0.45 : 0};
+  s.half_lengths = {0.35, 0.25, 0.2};
+  s.radius = 0.3;
+  s.axis = {0.8, 0.6, 0};
+  s.mass = dimension == 3 ? 90 : 250;
+  s.velocity = formulas({"1", "-6", dimension == 3 ? "0.5" : "0"});
+  s.angular_velocity = formulas({dimension == 3 ? "4" : "0", dimension == 3 ? "-7" : "0", "9"});
+  return s;
+}
+
+double column(Diagnostics const& d, std::string_view name) {
+  for (auto const& [known, value] : d.more)
+    if (known == name) return value;
+  ADD_FAILURE() << "no column " << name;
+  return 0;
+}
+
+class FreeRigidBody : public ::testing::TestWithParam<Throw> {
+ protected:
+  /// A block, and a turning rigid body that is thrown on it.
+  static Assembly scene(double friction) {
+    auto const& at = GetParam();
+    Assembly a;
+    ShapeSpec shape;
+    shape.dimension = at.dimension;
+    shape.placement = ShapeSpec::Placement::cell_centred;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(at.dimension); ++c) {
+      shape.max[c] = 1;
+      shape.particles[c] = 6;
+    }
+    fill(shape, "block", a.particles);
+    bool const solid = at.formulation == "adaptle";
+    a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber());
+    a.formulations.push_back({at.formulation, {}, {}});
+    if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
+    a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
+    with_any_law(a.materials.back(),
+                 [&](auto const& law) { a.surfaces.back().modulus = law.kappa + 4.0 / 3 * law.mu; });
+    a.contact.friction.kinetic = friction;
+    a.rigid_shapes.push_back(thrown(at.kind, at.dimension));
+    give_velocity(a, [](Point const&) { return Point{0, 0.5, 0}; });
+    return a;
+  }
+  static void run(Formulation& f, double& time, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      double const dt = f.stable_time_step();
+      f.step(time, dt);
+      time += dt;
+    }
+    ASSERT_FALSE(f.failure().has_value());
+  }
+  /// Steps until it touches, and some more.
+  static void run_to_touch(Formulation& f, double& time) {
+    for (int k = 0; k < 4000 && !(column(f.diagnose(), "contact_points") > 0); ++k) run(f, time, 1);
+    ASSERT_GT(column(f.diagnose(), "contact_points"), 0);
+  }
+};
+
+TEST_P(FreeRigidBody, SharesMomentaAndEnergyWithWhatItHits) {
+  for (double const friction : {0.0, 0.4}) {
+    auto const f = make_formulation(scene(friction));
+    Diagnostics const before = f->diagnose();
+    EXPECT_GT(before.kinetic_energy, 1) << "that of the stone";
+    double time = 0;
+    run_to_touch(*f, time);
+    double const mass = GetParam().dimension == 3 ? 90 : 250, size = mass * 6;
+    for (int k = 0; k < 300; ++k) {
+      run(*f, time, 1);
+      Diagnostics const d = f->diagnose();
+      for (std::size_t c = 0; c < 3; ++c) {
+        ASSERT_NEAR(d.linear_momentum[c], before.linear_momentum[c], 1e-12 * size);
+        // That of adaptle itself drifts by some 1e-9.
+        ASSERT_NEAR(d.angular_momentum[c], before.angular_momentum[c],
+                    (GetParam().formulation == "adaptle" ? 1e-8 : 1e-11) * size);
+      }
+    }
+    Diagnostics const d = f->diagnose();
+    double const energy = d.total_energy() + column(d, "friction_heat") + d.stabilisation_loss;
+    // The edges of a box are sharp, and hit the points of this coarse block one by one.
+    EXPECT_NEAR(energy / before.total_energy(), 1, GetParam().kind == Kind::box ? 3e-2 : 6e-3) << friction;
+    ASSERT_EQ(d.rigids.size(), 1U);
+    EXPECT_GT(d.rigids[0].velocity[1], -5.5) << "the block has pushed back";
+  }
+}
+
+TEST_P(FreeRigidBody, HasTheSameBitsWithAnyNumberOfThreads) {
+  std::map<std::string, Values, std::less<>> first;
+  for (int const threads : thread_counts) {
+    Threads const shared(threads);
+    auto const f = make_formulation(scene(0.3));
+    double time = 0;
+    run_to_touch(*f, time);
+    run(*f, time, 40);
+    auto const found = saved(*f).values;
+    if (first.empty()) first = found;
+    EXPECT_EQ(found, first) << threads;
+  }
+}
+
+TEST_P(FreeRigidBody, ResumesBitForBit) {
+  Assembly const a = scene(0.3);
+  auto const whole = make_formulation(a);
+  double time = 0;
+  run_to_touch(*whole, time);
+  run(*whole, time, 5);
+  SavedState state = saved(*whole);
+  auto const resumed = make_formulation(a);
+  resumed->load(state);
+  double other = time;
+  run(*whole, time, 30);
+  run(*resumed, other, 30);
+  EXPECT_EQ(time, other);
+  EXPECT_EQ(saved(*resumed).values, saved(*whole).values);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Throws, FreeRigidBody,
+    ::testing::Values(Throw{"nodal_disc", "nodal", 2, Kind::sphere}, Throw{"jst_box_2d", "jst_sph", 2, Kind::box},
+                      Throw{"jst_ball", "jst_sph", 3, Kind::sphere}, Throw{"nodal_box", "nodal", 3, Kind::box},
+                      Throw{"nodal_bar", "nodal", 3, Kind::cylinder}, Throw{"adaptle_box", "adaptle", 3, Kind::box}),
+    [](auto const& at) { return at.param.name; });
+
+/// A block far off, and free shapes on a rigid floor.
+Assembly bouncing(Kind kind, double friction, std::array<std::string, 3> const& velocity, double height) {
+  Assembly a;
+  ShapeSpec shape;
+  shape.max = {0.3, 0.3, 0.3};
+  shape.particles = {4, 4, 4};
+  fill(shape, "block", a.particles);
+  a.materials.push_back(rubber());
+  a.formulations.push_back({"jst_sph", {}, {}});
+  a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
+  a.surfaces.back().modulus = 2e7;
+  a.contact.friction.kinetic = friction;
+  RigidShape s = thrown(kind, 3);
+  s.centre = {30, 0, height};
+  s.axis = {1, 0, 0};
+  s.half_lengths = {0.5, 0.3, 0.2};
+  s.velocity = formulas(velocity);
+  s.angular_velocity = formulas({"0", "0", "0"});
+  s.gravity = formulas({"0", "0", "-9.81"});
+  RigidShape floor;
+  floor.name = "floor";
+  a.rigid_shapes = {s, floor};
+  return a;
+}
+
+TEST(FreeRigidBodies, BounceOnARigidFloorWithAllTheirEnergy) {
+  for (Kind const kind : {Kind::sphere, Kind::cylinder, Kind::box}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    auto const f = make_formulation(bouncing(kind, 0, {"0", "0", "-3"}, kind == Kind::box ? 0.3 : 0.4));
+    double const before = f->diagnose().total_energy();
+    double time = 0, lowest = 1, pushed = 0;
+    for (int k = 0; k < 20000 && time < 0.4; ++k) {
+      double const dt = f->stable_time_step();
+      f->step(time, dt);
+      time += dt;
+      lowest = std::min(lowest, f->diagnose().rigids[0].centre[2]);
+      pushed = std::max(pushed, f->diagnose().actions[1].force[2]);
+    }
+    Diagnostics const d = f->diagnose();
+    EXPECT_NEAR((d.total_energy() - d.external_work) / before, 1, 1e-3);
+    EXPECT_GT(lowest, kind == Kind::box ? 0.15 : 0.25) << "it has not fallen through";
+    EXPECT_GT(pushed, 90 * 9.81) << "the floor has pushed it";
+    EXPECT_GT(d.rigids[0].centre[2], lowest + 0.01);
+  }
+}
+
+TEST(FreeRigidBodies, SlideThenRollOnARigidFloor) {
+  constexpr double v = 2;
+  for (Kind const kind : {Kind::sphere, Kind::cylinder}) {
+    // Across the axis of the cylinder.
+    Assembly a = bouncing(kind, 0.3, {"0", "2", "0"}, 0.3);
+    auto const f = make_formulation(a);
+    double time = 0;
+    while (time < 0.6) {
+      double const dt = f->stable_time_step();
+      f->step(time, dt);
+      time += dt;
+    }
+    Diagnostics const d = f->diagnose();
+    double const share = kind == Kind::sphere ? 5.0 / 7 : 2.0 / 3;
+    EXPECT_NEAR(d.rigids[0].velocity[1] / v, share, 0.01 * share);
+    EXPECT_NEAR(-0.3 * d.rigids[0].angular_velocity[0] / v, share, 0.01 * share);
+    EXPECT_NEAR(column(d, "friction_heat") / (0.5 * 90 * v * v), 1 - share, 0.02);
+  }
+}
+
+TEST(FreeRigidBodies, NeedASurfaceToPush) {
+  Assembly a = bouncing(Kind::box, 0, {"0", "0", "0"}, 1);
+  a.surfaces.clear();
+  EXPECT_NE(refusal(a).find("no body has one"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piola
