@@ -113,6 +113,13 @@ TEST(ShowShapes, WidensTheWindowForWhatHasAnEnd) {
 
 class Upwards : public ::testing::TestWithParam<std::tuple<Up, Point>> {};
 
+TEST(RigidPicture, ShowsABoxAsItHasTurned) {
+  RigidShape box = shape(RigidShape::Kind::box, {0, 0, 0}, 0, {2, 0.5, 0.5});
+  int const lying = area(drawn(box));
+  box.edges = {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}};
+  EXPECT_NEAR(area(drawn(box)), lying / 4.0, lying / 20.0) << "its end";
+}
+
 TEST_P(Upwards, PointsUpInAPictureThatIsNoMirrorImage) {
   auto const& [up, axis] = GetParam();
   View const level{0, 0, up};

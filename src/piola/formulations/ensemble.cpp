@@ -216,6 +216,7 @@ std::optional<Failure> Ensemble::failure() const {
     if (here->particle >= 0) here->particle = parts_[k].id_in_whole(here->particle);
     if (!first || here->particle < first->particle) first = std::move(here);
   }
+  if (!first && meeting_) first = meeting_->failure();
   return first;
 }
 

@@ -278,6 +278,18 @@ bool Meeting::sample(std::string_view field, std::span<double> values) const {
   return true;
 }
 
+std::optional<Failure> Meeting::failure() const {
+  for (RigidState const& rigid : rigids()) {
+    double const sum = rigid.kinetic_energy + rigid.centre[0] + rigid.centre[1] + rigid.centre[2];
+    if (std::isfinite(sum)) continue;
+    Failure failure;
+    failure.what = "free rigid shape '" + rigid.name + "' moves with what is not a number";
+    failure.values = {{"kinetic energy [J]", rigid.kinetic_energy}, {"x [m]", rigid.centre[0]}};
+    return failure;
+  }
+  return std::nullopt;
+}
+
 void Meeting::save(StateWriter& writer) const {
   std::vector<double> const system = system_.state();
   writer.put("contact_count", std::array{static_cast<double>(system.size())});

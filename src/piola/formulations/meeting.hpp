@@ -6,6 +6,7 @@
 #include "piola/mechanics/contact/rigid_motion.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,9 @@ class Meeting {
   /// Rigid shapes that are free or turn, as they stand.
   std::vector<RigidState> rigids() const { return motion_.states(system_.rigids()); }
   double kinetic_energy() const { return motion_.kinetic_energy(); }  ///< of free rigid shapes [J]
-  void damp(double factor) { motion_.damp(system_, factor); }         ///< free rigid shapes
+  /// Set once a free rigid shape moves with what is not a number.
+  std::optional<Failure> failure() const;
+  void damp(double factor) { motion_.damp(system_, factor); }  ///< free rigid shapes
   /// What supports took and rigid shapes gave, in the order of the case: supports, loads with a name, rigid shapes.
   std::vector<Action> actions() const { return actions_.report(); }
   /// What body B did to body A, named "A-B"; the moment about the origin.

@@ -9,7 +9,7 @@ namespace {
 using Point = std::array<double, 3>;
 using Kind = RigidShape::Kind;
 
-constexpr Colour rigid_grey{176, 180, 186};
+constexpr Colour rigid_grey{176, 180, 186}, dark_grey{138, 143, 151};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Point minus(Point const& a, Point const& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -66,6 +66,7 @@ struct Solid {
   std::array<Point, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Point half{};
   double radius = 0;
+  bool marked = false;  ///< whether it shows how it has turned
 
   Part seen(Point const& from, Point const& w) const {
     Point const r = minus(from, centre);
@@ -91,10 +92,19 @@ std::array<Point, 2> across(Point const& n) {
   return {a, Point{n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0]}};
 }
 
+/// Every other eighth of a ball, or quarter of a disc, is darker.
+bool is_dark(RigidShape const& shape, Point const& at, int dimension) {
+  Point const r = minus(at, shape.centre);
+  bool dark = false;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) dark = dark != (dot(r, shape.edges[c]) < 0);
+  return dark;
+}
+
 Solid solid_of(RigidShape const& shape, Stage const& stage) {
   Solid solid{shape.kind, shape.centre};
   solid.half = shape.half_lengths;
   solid.radius = shape.radius;
+  solid.marked = shape.kind == Kind::sphere && shape.turns();
   if (shape.kind == Kind::cylinder) solid.axes[0] = shape.axis;
   if (shape.kind == Kind::box) solid.axes = shape.edges;
   if (shape.kind != Kind::plane) return solid;
@@ -144,7 +154,9 @@ void RigidCanvas::draw(DepthImage& image, std::span<RigidShape const> shapes) co
         Point const& n = part.normal;
         bool const flat = dimension < 3;
         constexpr double behind_all = -1e30;  // finite in single precision
-        image.put(x, y, flat ? behind_all : part.to * project.scale * fine, rigid_grey,
+        Point const at = plus(project.point((x + 0.5) / fine, (y + 0.5) / fine), part.to, project.towards);
+        Colour const colour = solid.marked && is_dark(shape, at, dimension) ? dark_grey : rigid_grey;
+        image.put(x, y, flat ? behind_all : part.to * project.scale * fine, colour,
                   flat ? 1 : light(dot(n, project.right), -dot(n, project.up), dot(n, project.towards)));
       }
     }

@@ -6,7 +6,7 @@
 namespace piola::contact {
 
 /// A free rigid body. Its momenta m v and L are what forces and moments change, and nothing else does: kicks alternate
-/// with drifts, in which both stay as they are. Theory: docs/theory/contact.md, section 7.
+/// with drifts, in which both stay as they are. Theory: docs/theory/contact.md, Rigid bodies.
 class RigidBody {
  public:
   RigidBody(RigidShape const& shape, int dimension);

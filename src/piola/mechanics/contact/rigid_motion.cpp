@@ -9,6 +9,8 @@ namespace piola::contact {
 namespace {
 
 constexpr double widest_turn = 0.2;  // of a shape in a step [rad]
+constexpr double resolved_of_shape =
+    0.3;  // of 1/omega of a free shape: a light one bounces within a few steps of the bodies
 
 Vec<3> value_at(std::array<Expression, 3> const& formulas, double time) {
   return {{formulas[0]({}, time), formulas[1]({}, time), formulas[2]({}, time)}};
@@ -75,6 +77,7 @@ void RigidMotion::bound_frequency(System const& bodies) {
   frequency2_ = pairs_.frequency2(of_shapes);
   for (std::size_t k = 0; k < shapes_.size(); ++k)
     if (shapes_[k].body) frequency2_ = std::max(frequency2_, bodies.frequencies(k).of_points + of_shapes[k]);
+  of_shapes_ = of_shapes.empty() ? 0 : *std::max_element(of_shapes.begin(), of_shapes.end());
 }
 
 void RigidMotion::start(System const& bodies) {
@@ -121,6 +124,7 @@ void RigidMotion::damp(System& bodies, double factor) {
 
 double RigidMotion::closing_step(std::vector<RigidSurface> const& surfaces) const {
   double step = any_ ? pairs_.closing_step(surfaces) : std::numeric_limits<double>::infinity();
+  if (of_shapes_ > 0) step = std::min(step, resolved_of_shape / std::sqrt(of_shapes_));
   for (RigidSurface const& surface : surfaces) {
     double const rate = std::sqrt(square_of(surface.angular_velocity));
     if (rate > 0) step = std::min(step, widest_turn / rate);
@@ -171,7 +175,7 @@ std::vector<RigidState> RigidMotion::states(std::vector<RigidSurface> const& sur
 }
 
 std::vector<double> RigidMotion::state() const {
-  std::vector<double> all{work_, damping_loss_, frequency2_};
+  std::vector<double> all{work_, damping_loss_, frequency2_, of_shapes_};
   auto const put = [&](Vec<3> const& v) { all.insert(all.end(), v.c, v.c + 3); };
   for (Shape const& shape : shapes_) {
     Quaternion const& turn = shape.body ? shape.body->turn : shape.turn;
@@ -193,7 +197,7 @@ void RigidMotion::restore(std::vector<RigidSurface>& surfaces, std::vector<doubl
     std::copy_n(from, 3, v.c);
     from += 3;
   };
-  for (double* number : {&work_, &damping_loss_, &frequency2_}) *number = *from++;
+  for (double* number : {&work_, &damping_loss_, &frequency2_, &of_shapes_}) *number = *from++;
   for (Shape& shape : shapes_) {
     double& angle = shape.body ? shape.body->angle : shape.angle;
     Quaternion& turn = shape.body ? shape.body->turn : shape.turn;

@@ -63,6 +63,7 @@ class RigidMotion {
   std::vector<Shape> shapes_;
   RigidPairs pairs_;
   double work_ = 0, damping_loss_ = 0, frequency2_ = 0;
+  double of_shapes_ = 0;  ///< square of the largest frequency that a free shape has on its springs [1/s2]
 };
 
 }  // namespace piola::contact

@@ -15,7 +15,7 @@ inline bool can_push(RigidShape::Kind a, RigidShape::Kind b) {
 }
 
 /// Contact of free rigid shapes with other rigid shapes: a few points of one against the distance from the other, with
-/// the layer of a deformable body between them. Theory: docs/theory/contact.md, section 7.
+/// the layer of a deformable body between them. Theory: docs/theory/contact.md, Rigid bodies.
 class RigidPairs {
  public:
   struct Setting {
