@@ -24,7 +24,13 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
-/// Bodies with a surface, except two of a formulation that has a contact of its own.
+bool is_tied(Assembly const& whole, std::size_t a, std::size_t b) {
+  return std::any_of(whole.ties.begin(), whole.ties.end(), [&](contact::TieRule const& tie) {
+    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
+  });
+}
+
+/// Bodies with a surface, except two of a formulation that has a contact of its own, unless they are tied.
 std::vector<std::vector<bool>> who_meets(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
@@ -35,7 +41,8 @@ std::vector<std::vector<bool>> who_meets(Assembly const& whole) {
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b)
       meets[a][b] =
-          a != b && !whole.surfaces[a].points.empty() && !whole.surfaces[b].points.empty() && !(own(a) && own(b));
+          whole.contact.law != ContactRule::Law::none && a != b && !whole.surfaces[a].points.empty() &&
+          !whole.surfaces[b].points.empty() && (!(own(a) && own(b)) || is_tied(whole, a, b));
   return meets;
 }
 
@@ -44,7 +51,7 @@ std::vector<bool> who_meets_rigids(Assembly const& whole) {
   std::vector<bool> meets;
   for (FormulationSpec const& spec : whole.formulations) {
     auto const info = find_formulation(spec.name);
-    meets.push_back(info && !info->contact);
+    meets.push_back(info && !info->contact && whole.contact.law != ContactRule::Law::none);
   }
   return meets;
 }
@@ -64,7 +71,8 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       supports_(whole.supports),
       system_(system_of(whole)),
       held_(system_.ids().size()),
-      actions_(whole.supports, whole.loads, whole.rigid_shapes) {
+      actions_(whole.supports, whole.loads, whole.rigid_shapes),
+      ties_(whole, system_) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
   auto const& ids = system_.ids();
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -118,11 +126,24 @@ void Meeting::look(Formulations const& formulations) {
   }
   system_.set_masses(mass_);
   read_state(formulations);
+  ties_.look(system_, x_, mass_);
   if (loaded_.empty())
     system_.start(x_);
   else
     system_.restore(x_, std::exchange(loaded_, {}));
+  sum_forces();
   closing_ = system_.closing_step(v_);
+}
+
+/// Contact and ties together.
+void Meeting::sum_forces() {
+  for (Index const k : pushed_) forces_[static_cast<std::size_t>(k)] = {};
+  forces_.resize(x_.size());
+  pushed_.clear();
+  std::set_union(system_.pushed().begin(), system_.pushed().end(), ties_.pushed().begin(), ties_.pushed().end(),
+                 std::back_inserter(pushed_));
+  for (Index const k : system_.pushed()) forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
+  ties_.add_forces(forces_);
 }
 
 /// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
@@ -132,12 +153,12 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
   std::vector<std::vector<Point>> change(shares_.size());
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     Share const& share = shares_[s];
-    auto pushed = system_.pushed().begin();
-    for (std::size_t k = 0; k < share.at.size() && pushed != system_.pushed().end(); ++k) {
-      pushed = std::lower_bound(pushed, system_.pushed().end(), share.at[k]);
-      if (pushed == system_.pushed().end() || *pushed != share.at[k]) continue;
+    auto pushed = pushed_.begin();
+    for (std::size_t k = 0; k < share.at.size() && pushed != pushed_.end(); ++k) {
+      pushed = std::lower_bound(pushed, pushed_.end(), share.at[k]);
+      if (pushed == pushed_.end() || *pushed != share.at[k]) continue;
       auto const i = static_cast<std::size_t>(share.at[k]);
-      Vec<3> impulse = half * system_.forces()[i];
+      Vec<3> impulse = half * forces_[i];
       for (Held const& held : held_[i]) {
         if (has_ended(held.until, time)) continue;
         Vec<3> const d = vector_of(held.direction);
@@ -173,6 +194,7 @@ void Meeting::book(double half) {
       sum.force = sum.force + half * between.force;
       sum.moment = sum.moment + half * between.moment;
     }
+  ties_.book(half);
 }
 
 void Meeting::move_rigids(double time, double dt) {
@@ -192,6 +214,7 @@ void Meeting::move_rigids(double time, double dt) {
 void Meeting::begin(Formulations const& formulations, double time, double dt) {
   actions_.begin(dt);
   std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::System::Between{});
+  ties_.begin();
   last_dt_ = dt;
   push(formulations, time, 0.5 * dt);
   move_rigids(time, dt);
@@ -199,15 +222,17 @@ void Meeting::begin(Formulations const& formulations, double time, double dt) {
 
 void Meeting::finish(Formulations const& formulations, double time, double dt) {
   read_state(formulations);
+  ties_.evaluate(system_, x_);
   system_.evaluate(x_);
+  sum_forces();
   friction_work_ += system_.totals().friction_work;
   push(formulations, time, 0.5 * dt);
   closing_ = system_.closing_step(v_);
 }
 
 double Meeting::limit(double step) const {
-  double const omega2 = system_.totals().frequency2;
-  // Of a step h = 2 margin / omega: contact adds to the square of the frequency of the bodies.
+  double const omega2 = system_.totals().frequency2 + ties_.frequency2();
+  // Of a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
   double const together = 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin));
   return std::min(omega2 > 0 ? together : step, closing_);
 }
@@ -221,12 +246,13 @@ std::vector<Action> Meeting::pairs() const {
       auto const& sum = pair_impulses_[a * names_.size() + b];
       all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
     }
+  ties_.add_actions(scale, all);
   return all;
 }
 
 void Meeting::report(Diagnostics& sum) const {
   contact::Totals const& now = system_.totals();
-  double const stored = now.energy + now.spring_energy;
+  double const stored = now.energy + now.spring_energy + ties_.energy();
   sum.strain_energy += stored;
   for (auto& [name, value] : sum.more)
     if (name == "centred_energy") value += stored;  // the sum that does not rise
@@ -241,6 +267,7 @@ void Meeting::report(Diagnostics& sum) const {
   overlap = std::max(overlap, now.deepest);
   column("friction_heat") = friction_work_ - now.spring_energy;
   column("contact_points") = static_cast<double>(now.touched);
+  ties_.report(sum);
 }
 
 void Meeting::save(StateWriter& writer) const {
@@ -255,6 +282,7 @@ void Meeting::save(StateWriter& writer) const {
     for (Vec<3> const& a : {pair.force, pair.moment}) rigid.insert(rigid.end(), a.c, a.c + 3);
   writer.put("contact", rigid);
   writer.put("contact_actions", actions_.state());
+  ties_.save(writer);
 }
 
 void Meeting::load(StateReader& reader) {
@@ -283,6 +311,7 @@ void Meeting::load(StateReader& reader) {
   std::vector<double> actions = actions_.state();
   reader.get("contact_actions", actions);
   actions_.restore(actions);
+  ties_.load(reader);
 }
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/ensemble.hpp"
+#include "piola/formulations/meeting_ties.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <memory>
@@ -9,7 +10,7 @@
 
 namespace piola {
 
-/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes. It pushes them at the
+/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes, and ties between them. It pushes them at the
 /// instants between steps: half of a step's impulse with the forces before it, half with those after it. For
 /// formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
 class Meeting {
@@ -32,7 +33,7 @@ class Meeting {
   std::vector<Action> pairs() const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
-  std::size_t bytes() const { return system_.bytes(); }
+  std::size_t bytes() const { return system_.bytes() + ties_.bytes(); }
 
  private:
   /// A direction of a particle that a support holds.
@@ -50,6 +51,7 @@ class Meeting {
   void read_state(Formulations const& formulations);
   void push(Formulations const& formulations, double time, double half);
   void book(double half);
+  void sum_forces();
   void move_rigids(double time, double dt);
 
   int dimension_;
@@ -62,6 +64,9 @@ class Meeting {
   std::vector<double> mass_;
   std::vector<Vec<3>> x_, v_;
   Actions actions_;
+  MeetingTies ties_;
+  std::vector<Vec<3>> forces_;  ///< of contact and ties, by index into System::ids() [N]
+  std::vector<Index> pushed_;   ///< that have one, ascending
   std::vector<contact::System::Between> pair_impulses_;
   std::vector<double> loaded_;  ///< of a checkpoint, until the state of the bodies is read
   double work_ = 0, friction_work_ = 0, last_dt_ = 0, closing_ = 0;

@@ -99,6 +99,12 @@ struct ContactSpec : ContactRule {
   Places places;
 };
 
+/// [[tie]]: two bodies held together where their surfaces touch at the start.
+struct TieSpec : contact::TieRule {
+  std::array<std::string, 2> between;
+  Places places;
+};
+
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
   enum class Kind {
@@ -203,6 +209,7 @@ struct CaseSpec {
   std::vector<CrackSpec> cracks;
   std::vector<RigidSpec> rigids;
   std::optional<ContactSpec> contact;  ///< nothing: the formulation's rule
+  std::vector<TieSpec> ties;
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;

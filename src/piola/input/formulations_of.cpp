@@ -20,11 +20,30 @@ bool knows_contact(CaseSpec const& spec, std::size_t body) {
   return info && info->contact;
 }
 
+bool is_tied(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  return std::any_of(spec.ties.begin(), spec.ties.end(), [&](TieSpec const& tie) {
+    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
+  });
+}
+
+bool is_tied(CaseSpec const& spec, std::size_t body) {
+  return std::any_of(spec.ties.begin(), spec.ties.end(),
+                     [&](TieSpec const& tie) { return tie.bodies[0] == body || tie.bodies[1] == body; });
+}
+
+bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  return knows_contact(spec, a) && knows_contact(spec, b) && !is_tied(spec, a, b);
+}
+
 bool has_surface(CaseSpec const& spec, std::size_t body) {
+  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
+  return !off && can_have_surface(spec, body);
+}
+
+bool can_have_surface(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
-  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
-  if (!info || !info->pushable || off || b.shape.dimension < 2) return false;
+  if (!info || !info->pushable || b.shape.dimension < 2) return false;
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
                                     [&](MirrorSpec const& mirror) { return mirror.body == b.name; });
   auto const description = b.formulation.words.find("description");
@@ -34,11 +53,11 @@ bool has_surface(CaseSpec const& spec, std::size_t body) {
 }
 
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return has_surface(spec, a) && has_surface(spec, b) && !(knows_contact(spec, a) && knows_contact(spec, b));
+  return has_surface(spec, a) && has_surface(spec, b) && !has_own_contact(spec, a, b);
 }
 
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return (knows_contact(spec, a) && knows_contact(spec, b)) || pushed_by_surface(spec, a, b);
+  return has_own_contact(spec, a, b) || pushed_by_surface(spec, a, b);
 }
 
 bool meets_rigids(CaseSpec const& spec, std::size_t body) {

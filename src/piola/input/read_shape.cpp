@@ -6,7 +6,7 @@
 namespace piola {
 namespace {
 
-using Kind = ShapeSpec::Kind;
+using ShapeKind = ShapeSpec::Kind;
 
 void set_point(std::vector<double> const& numbers, std::array<double, 3>& target) {
   for (std::size_t d = 0; d < numbers.size(); ++d) target[d] = numbers[d];
@@ -114,7 +114,7 @@ void read_box_particles(Section const& section, ShapeSpec& shape) {
 
 // A box says how fine it is by particles or by spacing; round bodies only by spacing.
 void read_fineness(Section const& section, ShapeSpec& shape) {
-  bool const box = shape.kind == Kind::box;
+  bool const box = shape.kind == ShapeKind::box;
   if (box && section.has("particles") && section.has("spacing")) {
     section.problems().add(section.place_of("spacing"),
                            "body.shape has both \"particles\" and \"spacing\" (allowed: one of "
@@ -138,12 +138,12 @@ ShapeSpec read_shape(Section const& section) {
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (!section.has(kinds[k])) continue;
     ++given;
-    shape.kind = static_cast<Kind>(k);
+    shape.kind = static_cast<ShapeKind>(k);
     auto const part = section.table(kinds[k]);
     if (!part) continue;
-    if (shape.kind == Kind::box) read_box(*part, shape);
-    if (shape.kind == Kind::sphere) read_sphere(*part, shape);
-    if (shape.kind == Kind::cylinder) read_cylinder(*part, shape);
+    if (shape.kind == ShapeKind::box) read_box(*part, shape);
+    if (shape.kind == ShapeKind::sphere) read_sphere(*part, shape);
+    if (shape.kind == ShapeKind::cylinder) read_cylinder(*part, shape);
   }
   section.refuse_unknown();
   if (given != 1) {
@@ -153,18 +153,18 @@ ShapeSpec read_shape(Section const& section) {
     return shape;
   }
   using Placement = ShapeSpec::Placement;
-  if (shape.kind != Kind::box) shape.placement = Placement::cell_centred;
-  if (std::string word; shape.kind != Kind::sphere && section.read("placement", word)) {
+  if (shape.kind != ShapeKind::box) shape.placement = Placement::cell_centred;
+  if (std::string word; shape.kind != ShapeKind::sphere && section.read("placement", word)) {
     shape.placement = word == "cell_centred" ? Placement::cell_centred : Placement::on_boundary;
     shape.random = word == "random";
   }
-  if (shape.random && shape.kind != Kind::box)
+  if (shape.random && shape.kind != ShapeKind::box)
     section.problems().add(section.place_of("placement"),
                            "body.shape.placement is \"random\" (allowed in a cylinder: on_boundary, cell_centred) - "
                            "only a box is filled at random; jitter moves the particles of a cylinder");
   if (shape.random) section.refuse("jitter", "is used only by particles on a lattice");
-  if (shape.kind != Kind::box) {
-    if (shape.kind == Kind::sphere) refuse_box_key(section, "placement");
+  if (shape.kind != ShapeKind::box) {
+    if (shape.kind == ShapeKind::sphere) refuse_box_key(section, "placement");
     refuse_box_key(section, "particles");
   }
   if (shape.arrangement != ShapeSpec::Arrangement::lattice) {

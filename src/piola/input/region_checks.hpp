@@ -58,6 +58,12 @@ double distance_to(RigidShape const& shape, std::array<double, 3> const& x, int 
 /// Reports rigid shapes that hold particles at the start, and velocities of theirs that are not finite then.
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
+/// Reports ties between bodies that cannot be held, that hold nothing, or whose stiffness or spacing does not fit their
+/// law.
+void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+/// Ties whose spacing cannot resolve how they fail.
+void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& found);
+
 /// Reports bodies that overlap at the start.
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 

@@ -188,7 +188,7 @@ void measure_volumes(CaseSpec const& spec, ParticleSet& particles) {
 std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
   std::vector<contact::Surface> surfaces(spec.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (!has_surface(spec, b)) continue;
+    if (!has_surface(spec, b) && !is_tied(spec, b)) continue;
     surfaces[b] = contact_surface(spec.bodies[b].shape, a.particles, a.particles.bodies[b]);
     with_any_law(a.materials[b], [&](auto const& law) { surfaces[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
   }
@@ -227,7 +227,8 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
-  if (surfaces_meet(spec)) a.surfaces = surfaces_of(spec, a);
+  a.ties.assign(spec.ties.begin(), spec.ties.end());
+  if (surfaces_meet(spec) || !spec.ties.empty()) a.surfaces = surfaces_of(spec, a);
   return a;
 }
 

@@ -52,7 +52,7 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
   for (std::size_t k = 0; k < points_.size(); ++k) {
     double const r = reach(points_[k]);
     Vec<3> const& y = planes_[k].y;
-    if (!(r > 0) || !box.holds(y, r)) continue;
+    if (!(r > 0) || is_left_out(k, b) || !box.holds(y, r)) continue;
     std::size_t const first = sources_.size();
     grid.visit({y[0], y[1], y[2]}, [&](Index j) {
       Index const source = of_body[at(j)];
@@ -61,6 +61,13 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
     std::sort(sources_.begin() + static_cast<std::ptrdiff_t>(first), sources_.end());
     if (sources_.size() > first) runs_.push_back({static_cast<Index>(k), b, first, sources_.size()});
   }
+}
+
+void System::leave_out(std::size_t body, std::size_t point, std::size_t other, bool out) {
+  for (std::size_t b = 0; b < body; ++b) point += surfaces_[b].points.size();
+  left_out_.resize(points_.size() * surfaces_.size());
+  left_out_[point * surfaces_.size() + other] = out ? 1 : 0;
+  listed_at_.clear();
 }
 
 void System::list_points_near_rigids() {

@@ -40,10 +40,13 @@ class System {
          Setting setting);
 
   std::vector<std::int64_t> const& ids() const { return carriers_.ids(); }
+  Carriers const& carriers() const { return carriers_; }
   /// Inverse masses by index into ids() [1/kg].
   void set_masses(std::vector<double> const& masses);
   /// Whether body b pushes body a here.
   bool meets(std::size_t a, std::size_t b) const { return setting_.meets[a][b]; }
+  /// Body `other` does not push this surface point of a body, or does so again.
+  void leave_out(std::size_t body, std::size_t point, std::size_t other, bool out);
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
 
@@ -87,6 +90,9 @@ class System {
 
   void make_lists(std::vector<Vec<3>> const& x);
   void list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high);
+  bool is_left_out(std::size_t point, std::size_t body) const {
+    return !left_out_.empty() && left_out_[point * surfaces_.size() + body] != 0;
+  }
   void list_points_near_rigids();
   void activate(std::vector<char> const& points);
   bool lists_hold(std::vector<Vec<3>> const& x) const;
@@ -119,6 +125,7 @@ class System {
   std::vector<double> inverse_mass_;
   std::vector<Vec<3>> listed_at_;  ///< positions of carriers when the lists were made [m]
   double skin_ = 0;                ///< [m]
+  std::vector<char> left_out_;     ///< by point and body, or empty
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run
