@@ -217,9 +217,9 @@ void print_ties(CaseSpec const& spec, ParticleSet const& particles) {
     say("tie \"{}\": {} and {} points of \"{}\" and \"{}\", {}, at most {:.2g} spacings apart{}\n", tie.name,
         found[k].points[0], found[k].points[1], tie.between[0], tie.between[1],
         quantity_text(found[k].area, particles.dimension == 3 ? "m^2" : "m", 3), found[k].farthest,
-        tie.fails() ? ", fails at " + quantity_text(tie.strength, "Pa", 3) + " with " +
-                          quantity_text(tie.toughness, "J/m^2", 3)
-                    : "");
+        tie.fails()
+            ? ", fails at " + quantity_text(tie.strength, "Pa", 3) + " with " + quantity_text(tie.toughness, "J/m^2", 3)
+            : "");
   }
 }
 

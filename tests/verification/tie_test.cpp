@@ -76,7 +76,9 @@ class TiedBodies : public ::testing::TestWithParam<Pair> {
 
 TEST_P(TiedBodies, KeepMomentaAndEnergy) {
   for (double const strength : {0.0, weak()}) {
-    Assembly const a = stack(strength);
+    Assembly a = stack(strength);
+    // Its energy is that of steps.
+    if (GetParam().upper == "adaptle") a.cfl = 0.2;
     auto const f = make_formulation(a);
     Diagnostics const before = f->diagnose();
     double time = 0, largest = 0;
@@ -94,8 +96,8 @@ TEST_P(TiedBodies, KeepMomentaAndEnergy) {
     }
     EXPECT_GT(largest, 0);
     Diagnostics const after = f->diagnose();
-    double const energy = after.total_energy() + column(after, "tie_heat") + column(after, "friction_heat") +
-                          after.stabilisation_loss;
+    double const energy =
+        after.total_energy() + column(after, "tie_heat") + column(after, "friction_heat") + after.stabilisation_loss;
     EXPECT_NEAR(energy / before.kinetic_energy, before.total_energy() / before.kinetic_energy, 8e-3);
     if (strength > 0)
       EXPECT_GT(column(after, "tie_failed"), 0.1);

@@ -40,9 +40,8 @@ std::vector<std::vector<bool>> who_meets(Assembly const& whole) {
   std::vector<std::vector<bool>> meets(n, std::vector<bool>(n));
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b)
-      meets[a][b] =
-          whole.contact.law != ContactRule::Law::none && a != b && !whole.surfaces[a].points.empty() &&
-          !whole.surfaces[b].points.empty() && (!(own(a) && own(b)) || is_tied(whole, a, b));
+      meets[a][b] = whole.contact.law != ContactRule::Law::none && a != b && !whole.surfaces[a].points.empty() &&
+                    !whole.surfaces[b].points.empty() && (!(own(a) && own(b)) || is_tied(whole, a, b));
   return meets;
 }
 
@@ -142,7 +141,8 @@ void Meeting::sum_forces() {
   pushed_.clear();
   std::set_union(system_.pushed().begin(), system_.pushed().end(), ties_.pushed().begin(), ties_.pushed().end(),
                  std::back_inserter(pushed_));
-  for (Index const k : system_.pushed()) forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
+  for (Index const k : system_.pushed())
+    forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
   ties_.add_forces(forces_);
 }
 

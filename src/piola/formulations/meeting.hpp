@@ -10,9 +10,9 @@
 
 namespace piola {
 
-/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes, and ties between them. It pushes them at the
-/// instants between steps: half of a step's impulse with the forces before it, half with those after it. For
-/// formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
+/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes, and ties between them. It
+/// pushes them at the instants between steps: half of a step's impulse with the forces before it, half with those after
+/// it. For formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
 class Meeting {
  public:
   using Formulations = std::vector<std::unique_ptr<Formulation>>;

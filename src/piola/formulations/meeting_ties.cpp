@@ -41,7 +41,8 @@ void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, st
   frequency2_ = ties_.frequency2(inverse);
   if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));
   for (std::size_t row = 0; row < ties_.count(); ++row)
-    if (ties_.has_failed(row)) system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
+    if (ties_.has_failed(row))
+      system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
   evaluate(system, x);
 }
 
@@ -78,8 +79,7 @@ void MeetingTies::report(Diagnostics& sum) const {
 
 void MeetingTies::add_actions(double scale, std::vector<Action>& all) const {
   for (std::size_t tie = 0; tie < impulses_.size(); ++tie)
-    all.push_back(
-        {ties_.rules()[tie].name, scaled(scale, impulses_[tie].force), scaled(scale, impulses_[tie].moment)});
+    all.push_back({ties_.rules()[tie].name, scaled(scale, impulses_[tie].force), scaled(scale, impulses_[tie].moment)});
 }
 
 void MeetingTies::save(StateWriter& writer) const {

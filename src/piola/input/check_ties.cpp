@@ -49,8 +49,9 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
       sound = false;
       problems.add(place_of(tie.places, "between"),
                    "the tie " + in_quotes(tie.name) + " cannot hold body " + in_quotes(spec.bodies[b].name) + ": " +
-                       why + " (allowed: bodies of nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D without "
-                             "mirrors) - choose another body or formulation");
+                       why +
+                       " (allowed: bodies of nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D without "
+                       "mirrors) - choose another body or formulation");
     }
   return sound;
 }
@@ -58,8 +59,8 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
 void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
   if (found.points[0] > 0 && found.points[1] > 0) return;
   std::string const nearest = std::isfinite(found.nearest)
-                                  ? "the nearest surfaces that face each other are " +
-                                        number_text(found.nearest, 3) + " spacings apart, as a gap or an overlap"
+                                  ? "the nearest surfaces that face each other are " + number_text(found.nearest, 3) +
+                                        " spacings apart, as a gap or an overlap"
                                   : "no surfaces face each other within two spacings";
   problems.add(place_of(tie.places, "between"),
                "the tie " + in_quotes(tie.name) + " holds nothing: between " + in_quotes(tie.between[0]) + " and " +
@@ -108,6 +109,11 @@ std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSe
 
 void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
   if (spec.ties.empty() || !check_bodies(spec, problems)) return;
+  for (TieSpec const& tie : spec.ties)
+    for (std::size_t const b : tie.bodies)
+      if (tie.where && !FormulaCheck(particles, particles.bodies[b], problems)
+                            .finite(*tie.where, "tie.where", place_of(tie.places, "where")))
+        return;
   try {
     auto const found = found_by_ties(spec, particles);
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -122,15 +128,16 @@ void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& pr
 void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& found) {
   for (TieSpec const& tie : spec.ties) {
     if (!tie.fails()) continue;
-    double const young = std::min(moduli_of(spec.bodies[tie.bodies[0]]).young(),
-                                  moduli_of(spec.bodies[tie.bodies[1]]).young());
+    double const young =
+        std::min(moduli_of(spec.bodies[tie.bodies[0]]).young(), moduli_of(spec.bodies[tie.bodies[1]]).young());
     double const spacing = std::max(spacing_of(particles, tie.bodies[0]), spacing_of(particles, tie.bodies[1]));
     double const zone = young * tie.toughness / (tie.strength * tie.strength);
     if (!(zone < spacings_of_zone * spacing)) continue;
-    found.add(place_of(tie.places, "strength"),
-              fmt::format("the tie {} softens over a length of about E G_c/t_max^2 = {}, {} spacings, which takes three "
-                          "or more - take a smaller strength or a smaller spacing",
-                          in_quotes(tie.name), quantity_text(zone, "m", 3), number_text(zone / spacing, 2)));
+    found.add(
+        place_of(tie.places, "strength"),
+        fmt::format("the tie {} softens over a length of about E G_c/t_max^2 = {}, {} spacings, which takes three "
+                    "or more - take a smaller strength or a smaller spacing",
+                    in_quotes(tie.name), quantity_text(zone, "m", 3), number_text(zone / spacing, 2)));
   }
 }
 

@@ -191,8 +191,7 @@ void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems&
   constexpr double half = 0.5 * (1 - 1e-6);  // of a spacing, less round-off
   // Surfaces may touch.
   for (Closeness const& pair : close_bodies(spec, particles, half))
-    if (has_own_contact(spec, pair.body, pair.other) &&
-        !overlapping.contains({pair.body, pair.other}))
+    if (has_own_contact(spec, pair.body, pair.other) && !overlapping.contains({pair.body, pair.other}))
       report_contact(spec, particles, pair, problems);
 }
 

@@ -26,8 +26,15 @@ constexpr std::array tie_keys{
             "the whole surface",
             "condition in X, Y, Z, at the start, that selects surface points; names are those of the first body",
             {}},
-    KeyInfo{"tie", "stiffness", quantity, "1", positive, "1", "factor on the stiffness, which is that of a layer of one "
-            "spacing", {}},
+    KeyInfo{
+        "tie",
+        "stiffness",
+        quantity,
+        "1",
+        positive,
+        "2",
+        "factor on the stiffness, that of a layer of one spacing: more reflects less of a wave and shortens the step",
+        {}},
     KeyInfo{"tie",
             "strength",
             quantity,

@@ -70,10 +70,11 @@ void refuse_shared_names(std::vector<ColumnOwner> const& owners) {
     for (std::size_t j = 0; j < i; ++j) {
       ColumnOwner const &a = owners[i], &b = owners[j];
       if (a.name.empty() || a.name != b.name || a.kind == b.kind) continue;
-      a.section.problems().add(a.section.place_of("name"),
-                               "the name " + in_quotes(a.name) + " is taken by a " + b.kind +
-                                   " (allowed: one name for one support, load, rigid shape, tie or probe) - choose another "
-                                   "name");
+      a.section.problems().add(
+          a.section.place_of("name"),
+          "the name " + in_quotes(a.name) + " is taken by a " + b.kind +
+              " (allowed: one name for one support, load, rigid shape, tie or probe) - choose another "
+              "name");
       break;
     }
 }
@@ -152,7 +153,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   for (Section const& section : rigids) spec.rigids.push_back(read_rigid(section, dimension, constants));
   if (auto const contact = top.table("contact")) spec.contact = read_contact(*contact, dimension);
   std::vector<Section> const ties = tables_of(top, "tie");
-  for (Section const& section : ties) spec.ties.push_back(read_tie(section, names));
+  for (Section const& section : ties) spec.ties.push_back(read_tie(section, names, spec.rigids));
   name_ties(spec.ties);
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));

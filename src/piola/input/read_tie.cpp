@@ -7,7 +7,8 @@ namespace piola {
 namespace {
 
 /// Indices of the bodies that a tie names, as far as there are such bodies.
-void read_between(Section const& section, std::vector<BodyNames> const& bodies, TieSpec& tie) {
+void read_between(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids,
+                  TieSpec& tie) {
   auto const value = section.find("between");
   if (!value) return;
   auto const items = read_list(*value, 2, 2, section.problems());
@@ -27,8 +28,12 @@ void read_between(Section const& section, std::vector<BodyNames> const& bodies, 
       continue;
     }
     tie.bodies[k] = 0;
-    section.problems().add((*items)[k].node.place, (*items)[k].name + " is " + in_quotes(*name) + " (allowed: " +
-                                                       joined(known) + ", bodies) - " + advice_for_name(*name, known));
+    bool const rigid = std::any_of(rigids.begin(), rigids.end(), [&](RigidSpec const& r) { return r.name == *name; });
+    section.problems().add(
+        (*items)[k].node.place,
+        (*items)[k].name + " is " + in_quotes(*name) + (rigid ? ", a rigid shape" : "") +
+            " (allowed: " + joined(known) + ", bodies) - " +
+            (rigid ? "hold a body by a [[support]], driven where the shape moves" : advice_for_name(*name, known)));
   }
   if (right == 2 && tie.bodies[0] == tie.bodies[1])
     section.problems().add(value->node.place, "tie.between names " + in_quotes(tie.between[0]) +
@@ -37,10 +42,10 @@ void read_between(Section const& section, std::vector<BodyNames> const& bodies, 
 
 }  // namespace
 
-TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies) {
+TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids) {
   TieSpec tie;
   section.read("name", tie.name);
-  read_between(section, bodies, tie);
+  read_between(section, bodies, rigids, tie);
   if (auto where = section.formula("where", bodies.empty() ? Names{} : bodies[tie.bodies[0]].names))
     tie.where = std::move(*where);
   section.read("stiffness", tie.stiffness);
@@ -51,8 +56,7 @@ TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies) {
     section.read("toughness", tie.toughness);
     section.read("shear_weight", tie.shear_weight);
   } else {
-    for (auto const* key : {"toughness", "shear_weight"})
-      section.refuse(key, "is used only by a tie with a strength");
+    for (auto const* key : {"toughness", "shear_weight"}) section.refuse(key, "is used only by a tie with a strength");
   }
   section.refuse_unknown();
   tie.places = places_of(section, {"between", "where", "stiffness", "strength", "toughness"});

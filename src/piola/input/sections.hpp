@@ -59,7 +59,8 @@ void read_debris(Section const& section, BodyNames const* body, ProbeSpec& probe
 /// `dimension` is that of the bodies; `constants` may be used in the velocity.
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
 ContactSpec read_contact(Section const& section, int dimension);
-TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies);
+/// `rigids` only for what is said of them.
+TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids);
 /// Ties have columns whether they are named or not.
 void name_ties(std::vector<TieSpec>& ties);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);

@@ -98,7 +98,7 @@ TEST_P(TiesIn, HoldTheAreaThatTouches) {
   EXPECT_EQ(found.points[1], GetParam() == 3 ? 16 : 4) << "the whole face of the upper block";
   EXPECT_NEAR(found.area / area, 1, 0.25) << "the points of the lower one beyond the rim count in part";
   EXPECT_LT(found.farthest, 1e-12);
-  EXPECT_DOUBLE_EQ(found.stiffness, 2 * 2e6 * 5e6 / 7e6 / 0.85) << "C_s Mbar / dpbar";
+  EXPECT_DOUBLE_EQ(found.stiffness, 2 * (2 * 2e6 * 5e6 / 7e6) / 0.85) << "C_s Mbar / dpbar";
 }
 
 TEST_P(TiesIn, HoldNothingBeyondHalfASpacing) {

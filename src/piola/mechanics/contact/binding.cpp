@@ -38,6 +38,20 @@ struct Ties::Binding {
             {x[index(of.self(carrier))] + F[index(carrier)] * p.offset, (1 / std::sqrt(dot(m, m))) * m});
       }
   }
+
+  /// Points of body b that a point sees, ascending, with their weights.
+  std::vector<std::pair<std::size_t, double>> weights(Plane const& point, std::size_t b, CellGrid const& grid,
+                                                      double reach) const {
+    std::vector<std::pair<std::size_t, double>> seen;
+    grid.visit({point.y[0], point.y[1], point.y[2]}, [&](Index j) {
+      Plane const& source = planes[b][index(j)];
+      Vec<3> const r = point.y - source.y;
+      double const w = plane_weight(dot(r, r) / (reach * reach), dot(point.n, source.n));
+      if (w > 0) seen.emplace_back(index(j), w);
+    });
+    std::sort(seen.begin(), seen.end());
+    return seen;
+  }
 };
 
 Ties::Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
@@ -71,14 +85,7 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
     Vec<3> const Y = vector(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
     if (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0) continue;
     Plane const& plane = at.planes[a][k];
-    std::vector<std::pair<std::size_t, double>> shares;
-    grid.visit({plane.y[0], plane.y[1], plane.y[2]}, [&](Index j) {
-      Plane const& source = at.planes[b][index(j)];
-      Vec<3> const r = plane.y - source.y;
-      double const w = plane_weight(dot(r, r) / (pair.reach * pair.reach), dot(plane.n, source.n));
-      if (w > 0) shares.emplace_back(index(j), w);
-    });
-    std::sort(shares.begin(), shares.end());
+    auto shares = at.weights(plane, b, grid, pair.reach);
     Gap const gap = blended_gap(
         plane, static_cast<Index>(shares.size()),
         [&](Index j) -> Plane const& { return at.planes[b][shares[index(j)].first]; }, pair.reach);

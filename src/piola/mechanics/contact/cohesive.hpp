@@ -73,8 +73,8 @@ inline Bond elastic_bond(double stiffness, Vec<3> const& jump) {
 inline Bond cohesive_bond(CohesiveLaw const& law, Vec<3> const& jump, Vec<3> const& n, double d) {
   Separation const s = separation(jump, n);
   double const k = secant(law, d), across = s.open > 0 ? k : law.stiffness, along = k * law.shear2;
-  return {0.5 * across * s.open * s.open + 0.5 * along * dot(s.slide, s.slide),
-          along * s.slide - (across * s.open) * n, (s.open * (along - across)) * jump};
+  return {0.5 * across * s.open * s.open + 0.5 * along * dot(s.slide, s.slide), along * s.slide - (across * s.open) * n,
+          (s.open * (along - across)) * jump};
 }
 
 }  // namespace piola::contact

@@ -13,7 +13,7 @@ struct TieRule {
   std::string name;
   std::array<std::size_t, 2> bodies{};
   std::optional<Expression> where;  ///< surface points that are held, by their reference places; nothing: all
-  double stiffness = 1;             ///< C_s: K = C_s Mbar / dpbar
+  double stiffness = 2;             ///< C_s: K = C_s Mbar / dpbar
   double strength = 0;              ///< t_max: largest traction in opening [Pa]; 0: it never fails
   double toughness = 0;             ///< G_c: energy that failure takes per area [J/m2]
   double shear_weight = 1;          ///< beta: of sliding in the effective opening

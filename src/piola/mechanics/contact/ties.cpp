@@ -19,8 +19,7 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
   }
   Vec<3> const& self = x[place_of(terms_[row.first].at)];
   Vec<3> own, other;
-  for (std::size_t k = row.first + 1; k < row.other; ++k)
-    own = own + terms_[k].c * (x[place_of(terms_[k].at)] - self);
+  for (std::size_t k = row.first + 1; k < row.other; ++k) own = own + terms_[k].c * (x[place_of(terms_[k].at)] - self);
   for (std::size_t k = row.other; k < row.last; ++k) other = other + terms_[k].c * (x[place_of(terms_[k].at)] - self);
   Pull pull{own + other, self + own, {}, {}};
   Bond bond;
@@ -48,8 +47,7 @@ void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x) {
   released_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r)
     if (!has_failed(r)) released_.push_back(r);
-  exec_host::for_each_in_set_up(static_cast<Index>(rows_.size()),
-                                [&](Index r) { stretch(place_of(r), carriers, x); });
+  exec_host::for_each_in_set_up(static_cast<Index>(rows_.size()), [&](Index r) { stretch(place_of(r), carriers, x); });
   std::erase_if(released_, [&](std::size_t r) { return !has_failed(r); });
   exec_host::for_each_in_set_up(static_cast<Index>(touched_.size()), [&](Index k) {
     Vec<3> sum;

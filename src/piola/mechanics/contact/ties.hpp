@@ -23,9 +23,9 @@ class Ties {
 
   /// What a tie found at the start.
   struct Found {
-    std::array<std::int64_t, 2> points{};  ///< held ones of both bodies
-    double area = 0;                       ///< that is held, the mean of both bodies [m^(Dim-1)]
-    double farthest = 0;                   ///< largest gap or overlap of a held point, in spacings
+    std::array<std::int64_t, 2> points{};                      ///< held ones of both bodies
+    double area = 0;                                           ///< that is held, the mean of both bodies [m^(Dim-1)]
+    double farthest = 0;                                       ///< largest gap or overlap of a held point, in spacings
     double nearest = std::numeric_limits<double>::infinity();  ///< least gap or overlap of any point, in spacings
     double stiffness = 0;                                      ///< K [Pa/m]
   };
@@ -58,7 +58,8 @@ class Ties {
   };
   /// What a tie does to its first body.
   Force const& on_first(std::size_t tie) const { return on_first_[tie]; }
-  /// A bound of the square of the largest frequency of the ties with these inverse masses [1/kg], nothing failed [1/s2].
+  /// A bound of the square of the largest frequency of the ties with these inverse masses [1/kg], nothing failed
+  /// [1/s2].
   double frequency2(std::vector<double> const& inverse_masses) const;
 
   std::vector<double> state() const;
