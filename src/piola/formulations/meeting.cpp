@@ -224,6 +224,7 @@ void Meeting::finish(Formulations const& formulations, double time, double dt) {
   read_state(formulations);
   ties_.evaluate(system_, x_);
   system_.evaluate(x_);
+  ties_.hand_over(system_);
   sum_forces();
   friction_work_ += system_.totals().friction_work;
   push(formulations, time, 0.5 * dt);

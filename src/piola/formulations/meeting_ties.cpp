@@ -53,6 +53,11 @@ void MeetingTies::evaluate(contact::System& system, std::vector<Vec<3>> const& x
     system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
 }
 
+void MeetingTies::hand_over(contact::System const& system) {
+  for (std::size_t const row : ties_.released())
+    handed_over_ += system.stored_at(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other);
+}
+
 void MeetingTies::add_forces(std::vector<Vec<3>>& forces) const {
   for (Index const k : ties_.pushed()) {
     auto const i = static_cast<std::size_t>(k);
@@ -73,7 +78,7 @@ void MeetingTies::report(Diagnostics& sum) const {
   if (!any()) return;
   auto const& now = ties_.totals();
   sum.more.emplace_back("tie_energy", now.energy);
-  sum.more.emplace_back("tie_heat", now.heat);
+  sum.more.emplace_back("tie_heat", now.heat - handed_over_);
   sum.more.emplace_back("tie_failed", now.failed);
 }
 
@@ -87,13 +92,15 @@ void MeetingTies::save(StateWriter& writer) const {
   std::vector<double> all = ties_.state();
   for (auto const& impulse : impulses_)
     for (Vec<3> const& a : {impulse.force, impulse.moment}) all.insert(all.end(), a.c, a.c + 3);
+  all.push_back(handed_over_);
   writer.put("ties", all);
 }
 
 void MeetingTies::load(StateReader& reader) {
   if (!any()) return;
-  std::vector<double> all(2 * ties_.count() + numbers_of_impulse * impulses_.size());
+  std::vector<double> all(2 * ties_.count() + numbers_of_impulse * impulses_.size() + 1);
   reader.get("ties", all);
+  handed_over_ = all.back();
   auto from = all.begin() + static_cast<std::ptrdiff_t>(2 * ties_.count());
   loaded_.assign(all.begin(), from);
   for (auto& impulse : impulses_)

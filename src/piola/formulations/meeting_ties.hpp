@@ -18,6 +18,8 @@ class MeetingTies {
   /// by index into System::ids().
   void look(contact::System& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses);
   void evaluate(contact::System& system, std::vector<Vec<3>> const& x);
+  /// After contact has been evaluated, too: what it stores at points that have just failed comes from the ties.
+  void hand_over(contact::System const& system);
   std::vector<Index> const& pushed() const { return ties_.pushed(); }
   void add_forces(std::vector<Vec<3>>& forces) const;
 
@@ -40,6 +42,7 @@ class MeetingTies {
   std::vector<contact::Ties::Force> impulses_;  ///< of the step, by tie
   std::vector<double> loaded_;                  ///< of a checkpoint, until the state of the bodies is read
   double frequency2_ = 0;
+  double handed_over_ = 0;  ///< to contact so far [J]
 };
 
 }  // namespace piola

@@ -64,10 +64,20 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
 }
 
 void System::leave_out(std::size_t body, std::size_t point, std::size_t other, bool out) {
-  for (std::size_t b = 0; b < body; ++b) point += surfaces_[b].points.size();
   left_out_.resize(points_.size() * surfaces_.size());
-  left_out_[point * surfaces_.size() + other] = out ? 1 : 0;
+  left_out_[place_of(body, point) * surfaces_.size() + other] = out ? 1 : 0;
   listed_at_.clear();
+}
+
+double System::stored_at(std::size_t body, std::size_t point, std::size_t other) const {
+  std::size_t const target = place_of(body, point);
+  for (std::size_t k = 0; k < runs_.size(); ++k) {
+    if (at(runs_[k].target) != target || runs_[k].body != other || !gaps_[k].seen()) continue;
+    PairRule const& rule = rules_[body][other];
+    return points_[target].area * layer(gaps_[k].gap, rule.stiffness, rule.length).energy *
+           fade(gaps_[k].tau2(), rule.fade_from, rule.fade_to).value * presence(gaps_[k].weight).value;
+  }
+  return 0;
 }
 
 void System::list_points_near_rigids() {

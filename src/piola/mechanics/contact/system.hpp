@@ -47,6 +47,8 @@ class System {
   bool meets(std::size_t a, std::size_t b) const { return setting_.meets[a][b]; }
   /// Body `other` does not push this surface point of a body, or does so again.
   void leave_out(std::size_t body, std::size_t point, std::size_t other, bool out);
+  /// What body `other` stores because it pushes this point [J].
+  double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
 
@@ -90,6 +92,10 @@ class System {
 
   void make_lists(std::vector<Vec<3>> const& x);
   void list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high);
+  std::size_t place_of(std::size_t body, std::size_t point) const {
+    for (std::size_t b = 0; b < body; ++b) point += surfaces_[b].points.size();
+    return point;
+  }
   bool is_left_out(std::size_t point, std::size_t body) const {
     return !left_out_.empty() && left_out_[point * surfaces_.size() + body] != 0;
   }
