@@ -228,6 +228,19 @@ void print_contact(CaseSpec const& spec, int dimension) {
   say("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
 }
 
+void print_ties(CaseSpec const& spec, ParticleSet const& particles) {
+  auto const found = found_by_ties(spec, particles);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    TieSpec const& tie = spec.ties[k];
+    say("tie \"{}\": {} and {} points of \"{}\" and \"{}\", {}, at most {:.2g} spacings apart{}\n", tie.name,
+        found[k].points[0], found[k].points[1], tie.between[0], tie.between[1],
+        quantity_text(found[k].area, particles.dimension == 3 ? "m^2" : "m", 3), found[k].farthest,
+        tie.fails()
+            ? ", fails at " + quantity_text(tie.strength, "Pa", 3) + " with " + quantity_text(tie.toughness, "J/m^2", 3)
+            : "");
+  }
+}
+
 void print_output(CaseSpec const& spec) {
   auto const every = [&](std::string_view what, double interval) {
     if (interval > 0) {
@@ -293,6 +306,7 @@ int check(CaseOptions const& options) {
   print_loads(spec, particles);
   print_cracks(particles);
   print_contact(spec, particles.dimension);
+  print_ties(spec, particles);
   print_cost(spec, look.cost);
   print_output(spec);
   std::vector<std::string> const& warnings = look.warnings;

@@ -104,7 +104,7 @@ TEST(BoundaryMessages, PressuresActOnFacesAndMayFollowThem) {
 TEST(BoundaryMessages, NamesThatColumnsBeginWithBelongToOneSection) {
   EXPECT_EQ(with("[[load]]\nname = \"support_0\"\nbody = \"column\"\nacceleration = [0, 1, 0]\n"),
             "case.toml:24:8: the name \"support_0\" is taken by a support (allowed: one name for one support, load, "
-            "rigid shape or probe) - choose another name");
+            "rigid shape, tie or probe) - choose another name");
   EXPECT_EQ(with("[[quantity]]\nname = \"base\"\ncolumn = \"support_0.force_y\"\ntake = \"mean\"\nunit = \"kN\"\n"),
             "");
 }

@@ -4,6 +4,7 @@
 #include "piola/materials/registry.hpp"
 #include "piola/mechanics/contact/friction.hpp"
 #include "piola/mechanics/contact/surface.hpp"
+#include "piola/mechanics/contact/tie_rule.hpp"
 #include "piola/mechanics/load.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
 #include "piola/mechanics/support.hpp"
@@ -73,6 +74,7 @@ struct Assembly {
   ContactRule contact;
   std::vector<ContactPair> contact_pairs;
   std::vector<contact::Surface> surfaces;                 ///< one per body, or empty: no surface contact
+  std::vector<contact::TieRule> ties;                     ///< of bodies that have surfaces
   bool pushed = false;                                    ///< Formulation::push will be called
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4

@@ -99,6 +99,12 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
     mirror.body = *body;
     a.mirrors.push_back(mirror);
   }
+  for (contact::TieRule tie : whole.ties) {
+    auto const first = part.body_in_part(tie.bodies[0]), second = part.body_in_part(tie.bodies[1]);
+    if (!first || !second) continue;
+    tie.bodies = {*first, *second};
+    a.ties.push_back(std::move(tie));
+  }
   auto const info = find_formulation(part.formulation);
   if (info && info->contact && whole.contact.law != ContactRule::Law::surface) {
     a.contact = whole.contact;

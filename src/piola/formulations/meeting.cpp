@@ -26,8 +26,14 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
-/// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own, and such a body
-/// and a rigid shape that does not turn; what is said of a pair goes before what is said of all.
+bool is_tied(Assembly const& whole, std::size_t a, std::size_t b) {
+  return std::any_of(whole.ties.begin(), whole.ties.end(), [&](contact::TieRule const& tie) {
+    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
+  });
+}
+
+/// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own and are not tied,
+/// and such a body and a rigid shape that does not turn; what is said of a pair goes before what is said of all.
 contact::System::Setting touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
@@ -42,10 +48,11 @@ contact::System::Setting touches_of(Assembly const& whole) {
       std::string const& name = rigid ? whole.rigid_shapes[b - n].name : bodies[b].name;
       ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, name);
       bool const surfaces = !whole.surfaces[a].points.empty() && (rigid || !whole.surfaces[b].points.empty());
-      bool const apart = own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b));  // by that contact
+      // By the contact of their own formulation.
+      bool const apart = own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b) && !is_tied(whole, a, b));
       bool const others = a == b ? pair != nullptr || whole.contact.self : !apart;
-      touches[a][b] = {surfaces && others && (pair == nullptr || !pair->off),
-                       0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
+      bool const off = whole.contact.law == ContactRule::Law::none || (pair != nullptr && pair->off);
+      touches[a][b] = {surfaces && others && !off, 0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
                        pair != nullptr ? pair->friction : whole.contact.friction};
     }
   return touches;
@@ -75,7 +82,8 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       system_(system_of(whole)),
       motion_(motion_of(whole)),
       held_(system_.ids().size()),
-      actions_(whole.supports, whole.loads, whole.rigid_shapes) {
+      actions_(whole.supports, whole.loads, whole.rigid_shapes),
+      ties_(whole, system_) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
   motion_.place(system_.rigids());
   auto const& ids = system_.ids();
@@ -130,13 +138,27 @@ void Meeting::look(Formulations const& formulations) {
   }
   system_.set_masses(mass_);
   read_state(formulations);
+  ties_.look(system_, x_, mass_);
   if (loaded_.empty()) {
     system_.start(x_);
     motion_.start(system_);
   } else {
     system_.restore(x_, std::exchange(loaded_, {}));
   }
+  sum_forces();
   closing_ = closing_step();
+}
+
+/// Contact and ties together.
+void Meeting::sum_forces() {
+  for (Index const k : pushed_) forces_[static_cast<std::size_t>(k)] = {};
+  forces_.resize(x_.size());
+  pushed_.clear();
+  std::set_union(system_.pushed().begin(), system_.pushed().end(), ties_.pushed().begin(), ties_.pushed().end(),
+                 std::back_inserter(pushed_));
+  for (Index const k : system_.pushed())
+    forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
+  ties_.add_forces(forces_);
 }
 
 /// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
@@ -146,12 +168,12 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
   std::vector<std::vector<Point>> change(shares_.size());
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     Share const& share = shares_[s];
-    auto pushed = system_.pushed().begin();
-    for (std::size_t k = 0; k < share.at.size() && pushed != system_.pushed().end(); ++k) {
-      while (pushed != system_.pushed().end() && *pushed < share.at[k]) ++pushed;
-      if (pushed == system_.pushed().end() || *pushed != share.at[k]) continue;
+    auto pushed = pushed_.begin();
+    for (std::size_t k = 0; k < share.at.size() && pushed != pushed_.end(); ++k) {
+      while (pushed != pushed_.end() && *pushed < share.at[k]) ++pushed;
+      if (pushed == pushed_.end() || *pushed != share.at[k]) continue;
       auto const i = static_cast<std::size_t>(share.at[k]);
-      Vec<3> impulse = half * system_.forces()[i];
+      Vec<3> impulse = half * forces_[i];
       for (Held const& held : held_[i]) {
         if (has_ended(held.until, time)) continue;
         Vec<3> const d = vector_of(held.direction);
@@ -189,6 +211,7 @@ void Meeting::book(double half) {
       sum.force = sum.force + half * between.force;
       sum.moment = sum.moment + half * between.moment;
     }
+  ties_.book(half);
 }
 
 double Meeting::closing_step() const {
@@ -198,6 +221,7 @@ double Meeting::closing_step() const {
 void Meeting::begin(Formulations const& formulations, double time, double dt) {
   actions_.begin(dt);
   std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::System::Between{});
+  ties_.begin();
   last_dt_ = dt;
   push(formulations, time, 0.5 * dt);
   motion_.move(system_.rigids(), time, dt);
@@ -206,16 +230,19 @@ void Meeting::begin(Formulations const& formulations, double time, double dt) {
 
 void Meeting::finish(Formulations const& formulations, double time, double dt) {
   read_state(formulations);
+  ties_.evaluate(system_, x_);
   system_.evaluate(x_, dt);
+  ties_.hand_over(system_);
   motion_.evaluate(system_);
+  sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
   push(formulations, time, 0.5 * dt);
   closing_ = closing_step();
 }
 
 double Meeting::limit(double step) const {
-  double const omega2 = std::max(system_.totals().frequency2, motion_.frequency2());
-  // Of a step h = 2 margin / omega: contact adds to the square of the frequency of the bodies.
+  double const omega2 = std::max(system_.totals().frequency2, motion_.frequency2()) + ties_.frequency2();
+  // Of a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
   double const together = 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin));
   return std::min(omega2 > 0 ? together : step, closing_);
 }
@@ -229,6 +256,7 @@ std::vector<Action> Meeting::pairs() const {
       auto const& sum = pair_impulses_[a * names_.size() + b];
       all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
     }
+  ties_.add_actions(scale, all);
   return all;
 }
 
@@ -237,7 +265,7 @@ void Meeting::report(Diagnostics& sum) const {
   contact::RigidPairs::Totals const& between = motion_.between_shapes();
   now.energy += between.energy;
   now.spring_energy += between.spring_energy;
-  double const stored = now.energy + now.spring_energy, moving = motion_.kinetic_energy();
+  double const stored = now.energy + now.spring_energy + ties_.energy(), moving = motion_.kinetic_energy();
   sum.strain_energy += stored;
   sum.kinetic_energy += moving;
   for (auto& [name, value] : sum.more)
@@ -259,6 +287,7 @@ void Meeting::report(Diagnostics& sum) const {
   overlap = std::max({overlap, now.deepest, between.deepest});
   column("friction_heat") = friction_work_ - now.spring_energy;
   column("contact_points") = static_cast<double>(now.touched) + between.touched;
+  ties_.report(sum);
 }
 
 std::vector<FieldInfo> Meeting::fields() { return field_infos(offered_by_contact); }
@@ -288,57 +317,6 @@ std::optional<Failure> Meeting::failure() const {
     return failure;
   }
   return std::nullopt;
-}
-
-void Meeting::save(StateWriter& writer) const {
-  std::vector<double> const system = system_.state();
-  writer.put("contact_count", std::array{static_cast<double>(system.size())});
-  writer.put("contact_state", system);
-  std::vector<double> rigid{work_, last_dt_, friction_work_};
-  for (std::size_t r = 0; r < shapes_.size(); ++r)
-    for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity})
-      rigid.insert(rigid.end(), a.c, a.c + 3);
-  for (auto const& pair : pair_impulses_)
-    for (Vec<3> const& a : {pair.force, pair.moment}) rigid.insert(rigid.end(), a.c, a.c + 3);
-  writer.put("contact", rigid);
-  writer.put("contact_actions", actions_.state());
-  if (!motion_.any()) return;
-  std::vector<double> const motion = motion_.state();
-  writer.put("rigid_count", std::array{static_cast<double>(motion.size())});
-  writer.put("rigid_state", motion);
-}
-
-void Meeting::load(StateReader& reader) {
-  std::vector<double> rigid(3 + 6 * (shapes_.size() + pair_impulses_.size()));
-  reader.get("contact", rigid);
-  work_ = rigid[0];
-  last_dt_ = rigid[1];
-  friction_work_ = rigid[2];
-  auto from = rigid.begin() + 3;
-  auto const take = [&](Vec<3>& a) {
-    std::copy_n(from, 3, a.c);
-    from += 3;
-  };
-  for (std::size_t r = 0; r < shapes_.size(); ++r) {
-    take(system_.rigid(r).centre);
-    take(system_.rigid(r).velocity);
-  }
-  for (auto& pair : pair_impulses_) {
-    take(pair.force);
-    take(pair.moment);
-  }
-  std::array<double, 1> count{};
-  reader.get("contact_count", count);
-  loaded_.resize(static_cast<std::size_t>(count[0]));
-  reader.get("contact_state", loaded_);
-  std::vector<double> actions = actions_.state();
-  reader.get("contact_actions", actions);
-  actions_.restore(actions);
-  if (!motion_.any()) return;
-  reader.get("rigid_count", count);
-  std::vector<double> motion(static_cast<std::size_t>(count[0]));
-  reader.get("rigid_state", motion);
-  motion_.restore(system_.rigids(), motion);
 }
 
 }  // namespace piola

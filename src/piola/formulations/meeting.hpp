@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/ensemble.hpp"
+#include "piola/formulations/meeting_ties.hpp"
 #include "piola/formulations/observed.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/contact/rigid_motion.hpp"
@@ -12,9 +13,9 @@
 
 namespace piola {
 
-/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes. It pushes them at the
-/// instants between steps: half of a step's impulse with the forces before it, half with those after it. For
-/// formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
+/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes, and ties between them. It
+/// pushes them at the instants between steps: half of a step's impulse with the forces before it, half with those after
+/// it. For formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
 class Meeting {
  public:
   using Formulations = std::vector<std::unique_ptr<Formulation>>;
@@ -45,7 +46,7 @@ class Meeting {
   bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
-  std::size_t bytes() const { return system_.bytes(); }
+  std::size_t bytes() const { return system_.bytes() + ties_.bytes(); }
 
  private:
   /// A direction of a particle that a support holds.
@@ -64,6 +65,7 @@ class Meeting {
   void push(Formulations const& formulations, double time, double half);
   void book(double half);
   double closing_step() const;
+  void sum_forces();
 
   int dimension_;
   std::vector<std::string> names_;  ///< of bodies
@@ -76,6 +78,9 @@ class Meeting {
   std::vector<double> mass_;
   std::vector<Vec<3>> x_, v_;
   Actions actions_;
+  MeetingTies ties_;
+  std::vector<Vec<3>> forces_;  ///< of contact and ties, by index into System::ids() [N]
+  std::vector<Index> pushed_;   ///< that have one, ascending
   std::vector<contact::System::Between> pair_impulses_;
   std::vector<double> loaded_;  ///< of a checkpoint, until the state of the bodies is read
   double work_ = 0, friction_work_ = 0, last_dt_ = 0, closing_ = 0;

@@ -33,6 +33,7 @@ constexpr std::array sections{
     SectionInfo{"rigid.cylinder", "cylinder = { ... }", "a circular cylinder, three dimensions only"},
     SectionInfo{"rigid.box", "box = { ... }", "a box (2D: a rectangle): min and max, or centre and lengths"},
     SectionInfo{"contact", "[contact]", "what keeps bodies, and bodies and rigid shapes, apart"},
+    SectionInfo{"tie", "[[tie]]", "two bodies held together where their surfaces touch at the start"},
     SectionInfo{"probe", "[[probe]]", "columns NAME.QUANTITY of history.csv"},
     SectionInfo{"quantity", "[[quantity]]", "a number of summary.json, taken from a column of history.csv"},
     SectionInfo{"output", "[output]", "what is written; each part may be left out"},
@@ -44,7 +45,7 @@ constexpr std::array sections{
 
 std::vector<KeyInfo> joined_tables() {
   std::vector<KeyInfo> all;
-  for (auto const part : {keys_of_run_and_bodies(), keys_of_boundaries(), keys_of_observers()})
+  for (auto const part : {keys_of_run_and_bodies(), keys_of_boundaries(), keys_of_ties(), keys_of_observers()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

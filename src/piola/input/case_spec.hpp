@@ -104,6 +104,12 @@ struct ContactPairSpec : ContactPair {
   Places places;
 };
 
+/// [[tie]]: two bodies held together where their surfaces touch at the start.
+struct TieSpec : contact::TieRule {
+  std::array<std::string, 2> between;
+  Places places;
+};
+
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
   enum class Kind {
@@ -209,6 +215,7 @@ struct CaseSpec {
   std::vector<RigidSpec> rigids;
   std::optional<ContactSpec> contact;  ///< nothing: the formulation's rule
   std::vector<ContactPairSpec> contact_pairs;
+  std::vector<TieSpec> ties;
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;

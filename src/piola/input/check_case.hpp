@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
+#include "piola/mechanics/contact/ties.hpp"
 #include "piola/particles/particle_set.hpp"
 
 namespace piola {
@@ -16,6 +17,9 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems);
 /// shapes that hold particles. Also cracks, mirrors, rings, rigid shapes and contact that the formulation does not
 /// know.
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+
+/// What the ties of a case find at the start, in their order; nothing if one of them cannot be.
+std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSet const& particles);
 
 /// Ids of a body's particles that a condition selects; all of them without a condition.
 std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body const& body, Expression const* where);

@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/math/tensor.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -91,12 +92,24 @@ double depth_in(ShapeSpec const& shape, Vec3 const& x) {
   return cylinder ? std::min({least, along, shape.length - along}) : least;
 }
 
-/// The reference position of what is at x at the start, by fixed-point steps: exact where the body is shifted.
+/// The reference position of what is at x at the start, by Newton's steps: exact where the body is shifted and turned.
 Vec3 reference_of(BodySpec const& body, Vec3 const& x) {
   Vec3 X = x;
   for (int k = 0; k < 4 && body.initial_displacement; ++k) {
     Vec3 const at = start_of(body, X);
-    for (std::size_t c = 0; c < 3; ++c) X[c] += x[c] - at[c];
+    Vec<3> const off{{x[0] - at[0], x[1] - at[1], x[2] - at[2]}};
+    double const h = 1e-6 * std::max({std::fabs(X[0]), std::fabs(X[1]), std::fabs(X[2]), 1e-9});
+    Mat<3> slope;
+    for (std::size_t c = 0; c < 3; ++c) {
+      Vec3 beside = X;
+      beside[c] += h;
+      Vec3 const there = start_of(body, beside);
+      for (std::size_t i = 0; i < 3; ++i)
+        slope(static_cast<int>(i), static_cast<int>(c)) = (there[i] - at[i]) / (beside[c] - X[c]);
+    }
+    Vec<3> const step = inverse(slope) * off;
+    if (!std::isfinite(step[0] + step[1] + step[2])) return X;
+    for (std::size_t c = 0; c < 3; ++c) X[c] += step[static_cast<int>(c)];
   }
   return X;
 }
@@ -191,8 +204,7 @@ void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems&
   constexpr double half = 0.5 * (1 - 1e-6);  // of a spacing, less round-off
   // Surfaces may touch.
   for (Closeness const& pair : close_bodies(spec, particles, half))
-    if (knows_contact(spec, pair.body) && knows_contact(spec, pair.other) &&
-        !overlapping.contains({pair.body, pair.other}))
+    if (has_own_contact(spec, pair.body, pair.other) && !overlapping.contains({pair.body, pair.other}))
       report_contact(spec, particles, pair, problems);
 }
 

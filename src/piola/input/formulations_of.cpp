@@ -21,11 +21,30 @@ bool knows_contact(CaseSpec const& spec, std::size_t body) {
   return info && info->contact && !surfaces;
 }
 
+bool is_tied(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  return std::any_of(spec.ties.begin(), spec.ties.end(), [&](TieSpec const& tie) {
+    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
+  });
+}
+
+bool is_tied(CaseSpec const& spec, std::size_t body) {
+  return std::any_of(spec.ties.begin(), spec.ties.end(),
+                     [&](TieSpec const& tie) { return tie.bodies[0] == body || tie.bodies[1] == body; });
+}
+
+bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  return knows_contact(spec, a) && knows_contact(spec, b) && !is_tied(spec, a, b);
+}
+
 bool has_surface(CaseSpec const& spec, std::size_t body) {
+  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
+  return !off && can_have_surface(spec, body);
+}
+
+bool can_have_surface(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
-  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
-  if (!info || !info->pushable || off || b.shape.dimension < 2) return false;
+  if (!info || !info->pushable || b.shape.dimension < 2) return false;
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
                                     [&](MirrorSpec const& mirror) { return mirror.body == b.name; });
   auto const description = b.formulation.words.find("description");
@@ -38,7 +57,7 @@ bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
   if (!has_surface(spec, a) || !has_surface(spec, b)) return false;
   if (a == b) return pair != nullptr ? !pair->off : spec.contact && spec.contact->self;
-  return (pair == nullptr || !pair->off) && !(knows_contact(spec, a) && knows_contact(spec, b));
+  return (pair == nullptr || !pair->off) && !has_own_contact(spec, a, b);
 }
 
 bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid) {
@@ -48,7 +67,7 @@ bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid) 
 }
 
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return (knows_contact(spec, a) && knows_contact(spec, b)) || pushed_by_surface(spec, a, b);
+  return has_own_contact(spec, a, b) || pushed_by_surface(spec, a, b);
 }
 
 bool meets_rigids(CaseSpec const& spec, std::size_t body) {

@@ -32,6 +32,7 @@ constexpr std::array body_keys{
     KeyInfo{"", "crack", list, "", {}, "none", "the cracks", {}},
     KeyInfo{"", "rigid", list, "", {}, "none", "the rigid obstacles", {}},
     KeyInfo{"", "contact", table, "", {}, "the law \"kernel\"", "what keeps bodies apart; \"none\": nothing", {}},
+    KeyInfo{"", "tie", list, "", {}, "none", "what holds bodies together", {}},
     KeyInfo{"", "probe", list, "", {}, "none", "the probes", {}},
     KeyInfo{"", "quantity", list, "", {}, "none", "the quantities of the summary", {}},
     KeyInfo{"", "output", table, "", {}, "a history only", "what is written", {}},

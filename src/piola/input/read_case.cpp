@@ -70,10 +70,11 @@ void refuse_shared_names(std::vector<ColumnOwner> const& owners) {
     for (std::size_t j = 0; j < i; ++j) {
       ColumnOwner const &a = owners[i], &b = owners[j];
       if (a.name.empty() || a.name != b.name || a.kind == b.kind) continue;
-      a.section.problems().add(a.section.place_of("name"),
-                               "the name " + in_quotes(a.name) + " is taken by a " + b.kind +
-                                   " (allowed: one name for one support, load, rigid shape or probe) - choose another "
-                                   "name");
+      a.section.problems().add(
+          a.section.place_of("name"),
+          "the name " + in_quotes(a.name) + " is taken by a " + b.kind +
+              " (allowed: one name for one support, load, rigid shape, tie or probe) - choose another "
+              "name");
       break;
     }
 }
@@ -151,12 +152,16 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   std::vector<Section> const rigids = tables_of(top, "rigid");
   for (Section const& section : rigids) spec.rigids.push_back(read_rigid(section, dimension, constants));
   if (auto const contact = top.find("contact")) read_contact(*contact, dimension, problems, spec);
+  std::vector<Section> const ties = tables_of(top, "tie");
+  for (Section const& section : ties) spec.ties.push_back(read_tie(section, names, spec.rigids));
+  name_ties(spec.ties);
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   std::vector<ColumnOwner> owners;
   add_owners(owners, supports, spec.supports, "support");
   add_owners(owners, loads, spec.loads, "load");
   add_owners(owners, rigids, spec.rigids, "rigid shape");
+  add_owners(owners, ties, spec.ties, "tie");
   add_owners(owners, probes, spec.probes, "probe");
   refuse_shared_names(owners);
   std::vector<Section> const quantities = tables_of(top, "quantity");

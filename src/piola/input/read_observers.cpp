@@ -135,7 +135,7 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
     add_all(rigid.name, action_quantities());
     if (rigid.turns()) add_all(rigid.name, rigid_quantities());
   }
-  if (surfaces_meet(spec)) {
+  if (surfaces_meet(spec) || !spec.ties.empty()) {
     for (auto const& [name, unit] :
          {std::pair{"contact_energy", "J"}, {"contact_overlap", "1"}, {"contact_points", "1"}, {"friction_heat", "J"}})
       columns.push_back({name, unit});
@@ -144,6 +144,10 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
         if (pushed_by_surface(spec, a, b))
           add_all(spec.bodies[a].name + "-" + spec.bodies[b].name, action_quantities());
   }
+  if (!spec.ties.empty())
+    for (auto const& [name, unit] : {std::pair{"tie_energy", "J"}, {"tie_heat", "J"}, {"tie_failed", "1"}})
+      columns.push_back({name, unit});
+  for (TieSpec const& tie : spec.ties) add_all(tie.name, action_quantities());
   for (ProbeSpec const& probe : spec.probes) {
     for (std::string const& quantity : probe.quantities) {
       columns.push_back({probe.name + "." + quantity, std::string(unit_of_probe_quantity(probe.kind, quantity))});

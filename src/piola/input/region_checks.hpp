@@ -60,6 +60,12 @@ void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& p
 /// Reports what cannot be done with rigid shapes that are free, or turn.
 void check_free_rigids(CaseSpec const& spec, int dimension, Problems& problems);
 
+/// Reports ties between bodies that cannot be held, that hold nothing, or whose stiffness or spacing does not fit their
+/// law.
+void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+/// Ties whose spacing cannot resolve how they fail.
+void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& found);
+
 /// Reports bodies that overlap at the start.
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 

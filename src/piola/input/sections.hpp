@@ -63,6 +63,10 @@ void read_rigid_motion(Section const& section, int dimension, std::map<std::stri
                        RigidSpec& rigid);
 /// The rule for all, and those of pairs: a table, a list of tables, or "none".
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
+/// `rigids` only for what is said of them.
+TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids);
+/// Ties have columns whether they are named or not.
+void name_ties(std::vector<TieSpec>& ties);
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,

@@ -188,7 +188,7 @@ void measure_volumes(CaseSpec const& spec, ParticleSet& particles) {
 std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
   std::vector<contact::Surface> surfaces(spec.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (!has_surface(spec, b)) continue;
+    if (!has_surface(spec, b) && !is_tied(spec, b)) continue;
     surfaces[b] = contact_surface(spec.bodies[b].shape, a.particles, a.particles.bodies[b]);
     with_any_law(a.materials[b], [&](auto const& law) { surfaces[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
   }
@@ -228,7 +228,8 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());
-  if (surfaces_meet(spec)) a.surfaces = surfaces_of(spec, a);
+  a.ties.assign(spec.ties.begin(), spec.ties.end());
+  if (surfaces_meet(spec) || !spec.ties.empty()) a.surfaces = surfaces_of(spec, a);
   return a;
 }
 

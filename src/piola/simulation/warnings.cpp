@@ -142,7 +142,7 @@ void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::opti
                     overlap, held));
   for (Closeness const& pair : close_bodies(spec, particles, counts ? reach : touching)) {
     if (merged) break;
-    if (!knows_contact(spec, pair.body) || !knows_contact(spec, pair.other)) continue;
+    if (!has_own_contact(spec, pair.body, pair.other)) continue;
     found.add(
         place_of(spec.bodies[pair.other].places, "shape"),
         fmt::format("the bodies {} and {} start close to each other: their nearest particles are {} apart, {:.2f} "
@@ -170,6 +170,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   warn_of_idle_contact(spec, found);
   warn_of_chatter(spec, found);
   warn_of_other_contact(spec, found);
+  warn_of_ties(spec, assembly.particles, found);
   warn_of_touch(spec, assembly.particles, prospect.start, found);
   found.sort_by_place();
   return found.lines();

@@ -98,4 +98,14 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
   return pairs;
 }
 
+void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs) {
+  constexpr double out_of_sight = 1e-9;
+  for (contact::TieRule const& tie : ties)
+    for (std::size_t const pair : {tie.bodies[0] * bodies + tie.bodies[1], tie.bodies[1] * bodies + tie.bodies[0]}) {
+      pairs[pair].eps = 0;
+      pairs[pair].h *= out_of_sight;
+      pairs[pair].dp = 0;
+    }
+}
+
 }  // namespace piola::adaptle

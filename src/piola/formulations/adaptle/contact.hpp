@@ -19,6 +19,9 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
 std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
                                        std::vector<std::array<double, 3>> const& mean_velocity);
 
+/// Bodies that are tied meet by their surfaces, where the tie has failed, and not here.
+void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs);
+
 /// Potential energy of all contacts where particles are now [J]: bodies may start within reach of each other or of a
 /// rigid shape. The lists must be those of the present positions.
 double contact_energy(System const& system);

@@ -143,6 +143,7 @@ void Particles::set_contact(Assembly const& assembly) {
     for (Index i = body_[b].first; i < body_[b].last; ++i)
       for (std::size_t c = 0; c < 3; ++c) mean[b][c] += state_[at(i)].v[c] / (body_[b].last - body_[b].first);
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
+  leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
   system_.contact.pair = contact_pairs_.data();
   system_.contact.exponent = assembly.contact.exponent;
   system_.contact.printed = assembly.contact.stiffness;

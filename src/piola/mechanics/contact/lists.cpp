@@ -62,7 +62,7 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
   for (std::size_t k = 0; k < points_.size(); ++k) {
     double const r = reach(points_[k]);
     Vec<3> const& y = planes_[k].y;
-    if (!(r > 0) || !box.holds(y, r)) continue;
+    if (!(r > 0) || is_left_out(k, b) || !box.holds(y, r)) continue;
     std::size_t const first = sources_.size();
     grid.visit({y[0], y[1], y[2]}, [&](Index j) {
       Index const source = of_body[at(j)];
@@ -72,6 +72,23 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
     std::sort(sources_.begin() + static_cast<std::ptrdiff_t>(first), sources_.end());
     if (sources_.size() > first) runs_.push_back({static_cast<Index>(k), b, first, sources_.size()});
   }
+}
+
+void System::leave_out(std::size_t body, std::size_t point, std::size_t other, bool out) {
+  left_out_.resize(points_.size() * surfaces_.size());
+  left_out_[place_of(body, point) * surfaces_.size() + other] = out ? 1 : 0;
+  listed_at_.clear();
+}
+
+double System::stored_at(std::size_t body, std::size_t point, std::size_t other) const {
+  std::size_t const target = place_of(body, point);
+  for (std::size_t k = 0; k < runs_.size(); ++k) {
+    if (at(runs_[k].target) != target || runs_[k].body != other || !gaps_[k].seen()) continue;
+    PairRule const& rule = rules_[body][other];
+    return points_[target].area * layer(gaps_[k].gap, rule.stiffness, rule.length).energy *
+           fade(gaps_[k].tau2(), rule.fade_from, rule.fade_to).value * presence(gaps_[k].weight).value;
+  }
+  return 0;
 }
 
 void System::list_points_near_rigids() {

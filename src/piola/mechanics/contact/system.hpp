@@ -43,10 +43,15 @@ class System {
          Setting setting);
 
   std::vector<std::int64_t> const& ids() const { return carriers_.ids(); }
+  Carriers const& carriers() const { return carriers_; }
   /// Inverse masses by index into ids() [1/kg].
   void set_masses(std::vector<double> const& masses);
   /// Whether body b pushes body a here.
   bool meets(std::size_t a, std::size_t b) const { return setting_[a][b].meets; }
+  /// Body `other` does not push this surface point of a body, or does so again.
+  void leave_out(std::size_t body, std::size_t point, std::size_t other, bool out);
+  /// What body `other` stores because it pushes this point [J].
+  double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
   std::vector<RigidSurface>& rigids() { return rigids_; }
@@ -122,6 +127,13 @@ class System {
   void make_lists(std::vector<Vec<3>> const& x);
   void list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high);
   bool may_touch(Index target, Index source) const;
+  std::size_t place_of(std::size_t body, std::size_t point) const {
+    for (std::size_t b = 0; b < body; ++b) point += surfaces_[b].points.size();
+    return point;
+  }
+  bool is_left_out(std::size_t point, std::size_t body) const {
+    return !left_out_.empty() && left_out_[point * surfaces_.size() + body] != 0;
+  }
   void list_points_near_rigids();
   void activate(std::vector<char> const& points);
   bool lists_hold(std::vector<Vec<3>> const& x) const;
@@ -163,6 +175,7 @@ class System {
   std::vector<Vec<3>> listed_at_;         ///< positions of carriers when the lists were made [m]
   std::vector<RigidPose> listed_rigids_;  ///< and rigid shapes
   double skin_ = 0;                       ///< [m]
+  std::vector<char> left_out_;            ///< by point and body, or empty
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run

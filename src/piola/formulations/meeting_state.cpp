@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/meeting.hpp"
+#include <algorithm>
+#include <array>
+
+namespace piola {
+
+void Meeting::save(StateWriter& writer) const {
+  std::vector<double> const system = system_.state();
+  writer.put("contact_count", std::array{static_cast<double>(system.size())});
+  writer.put("contact_state", system);
+  std::vector<double> rigid{work_, last_dt_, friction_work_};
+  for (std::size_t r = 0; r < shapes_.size(); ++r)
+    for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity})
+      rigid.insert(rigid.end(), a.c, a.c + 3);
+  for (auto const& pair : pair_impulses_)
+    for (Vec<3> const& a : {pair.force, pair.moment}) rigid.insert(rigid.end(), a.c, a.c + 3);
+  writer.put("contact", rigid);
+  writer.put("contact_actions", actions_.state());
+  ties_.save(writer);
+  if (!motion_.any()) return;
+  std::vector<double> const motion = motion_.state();
+  writer.put("rigid_count", std::array{static_cast<double>(motion.size())});
+  writer.put("rigid_state", motion);
+}
+
+void Meeting::load(StateReader& reader) {
+  std::vector<double> rigid(3 + 6 * (shapes_.size() + pair_impulses_.size()));
+  reader.get("contact", rigid);
+  work_ = rigid[0];
+  last_dt_ = rigid[1];
+  friction_work_ = rigid[2];
+  auto from = rigid.begin() + 3;
+  auto const take = [&](Vec<3>& a) {
+    std::copy_n(from, 3, a.c);
+    from += 3;
+  };
+  for (std::size_t r = 0; r < shapes_.size(); ++r) {
+    take(system_.rigid(r).centre);
+    take(system_.rigid(r).velocity);
+  }
+  for (auto& pair : pair_impulses_) {
+    take(pair.force);
+    take(pair.moment);
+  }
+  std::array<double, 1> count{};
+  reader.get("contact_count", count);
+  loaded_.resize(static_cast<std::size_t>(count[0]));
+  reader.get("contact_state", loaded_);
+  std::vector<double> actions = actions_.state();
+  reader.get("contact_actions", actions);
+  actions_.restore(actions);
+  ties_.load(reader);
+  if (!motion_.any()) return;
+  reader.get("rigid_count", count);
+  std::vector<double> motion(static_cast<std::size_t>(count[0]));
+  reader.get("rigid_state", motion);
+  motion_.restore(system_.rigids(), motion);
+}
+
+}  // namespace piola

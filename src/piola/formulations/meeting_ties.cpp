@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/meeting_ties.hpp"
+#include <algorithm>
+#include <utility>
+
+namespace piola {
+namespace {
+
+constexpr std::size_t numbers_of_impulse = 6;
+
+std::array<double, 3> scaled(double factor, Vec<3> const& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
+
+/// Where particles start [m], by index into System::ids().
+std::vector<Vec<3>> starts(Assembly const& whole, std::vector<std::int64_t> const& ids) {
+  std::vector<Vec<3>> x;
+  for (auto const id : ids) {
+    auto const i = static_cast<std::size_t>(id);
+    x.push_back({});
+    for (std::size_t c = 0; c < 3; ++c)
+      x.back()[static_cast<int>(c)] =
+          whole.particles.X[i][c] + (whole.initial_displacement.empty() ? 0 : whole.initial_displacement[i][c]);
+  }
+  return x;
+}
+
+}  // namespace
+
+MeetingTies::MeetingTies(Assembly const& whole, contact::System& system)
+    : ties_(whole.ties, whole.particles, whole.surfaces, system.carriers(), starts(whole, system.ids())),
+      impulses_(whole.ties.size()) {
+  for (std::size_t row = 0; row < ties_.count(); ++row) {
+    auto const& hold = ties_.hold(row);
+    system.leave_out(hold.body, hold.point, hold.other, true);
+  }
+}
+
+void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
+  if (!any()) return;
+  std::vector<double> inverse;
+  for (double const m : masses) inverse.push_back(m > 0 ? 1 / m : 0);
+  frequency2_ = ties_.frequency2(inverse);
+  if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));
+  for (std::size_t row = 0; row < ties_.count(); ++row)
+    if (ties_.has_failed(row))
+      system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
+  evaluate(system, x);
+}
+
+void MeetingTies::evaluate(contact::System& system, std::vector<Vec<3>> const& x) {
+  if (!any()) return;
+  ties_.evaluate(system.carriers(), x);
+  for (std::size_t const row : ties_.released())
+    system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
+}
+
+void MeetingTies::hand_over(contact::System const& system) {
+  for (std::size_t const row : ties_.released())
+    handed_over_ += system.stored_at(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other);
+}
+
+void MeetingTies::add_forces(std::vector<Vec<3>>& forces) const {
+  for (Index const k : ties_.pushed()) {
+    auto const i = static_cast<std::size_t>(k);
+    forces[i] = forces[i] + ties_.forces()[i];
+  }
+}
+
+void MeetingTies::begin() { std::fill(impulses_.begin(), impulses_.end(), contact::Ties::Force{}); }
+
+void MeetingTies::book(double half) {
+  for (std::size_t tie = 0; tie < impulses_.size(); ++tie) {
+    auto const& on = ties_.on_first(tie);
+    impulses_[tie] = {impulses_[tie].force + half * on.force, impulses_[tie].moment + half * on.moment};
+  }
+}
+
+void MeetingTies::report(Diagnostics& sum) const {
+  if (!any()) return;
+  auto const& now = ties_.totals();
+  sum.more.emplace_back("tie_energy", now.energy);
+  sum.more.emplace_back("tie_heat", now.heat - handed_over_);
+  sum.more.emplace_back("tie_failed", now.failed);
+}
+
+void MeetingTies::add_actions(double scale, std::vector<Action>& all) const {
+  for (std::size_t tie = 0; tie < impulses_.size(); ++tie)
+    all.push_back({ties_.rules()[tie].name, scaled(scale, impulses_[tie].force), scaled(scale, impulses_[tie].moment)});
+}
+
+void MeetingTies::save(StateWriter& writer) const {
+  if (!any()) return;
+  std::vector<double> all = ties_.state();
+  for (auto const& impulse : impulses_)
+    for (Vec<3> const& a : {impulse.force, impulse.moment}) all.insert(all.end(), a.c, a.c + 3);
+  all.push_back(handed_over_);
+  writer.put("ties", all);
+}
+
+void MeetingTies::load(StateReader& reader) {
+  if (!any()) return;
+  std::vector<double> all(2 * ties_.count() + numbers_of_impulse * impulses_.size() + 1);
+  reader.get("ties", all);
+  handed_over_ = all.back();
+  auto from = all.begin() + static_cast<std::ptrdiff_t>(2 * ties_.count());
+  loaded_.assign(all.begin(), from);
+  for (auto& impulse : impulses_)
+    for (Vec<3>* const a : {&impulse.force, &impulse.moment}) {
+      std::copy_n(from, 3, a->c);
+      from += 3;
+    }
+}
+
+}  // namespace piola

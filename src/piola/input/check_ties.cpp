@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/input/check_case.hpp"
+#include "piola/input/formulations_of.hpp"
+#include "piola/input/region_checks.hpp"
+#include "piola/materials/solids.hpp"
+#include "piola/setup/contact_surface.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+constexpr double stiff_enough = 10;     // K delta_max / t_max: the elastic branch is short
+constexpr double spacings_of_zone = 3;  // that resolve where a tie softens
+
+/// Elastic moduli of a body's material [Pa].
+struct Moduli {
+  double kappa = 0, mu = 0;
+  double wave() const { return kappa + 4.0 / 3 * mu; }
+  double young() const { return 9 * kappa * mu / (3 * kappa + mu); }
+};
+Moduli moduli_of(BodySpec const& body) {
+  Moduli m;
+  with_any_law(body.material, [&](auto const& law) { m = {law.kappa, law.mu}; });
+  return m;
+}
+
+/// Why a body cannot be tied; empty: it can.
+std::string why_not(CaseSpec const& spec, std::size_t body) {
+  BodySpec const& b = spec.bodies[body];
+  auto const info = find_formulation(b.formulation.name);
+  if (can_have_surface(spec, body)) return "";
+  if (b.shape.dimension < 2) return "it is in 1D";
+  if (!info || !info->pushable) return "the formulation " + b.formulation.name + " cannot be pushed";
+  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
+                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name; });
+  return mirrored ? "it has mirror planes" : "its particles may turn Eulerian";
+}
+
+/// Whether the bodies of all ties have surfaces.
+bool check_bodies(CaseSpec const& spec, Problems& problems) {
+  bool sound = true;
+  for (TieSpec const& tie : spec.ties)
+    for (std::size_t const b : tie.bodies) {
+      std::string const why = why_not(spec, b);
+      if (why.empty()) continue;
+      sound = false;
+      problems.add(place_of(tie.places, "between"),
+                   "the tie " + in_quotes(tie.name) + " cannot hold body " + in_quotes(spec.bodies[b].name) + ": " +
+                       why +
+                       " (allowed: bodies of nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D without "
+                       "mirrors) - choose another body or formulation");
+    }
+  return sound;
+}
+
+void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
+  if (found.points[0] > 0 && found.points[1] > 0) return;
+  std::string const nearest = std::isfinite(found.nearest)
+                                  ? "the nearest surfaces that face each other are " + number_text(found.nearest, 3) +
+                                        " spacings apart, as a gap or an overlap"
+                                  : "no surfaces face each other within two spacings";
+  problems.add(place_of(tie.places, "between"),
+               "the tie " + in_quotes(tie.name) + " holds nothing: between " + in_quotes(tie.between[0]) + " and " +
+                   in_quotes(tie.between[1]) + (tie.where ? ", and where its condition holds, " : " ") + nearest +
+                   " (allowed: half a spacing) - let the bodies touch" + (tie.where ? ", or change where" : ""));
+}
+
+void check_stiffness(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
+  if (!tie.fails()) return;
+  double const last = 2 * tie.toughness / tie.strength, least = stiff_enough * tie.strength / last;
+  if (found.stiffness >= least) return;
+  double const factor = tie.stiffness * least / found.stiffness;
+  problems.add(place_of(tie.places, "strength"),
+               fmt::format("the tie {} is too soft for its strength: it opens by {} before it softens, and {} is where "
+                           "it has failed (allowed: a tenth of that) - take stiffness = {} or more, a smaller strength "
+                           "or a smaller spacing",
+                           in_quotes(tie.name), quantity_text(tie.strength / found.stiffness, "m", 3),
+                           quantity_text(last, "m", 3), number_text(std::ceil(10 * factor) / 10, 3)));
+}
+
+double spacing_of(ParticleSet const& particles, std::size_t body) {
+  auto const& spacing = particles.bodies[body].spacing;
+  return *std::max_element(spacing.begin(), spacing.begin() + particles.dimension);
+}
+
+}  // namespace
+
+std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSet const& particles) {
+  Problems none;
+  if (spec.ties.empty() || !check_bodies(spec, none)) return {};
+  std::vector<contact::Surface> surfaces(spec.bodies.size());
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (!is_tied(spec, b)) continue;
+    surfaces[b] = contact_surface(spec.bodies[b].shape, particles, particles.bodies[b]);
+    surfaces[b].modulus = moduli_of(spec.bodies[b]).wave();
+  }
+  contact::Carriers const carriers(particles, surfaces);
+  std::vector<Vec<3>> x;
+  for (auto const id : carriers.ids()) {
+    auto const i = static_cast<std::size_t>(id);
+    auto const at = start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]);
+    x.push_back({{at[0], at[1], at[2]}});
+  }
+  return contact::Ties({spec.ties.begin(), spec.ties.end()}, particles, surfaces, carriers, x).found();
+}
+
+void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  if (spec.ties.empty() || !check_bodies(spec, problems)) return;
+  for (TieSpec const& tie : spec.ties)
+    for (std::size_t const b : tie.bodies)
+      if (tie.where && !FormulaCheck(particles, particles.bodies[b], problems)
+                            .finite(*tie.where, "tie.where", place_of(tie.places, "where")))
+        return;
+  try {
+    auto const found = found_by_ties(spec, particles);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      check_found(spec.ties[k], found[k], problems);
+      check_stiffness(spec.ties[k], found[k], problems);
+    }
+  } catch (InputError const& error) {  // a body of one layer
+    problems.add(place_of(spec.ties.front().places, "between"), error.what());
+  }
+}
+
+void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& found) {
+  for (TieSpec const& tie : spec.ties) {
+    if (!tie.fails()) continue;
+    double const young =
+        std::min(moduli_of(spec.bodies[tie.bodies[0]]).young(), moduli_of(spec.bodies[tie.bodies[1]]).young());
+    double const spacing = std::max(spacing_of(particles, tie.bodies[0]), spacing_of(particles, tie.bodies[1]));
+    double const zone = young * tie.toughness / (tie.strength * tie.strength);
+    if (!(zone < spacings_of_zone * spacing)) continue;
+    found.add(
+        place_of(tie.places, "strength"),
+        fmt::format("the tie {} softens over a length of about E G_c/t_max^2 = {}, {} spacings, which takes three "
+                    "or more - take a smaller strength or a smaller spacing",
+                    in_quotes(tie.name), quantity_text(zone, "m", 3), number_text(zone / spacing, 2)));
+  }
+}
+
+}  // namespace piola

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/mechanics/contact/ties.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace piola::contact {
+namespace {
+
+constexpr double near_enough = 0.5;   // of a spacing: points farther from the planes of the other body are not held
+constexpr double least_share = 0.05;  // points that see less of a face are beyond its rim
+
+std::size_t index(Index k) { return static_cast<std::size_t>(k); }
+Vec<3> vector(std::array<double, 3> const& a) { return {{a[0], a[1], a[2]}}; }
+
+}  // namespace
+
+/// Surfaces where they are at the start.
+struct Ties::Binding {
+  ParticleSet const& set;
+  std::vector<Surface> const& surfaces;
+  Carriers const& carriers;
+  std::vector<Mat<3>> F;                   ///< by carrier
+  std::vector<std::vector<Plane>> planes;  ///< by body and point
+
+  Binding(ParticleSet const& particles, std::vector<Surface> const& all, Carriers const& of,
+          std::vector<Vec<3>> const& x)
+      : set(particles), surfaces(all), carriers(of), F(index(of.count())), planes(all.size()) {
+    exec_host::for_each_in_set_up(of.count(), [&](Index k) { F[index(k)] = of.F(k, x); });
+    for (std::size_t b = 0; b < all.size(); ++b)
+      for (std::size_t k = 0; k < all[b].points.size(); ++k) {
+        SurfacePoint const& p = all[b].points[k];
+        Index const carrier = of.of(b, k);
+        Vec<3> const m = transpose(inverse(F[index(carrier)])) * p.normal;
+        planes[b].push_back(
+            {x[index(of.self(carrier))] + F[index(carrier)] * p.offset, (1 / std::sqrt(dot(m, m))) * m});
+      }
+  }
+
+  /// Points of body b that a point sees, ascending, with their weights.
+  std::vector<std::pair<std::size_t, double>> weights(Plane const& point, std::size_t b, CellGrid const& grid,
+                                                      double reach) const {
+    std::vector<std::pair<std::size_t, double>> seen;
+    grid.visit({point.y[0], point.y[1], point.y[2]}, [&](Index j) {
+      Plane const& source = planes[b][index(j)];
+      Vec<3> const r = point.y - source.y;
+      double const w = plane_weight(dot(r, r) / (reach * reach), dot(point.n, source.n));
+      if (w > 0) seen.emplace_back(index(j), w);
+    });
+    std::sort(seen.begin(), seen.end());
+    return seen;
+  }
+};
+
+Ties::Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
+           Carriers const& carriers, std::vector<Vec<3>> const& x)
+    : rules_(std::move(rules)), found_(rules_.size()), on_first_(rules_.size()) {
+  if (rules_.empty()) return;
+  Binding const at(set, surfaces, carriers, x);
+  for (std::size_t tie = 0; tie < rules_.size(); ++tie)
+    for (std::size_t side = 0; side < 2; ++side) bind(tie, side, at);
+  list_by_particle(x.size());
+  opened_.resize(rows_.size());
+  lost_.resize(rows_.size());
+  pulls_.resize(rows_.size());
+}
+
+/// Holds the points of one body that lie on the other one.
+void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
+  TieRule const& rule = rules_[tie];
+  std::size_t const a = rule.bodies[side], b = rule.bodies[1 - side];
+  Surface const &own = at.surfaces[a], &other = at.surfaces[b];
+  PairRule const pair = pair_rule(rule.stiffness, own.modulus, own.spacing, other.modulus, other.spacing);
+  double const K = 2 * pair.stiffness, dp = 2 * pair.length;  // of both sides together
+  CohesiveLaw const law = cohesive_law(K, rule.strength, rule.toughness, rule.shear_weight);
+  Found& found = found_[tie];
+  found.stiffness = K;
+  std::vector<std::array<double, 3>> places;
+  for (Plane const& plane : at.planes[b]) places.push_back({plane.y[0], plane.y[1], plane.y[2]});
+  CellGrid const grid(places, pair.reach);
+  for (std::size_t k = 0; k < own.points.size(); ++k) {
+    SurfacePoint const& point = own.points[k];
+    Vec<3> const Y = vector(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
+    if (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0) continue;
+    Plane const& plane = at.planes[a][k];
+    auto shares = at.weights(plane, b, grid, pair.reach);
+    Gap const gap = blended_gap(
+        plane, static_cast<Index>(shares.size()),
+        [&](Index j) -> Plane const& { return at.planes[b][shares[index(j)].first]; }, pair.reach);
+    if (!gap.seen()) continue;
+    double const seen = fade(gap.tau2(), pair.fade_from, pair.fade_to).value * presence(gap.weight).value;
+    if (!(seen > least_share)) continue;
+    double const far = std::fabs(gap.gap) / dp;
+    found.nearest = std::min(found.nearest, far);
+    if (far > near_enough) continue;
+    found.farthest = std::max(found.farthest, far);
+    found.points[side] += 1;
+    found.area += 0.5 * seen * point.area;
+    for (auto& share : shares) share.second /= gap.weight;
+    add_row(tie, {a, k, b}, 0.5 * seen * point.area, law, at, shares);
+  }
+}
+
+/// c of y_p = x_p + F_p S by the positions around p; the factor of the particle itself is left to the caller.
+void Ties::add_row(std::size_t tie, Hold const& hold, double area, CohesiveLaw const& law, Binding const& at,
+                   std::vector<std::pair<std::size_t, double>> const& shares) {
+  std::map<Index, double> own, other;
+  auto const add = [&](std::map<Index, double>& to, Index carrier, double factor, Vec<3> const& arm) {
+    Index const self = at.carriers.self(carrier);
+    to[self] += factor;
+    for (std::size_t j = at.carriers.first(carrier); j < at.carriers.last(carrier); ++j) {
+      Carriers::Neighbour const& b = at.carriers.neighbour(j);
+      double const c = factor * dot(b.g, arm);
+      to[b.at] += c;
+      to[self] -= c;
+    }
+  };
+  SurfacePoint const& point = at.surfaces[hold.body].points[hold.point];
+  Index const carrier = at.carriers.of(hold.body, hold.point), self = at.carriers.self(carrier);
+  add(own, carrier, 1, point.offset);
+  Vec<3> const& y = at.planes[hold.body][hold.point].y;
+  for (auto const& [source, share] : shares) {
+    Index const with = at.carriers.of(hold.other, source);
+    Vec<3> const away = inverse(at.F[index(with)]) * (y - at.planes[hold.other][source].y);
+    add(other, with, -share, at.surfaces[hold.other].points[source].offset + away);
+  }
+  Row row{tie, hold, carrier, point.normal, area, law, terms_.size(), 0, 0};
+  terms_.push_back({self, 0});
+  for (auto const& [particle, c] : own)
+    if (particle != self) terms_.push_back({particle, c});
+  row.other = terms_.size();
+  for (auto const& [particle, c] : other) terms_.push_back({particle, c});
+  row.last = terms_.size();
+  // So that the forces of a row sum to nothing.
+  for (std::size_t k = row.first + 1; k < row.last; ++k) terms_[row.first].c -= terms_[k].c;
+  rows_.push_back(row);
+}
+
+void Ties::list_by_particle(std::size_t particles) {
+  std::vector<std::size_t> count(particles);
+  for (Term const& term : terms_) ++count[index(term.at)];
+  std::vector<std::size_t> place(particles);
+  begin_ = {0};
+  for (std::size_t k = 0; k < particles; ++k) {
+    if (count[k] == 0) continue;
+    place[k] = begin_.back();
+    touched_.push_back(static_cast<Index>(k));
+    begin_.push_back(begin_.back() + count[k]);
+  }
+  by_particle_.resize(terms_.size());
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (std::size_t k = rows_[r].first; k < rows_[r].last; ++k)
+      by_particle_[place[index(terms_[k].at)]++] = {static_cast<Index>(r), terms_[k].c};
+  forces_.resize(particles);
+}
+
+/// The largest eigenvalue of M^-1 C^T K C is at most that of the same product of absolute values, which is at most the
+/// largest growth of any positive vector.
+double Ties::frequency2(std::vector<double> const& inverse_masses) const {
+  constexpr int rounds = 40;
+  std::vector<double> v(forces_.size(), 1.0), next;
+  double bound = rows_.empty() ? 0 : std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds && bound > 0; ++round) {
+    next.assign(v.size(), 0);
+    for (Row const& row : rows_) {
+      double sum = 0;
+      for (std::size_t k = row.first; k < row.last; ++k) sum += std::fabs(terms_[k].c) * v[index(terms_[k].at)];
+      sum *= row.area * row.law.stiffness * std::max(1.0, row.law.shear2);
+      for (std::size_t k = row.first; k < row.last; ++k) next[index(terms_[k].at)] += std::fabs(terms_[k].c) * sum;
+    }
+    double growth = 0, largest = 0;
+    for (Index const i : touched_) {
+      next[index(i)] *= inverse_masses[index(i)];
+      if (v[index(i)] > 0) growth = std::max(growth, next[index(i)] / v[index(i)]);
+      largest = std::max(largest, next[index(i)]);
+    }
+    bound = std::min(bound, growth);
+    if (!(largest > 0)) break;
+    for (double& value : next) value /= largest;
+    v.swap(next);
+  }
+  return bound;
+}
+
+}  // namespace piola::contact

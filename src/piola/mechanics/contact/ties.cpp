@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/ties.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include <algorithm>
+
+namespace piola::contact {
+namespace {
+
+std::size_t place_of(Index k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+/// Jump and traction of a row; writes what belongs to the row alone.
+void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> const& x) {
+  Row const& row = rows_[r];
+  if (has_failed(r)) {
+    pulls_[r] = {};
+    return;
+  }
+  Vec<3> const& self = x[place_of(terms_[row.first].at)];
+  Vec<3> own, other;
+  for (std::size_t k = row.first + 1; k < row.other; ++k) own = own + terms_[k].c * (x[place_of(terms_[k].at)] - self);
+  for (std::size_t k = row.other; k < row.last; ++k) other = other + terms_[k].c * (x[place_of(terms_[k].at)] - self);
+  Pull pull{own + other, self + own, {}, {}};
+  Bond bond;
+  if (rules_[row.tie].fails()) {
+    Vec<3> const m = transpose(inverse(carriers.F(row.carrier, x))) * row.N;
+    Vec<3> const n = (1 / std::sqrt(dot(m, m))) * m;
+    double const opening = effective_opening(row.law, separation(pull.jump, n));
+    if (opening > opened_[r]) opened_[r] = opening;
+    bond = cohesive_bond(row.law, pull.jump, n, opened_[r]);
+    lost_[r] = row.area * lost_energy(row.law, opened_[r]);
+    if (has_failed(r)) {  // what it stores when it fails under pressure is lost with it
+      lost_[r] += row.area * bond.energy;
+      bond = {};
+    }
+  } else {
+    bond = elastic_bond(row.law.stiffness, pull.jump);
+  }
+  pull.energy = row.area * bond.energy;
+  pull.by_jump = row.area * bond.by_jump;
+  pull.by_normal = row.area * bond.by_normal;
+  pulls_[r] = pull;
+}
+
+void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x) {
+  released_.clear();
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    if (!has_failed(r)) released_.push_back(r);
+  exec_host::for_each_in_set_up(static_cast<Index>(rows_.size()), [&](Index r) { stretch(place_of(r), carriers, x); });
+  std::erase_if(released_, [&](std::size_t r) { return !has_failed(r); });
+  exec_host::for_each_in_set_up(static_cast<Index>(touched_.size()), [&](Index k) {
+    Vec<3> sum;
+    for (std::size_t j = begin_[place_of(k)]; j < begin_[place_of(k) + 1]; ++j)
+      sum = sum - by_particle_[j].c * pulls_[place_of(by_particle_[j].at)].by_jump;
+    forces_[place_of(touched_[place_of(k)])] = sum;
+  });
+  add_up();
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    if (dot(pulls_[r].by_normal, pulls_[r].by_normal) > 0) turn(rows_[r], pulls_[r].by_normal, carriers, x);
+}
+
+void Ties::add_up() {
+  totals_ = {};
+  std::fill(on_first_.begin(), on_first_.end(), Force{});
+  double can_fail = 0, failed = 0;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    Row const& row = rows_[r];
+    Pull const& pull = pulls_[r];
+    totals_.energy += pull.energy;
+    totals_.heat += lost_[r];
+    if (rules_[row.tie].fails()) can_fail += row.area;
+    if (has_failed(r)) failed += row.area;
+    bool const first = row.hold.body == rules_[row.tie].bodies[0];
+    Vec<3> const f = (first ? -1.0 : 1.0) * pull.by_jump, y = first ? pull.y : pull.y - pull.jump;
+    Force& sum = on_first_[row.tie];
+    sum = {sum.force + f, sum.moment + cross(y, f)};
+  }
+  if (can_fail > 0) totals_.failed = failed / can_fail;
+}
+
+/// Forces of a load on the normal of the held point, by way of F of its particle.
+void Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x) {
+  Mat<3> const T = couple({}, row.N, carriers.F(row.carrier, x), {{}, by_normal, {}});
+  std::size_t const self = place_of(carriers.self(row.carrier));
+  Vec<3> moment;
+  for (std::size_t j = carriers.first(row.carrier); j < carriers.last(row.carrier); ++j) {
+    Carriers::Neighbour const& b = carriers.neighbour(j);
+    Vec<3> const f = T * b.g;
+    forces_[place_of(b.at)] = forces_[place_of(b.at)] - f;
+    forces_[self] = forces_[self] + f;
+    moment = moment - cross(x[place_of(b.at)] - x[self], f);
+  }
+  Force& sum = on_first_[row.tie];
+  if (row.hold.body == rules_[row.tie].bodies[0]) sum.moment = sum.moment + moment;
+}
+
+std::vector<double> Ties::state() const {
+  std::vector<double> all = opened_;
+  all.insert(all.end(), lost_.begin(), lost_.end());
+  return all;
+}
+
+void Ties::restore(std::vector<double> const& state) {
+  auto const half = state.begin() + static_cast<std::ptrdiff_t>(rows_.size());
+  opened_.assign(state.begin(), half);
+  lost_.assign(half, state.end());
+}
+
+std::size_t Ties::bytes() const {
+  return rows_.size() * (sizeof(Row) + sizeof(Pull) + 2 * sizeof(double)) +
+         (terms_.size() + by_particle_.size()) * sizeof(Term) + forces_.size() * sizeof(Vec<3>) +
+         touched_.size() * (sizeof(Index) + sizeof(std::size_t));
+}
+
+}  // namespace piola::contact

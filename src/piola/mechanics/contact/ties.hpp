@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/mechanics/contact/cohesive.hpp"
+#include "piola/mechanics/contact/planes.hpp"
+#include "piola/mechanics/contact/surface.hpp"
+#include "piola/mechanics/contact/tie_rule.hpp"
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace piola::contact {
+
+/// The ties of a run: springs with memory between surface points of one body and the places of the other one that they
+/// lay on at the start. A jump is the same linear function of the positions of particles for ever,
+///   jump_a = y_a - sum_b N_ab (y_b + F_b R_ab) = sum_i c_ai x_i,   sum_i c_ai = 0,
+/// so that the ties are rows of numbers. Particles are indices into Carriers::ids().
+class Ties {
+ public:
+  Ties() = default;
+  /// Binds what touches at x [m], the start. The set tells reference places.
+  Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
+       Carriers const& carriers, std::vector<Vec<3>> const& x);
+
+  /// What a tie found at the start.
+  struct Found {
+    std::array<std::int64_t, 2> points{};                      ///< held ones of both bodies
+    double area = 0;                                           ///< that is held, the mean of both bodies [m^(Dim-1)]
+    double farthest = 0;                                       ///< largest gap or overlap of a held point, in spacings
+    double nearest = std::numeric_limits<double>::infinity();  ///< least gap or overlap of any point, in spacings
+    double stiffness = 0;                                      ///< K [Pa/m]
+  };
+  std::vector<TieRule> const& rules() const { return rules_; }
+  std::vector<Found> const& found() const { return found_; }
+
+  /// A surface point of a body that a tie holds to another one.
+  struct Hold {
+    std::size_t body, point, other;
+  };
+  std::size_t count() const { return rows_.size(); }
+  Hold const& hold(std::size_t row) const { return rows_[row].hold; }
+  bool has_failed(std::size_t row) const { return opened_[row] >= rows_[row].law.last; }
+  /// Rows that failed in the last evaluation, ascending.
+  std::vector<std::size_t> const& released() const { return released_; }
+
+  /// Forces [N] at x [m]: functions of x and of the largest openings so far, which may grow.
+  void evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x);
+  std::vector<Vec<3>> const& forces() const { return forces_; }
+  std::vector<Index> const& pushed() const { return touched_; }  ///< ascending
+
+  struct Totals {
+    double energy = 0;  ///< stored [J]
+    double heat = 0;    ///< what failure took [J]
+    double failed = 0;  ///< share of the area that can fail
+  };
+  Totals const& totals() const { return totals_; }
+  struct Force {
+    Vec<3> force, moment;  ///< [N], about the origin [N m]
+  };
+  /// What a tie does to its first body.
+  Force const& on_first(std::size_t tie) const { return on_first_[tie]; }
+  /// A bound of the square of the largest frequency of the ties with these inverse masses [1/kg], nothing failed
+  /// [1/s2].
+  double frequency2(std::vector<double> const& inverse_masses) const;
+
+  std::vector<double> state() const;
+  /// Evaluate afterwards.
+  void restore(std::vector<double> const& state);
+  std::size_t bytes() const;
+
+ private:
+  struct Term {
+    Index at;
+    double c;
+  };
+  struct Row {
+    std::size_t tie;
+    Hold hold;
+    Index carrier;  ///< of the held point
+    Vec<3> N;
+    double area;  ///< half of the held one: both sides pull
+    CohesiveLaw law;
+    std::size_t first, other, last;  ///< terms of the own body, from `other` on of the other one; the first is its own
+  };
+  struct Pull {
+    Vec<3> jump, y, by_jump, by_normal;
+    double energy = 0;
+  };
+  struct Binding;
+
+  void bind(std::size_t tie, std::size_t side, Binding const& at);
+  void add_row(std::size_t tie, Hold const& hold, double area, CohesiveLaw const& law, Binding const& at,
+               std::vector<std::pair<std::size_t, double>> const& shares);
+  void list_by_particle(std::size_t particles);
+  void stretch(std::size_t row, Carriers const& carriers, std::vector<Vec<3>> const& x);
+  void turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x);
+  void add_up();
+
+  std::vector<TieRule> rules_;
+  std::vector<Found> found_;
+  std::vector<Row> rows_;
+  std::vector<Term> terms_;
+  std::vector<Index> touched_;
+  std::vector<std::size_t> begin_;  ///< by index into touched_: its rows
+  std::vector<Term> by_particle_;   ///< at: a row
+  std::vector<double> opened_;      ///< by row: largest effective opening [m]
+  std::vector<double> lost_;        ///< by row: what its failure took [J]
+  std::vector<Pull> pulls_;         ///< by row
+  std::vector<std::size_t> released_;
+  std::vector<Vec<3>> forces_;
+  std::vector<Force> on_first_;
+  Totals totals_;
+};
+
+}  // namespace piola::contact

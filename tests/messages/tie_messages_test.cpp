@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user is told about ties, word for word.
+#include "piola/input/check_case.hpp"
+#include "piola/simulation/build.hpp"
+#include "support/sample_case.hpp"
+#include <gtest/gtest.h>
+
+namespace piola {
+namespace {
+
+using test::message_of;
+using test::replaced;
+
+/// Two squares of 10 mm, one on the other; a tie starts in line 13.
+std::string stack(std::string const& tie, std::string const& upper_min = "\"10 mm\"",
+                  std::string const& upper_max = "\"20 mm\"") {
+  return R"toml(title = "Stack"
+[run]
+end = "1 ms"
+[[body]]
+name = "lower"
+shape = { box = { min = [0, 0], max = ["10 mm", "10 mm"] }, spacing = "1 mm", placement = "cell_centred" }
+material = { law = "neo_hookean", density = 1000, youngs_modulus = "1 GPa", poissons_ratio = 0.3 }
+formulation = { name = "nodal" }
+[[body]]
+name = "upper"
+shape = { box = { min = [0, )toml" +
+         upper_min + R"toml(], max = ["10 mm", )toml" + upper_max +
+         R"toml(] }, spacing = "1 mm", placement = "cell_centred" }
+material = { law = "neo_hookean", density = 1000, youngs_modulus = "1 GPa", poissons_ratio = 0.3 }
+formulation = { name = "jst_sph" }
+[[tie]]
+)toml" + tie;
+}
+std::string told(std::string const& tie) { return message_of(stack(tie)); }
+std::string const both = "between = [\"lower\", \"upper\"]\n";
+
+TEST(TieMessages, ATieNamesTwoBodies) {
+  EXPECT_EQ(told(both), "");
+  EXPECT_EQ(told(""), "case.toml:14:1: tie needs \"between\" (names of two bodies) - add between = [...]");
+  EXPECT_EQ(told("between = [\"lower\"]"), "case.toml:15:11: tie.between is a list of 1 (allowed: a list of 2)");
+  EXPECT_EQ(told("between = [\"lower\", \"uper\"]"),
+            "case.toml:15:21: tie.between[1] is \"uper\" (allowed: lower, upper, bodies) - did you mean \"upper\"?");
+  EXPECT_EQ(told("between = [\"lower\", \"lower\"]"),
+            "case.toml:15:11: tie.between names \"lower\" twice (allowed: two bodies) - name another body");
+}
+
+TEST(TieMessages, ConditionsAreNumbers) {
+  EXPECT_NE(told(both + "where = \"log(X - 1)\"").find("tie.where"), std::string::npos);
+  EXPECT_NE(told(both + "where = \"q > 1\"").find("tie.where"), std::string::npos);
+}
+
+TEST(TieMessages, RigidShapesAreNoBodies) {
+  std::string const text = stack(
+      "between = [\"lower\", \"floor\"]\n[[rigid]]\nname = \"floor\"\n"
+      "plane = { point = [0, 0], normal = [0, 1] }\n");
+  EXPECT_EQ(message_of(text),
+            "case.toml:15:21: tie.between[1] is \"floor\", a rigid shape (allowed: lower, upper, bodies) - hold a body "
+            "by a [[support]], driven where the shape moves");
+}
+
+TEST(TieMessages, NamesOfColumnsAreTheirOwn) {
+  EXPECT_EQ(told("name = \"glue\"\n" + both + "[[tie]]\nname = \"glue\"\n" + both),
+            "case.toml:18:8: the name \"glue\" is taken by another tie (allowed: one tie per name) - choose another "
+            "name");
+}
+
+TEST(TieMessages, LawsOfFailureAreWhole) {
+  EXPECT_EQ(told(both + "strength = \"1 MPa\""),
+            "case.toml:14:1: tie needs \"toughness\" (energy that failure takes per area) - add toughness = \"100 "
+            "J/m^2\"");
+  EXPECT_EQ(told(both + "toughness = 100\nshear_weight = 2"),
+            "case.toml:16:13: tie.toughness is used only by a tie with a strength - remove it\n"
+            "case.toml:17:16: tie.shear_weight is used only by a tie with a strength - remove it");
+  EXPECT_EQ(told(both + "strength = \"1 MPa\"\ntoughness = \"-5 J/m^2\"\nstiffness = 0"),
+            "case.toml:17:13: tie.toughness is -5 J/m^2 (allowed: above 0)\n"
+            "case.toml:18:13: tie.stiffness is 0 (allowed: above 0)");
+  EXPECT_EQ(told(both + "strength = \"1 MPa\"\ntoughness = \"100 J/m^2\"\nshear_weight = 0.5"), "");
+}
+
+TEST(TieMessages, TheElasticBranchIsShort) {
+  // K = 2 M / dp = 2.69e12 Pa/m; it softens from 7.43 um on and has failed at 10 um.
+  EXPECT_EQ(told(both + "strength = \"20 MPa\"\ntoughness = \"100 J/m^2\""),
+            "case.toml:16:12: the tie \"tie_0\" is too soft for its strength: it opens by 7.43 um before it softens, "
+            "and 10 um is where it has failed (allowed: a tenth of that) - take stiffness = 14.9 or more, a smaller "
+            "strength or a smaller spacing");
+}
+
+TEST(TieMessages, ATieHoldsSomething) {
+  EXPECT_EQ(message_of(stack(both, "\"10.7 mm\"", "\"20.7 mm\"")),
+            "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\" the nearest surfaces "
+            "that face each other are 0.7 spacings apart, as a gap or an overlap (allowed: half a spacing) - let the "
+            "bodies touch");
+  EXPECT_EQ(message_of(stack(both, "\"15 mm\"", "\"20 mm\"")),
+            "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\" no surfaces face each "
+            "other within two spacings (allowed: half a spacing) - let the bodies touch");
+  EXPECT_EQ(
+      told(both + "where = \"X > 1\""),
+      "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\", and where its condition "
+      "holds, no surfaces face each other within two spacings (allowed: half a spacing) - let the bodies touch, "
+      "or change where");
+  EXPECT_EQ(message_of(stack(both, "\"10.4 mm\"", "\"20.4 mm\"")), "") << "a small gap is glue";
+}
+
+TEST(TieMessages, BodiesNeedSurfaces) {
+  std::string const on_faces =
+      replaced(stack(both), "[\"10 mm\", \"20 mm\"] }, spacing = \"1 mm\", placement = \"cell_centred\" }",
+               "[\"10 mm\", \"20 mm\"] }, spacing = \"1 mm\" }");
+  std::string const mirrored = on_faces + "[[mirror]]\nbody = \"upper\"\nface = \"-x\"\n";
+  EXPECT_EQ(message_of(mirrored),
+            "case.toml:15:11: the tie \"tie_0\" cannot hold body \"upper\": it has mirror planes (allowed: bodies of "
+            "nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D without mirrors) - choose another body or "
+            "formulation");
+  std::string const thin = replaced(stack(both), "\"20 mm\"] }, spacing", "\"11 mm\"] }, spacing");
+  EXPECT_NE(message_of(thin).find("is too thin"), std::string::npos) << message_of(thin);
+}
+
+TEST(TieMessages, ZonesThatSpacingsDoNotResolveAreWarnedOf) {
+  CaseSpec const spec = read_case_text(stack(both + "strength = \"12 MPa\"\ntoughness = \"300 J/m^2\"\n"), "case.toml");
+  auto const warnings = build(spec).warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.back(),
+            "case.toml:16:12: the tie \"tie_0\" softens over a length of about E G_c/t_max^2 = 2.08 mm, 2.1 spacings, "
+            "which takes three or more - take a smaller strength or a smaller spacing");
+}
+
+}  // namespace
+}  // namespace piola
