@@ -86,9 +86,10 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
     if (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0) continue;
     Plane const& plane = at.planes[a][k];
     auto shares = at.weights(plane, b, grid, pair.reach);
+    std::vector<double> weights(shares.size());
     Gap const gap = blended_gap(
         plane, static_cast<Index>(shares.size()),
-        [&](Index j) -> Plane const& { return at.planes[b][shares[index(j)].first]; }, pair.reach);
+        [&](Index j) -> Plane const& { return at.planes[b][shares[index(j)].first]; }, pair.reach, weights.data());
     if (!gap.seen()) continue;
     double const seen = fade(gap.tau2(), pair.fade_from, pair.fade_to).value * presence(gap.weight).value;
     if (!(seen > least_share)) continue;
