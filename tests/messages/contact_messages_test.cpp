@@ -155,7 +155,7 @@ TEST(ContactMessages, RigidShapesMoveAsOne) {
 
 TEST(ContactMessages, EachLawHasItsNumbers) {
   EXPECT_EQ(contact("law = \"lineer\""),
-            "case.toml:24:7: contact.law is \"lineer\" (allowed: kernel, linear, printed, "
+            "case.toml:24:7: contact.law is \"lineer\" (allowed: kernel, linear, printed, surface, "
             "none) - did you mean \"linear\"?");
   EXPECT_EQ(contact("stiffness = 1"),
             "case.toml:24:13: contact.stiffness is used only by the law \"printed\" - remove it");
@@ -169,7 +169,7 @@ TEST(ContactMessages, EachLawHasItsNumbers) {
   EXPECT_EQ(contact("law = \"linear\"\nexponent = 4"),
             "case.toml:25:12: contact.exponent is used only by the law \"kernel\" or \"printed\" - remove it");
   EXPECT_EQ(contact("law = \"none\"\nscale = 2"),
-            "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\" or \"printed\" - remove it");
+            "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\", \"printed\" or \"surface\" - remove it");
 }
 
 TEST(RoundBodyMessages, ArrangementsAreForDiscs) {

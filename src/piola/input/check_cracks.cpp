@@ -22,6 +22,7 @@ void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) none = none && !meets_rigids(spec, b);
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   if (!none || (off && spec.rigids.empty())) return;
+  if (spec.contact && spec.contact->law == ContactRule::Law::surface && all.front().contact) return;  // told there
   for (RigidSpec const& rigid : spec.rigids)
     problems.add(place_of(rigid.places, ""), refusal(all.front(), "rigid shapes"));
   if (spec.contact) problems.add(place_of(spec.contact->places, ""), refusal(all.front(), "contact"));
