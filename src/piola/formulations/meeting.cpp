@@ -64,11 +64,11 @@ contact::System system_of(Assembly const& whole) {
 
 /// The layer between rigid shapes is that of the stiffest body that has a surface.
 contact::RigidMotion motion_of(Assembly const& whole) {
-  contact::RigidPairs::Setting between{0, 0, whole.contact.friction.kinetic};
+  contact::RigidPairs::Setting between{0, 0, whole.contact.friction};
   for (contact::Surface const& surface : whole.surfaces) {
     if (surface.points.empty()) continue;
     double const k = contact::layer_stiffness(1, 0.5 * whole.contact.scale, surface.modulus, surface.spacing);
-    if (k > between.stiffness) between = {k, surface.spacing, whole.contact.friction.kinetic};
+    if (k > between.stiffness) between = {k, surface.spacing, whole.contact.friction};
   }
   return {whole.rigid_shapes, whole.particles.dimension, between};
 }
@@ -233,7 +233,7 @@ void Meeting::finish(Formulations const& formulations, double time, double dt) {
   ties_.evaluate(system_, x_);
   system_.evaluate(x_, dt);
   ties_.hand_over(system_);
-  motion_.evaluate(system_);
+  motion_.evaluate(system_, dt);
   sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
   push(formulations, time, 0.5 * dt);

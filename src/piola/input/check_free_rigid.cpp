@@ -42,7 +42,7 @@ void check_pair(RigidSpec const& a, RigidSpec const& b, int dimension, Problems&
     return;
   }
   std::vector<RigidShape> const both{a, b};
-  contact::RigidPairs pair(both, dimension, {1, 1, 0});
+  contact::RigidPairs pair(both, dimension, {1, 1, {}});
   pair.start({contact::surface_of(a, dimension), contact::surface_of(b, dimension)});
   double const allowed = 1e-9 * std::max(contact::surface_of(a, dimension).radius, 1e-6);
   if (!(pair.totals().deepest > allowed)) return;

@@ -70,7 +70,7 @@ TEST(RigidPairs, KnowWhichShapesPushEachOther) {
 TEST(RigidPairs, ForcesAndMomentsAreTheSlopesOfTheEnergy) {
   for (Scene const& scene : scenes()) {
     SCOPED_TRACE(static_cast<int>(scene.shapes[0].kind));
-    RigidPairs pairs(scene.shapes, scene.dimension, {1000, 0.1, 0});
+    RigidPairs pairs(scene.shapes, scene.dimension, {1000, 0.1, {}});
     pairs.start(scene.now);
     ASSERT_GT(pairs.totals().energy, 0);
     double size = 0;
@@ -108,12 +108,12 @@ TEST(RigidPairs, ForcesAndMomentsAreTheSlopesOfTheEnergy) {
 
 TEST(RigidPairs, FrictionKeepsMomentaAndIsBlindToCommonMotion) {
   for (Scene const& scene : scenes()) {
-    RigidPairs pairs(scene.shapes, scene.dimension, {1000, 0.1, 0.5});
+    RigidPairs pairs(scene.shapes, scene.dimension, {1000, 0.1, {0.5}});
     pairs.start(scene.now);
     auto now = scene.now;
     now[0].centre[0] += 0.01;
     now[1] = turned(now[1], {{0, 0, 0.01}});
-    pairs.evaluate(now);
+    pairs.evaluate(now, 0.01);
     Vec<3> force = pairs.on(0).force + pairs.on(1).force, moment;
     for (std::size_t k = 0; k < 2; ++k) moment = moment + pairs.on(k).moment + cross(now[k].centre, pairs.on(k).force);
     double const size = std::sqrt(dot(pairs.on(0).force, pairs.on(0).force));
@@ -129,32 +129,44 @@ TEST(RigidPairs, FrictionKeepsMomentaAndIsBlindToCommonMotion) {
     for (int turns = 0; turns < 5; ++turns) {
       for (RigidSurface& s : now) {
         s = turned(s, by);
-        s.centre = R * s.centre + Vec<3>{{0.3, -0.1, 0}};
+        s.centre = R * s.centre + Vec<3>{{0.3, -0.1, {}}};
       }
-      pairs.evaluate(now);
+      pairs.evaluate(now, 0.01);
       EXPECT_NEAR(pairs.totals().spring_energy / stored, 1, 1e-11);
       EXPECT_NEAR(pairs.totals().friction_work, 0, 1e-11 * stored);
     }
   }
 }
 
+TEST(RigidPairs, RubMoreAtRestIfTheLawSaysSo) {
+  for (double const dt : {1e6, 1e-6}) {
+    Scene scene = scenes()[0];
+    RigidPairs pairs(scene.shapes, 3, {1000, 0.1, {0.3, 0.6, 1e-3}});
+    pairs.start(scene.now);
+    scene.now[0].centre[0] += 0.1;
+    pairs.evaluate(scene.now, dt);
+    Vec<3> const f = pairs.on(0).force;
+    EXPECT_NEAR(-f[0] / f[2], dt > 1 ? 0.6 : 0.3, 1e-4);
+  }
+}
+
 TEST(RigidPairs, RestoredStateGoesOnBitForBit) {
   Scene scene = scenes()[2];
-  RigidPairs whole(scene.shapes, 3, {1000, 0.1, 0.5}), resumed(scene.shapes, 3, {1000, 0.1, 0.5});
+  RigidPairs whole(scene.shapes, 3, {1000, 0.1, {0.5}}), resumed(scene.shapes, 3, {1000, 0.1, {0.5}});
   whole.start(scene.now);
   resumed.start(scene.now);
   auto now = scene.now;
   auto const move = [&] { now[0] = turned(now[0], {{0, 0.002, 0.01}}); };
   for (int k = 0; k < 3; ++k) {
     move();
-    whole.evaluate(now);
+    whole.evaluate(now, 0.01);
   }
   resumed.restore(now, whole.state());
   EXPECT_EQ(resumed.state(), whole.state());
   for (int k = 0; k < 5; ++k) {
     move();
-    whole.evaluate(now);
-    resumed.evaluate(now);
+    whole.evaluate(now, 0.01);
+    resumed.evaluate(now, 0.01);
     EXPECT_EQ(resumed.state(), whole.state());
   }
 }
@@ -162,7 +174,7 @@ TEST(RigidPairs, RestoredStateGoesOnBitForBit) {
 TEST(RigidPairs, ClosingShortensTheStepBeforeTheyMeet) {
   Scene scene = scenes()[0];
   scene.now[0].centre = {{0, 0, 1.5}};
-  RigidPairs pairs(scene.shapes, 3, {1000, 0.1, 0});
+  RigidPairs pairs(scene.shapes, 3, {1000, 0.1, {}});
   pairs.start(scene.now);
   EXPECT_EQ(pairs.totals().energy, 0);
   EXPECT_TRUE(std::isinf(pairs.closing_step(scene.now)));
@@ -174,7 +186,7 @@ TEST(RigidPairs, AFreeCylinderOnItsEndStaysThere) {
   std::vector<RigidShape> const shapes{shape(Kind::cylinder, {0, 0, 0.49}), shape(Kind::plane, {0, 0, 0}, false)};
   auto now = surfaces(shapes, 3);
   now[0].axis = {{0, 0, 1}};
-  RigidPairs pairs(shapes, 3, {1000, 0.1, 0});
+  RigidPairs pairs(shapes, 3, {1000, 0.1, {}});
   pairs.start(now);
   EXPECT_GT(pairs.on(0).force[2], 0);
   EXPECT_EQ(dot(pairs.on(0).moment, pairs.on(0).moment), 0);

@@ -85,8 +85,8 @@ void RigidMotion::start(System const& bodies) {
   bound_frequency(bodies);
 }
 
-void RigidMotion::evaluate(System const& bodies) {
-  pairs_.evaluate(bodies.rigids());
+void RigidMotion::evaluate(System const& bodies, double dt) {
+  pairs_.evaluate(bodies.rigids(), dt);
   bound_frequency(bodies);
 }
 

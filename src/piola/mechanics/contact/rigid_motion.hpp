@@ -21,7 +21,7 @@ class RigidMotion {
   void move(std::vector<RigidSurface>& surfaces, double time, double dt);
   /// Forces between shapes as they stand, after those of the bodies.
   void start(System const& bodies);
-  void evaluate(System const& bodies);
+  void evaluate(System const& bodies, double dt);  ///< dt [s] after the evaluation before
   /// The impulses of `half` [s] by the forces as they are and by gravity at a time; the velocities of the surfaces
   /// follow.
   void kick(System& bodies, double time, double half);

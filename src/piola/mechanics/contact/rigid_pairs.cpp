@@ -38,8 +38,8 @@ RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Set
       // The points are those of the sphere, else those that stand before the plane; of two spheres of the first.
       bool const points = one.kind == Kind::sphere || (other.kind == Kind::plane && one.kind != Kind::plane);
       if (a == b || !(one.free || other.free) || !points || (other.kind == Kind::sphere && b < a)) continue;
-      double const area = std::min(size_of(one, dimension), size_of(other, dimension));
-      pairs_.push_back({a, b, setting.stiffness * area / points_of(one.kind, dimension)});
+      double const area = std::min(size_of(one, dimension), size_of(other, dimension)) / points_of(one.kind, dimension);
+      pairs_.push_back({a, b, setting.stiffness * area, area});
     }
 }
 
@@ -84,8 +84,10 @@ Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, Touch const& touch, 
                                  [&](Stuck const& s) { return s.pair == pair && s.point == point; });
   bool const known = last != last_stuck_.end();
   Vec<3> const jump = moved_from(last_[p.a], a, touch.y) - moved_from(last_[p.b], b, touch.y);
+  Vec<3> const along = jump - dot(touch.normal, jump) * touch.normal;
+  double const speed = known && dt_ > 0 ? std::sqrt(square_of(along)) / dt_ : 0;
   Spring const spring = dragged(known ? b.turn * last->stretch : Vec<3>{}, known ? jump : Vec<3>{}, touch.normal,
-                                p.stiffness, setting_.friction * normal_force);
+                                p.stiffness, friction_bound(setting_.friction, normal_force, p.area, speed));
   if (known) totals_.friction_work += friction_work(last->force, spring.force, jump);
   totals_.spring_energy += 0.5 * p.stiffness * square_of(spring.stretch);
   stuck_.push_back({pair, point, transpose(b.turn) * spring.stretch, spring.force});
@@ -101,7 +103,8 @@ void RigidPairs::push(std::size_t pair, std::size_t point, Touch const& touch,
   double const over = std::min(touch.gap, 0.0) / length, stiffness = p.stiffness * (1 + 3 * over * over);
   for (std::size_t const shape : {p.a, p.b}) {
     RigidSurface const& s = shapes[shape];
-    frequency2_[shape] += stiffness * (setting_.friction > 0 ? s.mobility(touch.y) : s.mobility(touch.y, touch.normal));
+    frequency2_[shape] +=
+        stiffness * (setting_.friction.any() ? s.mobility(touch.y) : s.mobility(touch.y, touch.normal));
   }
   if (!(touch.gap < 0)) return;
   Layer const psi = layer(touch.gap, p.stiffness, length);
@@ -109,14 +112,14 @@ void RigidPairs::push(std::size_t pair, std::size_t point, Touch const& touch,
   totals_.deepest = std::max(totals_.deepest, -touch.gap / setting_.spacing);
   totals_.touched += 1;
   Vec<3> f = (-psi.slope) * touch.normal;
-  if (setting_.friction > 0) f = f + rub(pair, point, touch, -psi.slope, shapes);
+  if (setting_.friction.any()) f = f + rub(pair, point, touch, -psi.slope, shapes);
   add(p.a, touch.y - a.centre, f);
   add(p.b, touch.y - b.centre, -1.0 * f);
 }
 
 void RigidPairs::start(std::vector<RigidSurface> const& shapes) {
   remember(shapes);
-  evaluate(shapes);
+  evaluate(shapes, 0);
 }
 
 void RigidPairs::remember(std::vector<RigidSurface> const& shapes) {
@@ -124,7 +127,8 @@ void RigidPairs::remember(std::vector<RigidSurface> const& shapes) {
   for (RigidSurface const& shape : shapes) last_.push_back(pose_of(shape));
 }
 
-void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes) {
+void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes, double dt) {
+  dt_ = dt;
   std::swap(stuck_, last_stuck_);
   stuck_.clear();
   totals_ = {};

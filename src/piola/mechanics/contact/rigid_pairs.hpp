@@ -21,14 +21,15 @@ class RigidPairs {
   struct Setting {
     double stiffness = 0;  ///< k of the layer, C_s M/dp [Pa/m]
     double spacing = 0;    ///< dp [m]
-    double friction = 0;   ///< mu
+    FrictionLaw friction = {};
   };
   /// All pairs of which at least one is free; sizes: volumes of the shapes, for stiffnesses.
   RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Setting const& setting);
 
   /// Without a move since the evaluation before: at the start.
   void start(std::vector<RigidSurface> const& shapes);
-  void evaluate(std::vector<RigidSurface> const& shapes);
+  /// dt [s] after the evaluation before.
+  void evaluate(std::vector<RigidSurface> const& shapes, double dt);
 
   struct Load {
     Vec<3> force, moment;  ///< [N]; about the centre [N m]
@@ -56,6 +57,7 @@ class RigidPairs {
   struct Pair {
     std::size_t a, b;  ///< points of a against the distance from b
     double stiffness;  ///< of one point [N/m]
+    double area;       ///< the same [m2]
   };
   /// Where a pair touches, or would.
   struct Touch {
@@ -81,6 +83,7 @@ class RigidPairs {
   std::vector<double> frequency2_;
   std::vector<RigidPose> last_;
   std::vector<Stuck> stuck_, last_stuck_;
+  double dt_ = 0;  ///< since the evaluation before [s]
   Totals totals_;
 };
 
