@@ -55,6 +55,19 @@ TEST(Overlap, HalfASpacingIsTheBound) {
   EXPECT_EQ(test::message_of(two(box(0, 1, cells, 10), box(0.94, 1.94, cells, 10))), start_of_message(10, 10));
 }
 
+// Both turned by the same displacement they touch as before, however far they are turned.
+TEST(Overlap, TurnedBodiesAreWhereTheyAre) {
+  std::string const turned = "initial_displacement = [\"0.6*X - 0.8*Y - X\", \"0.8*X + 0.6*Y - Y\"]\n[[body]]";
+  auto const both = [&](double gap) {
+    std::string const text = two(box(0, 1, "cell_centred", 10), box(1 + gap, 2 + gap, "cell_centred", 10), "nodal");
+    return test::replaced(text, "[[body]]\nname = \"b\"", turned + "\nname = \"b\"") +
+           turned.substr(0, turned.find('\n')) + "\n";
+  };
+  EXPECT_EQ(test::message_of(both(0)), "");
+  EXPECT_NE(test::message_of(both(-0.2)).find("20 particles of \"b\" up to 150 mm inside"), std::string::npos)
+      << test::message_of(both(-0.2));
+}
+
 TEST(Overlap, ParticlesOfTwoBodiesAreNoNearerThanHalfASpacing) {
   EXPECT_EQ(test::message_of(two(box(0, 1), box(1, 2))),
             "case.toml:11:9: the bodies \"a\" and \"b\" have particles only 0 m apart at the start, at (1, 0) m "

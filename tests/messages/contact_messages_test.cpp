@@ -169,7 +169,8 @@ TEST(ContactMessages, EachLawHasItsNumbers) {
   EXPECT_EQ(contact("law = \"linear\"\nexponent = 4"),
             "case.toml:25:12: contact.exponent is used only by the law \"kernel\" or \"printed\" - remove it");
   EXPECT_EQ(contact("law = \"none\"\nscale = 2"),
-            "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\", \"printed\" or \"surface\" - remove it");
+            "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\", \"printed\" or \"surface\" "
+            "- remove it");
 }
 
 TEST(RoundBodyMessages, ArrangementsAreForDiscs) {

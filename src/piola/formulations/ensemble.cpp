@@ -102,7 +102,10 @@ class Ensemble : public Formulation {
     double const step = least(&Formulation::stable_time_step);
     return meeting_ ? meeting_->limit(step) : step;
   }
-  double settled_time_step() const override { return least(&Formulation::settled_time_step); }
+  double settled_time_step() const override {
+    double const step = least(&Formulation::settled_time_step);
+    return meeting_ ? meeting_->settled(step) : step;
+  }
   StepRule step_rule() const override;
 
   /// What acts between bodies acts before and after the steps of the parts, when all bodies stand at one instant.
@@ -202,7 +205,11 @@ StepRule Ensemble::step_rule() const {
     rule = here;
     rule.limit += " (" + parts_[k].formulation + ")";
   }
-  rule.first = first;
+  if (double const tied = meeting_ ? meeting_->settled(rule.settled) : rule.settled; tied < rule.settled) {
+    rule.settled = tied;
+    rule.limit += ", with ties between bodies";
+  }
+  rule.first = std::min(first, rule.settled);
   rule.more_stages = mean([](Formulation const& f) { return f.step_rule().more_stages; });
   rule.setup_stages = mean([](Formulation const& f) { return f.step_rule().setup_stages; });
   return rule;

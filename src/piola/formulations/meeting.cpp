@@ -14,6 +14,11 @@ using Point = std::array<double, 3>;
 /// Share of the stability limit of a pair of kicks that is used; the steps of formulations have theirs in them.
 constexpr double margin = 0.85;
 
+/// Of a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
+double with_frequency(double step, double omega2) {
+  return omega2 > 0 ? 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin)) : step;
+}
+
 constexpr std::array<std::string_view, 4> offered_by_contact{"ContactPressure", "ContactGap", "Slip", "FrictionHeat"};
 
 Point array_of(Vec<3> const& a) { return {a[0], a[1], a[2]}; }
@@ -242,10 +247,10 @@ void Meeting::finish(Formulations const& formulations, double time, double dt) {
 
 double Meeting::limit(double step) const {
   double const omega2 = std::max(system_.totals().frequency2, motion_.frequency2()) + ties_.frequency2();
-  // Of a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
-  double const together = 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin));
-  return std::min(omega2 > 0 ? together : step, closing_);
+  return std::min(with_frequency(step, omega2), closing_);
 }
+
+double Meeting::settled(double step) const { return with_frequency(step, ties_.frequency2()); }
 
 std::vector<Action> Meeting::pairs() const {
   std::vector<Action> all;

@@ -28,6 +28,8 @@ class Meeting {
 
   /// The step that contact leaves of one that the bodies bear [s].
   double limit(double step) const;
+  /// The same if nothing touches.
+  double settled(double step) const;
   /// Adds energy, work and columns.
   void report(Diagnostics& sum) const;
   /// Rigid shapes that are free or turn, as they stand.
