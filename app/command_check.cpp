@@ -232,9 +232,10 @@ void print_ties(CaseSpec const& spec, ParticleSet const& particles) {
   auto const found = found_by_ties(spec, particles);
   for (std::size_t k = 0; k < found.size(); ++k) {
     TieSpec const& tie = spec.ties[k];
-    say("tie \"{}\": {} and {} points of \"{}\" and \"{}\", {}, at most {:.2g} spacings apart{}\n", tie.name,
+    say("tie \"{}\": {} and {} points of \"{}\" and \"{}\", {}, at most {:.2g} spacings apart{}{}\n", tie.name,
         found[k].points[0], found[k].points[1], tie.between[0], tie.between[1],
         quantity_text(found[k].area, particles.dimension == 3 ? "m^2" : "m", 3), found[k].farthest,
+        found[k].left > 0 ? fmt::format("; {} more are farther and stay free", found[k].left) : "",
         tie.fails()
             ? ", fails at " + quantity_text(tie.strength, "Pa", 3) + " with " + quantity_text(tie.toughness, "J/m^2", 3)
             : "");

@@ -115,6 +115,19 @@ TEST(TieMessages, BodiesNeedSurfaces) {
   EXPECT_NE(message_of(thin).find("is too thin"), std::string::npos) << message_of(thin);
 }
 
+TEST(TieMessages, WhatStaysFreeIsToldOf) {
+  std::string const wedge = replaced(stack(both), "formulation = { name = \"jst_sph\" }",
+                                     "formulation = { name = \"jst_sph\" }\ninitial_displacement = [0, \"0.2*X\"]");
+  auto const warnings = build(read_case_text(wedge, "case.toml")).warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(
+      warnings.back(),
+      "case.toml:16:11: the tie \"tie_0\" holds 5 points, but 11 more that face the other body are farther from "
+      "it than half a spacing, as a gap or an overlap, and stay free - let the bodies touch, or say by where what "
+      "is meant");
+  EXPECT_EQ(told(both + "where = \"X < 0.001 && Y*0 == 0 && X > 0.0001\""), "");
+}
+
 TEST(TieMessages, ZonesThatSpacingsDoNotResolveAreWarnedOf) {
   CaseSpec const spec = read_case_text(stack(both + "strength = \"12 MPa\"\ntoughness = \"300 J/m^2\"\n"), "case.toml");
   auto const warnings = build(spec).warnings;

@@ -58,6 +58,13 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
 
 void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
   if (found.points[0] > 0 && found.points[1] > 0) return;
+  for (std::size_t const k : {0, 1})
+    if (found.points[1 - k] > 0) {
+      problems.add(place_of(tie.places, "between"),
+                   "the tie " + in_quotes(tie.name) + " holds no point of " + in_quotes(tie.between[k]) +
+                       " (allowed: points of both bodies) - let it hold more" + (tie.where ? ", by where" : ""));
+      return;
+    }
   std::string const nearest = std::isfinite(found.nearest)
                                   ? "the nearest surfaces that face each other are " + number_text(found.nearest, 3) +
                                         " spacings apart, as a gap or an overlap"
@@ -125,7 +132,24 @@ void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& pr
   }
 }
 
+namespace {
+
+/// Faces that part at an angle, or that another tie should hold.
+void warn_of_what_is_left(TieSpec const& tie, contact::Ties::Found const& of, Problems& found) {
+  if (!(of.left_area > of.area)) return;
+  found.add(
+      place_of(tie.places, "between"),
+      fmt::format("the tie {} holds {} points, but {} more that face the other body are farther from it than half "
+                  "a spacing, as a gap or an overlap, and stay free - let the bodies touch, or say by where what "
+                  "is meant",
+                  in_quotes(tie.name), of.points[0] + of.points[1], of.left));
+}
+
+}  // namespace
+
 void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& found) {
+  auto const all = found_by_ties(spec, particles);
+  for (std::size_t k = 0; k < all.size(); ++k) warn_of_what_is_left(spec.ties[k], all[k], found);
   for (TieSpec const& tie : spec.ties) {
     if (!tie.fails()) continue;
     double const young =

@@ -95,12 +95,17 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
     if (!(seen > least_share)) continue;
     double const far = std::fabs(gap.gap) / dp;
     found.nearest = std::min(found.nearest, far);
-    if (far > near_enough) continue;
+    double const area = 0.5 * seen * point.area;
+    if (far > near_enough) {
+      found.left += 1;
+      found.left_area += area;
+      continue;
+    }
     found.farthest = std::max(found.farthest, far);
     found.points[side] += 1;
-    found.area += 0.5 * seen * point.area;
+    found.area += area;
     for (auto& share : shares) share.second /= gap.weight;
-    add_row(tie, {a, k, b}, 0.5 * seen * point.area, law, at, shares);
+    add_row(tie, {a, k, b}, area, law, at, shares);
   }
 }
 

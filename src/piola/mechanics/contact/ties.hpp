@@ -23,9 +23,11 @@ class Ties {
 
   /// What a tie found at the start.
   struct Found {
-    std::array<std::int64_t, 2> points{};                      ///< held ones of both bodies
-    double area = 0;                                           ///< that is held, the mean of both bodies [m^(Dim-1)]
-    double farthest = 0;                                       ///< largest gap or overlap of a held point, in spacings
+    std::array<std::int64_t, 2> points{};  ///< held ones of both bodies
+    double area = 0;                       ///< that is held, the mean of both bodies [m^(Dim-1)]
+    std::int64_t left = 0;                 ///< points of both that face the other body from farther away
+    double left_area = 0;                  ///< theirs, counted the same way [m^(Dim-1)]
+    double farthest = 0;                   ///< largest gap or overlap of a held point, in spacings
     double nearest = std::numeric_limits<double>::infinity();  ///< least gap or overlap of any point, in spacings
     double stiffness = 0;                                      ///< K [Pa/m]
   };
