@@ -5,6 +5,41 @@
 
 namespace piola::contact {
 
+namespace {
+
+/// Puts three components at the end of a list.
+void put(std::vector<double>& all, Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); }
+
+/// Puts how many of the first n things there are to put, and each.
+template <class Holds, class Put>
+void put_some(std::vector<double>& all, std::size_t n, Holds const& holds, Put const& put_one) {
+  std::size_t const count = all.size();
+  all.push_back(0);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!holds(k)) continue;
+    all[count] += 1;
+    all.push_back(static_cast<double>(k));
+    put_one(k);
+  }
+}
+
+/// Takes numbers from a list, one after the other.
+class Numbers {
+ public:
+  explicit Numbers(std::vector<double> const& all) : from_(all.begin()), end_(all.end()) {}
+  bool any() const { return from_ < end_; }
+  double next() { return *from_++; }
+  std::size_t count() { return static_cast<std::size_t>(next()); }
+  void take(Vec<3>& a) {
+    for (double& c : a.c) c = next();
+  }
+
+ private:
+  std::vector<double>::const_iterator from_, end_;
+};
+
+}  // namespace
+
 std::vector<double> System::state() const {
   std::vector<double> all{totals_.energy,
                           totals_.deepest,
@@ -13,86 +48,76 @@ std::vector<double> System::state() const {
                           totals_.friction_work,
                           static_cast<double>(totals_.touched),
                           static_cast<double>(pushed_.size())};
-  auto const put = [&](Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); };
   for (Index const k : pushed_) {
     all.push_back(k);
-    put(forces_[at(k)]);
+    put(all, forces_[at(k)]);
   }
   auto const put_between = [&](Between const& between) {
-    put(between.force);
-    put(between.moment);
+    put(all, between.force);
+    put(all, between.moment);
   };
   std::for_each(on_rigid_.begin(), on_rigid_.end(), put_between);
   for (auto const& row : between_) std::for_each(row.begin(), row.end(), put_between);
-  auto const put_some = [&](auto const& holds, auto const& put_one) {
-    std::size_t const count = all.size();
-    all.push_back(0);
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (!holds(k)) continue;
-      all[count] += 1;
-      all.push_back(static_cast<double>(k));
-      put_one(k);
-    }
-  };
-  put_some([&](std::size_t k) { return std::isfinite(gap_[k]) || normal_force_[k] != 0; },
-           [&](std::size_t k) {
-             all.insert(all.end(), {gap_[k], normal_force_[k]});
-           });
-  put_some([&](std::size_t k) { return k < traces_.size() && (traces_[k].slid != 0 || traces_[k].heat != 0); },
-           [&](std::size_t k) {
-             all.insert(all.end(), {traces_[k].slid, traces_[k].heat});
-           });
+  put_some(
+      all, points_.size(), [&](std::size_t k) { return std::isfinite(gap_[k]) || normal_force_[k] != 0; },
+      [&](std::size_t k) {
+        all.insert(all.end(), {gap_[k], normal_force_[k]});
+      });
+  put_some(
+      all, traces_.size(), [&](std::size_t k) { return traces_[k].slid != 0 || traces_[k].heat != 0; },
+      [&](std::size_t k) {
+        all.insert(all.end(), {traces_[k].slid, traces_[k].heat});
+      });
   for (Stuck const& s : stuck_) {
-    all.push_back(s.point);
-    all.push_back(static_cast<double>(s.with));
-    put(s.stretch);
-    put(s.force);
+    all.insert(all.end(), {static_cast<double>(s.point), static_cast<double>(s.with)});
+    put(all, s.stretch);
+    put(all, s.force);
     all.push_back(s.energy);
   }
   return all;
 }
 
-void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
+/// As after an evaluation at x, but without forces.
+void System::place_anew(std::vector<Vec<3>> const& x) {
   std::fill(knows_F_.begin(), knows_F_.end(), 0);
   make_lists(x);
   if (!active_points_.empty()) place_points(x);
   remember(x);
   forget_forces();
-  auto from = state.begin();
-  auto const number = [&] { return *from++; };
-  auto const take = [&](Vec<3>& a) {
-    std::copy_n(from, 3, a.c);
-    from += 3;
-  };
-  totals_ = {number(), number(), number(), number(), number(), static_cast<std::int64_t>(number())};
-  for (auto n = static_cast<std::size_t>(number()); n > 0; --n) {
-    auto const k = static_cast<Index>(number());
+}
+
+void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
+  place_anew(x);
+  Numbers from(state);
+  auto const next = [&] { return from.next(); };
+  totals_ = {next(), next(), next(), next(), next(), static_cast<std::int64_t>(next())};
+  for (auto n = from.count(); n > 0; --n) {
+    auto const k = static_cast<Index>(next());
     add_force(k, {});
-    take(forces_[at(k)]);
+    from.take(forces_[at(k)]);
   }
   auto const take_between = [&](Between& between) {
-    take(between.force);
-    take(between.moment);
+    from.take(between.force);
+    from.take(between.moment);
   };
   std::for_each(on_rigid_.begin(), on_rigid_.end(), take_between);
   for (auto& row : between_) std::for_each(row.begin(), row.end(), take_between);
-  std::fill(traces_.begin(), traces_.end(), Trace{});
-  for (auto n = static_cast<std::size_t>(number()); n > 0; --n) {
-    auto const k = static_cast<std::size_t>(number());
-    gap_[k] = number();
-    normal_force_[k] = number();
+  for (auto n = from.count(); n > 0; --n) {
+    auto const k = from.count();
+    gap_[k] = next();
+    normal_force_[k] = next();
   }
-  for (auto n = static_cast<std::size_t>(number()); n > 0; --n) {
-    auto const k = static_cast<std::size_t>(number());
-    traces_[k].slid = number();
-    traces_[k].heat = number();
+  std::fill(traces_.begin(), traces_.end(), Trace{});
+  for (auto n = from.count(); n > 0; --n) {
+    auto const k = from.count();
+    traces_[k] = {next(), next()};
   }
   stuck_.clear();
-  while (from < state.end()) {
-    Stuck s{static_cast<Index>(number()), static_cast<std::size_t>(number()), {}, {}, 0};
-    take(s.stretch);
-    take(s.force);
-    s.energy = number();
+  while (from.any()) {
+    Stuck s{static_cast<Index>(next()), from.count(), {}, {}, 0};
+    from.take(s.stretch);
+    from.take(s.force);
+    s.energy = next();
     stuck_.push_back(s);
   }
 }

@@ -103,6 +103,14 @@ void System::add_between(Run const& run, Vec<3> const& f) {
   on_source = {on_source.force - f, on_source.moment - moment};
 }
 
+/// Of the planes of a run that count: others are listed or not as it happens [1/kg].
+double System::largest_inverse_mass(Run const& run) const {
+  double inverse = 0;
+  for (std::size_t s = run.first; s < run.last; ++s)
+    if (weights_[s] > 0) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
+  return inverse;
+}
+
 void System::push_bodies() {
   gaps_.resize(runs_.size());
   weights_.resize(sources_.size());
@@ -124,12 +132,9 @@ void System::push_bodies() {
     Fade const theta = fade(gap.tau2(), rule.fade_from, rule.fade_to);
     double const seen = theta.value * presence(gap.weight).value;
     if (!(seen > 0)) continue;
-    double inverse = 0;
-    // Of planes that count: others are listed or not as it happens.
-    for (std::size_t s = run.first; s < run.last; ++s)
-      if (weights_[s] > 0) inverse = std::max(inverse, inverse_mass_of(sources_[s]));
     // Of both passes, C_s Mbar / dpbar.
-    note(run.target, gap.gap, 2 * rule.stiffness, rule.length, dp, inverse + inverse_mass_of(run.target));
+    note(run.target, gap.gap, 2 * rule.stiffness, rule.length, dp,
+         largest_inverse_mass(run) + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;
     Layer const psi = layer(gap.gap, rule.stiffness, rule.length);
     totals_.energy += target.area * psi.energy * seen;

@@ -143,9 +143,11 @@ class System {
   void place_points(std::vector<Vec<3>> const& x);
   void push_all(std::vector<Vec<3>> const& x);
   void forget_forces();
+  void place_anew(std::vector<Vec<3>> const& x);
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
   void push_from_rigids();
+  double largest_inverse_mass(Run const& run) const;
   void note_spring(std::size_t rigid, Index point, Vec<3> const& n, double stiffness);
   void rub(Run const& run, Gap const& gap, Press const& press);
   void rub_on_rigid(Press const& press, std::size_t rigid, Vec<3> const& n);
