@@ -4,7 +4,10 @@
 #include "piola/materials/solids.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include "piola/simulation/bench_columns.hpp"
+#include <algorithm>
 #include <fmt/format.h>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace piola {
@@ -56,19 +59,20 @@ ContactBenchReport bench_contact(ContactBenchOptions const& options) {
   ContactBenchReport report;
   pin_to(1);
   for (std::string const formulation : {"nodal", "jst_sph"}) {
-    double alone = 0, step = 0;
+    std::vector<std::unique_ptr<Formulation>> made;
+    std::vector<double> stable, cpu(contact_subjects.size(), std::numeric_limits<double>::infinity());
     for (ContactSubject const& subject : contact_subjects) {
       Assembly const assembly = two_cubes(formulation, subject, options);
       report.particles = static_cast<long>(assembly.particles.size());
-      auto const f = make_formulation(assembly);
-      double const stable = f->stable_time_step(), cpu = fastest_step(*f, options.repeats).cpu;
-      if (!subject.surfaces) {
-        alone = cpu;
-        step = stable;
-      }
-      report.rows.push_back(
-          {fmt::format("{}, {}", formulation, subject.name), 1e6 * cpu, cpu / alone - 1, stable / step});
+      made.push_back(make_formulation(assembly));
+      stable.push_back(made.back()->stable_time_step());
     }
+    // They take turns, so that a slow moment of the machine is not the share of one of them.
+    for (int k = 0; k < options.repeats; ++k)
+      for (std::size_t s = 0; s < made.size(); ++s) cpu[s] = std::min(cpu[s], fastest_step(*made[s], 1).cpu);
+    for (std::size_t s = 0; s < made.size(); ++s)
+      report.rows.push_back({fmt::format("{}, {}", formulation, contact_subjects[s].name), 1e6 * cpu[s],
+                             cpu[s] / cpu[0] - 1, stable[s] / stable[0]});
   }
   return report;
 }
