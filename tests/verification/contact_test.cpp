@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/setup/contact_surface.hpp"
-#include "formulations/small_bodies.hpp"
-#include "materials/solid_samples.hpp"
+#include "verification/surface_bodies.hpp"
 
 /// Bodies of any formulations that meet: momenta, energy, forces, threads, checkpoints.
 namespace piola {
@@ -17,41 +15,14 @@ struct Meeting {
 
 class SurfaceContact : public ::testing::TestWithParam<Meeting> {
  protected:
-  static void add(Assembly& a, std::string const& formulation, std::array<double, 3> const& min, int n,
-                  double spacing) {
-    ShapeSpec shape;
-    shape.dimension = GetParam().dimension;
-    shape.placement = ShapeSpec::Placement::cell_centred;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) {
-      shape.min[c] = min[c];
-      shape.max[c] = min[c] + n * spacing;
-      shape.particles[c] = n;
-    }
-    fill(shape, "block " + std::to_string(a.particles.bodies.size()), a.particles);
-    bool const solid = formulation == "adaptle";
-    a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber());
-    a.formulations.push_back({formulation, {}, {}});
-    // The form of the viscosity that keeps angular momentum.
-    if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
-    a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
-    with_any_law(a.materials.back(),
-                 [&](auto const& law) { a.surfaces.back().modulus = law.kappa + 4.0 / 3 * law.mu; });
-  }
-
   /// Two blocks of different spacing that meet off their middles and turn each other.
   static Assembly blocks(double friction = 0) {
     Assembly a;
-    add(a, GetParam().left, {-1.02, 0, 0}, 4, 0.25);
-    add(a, GetParam().right, {0, 0.3, GetParam().dimension == 3 ? 0.2 : 0}, 5, 0.18);
+    add_block(a, GetParam().dimension, GetParam().left, {-1.02, 0, 0}, 4, 0.25);
+    add_block(a, GetParam().dimension, GetParam().right, {0, 0.3, GetParam().dimension == 3 ? 0.2 : 0}, 5, 0.18);
     a.contact.friction.kinetic = friction;
     give_velocity(a, [](Point const& X) { return X[0] < -0.01 ? Point{4, 0.5, 0} : Point{-3, 0, 0}; });
     return a;
-  }
-  static double column(Diagnostics const& d, std::string_view name) {
-    for (auto const& [known, value] : d.more)
-      if (known == name) return value;
-    ADD_FAILURE() << "no column " << name;
-    return 0;
   }
   /// Steps of the formulation's own choice.
   static double run(Formulation& f, double& time, int steps) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/setup/contact_surface.hpp"
-#include "formulations/small_bodies.hpp"
-#include "materials/solid_samples.hpp"
+#include "verification/surface_bodies.hpp"
 
 /// Free rigid bodies among deformable ones: momenta, energy, threads, checkpoints.
 namespace piola {
@@ -32,34 +30,13 @@ RigidShape thrown(Kind kind, int dimension) {
   return s;
 }
 
-double column(Diagnostics const& d, std::string_view name) {
-  for (auto const& [known, value] : d.more)
-    if (known == name) return value;
-  ADD_FAILURE() << "no column " << name;
-  return 0;
-}
-
 class FreeRigidBody : public ::testing::TestWithParam<Throw> {
  protected:
   /// A block, and a turning rigid body that is thrown on it.
   static Assembly scene(double friction) {
     auto const& at = GetParam();
     Assembly a;
-    ShapeSpec shape;
-    shape.dimension = at.dimension;
-    shape.placement = ShapeSpec::Placement::cell_centred;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(at.dimension); ++c) {
-      shape.max[c] = 1;
-      shape.particles[c] = 6;
-    }
-    fill(shape, "block", a.particles);
-    bool const solid = at.formulation == "adaptle";
-    a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber());
-    a.formulations.push_back({at.formulation, {}, {}});
-    if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
-    a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
-    with_any_law(a.materials.back(),
-                 [&](auto const& law) { a.surfaces.back().modulus = law.kappa + 4.0 / 3 * law.mu; });
+    add_block(a, at.dimension, at.formulation, {}, 6, 1.0 / 6);
     a.contact.friction.kinetic = friction;
     a.rigid_shapes.push_back(thrown(at.kind, at.dimension));
     give_velocity(a, [](Point const&) { return Point{0, 0.5, 0}; });

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/setup/contact_surface.hpp"
-#include "formulations/small_bodies.hpp"
-#include "materials/solid_samples.hpp"
+#include "verification/surface_bodies.hpp"
 
 /// Bodies of any formulations that are tied: momenta, energy, forces, failure, threads, checkpoints.
 namespace piola {
@@ -17,32 +15,12 @@ struct Pair {
 
 class TiedBodies : public ::testing::TestWithParam<Pair> {
  protected:
-  static void add_block(Assembly& a, std::string const& formulation, std::array<double, 3> const& min, int n,
-                        double spacing) {
-    ShapeSpec shape;
-    shape.dimension = GetParam().dimension;
-    shape.placement = ShapeSpec::Placement::cell_centred;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) {
-      shape.min[c] = min[c];
-      shape.max[c] = min[c] + n * spacing;
-      shape.particles[c] = n;
-    }
-    fill(shape, "block " + std::to_string(a.particles.bodies.size()), a.particles);
-    bool const solid = formulation == "adaptle";
-    a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber());
-    a.formulations.push_back({formulation, {}, {}});
-    if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
-    a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
-    with_any_law(a.materials.back(),
-                 [&](auto const& law) { a.surfaces.back().modulus = law.kappa + 4.0 / 3 * law.mu; });
-  }
-
   /// Two blocks of different spacing, the right one on the left one, that turn and pull each other; without contact but
   /// for what fails.
   static Assembly stack(double strength = 0) {
     Assembly a;
-    add_block(a, GetParam().lower, {-1, 0, 0}, 4, 0.25);
-    add_block(a, GetParam().upper, {0, 0.1, GetParam().dimension == 3 ? 0.05 : 0}, 5, 0.18);
+    add_block(a, GetParam().dimension, GetParam().lower, {-1, 0, 0}, 4, 0.25);
+    add_block(a, GetParam().dimension, GetParam().upper, {0, 0.1, GetParam().dimension == 3 ? 0.05 : 0}, 5, 0.18);
     contact::TieRule tie;
     tie.name = "glue";
     tie.bodies = {0, 1};
@@ -55,12 +33,6 @@ class TiedBodies : public ::testing::TestWithParam<Pair> {
     double const pull = strength > 0 ? 8 : -3;
     give_velocity(a, [pull](Point const& X) { return X[0] < 0 ? Point{0, 4 * X[0], 0} : Point{pull, 3 * X[0], 0}; });
     return a;
-  }
-  static double column(Diagnostics const& d, std::string_view name) {
-    for (auto const& [known, value] : d.more)
-      if (known == name) return value;
-    ADD_FAILURE() << "no column " << name;
-    return 0;
   }
   static void run(Formulation& f, double& time, int steps) {
     for (int k = 0; k < steps && !f.failure(); ++k) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/setup/contact_surface.hpp"
+#include "formulations/small_bodies.hpp"
+#include "materials/solid_samples.hpp"
+
+/// Blocks with a surface, of any formulation, for tests of what acts between bodies.
+namespace piola::testing {
+
+/// A square or cube of n particles a side, of rubber, or of an elastic metal under total-Lagrangian adaptle.
+inline void add_block(Assembly& a, int dimension, std::string const& formulation, std::array<double, 3> const& min,
+                      int n, double spacing) {
+  ShapeSpec shape;
+  shape.dimension = dimension;
+  shape.placement = ShapeSpec::Placement::cell_centred;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) {
+    shape.min[c] = min[c];
+    shape.max[c] = min[c] + n * spacing;
+    shape.particles[c] = n;
+  }
+  fill(shape, "block " + std::to_string(a.particles.bodies.size()), a.particles);
+  bool const solid = formulation == "adaptle";
+  a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber());
+  a.formulations.push_back({formulation, {}, {}});
+  // The form of the viscosity that keeps angular momentum.
+  if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
+  a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
+  with_any_law(a.materials.back(), [&](auto const& law) { a.surfaces.back().modulus = law.kappa + 4.0 / 3 * law.mu; });
+}
+
+inline double column(Diagnostics const& d, std::string_view name) {
+  for (auto const& [known, value] : d.more)
+    if (known == name) return value;
+  ADD_FAILURE() << "no column " << name;
+  return 0;
+}
+
+}  // namespace piola::testing
