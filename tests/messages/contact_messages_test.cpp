@@ -77,6 +77,14 @@ TEST(ContactMessages, PairsHaveKeysOfTheirOwn) {
       "\"none\")");
 }
 
+TEST(ContactMessages, RigidShapesWithoutContactPushNobody) {
+  EXPECT_EQ(
+      message_of("contact = \"none\"\n" + sample_case() +
+                 "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
+      "case.toml:24:1: the rigid shape \"wall\" pushes nobody, since contact.law is \"none\" (allowed: one of them) "
+      "- remove one");
+}
+
 TEST(ContactMessages, FrictionAtRestNeedsASpeed) {
   EXPECT_EQ(contact("friction = 0.2\nstatic_friction = 0.3\ndecay_speed = \"1 cm/s\""), "");
   EXPECT_EQ(

@@ -23,9 +23,14 @@ void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   if (!none || (off && spec.rigids.empty())) return;
   if (spec.contact && spec.contact->law == ContactRule::Law::surface && all.front().contact) return;  // told there
+  bool const able =
+      off && std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.pushable; });
   for (RigidSpec const& rigid : spec.rigids)
-    problems.add(place_of(rigid.places, ""), refusal(all.front(), "rigid shapes"));
-  if (spec.contact) problems.add(place_of(spec.contact->places, ""), refusal(all.front(), "contact"));
+    problems.add(place_of(rigid.places, ""),
+                 able ? "the rigid shape " + in_quotes(rigid.name) +
+                            " pushes nobody, since contact.law is \"none\" (allowed: one of them) - remove one"
+                      : refusal(all.front(), "rigid shapes"));
+  if (spec.contact && !able) problems.add(place_of(spec.contact->places, ""), refusal(all.front(), "contact"));
 }
 
 /// Why a body cannot be in a pair; empty if it can.
