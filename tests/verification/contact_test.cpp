@@ -90,19 +90,7 @@ TEST_P(SurfaceContact, ResumesBitForBit) {
   for (int k = 0; k < 5 || (column(whole->diagnose(), "contact_points") == 0 && k < 300); ++k) run(*whole, time, 1);
   run(*whole, time, 3);
   ASSERT_GT(column(whole->diagnose(), "contact_points"), 0);
-  SavedState state = saved(*whole);
-  auto const resumed = make_formulation(a);
-  resumed->load(state);
-  double other = time;
-  run(*whole, time, 30);
-  run(*resumed, other, 30);
-  EXPECT_EQ(time, other);
-  auto const expected = saved(*whole).values, found = saved(*resumed).values;
-  ASSERT_EQ(expected.size(), found.size());
-  for (auto const& [name, values] : expected) {
-    ASSERT_EQ(found.at(name).size(), values.size()) << name;
-    for (std::size_t k = 0; k < values.size(); ++k) EXPECT_EQ(found.at(name)[k], values[k]) << name << " " << k;
-  }
+  expect_resumes(a, *whole, time, [](Formulation& f, double& t) { run(f, t, 30); });
 }
 
 // What everything that acts does is the rate of the momentum; a driven plane works.

@@ -104,14 +104,7 @@ TEST_P(FreeRigidBody, ResumesBitForBit) {
   double time = 0;
   run_to_touch(*whole, time);
   run(*whole, time, 5);
-  SavedState state = saved(*whole);
-  auto const resumed = make_formulation(a);
-  resumed->load(state);
-  double other = time;
-  run(*whole, time, 30);
-  run(*resumed, other, 30);
-  EXPECT_EQ(time, other);
-  EXPECT_EQ(saved(*resumed).values, saved(*whole).values);
+  expect_resumes(a, *whole, time, [](Formulation& f, double& t) { run(f, t, 30); });
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -35,4 +35,23 @@ inline double column(Diagnostics const& d, std::string_view name) {
   return 0;
 }
 
+/// What a formulation does from now on, and what one does that is built anew and takes its state, are the same bit for
+/// bit. go(f, time) takes both on.
+template <class Go>
+void expect_resumes(Assembly const& a, Formulation& whole, double time, Go const& go) {
+  SavedState state = saved(whole);
+  auto const resumed = make_formulation(a);
+  resumed->load(state);
+  double other = time;
+  go(whole, time);
+  go(*resumed, other);
+  EXPECT_EQ(time, other);
+  auto const expected = saved(whole).values, found = saved(*resumed).values;
+  ASSERT_EQ(expected.size(), found.size());
+  for (auto const& [name, values] : expected) {
+    ASSERT_EQ(found.at(name).size(), values.size()) << name;
+    for (std::size_t k = 0; k < values.size(); ++k) ASSERT_EQ(found.at(name)[k], values[k]) << name << " " << k;
+  }
+}
+
 }  // namespace piola::testing

@@ -31,12 +31,6 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
-bool is_tied(Assembly const& whole, std::size_t a, std::size_t b) {
-  return std::any_of(whole.ties.begin(), whole.ties.end(), [&](contact::TieRule const& tie) {
-    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
-  });
-}
-
 /// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own and are not tied,
 /// and such a body and a rigid shape that does not turn; what is said of a pair goes before what is said of all.
 contact::System::Setting touches_of(Assembly const& whole) {
@@ -54,7 +48,8 @@ contact::System::Setting touches_of(Assembly const& whole) {
       ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, name);
       bool const surfaces = !whole.surfaces[a].points.empty() && (rigid || !whole.surfaces[b].points.empty());
       // By the contact of their own formulation.
-      bool const apart = own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b) && !is_tied(whole, a, b));
+      bool const apart =
+          own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b) && !contact::is_tied(whole.ties, a, b));
       bool const others = a == b ? pair != nullptr || whole.contact.self : !apart;
       bool const off = whole.contact.law == ContactRule::Law::none || (pair != nullptr && pair->off);
       touches[a][b] = {surfaces && others && !off, 0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/meeting.hpp"
-#include <algorithm>
+#include "piola/mechanics/contact/numbers.hpp"
 #include <array>
 
 namespace piola {
@@ -11,10 +11,9 @@ void Meeting::save(StateWriter& writer) const {
   writer.put("contact_state", system);
   std::vector<double> rigid{work_, last_dt_, friction_work_};
   for (std::size_t r = 0; r < shapes_.size(); ++r)
-    for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity})
-      rigid.insert(rigid.end(), a.c, a.c + 3);
+    for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity}) contact::put(rigid, a);
   for (auto const& pair : pair_impulses_)
-    for (Vec<3> const& a : {pair.force, pair.moment}) rigid.insert(rigid.end(), a.c, a.c + 3);
+    for (Vec<3> const& a : {pair.force, pair.moment}) contact::put(rigid, a);
   writer.put("contact", rigid);
   writer.put("contact_actions", actions_.state());
   ties_.save(writer);
@@ -27,21 +26,15 @@ void Meeting::save(StateWriter& writer) const {
 void Meeting::load(StateReader& reader) {
   std::vector<double> rigid(3 + 6 * (shapes_.size() + pair_impulses_.size()));
   reader.get("contact", rigid);
-  work_ = rigid[0];
-  last_dt_ = rigid[1];
-  friction_work_ = rigid[2];
-  auto from = rigid.begin() + 3;
-  auto const take = [&](Vec<3>& a) {
-    std::copy_n(from, 3, a.c);
-    from += 3;
-  };
+  contact::Numbers from(rigid);
+  for (double* number : {&work_, &last_dt_, &friction_work_}) *number = from.next();
   for (std::size_t r = 0; r < shapes_.size(); ++r) {
-    take(system_.rigid(r).centre);
-    take(system_.rigid(r).velocity);
+    from.take(system_.rigid(r).centre);
+    from.take(system_.rigid(r).velocity);
   }
   for (auto& pair : pair_impulses_) {
-    take(pair.force);
-    take(pair.moment);
+    from.take(pair.force);
+    from.take(pair.moment);
   }
   std::array<double, 1> count{};
   reader.get("contact_count", count);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/meeting_ties.hpp"
+#include "piola/mechanics/contact/numbers.hpp"
 #include <algorithm>
 #include <utility>
 
@@ -28,10 +29,12 @@ std::vector<Vec<3>> starts(Assembly const& whole, std::vector<std::int64_t> cons
 MeetingTies::MeetingTies(Assembly const& whole, contact::System& system)
     : ties_(whole.ties, whole.particles, whole.surfaces, system.carriers(), starts(whole, system.ids())),
       impulses_(whole.ties.size()) {
-  for (std::size_t row = 0; row < ties_.count(); ++row) {
-    auto const& hold = ties_.hold(row);
-    system.leave_out(hold.body, hold.point, hold.other, true);
-  }
+  for (std::size_t row = 0; row < ties_.count(); ++row) leave_out(system, row, true);
+}
+
+void MeetingTies::leave_out(contact::System& system, std::size_t row, bool out) const {
+  auto const& hold = ties_.hold(row);
+  system.leave_out(hold.body, hold.point, hold.other, out);
 }
 
 void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
@@ -41,16 +44,14 @@ void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, st
   frequency2_ = ties_.frequency2(inverse);
   if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));
   for (std::size_t row = 0; row < ties_.count(); ++row)
-    if (ties_.has_failed(row))
-      system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
+    if (ties_.has_failed(row)) leave_out(system, row, false);
   evaluate(system, x);
 }
 
 void MeetingTies::evaluate(contact::System& system, std::vector<Vec<3>> const& x) {
   if (!any()) return;
   ties_.evaluate(system.carriers(), x);
-  for (std::size_t const row : ties_.released())
-    system.leave_out(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other, false);
+  for (std::size_t const row : ties_.released()) leave_out(system, row, false);
 }
 
 void MeetingTies::hand_over(contact::System const& system) {
@@ -91,7 +92,7 @@ void MeetingTies::save(StateWriter& writer) const {
   if (!any()) return;
   std::vector<double> all = ties_.state();
   for (auto const& impulse : impulses_)
-    for (Vec<3> const& a : {impulse.force, impulse.moment}) all.insert(all.end(), a.c, a.c + 3);
+    for (Vec<3> const& a : {impulse.force, impulse.moment}) contact::put(all, a);
   all.push_back(handed_over_);
   writer.put("ties", all);
 }
@@ -100,14 +101,14 @@ void MeetingTies::load(StateReader& reader) {
   if (!any()) return;
   std::vector<double> all(2 * ties_.count() + numbers_of_impulse * impulses_.size() + 1);
   reader.get("ties", all);
-  handed_over_ = all.back();
-  auto from = all.begin() + static_cast<std::ptrdiff_t>(2 * ties_.count());
-  loaded_.assign(all.begin(), from);
-  for (auto& impulse : impulses_)
-    for (Vec<3>* const a : {&impulse.force, &impulse.moment}) {
-      std::copy_n(from, 3, a->c);
-      from += 3;
-    }
+  contact::Numbers from(all);
+  loaded_.clear();
+  for (std::size_t k = 0; k < 2 * ties_.count(); ++k) loaded_.push_back(from.next());
+  for (auto& impulse : impulses_) {
+    from.take(impulse.force);
+    from.take(impulse.moment);
+  }
+  handed_over_ = from.next();
 }
 
 }  // namespace piola

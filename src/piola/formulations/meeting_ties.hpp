@@ -37,6 +37,8 @@ class MeetingTies {
 
  private:
   bool any() const { return !ties_.rules().empty(); }
+  /// Whether contact leaves the point of a row out.
+  void leave_out(contact::System& system, std::size_t row, bool out) const;
 
   contact::Ties ties_;
   std::vector<contact::Ties::Force> impulses_;  ///< of the step, by tie

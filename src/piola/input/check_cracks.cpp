@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/text.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
@@ -13,89 +12,6 @@ std::optional<FormulationInfo> formulation_of(CaseSpec const& spec, std::string 
   auto const body = std::find_if(spec.bodies.begin(), spec.bodies.end(),
                                  [&](BodySpec const& candidate) { return candidate.name == body_name; });
   return body == spec.bodies.end() ? std::nullopt : find_formulation(body->formulation.name);
-}
-
-// Contact and rigid shapes need one body that knows them; the others are warned of.
-void check_contact_ability(CaseSpec const& spec, Problems& problems) {
-  auto const all = formulations_of(spec);
-  bool none = !all.empty();
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) none = none && !meets_rigids(spec, b);
-  bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
-  if (!none || (off && spec.rigids.empty())) return;
-  if (spec.contact && spec.contact->law == ContactRule::Law::surface && all.front().contact) return;  // told there
-  bool const able =
-      off && std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.pushable; });
-  for (RigidSpec const& rigid : spec.rigids)
-    problems.add(place_of(rigid.places, ""),
-                 able ? "the rigid shape " + in_quotes(rigid.name) +
-                            " pushes nobody, since contact.law is \"none\" (allowed: one of them) - remove one"
-                      : refusal(all.front(), "rigid shapes"));
-  if (spec.contact && !able) problems.add(place_of(spec.contact->places, ""), refusal(all.front(), "contact"));
-}
-
-/// Why a body cannot be in a pair; empty if it can.
-std::string why_not_in_pair(CaseSpec const& spec, std::size_t body) {
-  std::string const who = "body " + in_quotes(spec.bodies[body].name);
-  if (!has_surface(spec, body)) return who + " has no surface by which others could push it";
-  return "";
-}
-
-void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Problems& problems) {
-  Place const place = place_of(pair.places, "between");
-  std::vector<std::string> known;
-  std::vector<std::size_t> bodies;
-  int rigids = 0;
-  for (BodySpec const& body : spec.bodies) known.push_back(body.name);
-  for (RigidSpec const& rigid : spec.rigids) known.push_back(rigid.name);
-  for (std::string const& name : pair.between) {
-    auto const found = std::find(known.begin(), known.end(), name);
-    auto const k = static_cast<std::size_t>(found - known.begin());
-    if (found == known.end())
-      problems.add(place, "contact.between names " + in_quotes(name) + " (allowed: " + joined(known) + ") - " +
-                              advice_for_name(name, known));
-    else if (k < spec.bodies.size())
-      bodies.push_back(k);
-    else
-      ++rigids;
-  }
-  if (bodies.size() + static_cast<std::size_t>(rigids) < 2) return;
-  if (bodies.empty()) problems.add(place, "contact.between names two rigid shapes (allowed: one) - name a body");
-  for (std::size_t const body : bodies)
-    if (auto const why = why_not_in_pair(spec, body); !why.empty())
-      problems.add(place, "contact.between: " + why +
-                              " (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and "
-                              "3D, without mirrors) - change its formulation, or remove the table");
-  bool const own = std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return knows_contact(spec, b); });
-  bool const self = bodies.size() == 2 && bodies[0] == bodies[1];
-  if (own && !bodies.empty() && !self)
-    problems.add(place,
-                 "contact.between names what adaptle keeps apart by a contact of its own (allowed: pairs with a "
-                 "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
-}
-
-/// Whoever may turn Eulerian loses its surface.
-void check_surface_law(CaseSpec const& spec, Problems& problems) {
-  if (!spec.contact || spec.contact->law != ContactRule::Law::surface) return;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    auto const info = find_formulation(spec.bodies[b].formulation.name);
-    if (info && info->contact && !has_surface(spec, b))
-      problems.add(
-          place_of(spec.contact->places, "law"),
-          "contact.law is \"surface\", but body " + in_quotes(spec.bodies[b].name) +
-              " keeps none (allowed: bodies of adaptle with description = \"total_lagrangian\", in 2D and 3D) - "
-              "choose another law or description");
-  }
-}
-
-void check_contact_pairs(CaseSpec const& spec, Problems& problems) {
-  for (std::size_t k = 0; k < spec.contact_pairs.size(); ++k) {
-    ContactPairSpec const& pair = spec.contact_pairs[k];
-    check_contact_pair(spec, pair, problems);
-    if (find_pair(spec.contact_pairs, pair.between[0], pair.between[1]) != &pair)
-      problems.add(place_of(pair.places, "between"),
-                   "contact.between names a pair for the second time (allowed: one "
-                   "table a pair) - remove one");
-  }
 }
 
 }  // namespace
@@ -113,9 +29,7 @@ void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problem
 }
 
 void check_abilities(CaseSpec const& spec, Problems& problems) {
-  check_contact_ability(spec, problems);
-  check_contact_pairs(spec, problems);
-  check_surface_law(spec, problems);
+  check_contact(spec, problems);
   for (CrackSpec const& crack : spec.cracks) {
     auto const info = formulation_of(spec, crack.body);
     if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));

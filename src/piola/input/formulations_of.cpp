@@ -21,19 +21,13 @@ bool knows_contact(CaseSpec const& spec, std::size_t body) {
   return info && info->contact && !surfaces;
 }
 
-bool is_tied(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return std::any_of(spec.ties.begin(), spec.ties.end(), [&](TieSpec const& tie) {
-    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
-  });
-}
-
 bool is_tied(CaseSpec const& spec, std::size_t body) {
   return std::any_of(spec.ties.begin(), spec.ties.end(),
                      [&](TieSpec const& tie) { return tie.bodies[0] == body || tie.bodies[1] == body; });
 }
 
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return knows_contact(spec, a) && knows_contact(spec, b) && !is_tied(spec, a, b);
+  return knows_contact(spec, a) && knows_contact(spec, b) && !contact::is_tied(spec.ties, a, b);
 }
 
 bool has_surface(CaseSpec const& spec, std::size_t body) {

@@ -24,8 +24,8 @@ bool has_surface(CaseSpec const& spec, std::size_t body);
 /// The same, whether or not contact is switched off: ties need it, too.
 bool can_have_surface(CaseSpec const& spec, std::size_t body);
 
-bool is_tied(CaseSpec const& spec, std::size_t a, std::size_t b);  ///< to each other
-bool is_tied(CaseSpec const& spec, std::size_t body);              ///< to any other
+/// Whether a tie of the case names the body.
+bool is_tied(CaseSpec const& spec, std::size_t body);
 
 /// Whether the contact of their formulation keeps two bodies apart: not if they are tied.
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b);

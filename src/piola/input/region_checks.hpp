@@ -45,6 +45,9 @@ class FormulaCheck {
 bool check_where(Expression const& where, std::string const& name, Place const& place, ParticleSet const& particles,
                  Body const& body, Problems& problems);
 
+/// Whether what the case asks of contact can be had by its bodies: rules, pairs, rigid shapes.
+void check_contact(CaseSpec const& spec, Problems& problems);
+
 /// Opens the cracks of the last body of the set; those that cannot be are problems.
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems);
 /// Reports the cracks, mirrors, rings, rigid shapes and contact that the formulation of the bodies does not know.

@@ -9,7 +9,9 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -63,6 +65,17 @@ std::vector<double> HistoryTable::values(std::string_view column) const {
   std::vector<double> out;
   for (auto const& row : rows) out.push_back(row[*index]);
   return out;
+}
+
+HistoryTable read_history(std::filesystem::path const& path) {
+  HistoryTable table;
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line)) return table;
+  std::istringstream names(line);
+  for (std::string name; std::getline(names, name, ',');) table.columns.push_back({name, ""});
+  while (std::getline(file, line)) table.rows.push_back(read_row(line, table.columns.size()));
+  return table;
 }
 
 std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {

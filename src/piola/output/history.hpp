@@ -26,6 +26,9 @@ struct HistoryTable {
   std::vector<double> values(std::string_view column) const;
 };
 
+/// history.csv of a run as it is, without units; empty if there is no such file.
+HistoryTable read_history(std::filesystem::path const& path);
+
 /// The columns of every run, then those that only this formulation has.
 std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics);
 /// Their values, in the same order.

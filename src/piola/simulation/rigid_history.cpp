@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/rigid_history.hpp"
 #include "piola/math/quaternion.hpp"
+#include "piola/output/history.hpp"
 #include <algorithm>
-#include <fstream>
-#include <sstream>
-#include <string>
+#include <cmath>
+#include <optional>
 
 namespace piola {
 namespace {
-
-std::vector<std::string> cells(std::string const& line) {
-  std::vector<std::string> all;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) all.push_back(cell);
-  return all;
-}
-
-double number_of(std::vector<std::string> const& row, std::size_t column) {
-  double value = 0;
-  if (column < row.size()) std::istringstream(row[column]) >> value;
-  return value;
-}
 
 Quaternion turn_of(RigidState const& state) { return turn_by({{state.turn[0], state.turn[1], state.turn[2]}}); }
 
@@ -42,23 +29,26 @@ RigidHistory::RigidHistory(std::filesystem::path const& history, std::vector<Rig
   std::vector<RigidState> shapes;
   for (RigidSpec const& rigid : rigids)
     if (rigid.turns()) shapes.emplace_back().name = rigid.name;
-  std::ifstream file(history);
-  std::string line;
-  if (shapes.empty() || !std::getline(file, line)) return;
-  std::vector<std::string> const names = cells(line);
-  auto const column = [&](std::string const& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  if (shapes.empty()) return;
+  HistoryTable const table = read_history(history);
+  std::erase_if(shapes, [&](RigidState const& shape) { return !table.find(shape.name + ".turn_z"); });
+  auto const number = [](std::vector<double> const& row, std::optional<std::size_t> column) {
+    double const value = column ? row[*column] : 0;
+    return std::isfinite(value) ? value : 0;
   };
-  std::erase_if(shapes, [&](RigidState const& shape) { return column(shape.name + ".turn_z") == names.size(); });
-  while (std::getline(file, line)) {
-    auto const row = cells(line);
+  std::vector<std::optional<std::size_t>> columns;  // centre and turn of each shape, component by component
+  for (RigidState const& shape : shapes)
+    for (char const letter : {'x', 'y', 'z'})
+      for (char const* const what : {".", ".turn_"}) columns.push_back(table.find(shape.name + what + letter));
+  auto const time = table.find("time");
+  for (auto const& row : table.rows) {
+    auto column = columns.begin();
     for (RigidState& shape : shapes)
       for (std::size_t c = 0; c < 3; ++c) {
-        std::string const letter(1, "xyz"[c]);
-        shape.centre[c] = number_of(row, column(shape.name + "." + letter));
-        shape.turn[c] = number_of(row, column(shape.name + ".turn_" + letter));
+        shape.centre[c] = number(row, *column++);
+        shape.turn[c] = number(row, *column++);
       }
-    rows_.push_back({number_of(row, column("time")), shapes});
+    rows_.push_back({number(row, time), shapes});
   }
 }
 

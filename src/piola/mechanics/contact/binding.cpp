@@ -33,9 +33,8 @@ struct Ties::Binding {
       for (std::size_t k = 0; k < all[b].points.size(); ++k) {
         SurfacePoint const& p = all[b].points[k];
         Index const carrier = of.of(b, k);
-        Vec<3> const m = transpose(inverse(F[index(carrier)])) * p.normal;
         planes[b].push_back(
-            {x[index(of.self(carrier))] + F[index(carrier)] * p.offset, (1 / std::sqrt(dot(m, m))) * m});
+            {x[index(of.self(carrier))] + F[index(carrier)] * p.offset, carried_normal(F[index(carrier)], p.normal)});
       }
   }
 

@@ -49,4 +49,24 @@ inline double friction_work(Vec<3> const& before, Vec<3> const& after, Vec<3> co
   return -0.5 * dot(before + after, jump);
 }
 
+/// One point that rubs, from one evaluation to the next.
+struct Rubbing {
+  Spring spring;
+  double work = 0;    ///< that the bodies gave [J]
+  double energy = 0;  ///< in the spring [J]
+};
+
+/// last: the spring before, turned along with the surface; null: a new contact, which starts without one. jump [m] and
+/// dt [s] since then; n: unit normal; k [N/m]; normal force [N] and area [m2] by the law.
+inline Rubbing rubbing(Spring const* last, Vec<3> const& jump, Vec<3> const& n, double k, FrictionLaw const& law,
+                       double normal_force, double area, double dt) {
+  Vec<3> const along = jump - dot(n, jump) * n;
+  double const way = last != nullptr ? std::sqrt(dot(along, along)) : 0;
+  double const bound = friction_bound(law, normal_force, area, dt > 0 ? way / dt : 0);
+  Spring const spring =
+      dragged(last != nullptr ? last->stretch : Vec<3>{}, last != nullptr ? jump : Vec<3>{}, n, k, bound);
+  return {spring, last != nullptr ? friction_work(last->force, spring.force, jump) : 0,
+          0.5 * k * dot(spring.stretch, spring.stretch)};
+}
+
 }  // namespace piola::contact

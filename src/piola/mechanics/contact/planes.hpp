@@ -134,6 +134,12 @@ PointLoad contact_loads(Plane const& a, double area, Gap const& g, Layer const& 
   return target;
 }
 
+/// The normal of a point that rides on a particle with F: F^-T N / |F^-T N|.
+inline Vec<3> carried_normal(Mat<3> const& F, Vec<3> const& N) {
+  Vec<3> const m = transpose(inverse(F)) * N;
+  return (1 / std::sqrt(dot(m, m))) * m;
+}
+
 /// dE/dF of the particle that carries a point: y = x + F S, n = F^-T N / |F^-T N|. f, q: the point's load.
 inline Mat<3> couple(Vec<3> const& S, Vec<3> const& N, Mat<3> const& F, PointLoad const& load) {
   Mat<3> const inverse_F = inverse(F);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_motion.hpp"
+#include "piola/mechanics/contact/numbers.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -176,15 +177,14 @@ std::vector<RigidState> RigidMotion::states(std::vector<RigidSurface> const& sur
 
 std::vector<double> RigidMotion::state() const {
   std::vector<double> all{work_, damping_loss_, frequency2_, of_shapes_};
-  auto const put = [&](Vec<3> const& v) { all.insert(all.end(), v.c, v.c + 3); };
   for (Shape const& shape : shapes_) {
     Quaternion const& turn = shape.body ? shape.body->turn : shape.turn;
     all.push_back(shape.body ? shape.body->angle : shape.angle);
     all.push_back(turn.w);
-    put(turn.v);
+    put(all, turn.v);
     for (Vec<3> const& v : shape.body ? std::array{shape.body->centre, shape.body->velocity, shape.body->spin}
                                       : std::array{Vec<3>{}, Vec<3>{}, shape.rate})
-      put(v);
+      put(all, v);
   }
   std::vector<double> const pairs = pairs_.state();
   all.insert(all.end(), pairs.begin(), pairs.end());
@@ -192,27 +192,23 @@ std::vector<double> RigidMotion::state() const {
 }
 
 void RigidMotion::restore(std::vector<RigidSurface>& surfaces, std::vector<double> const& state) {
-  auto from = state.begin();
-  auto const take = [&](Vec<3>& v) {
-    std::copy_n(from, 3, v.c);
-    from += 3;
-  };
-  for (double* number : {&work_, &damping_loss_, &frequency2_, &of_shapes_}) *number = *from++;
+  Numbers from(state);
+  for (double* number : {&work_, &damping_loss_, &frequency2_, &of_shapes_}) *number = from.next();
   for (Shape& shape : shapes_) {
     double& angle = shape.body ? shape.body->angle : shape.angle;
     Quaternion& turn = shape.body ? shape.body->turn : shape.turn;
-    angle = *from++;
-    turn.w = *from++;
-    take(turn.v);
+    angle = from.next();
+    turn.w = from.next();
+    from.take(turn.v);
     std::array<Vec<3>, 3> motion;
-    for (Vec<3>& v : motion) take(v);
+    for (Vec<3>& v : motion) from.take(v);
     if (shape.body)
       std::tie(shape.body->centre, shape.body->velocity, shape.body->spin) = std::tie(motion[0], motion[1], motion[2]);
     else
       shape.rate = motion[2];
   }
   place(surfaces);
-  pairs_.restore(surfaces, {from, state.end()});
+  pairs_.restore(surfaces, from.rest());
 }
 
 }  // namespace piola::contact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_pairs.hpp"
+#include "piola/mechanics/contact/numbers.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include "piola/mechanics/rigid_mass.hpp"
 #include <algorithm>
@@ -84,14 +85,13 @@ Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, Touch const& touch, 
                                  [&](Stuck const& s) { return s.pair == pair && s.point == point; });
   bool const known = last != last_stuck_.end();
   Vec<3> const jump = moved_from(last_[p.a], a, touch.y) - moved_from(last_[p.b], b, touch.y);
-  Vec<3> const along = jump - dot(touch.normal, jump) * touch.normal;
-  double const speed = known && dt_ > 0 ? std::sqrt(square_of(along)) / dt_ : 0;
-  Spring const spring = dragged(known ? b.turn * last->stretch : Vec<3>{}, known ? jump : Vec<3>{}, touch.normal,
-                                p.stiffness, friction_bound(setting_.friction, normal_force, p.area, speed));
-  if (known) totals_.friction_work += friction_work(last->force, spring.force, jump);
-  totals_.spring_energy += 0.5 * p.stiffness * square_of(spring.stretch);
-  stuck_.push_back({pair, point, transpose(b.turn) * spring.stretch, spring.force});
-  return spring.force;
+  Spring const before = known ? Spring{b.turn * last->stretch, last->force} : Spring{};
+  Rubbing const now =
+      rubbing(known ? &before : nullptr, jump, touch.normal, p.stiffness, setting_.friction, normal_force, p.area, dt_);
+  totals_.friction_work += now.work;
+  totals_.spring_energy += now.energy;
+  stuck_.push_back({pair, point, transpose(b.turn) * now.spring.stretch, now.spring.force});
+  return now.spring.force;
 }
 
 void RigidPairs::push(std::size_t pair, std::size_t point, Touch const& touch,
@@ -166,40 +166,34 @@ double RigidPairs::closing_step(std::vector<RigidSurface> const& shapes) const {
 std::vector<double> RigidPairs::state() const {
   std::vector<double> all{totals_.energy, totals_.spring_energy, totals_.friction_work, totals_.deepest,
                           totals_.touched};
-  auto const put = [&](Vec<3> const& v) { all.insert(all.end(), v.c, v.c + 3); };
   for (Load const& load : loads_) {
-    put(load.force);
-    put(load.moment);
+    put(all, load.force);
+    put(all, load.moment);
   }
   all.insert(all.end(), frequency2_.begin(), frequency2_.end());
   for (Stuck const& s : stuck_) {
     all.push_back(static_cast<double>(s.pair));
     all.push_back(static_cast<double>(s.point));
-    put(s.stretch);
-    put(s.force);
+    put(all, s.stretch);
+    put(all, s.force);
   }
   return all;
 }
 
 void RigidPairs::restore(std::vector<RigidSurface> const& shapes, std::vector<double> const& state) {
   remember(shapes);
-  auto from = state.begin();
-  auto const number = [&] { return *from++; };
-  auto const take = [&](Vec<3>& v) {
-    std::copy_n(from, 3, v.c);
-    from += 3;
-  };
-  totals_ = {number(), number(), number(), number(), number()};
+  Numbers from(state);
+  totals_ = {from.next(), from.next(), from.next(), from.next(), from.next()};
   for (Load& load : loads_) {
-    take(load.force);
-    take(load.moment);
+    from.take(load.force);
+    from.take(load.moment);
   }
-  for (double& f : frequency2_) f = number();
+  for (double& f : frequency2_) f = from.next();
   stuck_.clear();
-  while (from < state.end()) {
-    Stuck s{static_cast<std::size_t>(number()), static_cast<std::size_t>(number()), {}, {}};
-    take(s.stretch);
-    take(s.force);
+  while (from.any()) {
+    Stuck s{from.count(), from.count(), {}, {}};
+    from.take(s.stretch);
+    from.take(s.force);
     stuck_.push_back(s);
   }
 }

@@ -31,23 +31,17 @@ System::Rubbed System::drag(Press const& press, Vec<3> const& jump, Vec<3> const
   auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), key);
   bool const known = last != last_stuck_.end() && last->point == press.point && last->with == press.with;
   Mat<3> const& F = F_[at(points_[at(press.point)].carrier)];
-  Vec<3> const along = jump - dot(n, jump) * n;
-  double const way = known ? std::sqrt(square_of(along)) : 0;
   FrictionLaw const& law = setting_[points_[at(press.point)].body][press.with].friction;
-  double const bound = friction_bound(law, press.force, press.area, dt_ > 0 ? way / dt_ : 0);
-  Vec<3> const before = known ? F * last->stretch : Vec<3>{};
-  Spring const spring = dragged(before, known ? jump : Vec<3>{}, n, press.stiffness, bound);
-  Rubbed rubbed{spring.force, 0};
-  double const energy = 0.5 * press.stiffness * square_of(spring.stretch);
-  totals_.spring_energy += energy;
-  stuck_.push_back({press.point, press.with, inverse(F) * spring.stretch, spring.force, energy});
-  if (!known) return rubbed;
-  double const work = friction_work(last->force, spring.force, jump);
-  totals_.friction_work += work;
-  rubbed.heat = work + last->energy - energy;
+  Spring const before = known ? Spring{F * last->stretch, last->force} : Spring{};
+  Rubbing const now = rubbing(known ? &before : nullptr, jump, n, press.stiffness, law, press.force, press.area, dt_);
+  totals_.spring_energy += now.energy;
+  totals_.friction_work += now.work;
+  stuck_.push_back({press.point, press.with, inverse(F) * now.spring.stretch, now.spring.force, now.energy});
+  if (!known) return {now.spring.force, 0};
   // What the spring did not take up.
-  trace(press.point, std::sqrt(square_of(before + along - spring.stretch)), 0);
-  return rubbed;
+  Vec<3> const along = jump - dot(n, jump) * n;
+  trace(press.point, std::sqrt(square_of(before.stretch + along - now.spring.stretch)), 0);
+  return {now.spring.force, now.work + last->energy - now.energy};
 }
 
 /// Springs of contacts that have opened leave their energy as heat.

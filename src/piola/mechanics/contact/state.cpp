@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/numbers.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <algorithm>
 #include <cmath>
@@ -6,9 +7,6 @@
 namespace piola::contact {
 
 namespace {
-
-/// Puts three components at the end of a list.
-void put(std::vector<double>& all, Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); }
 
 /// Puts how many of the first n things there are to put, and each.
 template <class Holds, class Put>
@@ -22,21 +20,6 @@ void put_some(std::vector<double>& all, std::size_t n, Holds const& holds, Put c
     put_one(k);
   }
 }
-
-/// Takes numbers from a list, one after the other.
-class Numbers {
- public:
-  explicit Numbers(std::vector<double> const& all) : from_(all.begin()), end_(all.end()) {}
-  bool any() const { return from_ < end_; }
-  double next() { return *from_++; }
-  std::size_t count() { return static_cast<std::size_t>(next()); }
-  void take(Vec<3>& a) {
-    for (double& c : a.c) c = next();
-  }
-
- private:
-  std::vector<double>::const_iterator from_, end_;
-};
 
 }  // namespace
 

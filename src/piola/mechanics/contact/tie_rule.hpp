@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/expression.hpp"
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace piola::contact {
 
@@ -19,5 +21,13 @@ struct TieRule {
   double shear_weight = 1;          ///< beta: of sliding in the effective opening
   bool fails() const { return strength > 0; }
 };
+
+/// Whether some of the ties hold two bodies together, in any order.
+template <class Tie>
+bool is_tied(std::vector<Tie> const& ties, std::size_t a, std::size_t b) {
+  return std::any_of(ties.begin(), ties.end(), [&](TieRule const& tie) {
+    return (tie.bodies[0] == a && tie.bodies[1] == b) || (tie.bodies[0] == b && tie.bodies[1] == a);
+  });
+}
 
 }  // namespace piola::contact

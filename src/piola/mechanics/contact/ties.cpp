@@ -24,8 +24,7 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
   Pull pull{own + other, self + own, {}, {}};
   Bond bond;
   if (rules_[row.tie].fails()) {
-    Vec<3> const m = transpose(inverse(carriers.F(row.carrier, x))) * row.N;
-    Vec<3> const n = (1 / std::sqrt(dot(m, m))) * m;
+    Vec<3> const n = carried_normal(carriers.F(row.carrier, x), row.N);
     double const opening = effective_opening(row.law, separation(pull.jump, n));
     if (opening > opened_[r]) opened_[r] = opening;
     bond = cohesive_bond(row.law, pull.jump, n, opened_[r]);
