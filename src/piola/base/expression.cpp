@@ -22,7 +22,7 @@ constexpr std::array functions{Function{"sin", 1},  Function{"cos", 1},  Functio
                                Function{"acos", 1}, Function{"atan", 1}, Function{"atan2", 2}, Function{"exp", 1},
                                Function{"log", 1},  Function{"sqrt", 1}, Function{"abs", 1},   Function{"pow", 2},
                                Function{"min", 0},  Function{"max", 0}};
-constexpr std::array<std::string_view, 5> variables{"X", "Y", "Z", "t", "pi"};
+constexpr std::array<std::string_view, 5> own_variables{"X", "Y", "Z", "t", "pi"};
 
 double minimum(double const* values, int count) { return *std::min_element(values, values + count); }
 double maximum(double const* values, int count) { return *std::max_element(values, values + count); }
@@ -117,7 +117,7 @@ std::vector<Word> words_of(std::string const& text) {
 }
 
 std::vector<std::string> known_names(Names const& names) {
-  std::vector<std::string> known = to_strings(variables);
+  std::vector<std::string> known = to_strings(own_variables);
   known.insert(known.end(), names.variables.begin(), names.variables.end());
   for (auto const& [name, value] : names.constants) known.push_back(name);
   for (Definition const& definition : names.definitions) known.push_back(definition.name);
@@ -421,7 +421,7 @@ std::vector<std::string> expression_words(std::string const& text) {
 }
 
 bool is_reserved_name(std::string_view name) {
-  bool const variable = std::find(variables.begin(), variables.end(), name) != variables.end();
+  bool const variable = std::find(own_variables.begin(), own_variables.end(), name) != own_variables.end();
   return variable || std::any_of(functions.begin(), functions.end(), [&](Function const& f) { return name == f.name; });
 }
 

@@ -9,6 +9,14 @@
 
 namespace piola {
 
+namespace {
+
+/// Rounded as in the file of what is kept: whether a picture is drawn at once or at the end depends on the clock, and
+/// must not show.
+double as_kept(double value) { return static_cast<double>(static_cast<float>(value)); }
+
+}  // namespace
+
 PictureObserver::PictureObserver(Results results)
     : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
   auto const& particles = results_.particles;
@@ -121,8 +129,9 @@ void PictureObserver::see_now(Formulation const& formulation, double time) {
   FieldCache cache(formulation, results_.particles);
   Kept kept{time, std::vector<std::array<double, 3>>(radii_.size()), {}, formulation.rigids()};
   auto const x = cache.values("Position");
-  for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = x[i];
+  for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = as_kept(x[i]);
   kept.values = picture_values(cache.values(field_.name), field_.components, component_);
+  for (double& value : kept.values) value = as_kept(value);
 
   window_.include(view_, kept.points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
   show_shapes(window_, view_, shapes_at(results_.spec.rigids, time, kept.rigids), {stage_low_, stage_high_});
