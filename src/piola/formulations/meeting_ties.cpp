@@ -40,6 +40,7 @@ void MeetingTies::leave_out(contact::System& system, std::size_t row, bool out) 
 void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
   if (!any()) return;
   std::vector<double> inverse;
+  inverse.reserve(masses.size());
   for (double const m : masses) inverse.push_back(m > 0 ? 1 / m : 0);
   frequency2_ = ties_.frequency2(inverse);
   if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));

@@ -50,7 +50,7 @@ Pairs find_pairs(Points const& X, std::vector<double> const& reach) {
   pairs.begin.assign(X.size() + 1, 0);
   auto const each_part = [&](auto const& f) {
     exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
-      f(found[static_cast<std::size_t>(part)], static_cast<std::size_t>(part * part_size),
+      f(found[static_cast<std::size_t>(part)], static_cast<std::size_t>(part) * part_size,
         static_cast<std::size_t>(std::min((part + 1) * part_size, particles)));
     });
   };

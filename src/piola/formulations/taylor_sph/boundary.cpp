@@ -236,10 +236,11 @@ void Boundary::hold(Index particle, double time, double dt, Point const& velocit
   std::vector<Held> lasting;
   std::vector<Direction> directions;
   // The support named last decides where several hold a particle.
-  for (auto held = held_[at].rbegin(); held != held_[at].rend(); ++held) {
-    if (has_ended(supports_[held->support].until, time)) continue;
-    lasting.push_back(*held);
-    directions.push_back(held->direction);
+  for (std::size_t k = held_[at].size(); k-- > 0;) {
+    Held const& held = held_[at][k];
+    if (has_ended(supports_[held.support].until, time)) continue;
+    lasting.push_back(held);
+    directions.push_back(held.direction);
   }
   item.held = 0;
   for (HeldAlong const& along : hold_along(directions)) {

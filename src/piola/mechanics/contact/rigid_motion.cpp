@@ -91,9 +91,9 @@ void RigidMotion::evaluate(System const& bodies, double dt) {
   bound_frequency(bodies);
 }
 
-RigidPairs::Load RigidMotion::on(System const& bodies, std::size_t k) const {
-  auto const& by_bodies = bodies.on_rigid(k);
-  RigidPairs::Load const& by_shapes = pairs_.on(k);
+RigidPairs::Load RigidMotion::on(System const& bodies, std::size_t shape) const {
+  auto const& by_bodies = bodies.on_rigid(shape);
+  RigidPairs::Load const& by_shapes = pairs_.on(shape);
   return {by_bodies.force + by_shapes.force, by_bodies.moment + by_shapes.moment};
 }
 
