@@ -78,13 +78,28 @@ std::string start_report(Simulation const& s, std::filesystem::path const& folde
   return text;
 }
 
+namespace {
+
+/// What the scheme made of the energy, as the guard of dissipation counted it.
+std::string dissipation_text(Summary const& summary) {
+  if (!summary.guards) return "";
+  for (GuardNumbers const& guard : *summary.guards)
+    for (auto const& [name, value] : guard.values)
+      if (guard.name == "dissipation" && name == "share" && value > 0)
+        return fmt::format("; viscosity and other stabilisation took {:.2g} %", 100 * value);
+  return "";
+}
+
+}  // namespace
+
 std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& folder) {
   Summary const& s = outcome.summary;
   std::string text =
       fmt::format("{} at t = {} after {} steps, {} of wall time, {}\n", s.status, quantity_text(s.end_time, "s"),
                   count_text(s.steps), duration_text(s.wall_seconds), rate_text(s.stages_per_second));
-  text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it\n",
-                      quantity_text(s.energy_initial, "J"), quantity_text(s.energy_final, "J"), s.energy_max_increase);
+  text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it{}\n",
+                      quantity_text(s.energy_initial, "J"), quantity_text(s.energy_final, "J"), s.energy_max_increase,
+                      dissipation_text(s));
   if (s.linear_drift && s.angular_drift)
     text += fmt::format("  momentum drift: linear {:.2g}, angular {:.2g} of its scale\n", *s.linear_drift,
                         *s.angular_drift);

@@ -136,6 +136,30 @@ TEST(JohnsonCookFracture, IsCompleteAtTheFractureStrain) {
   EXPECT_NEAR(h.plastic_work, 479e6 * 0.5, 1);
 }
 
+/// What spall does with a state of mean stress -p and deviator S: 0.8 GPa limit.
+double damage_by_spall(int word, SymMat<3> const& S, double pressure) {
+  auto material = sample_metal("perfectly_plastic", "elastic", "none", 0.8e9);
+  material.word[SolidLayout<PerfectPlasticity>::spall_word] = word;
+  Solid<PerfectPlasticity, ElasticEos> const solid(material);
+  EXPECT_EQ(solid.damages, word > 0);
+  SolidHistory h{.temperature = solid.initial_temperature()};
+  solid.update(h, S, pressure, solid.rho0, 1e-9);
+  return h.damage;
+}
+
+TEST(Spall, FailsByTheMeanOrTheLargestPrincipalStress) {
+  constexpr int limit = 0, hydrostatic = 1, principal = 2;
+  SymMat<3> const rest{}, pulled{{2e8, -1e8, -1e8, 0, 0, 0}}, sheared{{0, 0, 0, 2e8, 0, 0}};
+  EXPECT_EQ(damage_by_spall(limit, pulled, -0.8e9), 0);
+  EXPECT_EQ(damage_by_spall(hydrostatic, rest, -0.8e9), 1);
+  EXPECT_EQ(damage_by_spall(hydrostatic, pulled, -0.79e9), 0) << "the deviator does not count";
+  EXPECT_EQ(damage_by_spall(principal, pulled, -0.61e9), 1);
+  EXPECT_EQ(damage_by_spall(principal, pulled, -0.59e9), 0);
+  EXPECT_EQ(damage_by_spall(principal, sheared, -0.61e9), 1) << "at 45 degrees";
+  EXPECT_EQ(damage_by_spall(principal, sheared, -0.59e9), 0);
+  EXPECT_EQ(damage_by_spall(principal, rest, 1e9), 0);
+}
+
 /// Hardening by hand: 1 GPa trial stress, 3 mu dep + Ep dep = 1e9 - 479e6.
 TEST(IsotropicHardeningReturn, HasTheValueOfTheFormula) {
   auto const solid = metal<IsotropicHardening, ElasticEos>("elastic");

@@ -46,8 +46,8 @@ TEST(AdaptleMessages, PlaneStressIsForTwoDimensions) {
 TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
   for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "printed"},
                                            {"correction", "material", "mixed"},
-                                           {"viscosity", "monaghan", "balsara"},
-                                           {"viscosity_form", "printed", "central"},
+                                           {"viscosity", "compression", "balsara"},
+                                           {"viscosity_form", "auto", "central"},
                                            {"artificial_stress_interface", "both", "none"},
                                            {"assumption", "plane_strain", "plane_stress"}}) {
     Assembly a = two_boxes();

@@ -131,9 +131,9 @@ TEST(CrackMessages, StressIntensitiesHaveAUnit) {
       "unit such as Pa m^0.5)");
 }
 
-TEST(CrackMessages, WindowsBelongToComparisons) {
+TEST(CrackMessages, WindowsAreForTakesThatLookAtManyRows) {
   std::string const quantity = "[[quantity]]\nname = \"q\"\ncolumn = \"time\"\n";
-  EXPECT_EQ(plate_with(quantity + "take = \"range\"\nfrom = 0\nuntil = 1\n"),
+  EXPECT_EQ(plate_with(quantity + "take = \"final_value\"\nfrom = 0\nuntil = 1\n"),
             "case.toml:12:8: quantity.from is not used by this \"take\" - remove it\n"
             "case.toml:13:9: quantity.until is not used by this \"take\" - remove it");
   EXPECT_EQ(plate_with(quantity + "take = \"relative_error\"\nfrom = \"2 ms\"\nuntil = \"1 ms\"\nunit = \"s\"\n"),

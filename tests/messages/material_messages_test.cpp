@@ -57,6 +57,15 @@ TEST(MaterialMessages, AWordBringsTheNumbersThatItNeeds) {
                 "case.toml:10:159: body.material.spall_pressure is -1 Pa (allowed: above 0)");
 }
 
+TEST(MaterialMessages, FailureBySpallNeedsItsStress) {
+  std::string const message = message_with("name = \"steel_4340\", spall = \"hydrostatic\"");
+  EXPECT_NE(
+      message.find("body.material.spall = \"hydrostatic\" needs spall_pressure, which has no limit here - give it, "
+                   "or spall = \"limit\""),
+      std::string::npos)
+      << message;
+}
+
 TEST(MaterialMessages, NamesOfTheLibraryAreKnown) {
   EXPECT_EQ(message_with("name = \"steel_4304\""),
             "case.toml:10:21: body.material.name is \"steel_4304\" (allowed: aluminium_adaptle_3_2, steel_adaptle_3_3, "

@@ -92,6 +92,22 @@ TEST(Quantity, ComparesOnlyTheRowsOfAWindow) {
   EXPECT_FALSE(measure(spec, t, why));
 }
 
+TEST(Quantity, ExtremaAndThresholdsLookAtTheWindow) {
+  HistoryTable const t{{{"time", "s"}, {"y", "Pa"}}, {{0, 9}, {0.1, 3}, {0.3, -4}, {0.7, 12}}};
+  QuantitySpec spec{.name = "q", .column = "y", .take = Take::maximum, .reference = {}, .from = 0.1, .until = 0.3};
+  std::string why;
+  EXPECT_EQ(measure(spec, t, why)->value, 3);
+  spec.take = Take::range;
+  EXPECT_EQ(measure(spec, t, why)->value, 7);
+  spec.take = Take::time_of_minimum;
+  EXPECT_EQ(measure(spec, t, why)->value, 0.3);
+  spec.take = Take::first_time_above;
+  spec.threshold = 4;
+  EXPECT_FALSE(measure(spec, t, why));
+  spec.until = 1;
+  EXPECT_NEAR(measure(spec, t, why)->value, 0.5, 1e-15);
+}
+
 // 3 + cos(20 t) over 1.2 s has the period pi/10; its mean is not 3, because the time is no whole number of periods.
 TEST(Quantity, TakesTheMeanPeriodOfAnOscillation) {
   HistoryTable t{{{"time", "s"}, {"y", "Pa"}}, {}};

@@ -50,7 +50,7 @@ TEST_P(TiedBodies, KeepMomentaAndEnergy) {
   for (double const strength : {0.0, weak()}) {
     Assembly a = stack(strength);
     // Its energy is that of steps.
-    if (GetParam().upper == "adaptle") a.cfl = 0.2;
+    if (GetParam().upper == "adaptle") a.cfl = 0.15;
     auto const f = make_formulation(a);
     Diagnostics const before = f->diagnose();
     double time = 0, largest = 0;

@@ -3,6 +3,7 @@
 #include "piola/input/sections.hpp"
 #include "piola/materials/library.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace piola {
 namespace {
@@ -52,6 +53,7 @@ class MaterialReader {
     for (std::size_t i = 0; i < law_.choices.size(); ++i) read_choice(i);
     for (std::size_t i = 0; i < law_.parameters.size(); ++i) read_value(i);
     section_.refuse_unknown(keys_);
+    check_spall();
     return material_;
   }
 
@@ -85,6 +87,22 @@ class MaterialReader {
       std::string const example = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
       section_.report_missing(key, about_parameter(parameter), key + " = " + example);
     }
+  }
+
+  /// Failure by spall needs a stress at which it comes.
+  void check_spall() {
+    auto const place = [](auto const& list, std::string_view name) {
+      return std::find_if(list.begin(), list.end(), [&](auto const& item) { return item.name == name; });
+    };
+    auto const choice = place(law_.choices, "spall");
+    auto const limit = place(law_.parameters, "spall_pressure");
+    if (choice == law_.choices.end() || limit == law_.parameters.end()) return;
+    auto const word = static_cast<std::size_t>(material_.word[choice - law_.choices.begin()]);
+    if (word == 0 || material_.value[limit - law_.parameters.begin()] < unbounded) return;
+    section_.problems().add(
+        section_.place_of("spall"),
+        fmt::format("{} = \"{}\" needs spall_pressure, which has no limit here - give it, or spall = \"limit\"",
+                    section_.name_of("spall"), choice->allowed[word]));
   }
 
   void report_useless(Parameter const& parameter) {

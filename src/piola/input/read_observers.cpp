@@ -193,9 +193,11 @@ bool wants(Section const& section, std::string_view key, bool wanted, std::strin
   return wanted && section.has(key);
 }
 
-// The rows that a comparison looks at, or the two times of a change.
+// The rows that count, or the two times of a change.
 void read_rows(Section const& section, QuantitySpec& quantity) {
-  if (!compares(quantity.take) && quantity.take != Take::change && quantity.take != Take::mean) {
+  bool const one_row =
+      quantity.take == Take::at_time || quantity.take == Take::initial_value || quantity.take == Take::final_value;
+  if (one_row) {
     for (std::string_view const key : {"from", "until"}) section.refuse(key, "is not used by this \"take\"");
     return;
   }

@@ -5,10 +5,14 @@
 #include "piola/materials/eos/values.hpp"
 #include "piola/materials/plastic/heat.hpp"
 #include "piola/materials/registry.hpp"
+#include "piola/math/symmetric_eigen.hpp"
 #include "piola/math/tensor.hpp"
 #include <cmath>
 
 namespace piola::inline PIOLA_MACHINE {
+
+/// The word `spall` of a solid: what follows where tension reaches spall_pressure.
+inline constexpr std::array<std::string_view, 3> spall_words{"limit", "hydrostatic", "principal"};
 
 /// What a point of a solid remembers besides density and energy.
 struct SolidHistory {
@@ -29,7 +33,7 @@ struct SolidLayout {
   static constexpr int damage = eos + static_cast<int>(EosValues::parameters.size());
   static constexpr int spall = damage + (Strength::yields ? static_cast<int>(JohnsonCookDamage::parameters.size()) : 0);
   static constexpr int size = spall + 1;
-  static constexpr int eos_word = 0, damage_word = 1;
+  static constexpr int eos_word = 0, damage_word = 1, spall_word = 2;
 };
 
 /// von Mises stress sqrt(3/2 S:S) of a deviator [Pa].
@@ -50,7 +54,7 @@ class Solid {
   double mu;              ///< shear modulus [Pa]
   double kappa;           ///< bulk modulus at rest, of the equation of state [Pa]
   double spall_pressure;  ///< largest tension [Pa]; infinity: no limit
-  bool damages;           ///< whether damage grows
+  bool damages;           ///< whether damage grows, or spall is a failure
 
   explicit Solid(MaterialParameters const& material)
       : Solid(ElasticConstants(material.value), material,
@@ -117,9 +121,10 @@ class Solid {
     double const mises = von_mises(trial),
                  strain = strength_.increment(mises, 3 * mu, h.plastic_strain, h.temperature, dt, last_flow);
     h.S = scaled(trial, mises, strain);
+    if (spalls(h.S, pressure)) h.damage = 1;
     if (!(strain > 0)) return 0;
     double const flow = mises - 3 * mu * strain, rate = dt > 0 ? strain / dt : 0;
-    if (damages) {
+    if (wears_) {
       double const least = 1e-12 * mu;  // molten: no von Mises stress
       double const fracture = damage_.fracture_strain(-pressure / (flow > least ? flow : least), rate, h.temperature);
       h.damage = JohnsonCookDamage::grown(h.damage, strain, fracture);
@@ -131,13 +136,33 @@ class Solid {
     return flow > 0 ? flow : 0;
   }
 
+  /// Whether tension tears the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
+  /// the largest principal stress does. S: deviator; pressure: positive in compression [Pa].
+  PIOLA_FN bool spalls(SymMat<3> const& S, double pressure) const {
+    if (spall_ == 0) return false;
+    if (spall_ == 1) return !(pressure > -spall_pressure);
+    double bound = -1e300;  // no eigenvalue is above this (Gershgorin)
+    for (int i = 0; i < 3; ++i) {
+      double sum = 0;
+      for (int j = 0; j < 3; ++j) sum += i == j ? S(i, i) : std::fabs(S(i, j));
+      bound = sum > bound ? sum : bound;
+    }
+    if (!(bound - pressure > spall_pressure)) return false;
+    Eigen<3> const e = symmetric_eigen(S);
+    double largest = e.value[0];
+    for (double const value : e.value) largest = value > largest ? value : largest;
+    return largest - pressure > spall_pressure;
+  }
+
  private:
   Solid(ElasticConstants const& elastic, MaterialParameters const& m, Heat const& heat)
       : rho0(elastic.rho0),
         mu(elastic.mu),
         kappa(0),
         spall_pressure(m.value[Layout::spall]),
-        damages(Strength::yields && m.word[Layout::damage_word] > 0),
+        damages(Strength::yields && (m.word[Layout::damage_word] > 0 || m.word[Layout::spall_word] > 0)),
+        wears_(Strength::yields && m.word[Layout::damage_word] > 0),
+        spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),
         strength_(m.value + Layout::strength, heat),
         eos_(EosValues(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
@@ -155,6 +180,8 @@ class Solid {
     return S;
   }
 
+  bool wears_;  ///< damage grows with plastic strain
+  int spall_;   ///< of spall_words
   Heat heat_;
   Strength strength_;
   Eos eos_;

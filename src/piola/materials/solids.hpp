@@ -19,11 +19,16 @@ template <class Strength>
 struct SolidLaw {
   static constexpr std::string_view name = Strength::name;
   static constexpr std::string_view about = Strength::about;
-  static constexpr std::array<Choice, 2> all_choices{
+  static constexpr std::array<Choice, 3> all_choices{
       Choice{"eos", "equation of state: pressure by density and energy", eos_words},
-      Choice{"damage", "growth of damage with plastic strain", damage_words}};
-  /// What does not yield has no damage that grows with plastic strain.
-  static constexpr std::span<Choice const> choices{all_choices.data(), Strength::yields ? 2u : 1u};
+      Choice{"damage", "growth of damage with plastic strain", damage_words},
+      Choice{"spall",
+             "what follows from tension at spall_pressure; limit: the pressure goes no lower, nothing opens; "
+             "hydrostatic: the material fails there (damage 1); principal: it fails where the largest principal stress "
+             "reaches spall_pressure",
+             spall_words}};
+  /// What does not yield has no damage: it cannot fail.
+  static constexpr std::span<Choice const> choices{all_choices.data(), Strength::yields ? 3u : 1u};
 
  private:
   static constexpr auto joined_parameters() {

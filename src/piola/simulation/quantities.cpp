@@ -67,19 +67,29 @@ bool counts(QuantitySpec const& spec, double time) {
   return time >= spec.from * (1 - rounding) && time <= spec.until * (1 + rounding);
 }
 
-/// How far the values are from a formula, over the rows that count. Nothing if no row does.
+/// The rows that count. All of them for a change, which asks for values at two times, between rows.
+Series rows_of(QuantitySpec const& spec, Series all) {
+  if (spec.take == Take::change) return all;
+  Series part;
+  for (std::size_t k = 0; k < all.time.size(); ++k) {
+    if (!counts(spec, all.time[k])) continue;
+    part.time.push_back(all.time[k]);
+    part.value.push_back(all.value[k]);
+  }
+  return part;
+}
+
+/// How far the values are from a formula.
 std::optional<double> compare(QuantitySpec const& spec, Series const& s) {
   Expression const reference = spec.reference.value_or(Expression());
   double count = 0, sum = 0, squares = 0, whole = 0;
   for (std::size_t k = 0; k < s.value.size(); ++k) {
-    if (!counts(spec, s.time[k])) continue;
     double const r = reference({0, 0, 0}, s.time[k]), d = s.value[k] - r;
     count += 1;
     sum += std::abs(d);
     squares += d * d;
     whole += r * r;
   }
-  if (count == 0) return std::nullopt;
   if (spec.take == Take::mean_absolute_difference) return sum / count;
   return squares == 0 ? 0 : std::sqrt(squares / whole);
 }
@@ -141,18 +151,6 @@ std::string unit_of(Take take, std::string const& column_unit) {
   }
 }
 
-/// The mean over the rows that count.
-std::optional<double> mean_between(QuantitySpec const& spec, Series const& s) {
-  Series part;
-  for (std::size_t k = 0; k < s.time.size(); ++k) {
-    if (!counts(spec, s.time[k])) continue;
-    part.time.push_back(s.time[k]);
-    part.value.push_back(s.value[k]);
-  }
-  if (part.time.empty()) return std::nullopt;
-  return mean_of(part);
-}
-
 std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
   auto const high = std::max_element(s.value.begin(), s.value.end());
   auto const low = std::min_element(s.value.begin(), s.value.end());
@@ -172,7 +170,7 @@ std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
     case Take::oscillation_period: return oscillation_period(s);
     case Take::range: return *high - *low;
     case Take::change: return change(spec, s);
-    case Take::mean: return mean_between(spec, s);
+    case Take::mean: return mean_of(s);
     case Take::first_peak:
     case Take::time_of_first_peak: break;
   }
@@ -200,7 +198,7 @@ std::optional<MeasuredQuantity> measure(QuantitySpec const& spec, HistoryTable c
     why = fmt::format("quantity '{}': history.csv has no column '{}'", spec.name, spec.column);
     return std::nullopt;
   }
-  Series const s = series_of(history, spec.column);
+  Series const s = rows_of(spec, series_of(history, spec.column));
   std::optional<double> const value = s.value.empty() ? std::nullopt : evaluate(spec, s);
   if (!value || !std::isfinite(*value)) {
     why = fmt::format("quantity '{}': the history of '{}' does not contain it (the run may be too short)", spec.name,

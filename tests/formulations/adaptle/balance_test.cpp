@@ -15,7 +15,7 @@ Balance balance_of(Cloud const& cloud) {
   double force[3]{}, torque[3]{}, power = 0, forces = 0, powers = 0, torques = 0;
   for (Index i = 0; i < cloud.size(); ++i) {
     double const *F = cloud.sums(i).force, *v = cloud.half(i).v, *x = cloud.state[i].x;
-    double work = cloud.rates[i].energy;
+    double work = cloud.rates[i].energy + cloud.sums(i).hourglass;
     for (int c = 0; c < 3; ++c) {
       int const a = (c + 1) % 3, b = (c + 2) % 3;
       force[c] += F[c];

@@ -64,6 +64,11 @@ TEST(AdaptleContact, StiffnessFollowsFromTheImpedances) {
   double const shock = 2e6 * 12e6 / 14e6 * 400 * (1 + 400.0 / 4000);
   EXPECT_NEAR(adaptle::reference_pressure(a, b, 400), shock, 1e-6 * shock);
   EXPECT_NEAR(adaptle::reference_pressure(a, b, 1), 0.01 * 4e9, 1);
+  BodyConstants soft = a;
+  soft.yield_stress = 1e8;  // flows away at 3 sy + rho v^2 / 2
+  EXPECT_NEAR(adaptle::reference_pressure(soft, b, 400), 3e8 + 500 * 400.0 * 400, 1e-6);
+  soft.yield_stress = 1e6;
+  EXPECT_NEAR(adaptle::reference_pressure(soft, b, 400), 0.25 * shock, 1e-6 * shock) << "not softer than that";
   ContactRule rule;
   rule.scale = 0.5;
   auto pairs = adaptle::contact_pairs(3, rule, {a, b}, {{100, 0, 0}, {-300, 0, 0}});

@@ -172,6 +172,7 @@ TEST(AdaptleRelease, LeavesNeitherShearNorTensionButCompression) {
         s.S[1] = s.S[2] = -0.5e6;
       }
       cloud.state[24].damage = 1;
+      cloud.state[24].released = 1;
       cloud.changed();
       cloud.evaluate();
       cloud.evaluate();
@@ -190,6 +191,36 @@ TEST(AdaptleRelease, LeavesNeitherShearNorTensionButCompression) {
       else
         EXPECT_EQ(eulerian(cloud).size(), description == "eulerian" ? 49u : 0u);
     }
+}
+
+TEST(AdaptleRelease, TakesAsLongAsAShearWaveThroughTheSupport) {
+  Assembly a = adaptle_assembly(unit_box(2, 7), damaging());
+  choose(a, "description", "total_lagrangian");
+  Cloud cloud(a);
+  adaptle::BodyConstants const& body = cloud.system().body[0];
+  double const c = std::sqrt(body.shear_modulus / body.rho0), time = 2 * body.h / c, S0 = 1e6;
+  State& s = cloud.state[24];
+  s.S[0] = S0;
+  s.S[1] = s.S[2] = -0.5 * S0;
+  s.damage = 1;
+  double const energy = s.energy;
+  for (Index i = 0; i < cloud.size(); ++i)  // nothing moves, so that nothing but the release changes the stress
+    for (double& v : cloud.state[i].v) v = 0;
+  cloud.changed();
+  double before = S0;
+  for (int k = 1; k <= 10; ++k) {
+    cloud.particles->step(0, 0.1 * time * 1e-6);
+    double const left = 1 - 1e-7 * k;
+    EXPECT_NEAR(s.S[0], S0 * left, 1e-9 * S0);
+    EXPECT_LT(s.S[0], before);
+    before = s.S[0];
+  }
+  EXPECT_NEAR(s.energy, energy, 1e-4 * S0 * S0 / body.shear_modulus * cloud.system().reference[24].volume)
+      << "what is released becomes heat";
+  EXPECT_GT(s.plastic_work, 0);
+  cloud.particles->step(0, 2 * time);
+  EXPECT_EQ(s.released, 1);
+  for (double const S : s.S) EXPECT_EQ(S, 0);
 }
 
 TEST(AdaptleDeletion, LeavesParticlesWithoutStressAndWithTheirDeformation) {

@@ -79,7 +79,7 @@ TEST(AdaptleObserve, FieldsAreWhatTheirNamesSay) {
 TEST(AdaptleObserve, NeighboursAreThoseWithinTwoSmoothingLengths) {
   for (int const dimension : {2, 3}) {
     Assembly a = adaptle_assembly(unit_box(dimension, 6, 0.3));
-    choose(a, "smoothing_length", 1.3);
+    choose(a, "material_smoothing_length", 1.3);
     auto const f = make_formulation(a);
     Values const counted = sample(*f, "Neighbours", a.particles.X.size());
     for (std::size_t i = 0; i < counted.size(); ++i) {
@@ -153,6 +153,7 @@ TEST(AdaptleOptions, HaveTheDefaultsOfTheManual) {
   EXPECT_FALSE(o.bodies[0].deletes);
   EXPECT_EQ(o.settings.interface_form, adaptle::Interface::owner);
   EXPECT_EQ(o.settings.mixed_stress, adaptle::MixedStress::both);
+  EXPECT_EQ(o.settings.viscosity, adaptle::Viscosity::compression);
   EXPECT_FALSE(o.settings.corrected);
   EXPECT_EQ(o.settings.fallback, 7.5);
   EXPECT_TRUE(o.settings.artificial_stress);
@@ -160,7 +161,29 @@ TEST(AdaptleOptions, HaveTheDefaultsOfTheManual) {
   choose(a, "artificial_stress", 0.0);
   EXPECT_EQ(adaptle::read_options(a).settings.fallback, 7.5);
   EXPECT_FALSE(adaptle::read_options(a).settings.artificial_stress);
-  EXPECT_EQ(adaptle::read_options(adaptle_assembly(unit_box(3, 4))).bodies[0].smoothing_length, 1.2);
+  adaptle::Options const space = adaptle::read_options(adaptle_assembly(unit_box(3, 4)));
+  EXPECT_EQ(space.bodies[0].smoothing_length, 1.2);
+  EXPECT_EQ(space.bodies[0].material_smoothing_length, 1);
+  EXPECT_EQ(o.bodies[0].material_smoothing_length, 1.2);
+}
+
+TEST(AdaptleOptions, MaterialsThatDoNotYieldHaveSpringsAgainstHourglasses) {
+  adaptle::Options const elastic = adaptle::read_options(adaptle_assembly(unit_box(2, 4)));
+  EXPECT_FALSE(elastic.settings.published);
+  EXPECT_EQ(elastic.bodies[0].hourglass_stiffness, 1);
+  EXPECT_EQ(elastic.bodies[0].hourglass, 0.1);
+  auto const metal = adaptle_assembly(unit_box(2, 4), sample_metal("johnson_cook", "elastic"));
+  adaptle::Options const yielding = adaptle::read_options(metal);
+  EXPECT_TRUE(yielding.settings.published);
+  EXPECT_EQ(yielding.bodies[0].hourglass_stiffness, 0);
+  EXPECT_EQ(yielding.bodies[0].hourglass, 0.7);
+  EXPECT_TRUE(yielding.bodies[0].releases);
+  Assembly plain = adaptle_assembly(unit_box(2, 4));
+  choose(plain, "correction", "none");
+  adaptle::Options const uncorrected = adaptle::read_options(plain);
+  EXPECT_EQ(uncorrected.bodies[0].hourglass_stiffness, 0);
+  EXPECT_EQ(uncorrected.bodies[0].hourglass, 0);
+  EXPECT_EQ(uncorrected.bodies[0].material_smoothing_length, 1.4);
 }
 
 }  // namespace

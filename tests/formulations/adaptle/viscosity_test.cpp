@@ -22,6 +22,30 @@ TEST(AdaptleViscosity, OfOnePairIsAsEquationsSixAndSevenSay) {
   EXPECT_EQ(parting.pressure, 0);
 }
 
+TEST(AdaptleViscosity, SwitchIsOneInCompressionAndSmallElsewhere) {
+  double const c = 5000, h = 1e-3, rate = 1e6, small = 1e-3 * c / h / rate;
+  Mat<3> plane{}, round{}, sphere{}, shear{}, turn{}, spread{}, mixed{};
+  plane(0, 0) = -rate;
+  round(0, 0) = round(1, 1) = -rate;
+  sphere(0, 0) = sphere(1, 1) = sphere(2, 2) = -rate;
+  shear(0, 1) = rate;
+  turn(0, 1) = rate;
+  turn(1, 0) = -rate;
+  spread(0, 0) = spread(1, 1) = rate;
+  EXPECT_NEAR(compression_factor(plane, c, h), 1 / (1 + small), 1e-14);
+  EXPECT_EQ(compression_factor(round, c, h), 1) << "-tr D = 2, sqrt(3/2 D':D') = 1";
+  EXPECT_EQ(compression_factor(sphere, c, h), 1);
+  EXPECT_EQ(compression_factor(shear, c, h), compression_floor);
+  EXPECT_EQ(compression_factor(turn, c, h), compression_floor);
+  EXPECT_EQ(compression_factor(spread, c, h), compression_floor);
+  EXPECT_EQ(compression_factor(Mat<3>{}, c, h), compression_floor);
+  // Uniaxial compression beside as fast a shear: D' = diag(-2, 1, 1)/3 with 1/2 off the diagonal, |rot v| = 1.
+  mixed(0, 0) = -rate;
+  mixed(0, 1) = rate;
+  EXPECT_NEAR(compression_factor(mixed, c, h), 1 / (std::sqrt(1.5 * (6.0 / 9 + 0.5)) + 1 + small), 1e-14);
+  EXPECT_NEAR(balsara_factor(mixed, c, h), 1 / (1 + 1 + 0.1 * small), 1e-14);
+}
+
 template <int D>
 SymMat<D> turned(Mat<3> const& Q, Mat<3> const& A) {
   Mat<3> const B = Q * A * transpose(Q);

@@ -57,6 +57,9 @@ double energy_of_contacts(System const& s) {
   return energy;
 }
 
+/// What a body bears before it flows away, 3 sy + rho v^2 / 2 [Pa].
+double flow_pressure(BodyConstants const& a, double v) { return 3 * a.yield_stress + 0.5 * a.rho0 * v * v; }
+
 }  // namespace
 
 double contact_number(int dimension, double h, double dp, double exponent) {
@@ -67,7 +70,8 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
   double const c_a = std::sqrt(a.bulk_modulus / a.rho0), c_b = std::sqrt(b.bulk_modulus / b.rho0);
   double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;
   double const shock = Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
-  return std::max(shock, 0.01 * std::min(a.bulk_modulus, b.bulk_modulus));
+  double const flow = std::min(flow_pressure(a, v), flow_pressure(b, v));
+  return std::max(std::clamp(flow, 0.25 * shock, shock), 0.01 * std::min(a.bulk_modulus, b.bulk_modulus));
 }
 
 double contact_energy(System const& system) {

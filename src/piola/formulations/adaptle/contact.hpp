@@ -11,8 +11,9 @@ namespace piola::adaptle {
 /// of the impedance-matched contact. h and dp [m].
 double contact_number(int dimension, double h, double dp, double exponent);
 
-/// Largest pressure when two half spaces meet at the speed v, Z_a Z_b / (Z_a + Z_b) v (1 + v / (2 c)), and at least a
-/// hundredth of the smaller bulk modulus [Pa].
+/// What two bodies bear that meet at the speed v: the largest pressure of two half spaces, Z_a Z_b / (Z_a + Z_b) v (1 +
+/// v / (2 c)), or the one at which the weaker body flows, 3 sy + rho v^2 / 2, if that is less; at least a quarter of
+/// the former and a hundredth of the smaller bulk modulus [Pa].
 double reference_pressure(BodyConstants const& a, BodyConstants const& b, double v);
 
 /// Stiffness of every pair of bodies, [body][body]. mean_velocity: of each body at the start [m/s].

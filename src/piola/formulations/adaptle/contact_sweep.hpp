@@ -5,6 +5,8 @@
 /// Contact between bodies, and with rigid shapes: central, frictionless repulsion.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
+PIOLA_FN double largest(double a, double b) { return a > b ? a : b; }
+
 /// Force and stiffness of one pair at distance r.
 struct ContactForce {
   double force = 0;      ///< repulsion [N]
@@ -56,6 +58,13 @@ struct ContactSweep {
     return kernel_contact<D>(printed, table.exponent, r);
   }
 
+  /// Speed at which two particles come nearer to each other at the distance r [m/s].
+  PIOLA_FN double approach(Index i, Index j, double r) const {
+    double sum = 0;
+    for (int c = 0; c < D; ++c) sum += (half[j].v[c] - half[i].v[c]) * (state[i].x[c] - state[j].x[c]);
+    return sum > 0 ? sum / r : 0;
+  }
+
   PIOLA_FN void visit(Index t) const {
     Index const i = slot[table.target[t]];
     Index const* const row = table.list + static_cast<std::ptrdiff_t>(t) * table.capacity;
@@ -71,6 +80,7 @@ struct ContactSweep {
       double const r = std::sqrt(square);
       ContactForce const f = force_of(pair, i, j, r);
       if (!(f.stiffness > 0)) continue;
+      out.closing = largest(out.closing, approach(i, j, r) / pair.dp);
       double power = 0;
       for (int c = 0; c < D; ++c) {
         double const force = f.force * (state[i].x[c] - state[j].x[c]) / (r > 0 ? r : 1);
@@ -79,7 +89,7 @@ struct ContactSweep {
       }
       out.contact += power;
       out.stiffness += f.stiffness;
-      out.overlap = f.overlap > out.overlap ? f.overlap : out.overlap;
+      out.overlap = largest(out.overlap, f.overlap);
     }
   }
 };
@@ -175,10 +185,15 @@ struct RigidSweep {
     double normal[3];
     BodyConstants const& b = body[body_of[i]];
     double const stand_off = 0.5 * b.spacing, distance = distance_to<D>(s, state[i].x, normal);
+    Sums& out = sums[i];
+    if (distance < 4 * stand_off) {
+      double closing = 0;
+      for (int c = 0; c < D; ++c) closing += (s.velocity[c] - half[i].v[c]) * normal[c];
+      out.closing = largest(out.closing, closing / b.spacing);
+    }
     if (!(distance < stand_off)) return;
     double k = 2 * scale * b.bulk_modulus;
     for (int c = 2; c < D; ++c) k *= b.spacing;
-    Sums& out = sums[i];
     for (int c = 0; c < D; ++c) {
       double const force = k * (stand_off - distance) * normal[c];
       out.force[c] += force;
@@ -190,7 +205,7 @@ struct RigidSweep {
     }
     out.stiffness += k;
     double const overlap = 1 - distance / stand_off;
-    out.overlap = overlap > out.overlap ? overlap : out.overlap;
+    out.overlap = largest(out.overlap, overlap);
   }
 };
 

@@ -36,8 +36,7 @@ bool Particles::wishes_by_formula() {
       for (Index i = b.first; i < b.last; ++i) {
         State const& s = state_[at(i)];
         if (s.phi > 0 || wish_[at(i)] == 1) continue;
-        double const p =
-            acting_pressure(law, b, s, system_.initial_pressure, i, s.rho, s.energy / reference_[at(i)].mass);
+        double const p = acting_pressure(law, s, system_.initial_pressure, i, s.rho, s.energy / reference_[at(i)].mass);
         SymMat<3> stress = symmetric_of(s.S);
         for (int c = 0; c < 3; ++c) stress.c[c] -= p;
         std::array const values{s.damage,
@@ -68,7 +67,7 @@ void Particles::convert(double dt) {
     }
     bool const guard = wish_[at(i)] == 2;
     if (!guard)
-      material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].h, reference_,
+      material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].material_h, reference_,
                                [&](Index j) { make_eulerian(j, dt, false); });
     make_eulerian(i, dt, guard);
   }

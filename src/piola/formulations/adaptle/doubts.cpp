@@ -40,7 +40,8 @@ void doubt_description(BodyOptions const& o, Options const& all, BodyDoubts& dou
   if (patch && all.settings.interface_form == Interface::printed)
     ignore(doubts, {"blend"}, "interface = \"printed\" is sharp");
   if (o.description == Description::eulerian)
-    ignore(doubts, {"hourglass"}, "it damps total-Lagrangian particles, and all are Eulerian");
+    ignore(doubts, {"hourglass", "hourglass_stiffness", "material_smoothing_length"},
+           "it is for total-Lagrangian particles, and all are Eulerian");
 }
 
 void doubt_mixture(Options const& all, BodyDoubts& doubts) {
@@ -72,6 +73,8 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
   if (doubts.gives("viscosity_form", "central") && all.settings.published)
     ignore(doubts, {"viscosity_form"},
            "correction = \"mixed\" and interface = \"printed\" have the form that is printed");
+  if (all.settings.published)
+    ignore(doubts, {"hourglass_stiffness"}, "it needs viscosity_form = \"central\" and correction = \"material\"");
   if (!o.initial_pressure) ignore(doubts, {"initial_pressure_lasts"}, "there is no initial_pressure");
   if (dimension == 3 && doubts.gives("assumption", "plane_strain"))
     ignore(doubts, {"assumption"}, "the body has three dimensions");
@@ -93,7 +96,7 @@ void doubt_damage(BodyOptions const& o, BodyDoubts& doubts) {
       doubts.add("formulation.convert_when",
                  "convert_when asks for damage, which stays zero (the law has none that grows) - set damage = "
                  "\"johnson_cook\" or change the formula");
-  } else if (!converts && !o.releases && !doubts.gives("failed")) {
+  } else if (!converts && !o.releases) {
     doubts.add("material.damage",
                "damage grows, but nothing follows from it (failed particles keep their stress and stay as they are) - "
                "choose failed or description = \"adaptive\"");

@@ -54,7 +54,7 @@ void MaterialLists::build(ParticleSet const& set, std::vector<BodyConstants> con
 
 void MaterialLists::list(ParticleSet const& set, BodyConstants const& body, std::vector<Reference> const& reference,
                          int lanes) {
-  double const reach = 2 * body.h * (1 - 1e-9);
+  double const reach = 2 * body.material_h * (1 - 1e-9);
   std::vector<std::array<double, 3>> const points(set.X.begin() + body.first, set.X.begin() + body.last);
   CellGrid const grid(points, reach);
   std::vector<Index> near;
@@ -74,10 +74,11 @@ void MaterialLists::list(ParticleSet const& set, BodyConstants const& body, std:
         double const d = reference[at(j)].X[c] - reference[at(i)].X[c];
         square += d * d;
       }
-      add_pair(set.dimension, body.h, j, square);
+      add_pair(set.dimension, body.material_h, j, square);
     }
     std::size_t const found = neighbour_.size();
-    while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0) add_pair(set.dimension, body.h, particles_, 1e300);
+    while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0)
+      add_pair(set.dimension, body.material_h, particles_, 1e300);
     filled_.push_back(static_cast<std::uint8_t>(neighbour_.size() - found));
     begin_.push_back(static_cast<Offset>(neighbour_.size()));
   }
@@ -138,7 +139,7 @@ void MaterialLists::correct(std::vector<Reference> const& reference, std::vector
   for (BodyConstants const& body : bodies)
     for (Index i = body.first; i < body.last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
-      kernel_of(dimension, body.h, 0, none, W0);
+      kernel_of(dimension, body.material_h, 0, none, W0);
       double S = reference[at(i)].volume * W0;
       for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
         Index const j = neighbour_[at(k)];

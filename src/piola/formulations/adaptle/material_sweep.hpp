@@ -21,7 +21,9 @@ PIOLA_FN Gradient const* gradients_of(MaterialTable const& table) {
 ///   viscosity   -V0_a V0_b s rho0 q (r.r + 0.01 h^2)/(x.x + 0.01 h^2) x,   q = (beta mu - alpha c) mu,
 ///               along the line of centres, half its power as heat on each side
 ///   damping     t_ab = zeta rho0 c h V0_a V0_b s (w - dF_a/dt r)/2, which a owns with all its heat, w.t_ab
-/// Of the damping the part with dF_b/dt comes with the second sweep: it has the form of the stress forces.
+///   springs     t_ab = kappa V0_a V0_b s (u_b - u_a - (F_a - I) r)/2, from the energy kappa/4 V0_a sum_b V0_b s |x - F_a r|^2: F_a is
+///               the best fit in just this measure, so that the energy does not change with it
+/// Of both the parts with F_b and its rate come with the second sweep: they have the form of the stress forces.
 template <int D, class Gradient>
 struct DeformSweep {
   using R = MaterialRecord<D>;
@@ -40,16 +42,22 @@ struct DeformSweep {
 
  private:
   struct Accumulated {
-    static constexpr int du = 0, dv = D * D, T = 2 * D * D, heat = T + D, count = heat + 1;
+    static constexpr int du = 0, dv = D * D, T = 2 * D * D, heat = T + D, stored = heat + 1, count = stored + 1;
     Lanes a[count];
     Lanes mu;
     bool eulerian = false;  ///< some neighbour is not total-Lagrangian
   };
   /// What pairs of one body share.
   struct PairConstants {
-    double damping, rho0, alpha_c, beta, h, core;
+    double damping, stiffness, rho0, alpha_c, beta, h, core;
     PIOLA_FN explicit PairConstants(BodyConstants const& b)
-        : damping(damping_of(b)), rho0(b.rho0), alpha_c(b.alpha * b.c), beta(b.beta), h(b.h), core(0.01 * b.h * b.h) {}
+        : damping(damping_of(b)),
+          stiffness(stiffness_of(b)),
+          rho0(b.rho0),
+          alpha_c(b.alpha * b.c),
+          beta(b.beta),
+          h(b.material_h),
+          core(0.01 * h * h) {}
   };
 
   PIOLA_FN void visit(Index i) const {
@@ -93,8 +101,9 @@ struct DeformSweep {
     Lanes const factor = 0.5 * (f[R::viscosity] + own[R::viscosity]);
     // Between particles whose stretch is the same this is the J^-1 F^-T r of set (2) along principal directions.
     Lanes const push = (b.rho0 * (b.beta * mu - b.alpha_c) * mu) * ((dot(r, r) + b.core) * share) * (factor * weight),
-                pull = b.damping * weight;
-    for (int p = 0; p < D; ++p) sum.a[Accumulated::T + p] += pull * w[p] - push * x[p];
+                pull = b.damping * weight, spring = b.stiffness * weight;
+    for (int p = 0; p < D; ++p) sum.a[Accumulated::T + p] += pull * w[p] + spring * u[p] - push * x[p];
+    sum.a[Accumulated::stored] += 0.5 * spring * dot(u, w);
     sum.a[Accumulated::heat] += 0.5 * (pull * dot(w, w) - push * closing);
   }
 
@@ -120,21 +129,25 @@ struct DeformSweep {
     if (!lagrangian) return;
     Sums& to = sums[i];
     double const volume = reference[i].volume;
-    double heat = a[Accumulated::heat];
+    double heat = a[Accumulated::heat], stored = a[Accumulated::stored];
     for (int p = 0; p < D; ++p) {
       to.force[p] += volume * a[Accumulated::T + p];
-      for (int q = 0; q < D; ++q) heat -= 0.5 * b.damping * d.rate[3 * p + q] * a[Accumulated::dv + p * D + q];
+      for (int q = 0; q < D; ++q) {
+        heat -= 0.5 * b.damping * d.rate[3 * p + q] * a[Accumulated::dv + p * D + q];
+        stored -= 0.5 * b.stiffness * (d.F[3 * p + q] - (p == q ? 1 : 0)) * a[Accumulated::dv + p * D + q];
+      }
     }
     to.heat += volume * heat;
+    to.hourglass += volume * stored;
     double const mu = largest_of(-1.0 * sum.mu);
     to.compression = mu > to.compression ? mu : to.compression;
     if (sum.eulerian) leave_out_others(i, own, b, d, to);
   }
 
-  /// Takes neighbours that are not total-Lagrangian out of the damping, and sees how far they have gone from where the
-  /// deformation gradient would put them.
+  /// Takes neighbours that are not total-Lagrangian out of damping and springs, and sees how far they have gone from
+  /// where the deformation gradient would put them.
   PIOLA_FN void leave_out_others(Index i, double const* own, PairConstants const& b, Deformation& d, Sums& to) const {
-    Lanes sum[D + 1], gap = Lanes(0.0);
+    Lanes sum[D + 2], gap = Lanes(0.0);
     for (auto& a : sum) a = Lanes(0.0);
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
       Lanes f[R::A];
@@ -146,29 +159,32 @@ struct DeformSweep {
       Lanes const weight = select(other, f[R::volume] * load_gradients(gradients_of<Gradient>(table) + k), Lanes(0.0));
       Lanes square = Lanes(0.0);
       for (int p = 0; p < D; ++p) {
-        Lanes away = r[p] + u[p], explained = Lanes(0.0);
+        Lanes place = Lanes(0.0), speed = Lanes(0.0);
         for (int q = 0; q < D; ++q) {
-          away -= d.F[3 * p + q] * r[q];
-          explained += d.rate[3 * p + q] * r[q];
+          place += d.F[3 * p + q] * r[q];
+          speed += d.rate[3 * p + q] * r[q];
         }
+        Lanes const moved = place - r[p], away = u[p] - moved;
         square += away * away;
-        sum[p] += weight * explained;
-        sum[D] += weight * explained * w[p];
+        sum[p] += weight * (b.damping * speed + b.stiffness * moved);
+        sum[D] += weight * speed * w[p];
+        sum[D + 1] += weight * moved * w[p];
       }
       gap = maximum(gap, select(weight > 0.0, square, Lanes(0.0)));
     }
-    double a[whole(D + 1)];
+    double a[whole(D + 2)];
     total(sum, a);
     double const volume = reference[i].volume;
-    for (int p = 0; p < D; ++p) to.force[p] += 0.5 * b.damping * volume * a[p];
+    for (int p = 0; p < D; ++p) to.force[p] += 0.5 * volume * a[p];
     to.heat += 0.5 * b.damping * volume * a[D];
+    to.hourglass += 0.5 * b.stiffness * volume * a[D + 1];
     d.gap = std::sqrt(largest_of(gap)) / b.h;
   }
 };
 
 /// Second sweep: stress forces with t_ab = V0_b A_a s r, F_a += sum_b t_ab - t_ba. The own part is A_a times the
-/// constant sum_b V0_b s r. A of total-Lagrangian particles carries their half of the damping, -(zeta rho0 c h/2) V0
-/// dF/dt, which is meant for total-Lagrangian neighbours alone.
+/// constant sum_b V0_b s r. A of total-Lagrangian particles carries their half of damping and springs, -(zeta rho0 c h
+/// dF/dt + kappa (F - I)) V0/2, which is meant for total-Lagrangian neighbours alone.
 template <int D, class Gradient>
 struct MaterialSweep {
   using R = MaterialRecord<D>;
@@ -202,7 +218,8 @@ struct MaterialSweep {
         sum[p] += s * reaction;
       }
     }
-    if (!(own[R::viscosity] > 0) && body[body_of[i]].hourglass > 0) leave_out_damping(i, own, sum);
+    BodyConstants const& b = body[body_of[i]];
+    if (!(own[R::viscosity] > 0) && (b.hourglass > 0 || b.hourglass_stiffness > 0)) leave_out_hourglass(i, own, b, sum);
     double a[whole(D)];
     total(sum, a);
     double const volume = reference[i].volume;
@@ -214,21 +231,25 @@ struct MaterialSweep {
     }
   }
 
-  /// Particles that are not total-Lagrangian do not feel the damping that comes with A of their neighbours.
-  PIOLA_FN void leave_out_damping(Index i, double const* own, Lanes (&sum)[D]) const {
-    double const damping = 0.5 * damping_of(body[body_of[i]]);
+  /// Particles that are not total-Lagrangian do not feel the damping and the springs that come with A of their
+  /// neighbours.
+  PIOLA_FN void leave_out_hourglass(Index i, double const* own, BodyConstants const& b, Lanes (&sum)[D]) const {
+    double const damping = 0.5 * damping_of(b), stiffness = 0.5 * stiffness_of(b);
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
       Lanes f[R::A];
       load_components<R::A>(table.record, R::stride, table.neighbour + k, f);
       Lanes const s = load_gradients(gradients_of<Gradient>(table) + k),
-                  weight = select(f[R::viscosity] > 0.0, damping * f[R::volume] * s, Lanes(0.0));
+                  weight = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
       if (!any(weight > 0.0)) continue;
       Vec<D, Lanes> const r = difference<D>(f, R::X, own);
-      constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 rate, rows of three
-      Lanes rate[used];
-      load_components<used>(deformation->rate, sizeof(Deformation) / sizeof(double), table.neighbour + k, rate);
+      constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 tensors, rows of three
+      constexpr auto stride = static_cast<int>(sizeof(Deformation) / sizeof(double));
+      Lanes F[used], rate[used];
+      load_components<used>(deformation->F, stride, table.neighbour + k, F);
+      load_components<used>(deformation->rate, stride, table.neighbour + k, rate);
       for (int p = 0; p < D; ++p)
-        for (int q = 0; q < D; ++q) sum[p] += weight * rate[3 * p + q] * r[q];
+        for (int q = 0; q < D; ++q)
+          sum[p] += weight * (damping * rate[3 * p + q] + stiffness * (F[3 * p + q] - (p == q ? 1.0 : 0.0))) * r[q];
     }
   }
 };

@@ -36,7 +36,7 @@ void each_particle(System const& s, F const& f) {
       for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
         State const& p = s.state[i];
         double const specific = p.energy / s.reference[i].mass;
-        f(i, -acting_pressure(law, s.body[b], p, s.initial_pressure, i, p.rho, specific));
+        f(i, -acting_pressure(law, p, s.initial_pressure, i, p.rho, specific));
       }
     });
 }
@@ -98,11 +98,12 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   }
   Diagnostics d = o.finish();
   d.actions = particles.actions().report();
-  d.strain_energy = internal + books.contact_energy;
+  d.strain_energy = internal + books.contact_energy + books.hourglass_energy;
   d.external_work = books.external_work;
   d.damping_loss = books.damping_loss;
   d.more = {{"internal_energy", internal},
             {"contact_energy", books.contact_energy},
+            {"hourglass_energy", books.hourglass_energy},
             {"plastic_work", plastic},
             {"viscous_loss", books.viscous_loss},
             {"eulerian_particles", eulerian},

@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,12 +14,13 @@ namespace {
 constexpr std::array<std::string_view, 4> description_words{"adaptive", "total_lagrangian", "eulerian", "patch"};
 constexpr std::array<std::string_view, 2> interface_words{"owner", "printed"};
 constexpr std::array<std::string_view, 3> correction_words{"material", "none", "mixed"};
-constexpr std::array<std::string_view, 4> viscosity_words{"monaghan", "balsara", "morris_monaghan", "riemann"};
-constexpr std::array<std::string_view, 2> form_words{"printed", "central"};
+constexpr std::array<std::string_view, 5> viscosity_words{"compression", "monaghan", "balsara", "morris_monaghan",
+                                                          "riemann"};
+constexpr std::array<std::string_view, 3> form_words{"auto", "printed", "central"};
 constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
 constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
-constexpr std::array<std::string_view, 3> failed_words{"keep", "release", "delete"};
+constexpr std::array<std::string_view, 3> failed_words{"release", "keep", "delete"};
 constexpr std::array<std::string_view, 2> lasting_words{"always", "one_step"};
 
 constexpr std::array choices{
@@ -36,26 +38,32 @@ constexpr std::array choices{
            "of spatial sums, too",
            correction_words},
     Choice{"viscosity",
-           "artificial viscosity, its switch, or a flux from Riemann problems (all Eulerian, no correction)",
+           "switch of the artificial viscosity; compression: acts where the material is compressed, not in shear, so "
+           "that alpha and beta need no choice by case; monaghan: none, as published; riemann: a flux from Riemann "
+           "problems in place of it (all Eulerian, no correction)",
            viscosity_words},
     Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
     Choice{"viscosity_form",
-           "force of viscosity between total-Lagrangian particles; printed: set (2), which correction = \"mixed\" and "
-           "interface = \"printed\" always have; central: along the line between them, keeps angular momentum, twice "
-           "as fast, "
-           "for little viscosity",
+           "force of viscosity between total-Lagrangian particles; auto: central where no body yields, else printed; "
+           "printed: set (2), which correction = \"mixed\" and interface = \"printed\" always have; central: along the "
+           "line between them, keeps angular momentum, twice as fast, can have a hourglass_stiffness",
            form_words},
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
     Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
     Choice{"failed",
-           "what failed particles bear; keep: their stress, as published; release: neither shear nor tension; delete "
-           "(total_lagrangian only): nothing, and they leave the sums of their neighbours",
+           "what failed particles bear; release: they lose shear and tension while a shear wave crosses their support; "
+           "keep: all their stress, as published; delete (total_lagrangian only): nothing, and they leave the sums of "
+           "their neighbours",
            failed_words},
     Choice{"initial_pressure_lasts", "how long initial_pressure acts: a residual stress, or an impulse",
            lasting_words}};
 
 constexpr std::array parameters{
-    Parameter{"smoothing_length", "1", "h in spacings", Interval{0.6, 3, false, false}, no_default, "2D 1.4, 3D 1.2"},
+    Parameter{"smoothing_length", "1", "h in spacings, of sums over present neighbours", Interval{0.6, 3, false, false},
+              no_default, "2D 1.4, 3D 1.2"},
+    Parameter{"material_smoothing_length", "1", "h in spacings, of sums over the neighbours of the start",
+              Interval{0.6, 3, false, false}, no_default,
+              "2D 1.2, 3D 1; with correction = \"none\", where so few neighbours err, smoothing_length"},
     Parameter{"alpha", "1", "linear part of the viscosity, eq. 6", not_negative, 1},
     Parameter{"beta", "1", "quadratic part of the viscosity, eq. 6", not_negative, 2},
     Parameter{
@@ -63,7 +71,14 @@ constexpr std::array parameters{
         "damping of relative velocities of total-Lagrangian neighbours that their velocity gradients do not explain; "
         "0: none",
         Interval{0, 2, false, false}, no_default,
-        "0.2; with correction = \"none\", where gradients miss even linear motion at free surfaces, 0"},
+        "0.7; with a hourglass_stiffness by default 0.1; with correction = \"none\", where gradients miss even linear "
+        "motion at free surfaces, 0"},
+    Parameter{"hourglass_stiffness", "1",
+              "springs against displacements of total-Lagrangian neighbours that their deformation gradients do not "
+              "explain, over the shear modulus; with viscosity_form = \"central\"",
+              Interval{0, 10, false, false}, no_default,
+              "1 where the material does not yield (a held load would else find motions that only damping resists), "
+              "else 0"},
     Parameter{"artificial_stress", "1", "epsilon of eq. 10, acts on Eulerian particles in tension; 0: none",
               Interval{0, 1, false, false}, 0.3},
     Parameter{"artificial_stress_exponent", "1", "n of eq. 10, a whole number", Interval{1, 12, false, false}, 4},
@@ -101,6 +116,7 @@ constexpr std::array<std::string_view, 4> usable_laws{"elastic", "perfectly_plas
 
 constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"contact_energy", "J"},
+                                 DiagnosticInfo{"hourglass_energy", "J"},
                                  DiagnosticInfo{"plastic_work", "J"},
                                  DiagnosticInfo{"viscous_loss", "J"},
                                  DiagnosticInfo{"eulerian_particles", "1"},
@@ -122,15 +138,27 @@ double number(FormulationSpec const& spec, std::string_view name) {
   return 0;
 }
 
-BodyOptions read_body(FormulationSpec const& spec, int dimension) {
+/// Whether a material can flow.
+bool yields(MaterialParameters const& material) {
+  bool can = false;
+  with_solid(material, [&](auto const& law) { can = law.yield_stress({}, 0) < unbounded; });
+  return can;
+}
+
+/// springs: material sums have a hourglass stiffness, and this material, which does not yield, wants it.
+BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs) {
   BodyOptions o;
   o.description = choice_of<Description>(spec, choices, "description");
   o.smoothing_length = number_of(spec, "smoothing_length", dimension == 2 ? 1.4 : 1.2);
+  bool const plain = word(spec, "correction") == "none";
+  o.material_smoothing_length =
+      number_of(spec, "material_smoothing_length", plain ? o.smoothing_length : (dimension == 2 ? 1.2 : 1));
   o.alpha = number(spec, "alpha");
   o.beta = number(spec, "beta");
   o.bulk_speed = word(spec, "viscosity_speed") == "bulk";
   o.artificial_stress = number(spec, "artificial_stress");
-  o.hourglass = number_of(spec, "hourglass", word(spec, "correction") == "none" ? 0 : 0.2);
+  o.hourglass = number_of(spec, "hourglass", plain ? 0 : (springs ? 0.1 : 0.7));
+  o.hourglass_stiffness = number_of(spec, "hourglass_stiffness", springs ? 1 : 0);
   o.convert_strain = number(spec, "convert_strain");
   o.convert_damage = number(spec, "convert_damage");
   o.jacobian_min = number(spec, "jacobian_min");
@@ -152,14 +180,21 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension) {
   return o;
 }
 
-Settings read_settings(FormulationSpec const& spec) {
+/// Whether material sums are to be as published; `yielding`: some body can flow.
+bool published_form(FormulationSpec const& spec, bool yielding) {
+  std::string_view const form = word(spec, "viscosity_form");
+  return word(spec, "interface") == "printed" || word(spec, "correction") == "mixed" || form == "printed" ||
+         (form == "auto" && yielding);
+}
+
+Settings read_settings(FormulationSpec const& spec, bool yielding) {
   Settings s;
   s.viscosity = choice_of<Viscosity>(spec, choices, "viscosity");
   s.interface_form = choice_of<Interface>(spec, choices, "interface");
   s.mixed_stress = choice_of<MixedStress>(spec, choices, "artificial_stress_interface");
   s.corrected = word(spec, "correction") == "mixed";
   s.corrected_material = word(spec, "correction") != "none";
-  s.published = s.interface_form == Interface::printed || s.corrected || word(spec, "viscosity_form") == "printed";
+  s.published = published_form(spec, yielding);
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
   s.artificial_stress = number(spec, "artificial_stress") > 0 && s.viscosity != Viscosity::riemann;
@@ -248,13 +283,15 @@ Options read_options(Assembly const& assembly) {
   Options o;
   int const dimension = assembly.particles.dimension;
   if (dimension == 1) problems.add({}, "adaptle: the case is one-dimensional (allowed: 2 or 3 dimensions)");
-  o.settings = read_settings(assembly.formulations.front());
+  o.settings = read_settings(assembly.formulations.front(),
+                             std::any_of(assembly.materials.begin(), assembly.materials.end(), yields));
   if (o.settings.plane_stress && dimension != 2)
     problems.add({}, "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out");
+  bool const springs = !o.settings.published && o.settings.corrected_material;
   o.settings.cfl = std::isnan(assembly.cfl) ? 0.3 : assembly.cfl;
   check_alike(assembly, problems);
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
-    o.bodies.push_back(read_body(assembly.formulations[b], dimension));
+    o.bodies.push_back(read_body(assembly.formulations[b], dimension, springs && !yields(assembly.materials[b])));
     check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
   }
   check_one_kernel(assembly, o.bodies, problems);

@@ -12,7 +12,8 @@ enum class Description { adaptive, total_lagrangian, eulerian, patch };
 /// What a case file says about one body.
 struct BodyOptions {
   Description description = Description::adaptive;
-  double smoothing_length = 1.2;  ///< h in spacings
+  double smoothing_length = 1.2;           ///< h of spatial sums, in spacings
+  double material_smoothing_length = 1.0;  ///< of sums over reference neighbours
   double alpha = 1, beta = 2;
   bool bulk_speed = true;  ///< viscosity with the bulk speed of sound, else that of pressure waves
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0.3, jacobian_max = 3, tether = 1;
@@ -21,6 +22,7 @@ struct BodyOptions {
   bool deletes = false, releases = false;
   double artificial_stress = 0.3;
   double hourglass = 0;
+  double hourglass_stiffness = 0;
   std::optional<Expression> eulerian_where, convert_when;
   std::optional<Expression> initial_pressure;  ///< positive in tension [Pa]
   bool initial_pressure_lasts = true;

@@ -59,13 +59,26 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
   choose_material();
   double dt = std::numeric_limits<double>::infinity();
   for (auto const& b : body_)
-    with_solid(b.material,
-               [&](auto const& law) { dt = std::min(dt, options_.settings.cfl * b.h / law.p_wave_speed()); });
+    with_solid(b.material, [&](auto const& law) {
+      dt = std::min(dt, options_.settings.cfl * std::min(b.h, b.material_h) / law.p_wave_speed());
+    });
   books_.next_dt = dt;
+  start();
+}
+
+/// Lists, contact energy, rates and the stable step of the initial state: without rates the first prediction would know
+/// nothing of bodies that meet, or of one that is torn apart, from the first step on.
+void Particles::start() {
+  prepare_supports(0);
+  prepare_loads(0);
+  prepare_rigid(0, 0);
   spatial_.build(system_, *machine_);
   spatial_.put_into(system_);
-  prepare_rigid(0, 0);
   books_.contact_energy = contact_energy(system_);
+  machine_->predict(system_, 0);
+  sweep();
+  books_.next_dt = std::min(books_.next_dt, machine_->finish(system_, 0).dt);
+  seconds_ = {};
 }
 
 void Particles::set_bodies(Assembly const& assembly) {
@@ -80,10 +93,12 @@ void Particles::set_bodies(Assembly const& assembly) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c)
       b.spacing = c == 0 ? from.spacing[c] : std::max(b.spacing, from.spacing[c]);
     b.h = o.smoothing_length * b.spacing;
+    b.material_h = o.material_smoothing_length * b.spacing;
     b.alpha = o.alpha;
     b.beta = o.beta;
     b.artificial_stress = o.artificial_stress;
     b.hourglass = o.hourglass;
+    b.hourglass_stiffness = o.hourglass_stiffness;
     b.convert_strain = o.convert_strain;
     b.convert_damage = o.convert_damage;
     b.jacobian_min = o.jacobian_min;
@@ -96,6 +111,8 @@ void Particles::set_bodies(Assembly const& assembly) {
     with_solid(b.material, [&](auto const& law) {
       b.rho0 = law.rho0;
       b.bulk_modulus = law.kappa;
+      b.shear_modulus = law.mu;
+      b.yield_stress = law.yield_stress({{}, 0, law.initial_temperature(), 0, 0}, 0);
       b.c = o.bulk_speed ? law.bulk_sound_speed() : law.p_wave_speed();
       b.shear_share = std::max(0.01, law.s_wave_speed() / law.p_wave_speed());
       b.young = 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
@@ -384,6 +401,16 @@ void Particles::sum_actions(double time, double dt) {
   }
 }
 
+/// Sums over neighbours and what they need.
+void Particles::sweep() {
+  Stopwatch const watch(seconds_.sweeps);
+  System& s = system_;
+  if (lagrangian_) machine_->deform(s);
+  machine_->half_state(s);
+  if (s.settings.corrected && s.spatial.targets > 0) machine_->correct(s);
+  machine_->sweep(s);
+}
+
 /// Drift, sums of half time, kick, drift.
 void Particles::evaluate(double dt) {
   System& s = system_;
@@ -397,19 +424,14 @@ void Particles::evaluate(double dt) {
     spatial_.build(s, *machine_);
     spatial_.put_into(s);
   }
-  {
-    Stopwatch const watch(seconds_.sweeps);
-    if (lagrangian_) machine_->deform(s);
-    machine_->half_state(s);
-    if (s.settings.corrected && s.spatial.targets > 0) machine_->correct(s);
-    machine_->sweep(s);
-  }
+  sweep();
   Measures m;
   {
     Stopwatch const watch(seconds_.points);
     m = machine_->finish(s, dt);
   }
   books_.contact_energy += dt * m.contact_power;
+  books_.hourglass_energy += dt * m.hourglass_power;
   books_.viscous_loss += dt * m.viscous_power;
   books_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
   books_.overlap = std::max(books_.overlap, m.overlap);

@@ -16,8 +16,8 @@ struct Books {
   double contact_energy = 0, viscous_loss = 0, external_work = 0;
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
-  double time = 0, next_dt = 0, damping_loss = 0;
-  static constexpr int values = 13;
+  double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
+  static constexpr int values = 14;
 };
 
 /// Wall time by part of a step [s].
@@ -74,6 +74,8 @@ class Particles {
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
   void sum_actions(double time, double dt);
+  void start();
+  void sweep();
   void evaluate(double dt);
   void convert(double dt);
   bool wishes_by_formula();

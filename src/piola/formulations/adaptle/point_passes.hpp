@@ -17,14 +17,13 @@ PIOLA_FN SolidHistory history_of(State const& s, double const* S) {
   return {symmetric_of(S), s.plastic_strain, s.temperature, s.damage, s.plastic_work};
 }
 
-/// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without tension where a
-/// failed particle has released its stress, with what the case adds. e: specific energy [J/kg].
+/// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without the tension that
+/// a failed particle has released, with what the case adds. e: specific energy [J/kg].
 template <class Law>
-PIOLA_FN double acting_pressure(Law const& law, BodyConstants const& body, State const& s, double const* initial,
-                                Index i, double rho, double e) {
+PIOLA_FN double acting_pressure(Law const& law, State const& s, double const* initial, Index i, double rho, double e) {
   if (!(s.alive > 0)) return 0;
   double p = law.pressure(rho, e);
-  if (body.releases && s.damage >= 1 && p < 0) p = 0;
+  if (p < 0) p *= 1 - s.released;
   return initial != nullptr ? p - initial[i] : p;
 }
 
@@ -40,7 +39,6 @@ struct Predict {
   Half* half;
   Sums* sums;
   double* position;
-  bool releases;  ///< failed particles bear no shear
   MaterialTable material;
   FailureSlot* failure;
 
@@ -64,7 +62,7 @@ struct Predict {
     if (!finite) exec::record(failure, i, not_a_number);
     SymMat<3> trial;
     for (int c = 0; c < 6; ++c) trial.c[c] = s.S[c] + step * k.S[c];
-    bool const bears = s.alive > 0 && !(releases && s.damage >= 1);
+    bool const bears = s.alive > 0 && s.released < 1;
     SymMat<3> const S = bears ? law.predicted(history_of(s, s.S), trial, k.flow, step) : SymMat<3>{};
     for (int c = 0; c < 6; ++c) out.S[c] = S.c[c];
     out.energy = s.energy + step * k.energy;
@@ -137,7 +135,7 @@ struct HalfState {
     if (!(h.rho > 0)) exec::record(failure, i, negative_density);
     h.volume = reference[i].mass / (h.rho * h.thickness);
     double const specific = h.energy / reference[i].mass;
-    h.pressure = acting_pressure(law, body, s, initial_pressure, i, h.rho, specific);
+    h.pressure = acting_pressure(law, s, initial_pressure, i, h.rho, specific);
     h.c = law.sound_speed(h.rho, specific);
     SymMat<3> stress = symmetric_of(h.S);
     for (int c = 0; c < 3; ++c) stress.c[c] -= h.pressure;
@@ -170,13 +168,14 @@ struct HalfState {
         N(p, q) = K[SymMat<D>::at(p, q)];
       }
     double const V0 = reference[i].volume, weight = (1 - s.phi) * (s.phi > 0 ? h.volume * h.thickness : J * V0),
-                 damping = s.phi > 0 ? 0 : 0.5 * damping_of(body) * V0;
+                 share = s.phi > 0 ? 0 : 0.5 * V0, damping = share * damping_of(body),
+                 stiffness = share * stiffness_of(body);
     Mat<D> const FN = transpose(inverse(F)) * N;
     for (int p = 0; p < D; ++p)
       for (int q = 0; q < D; ++q) {
         double sum = 0;
         for (int l = 0; l < D; ++l) sum += stress(p, l) * FN(l, q);
-        A[p * D + q] = weight * sum - damping * d.rate[3 * p + q];
+        A[p * D + q] = weight * sum - damping * d.rate[3 * p + q] - stiffness * (d.F[3 * p + q] - (p == q ? 1 : 0));
       }
   }
 

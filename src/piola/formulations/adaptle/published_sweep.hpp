@@ -150,7 +150,7 @@ struct PublishedMaterialSweep {
     Lanes rate[used];
     load_components<used>(deformation->rate, sizeof(Deformation) / sizeof(double), table.neighbour + k, rate);
     double const* own_rate = deformation[i].rate;
-    Lanes const weight = (b.hourglass * b.c * b.h) * s * select(f[R::phi] > 0.0, Lanes(0.0), f[R::volume]);
+    Lanes const weight = (b.hourglass * b.c * b.material_h) * s * select(f[R::phi] > 0.0, Lanes(0.0), f[R::volume]);
     Lanes power = Lanes(0.0);
     for (int p = 0; p < D; ++p) {
       Lanes e = f[R::v + p] - own[R::v + p];
@@ -171,8 +171,8 @@ struct PublishedMaterialSweep {
     if (!any(closing < 0.0)) return;
     Lanes other[N::values];
     load_components<N::values>(table.viscous, N::stride, table.neighbour + k, other);
-    auto const [mu, plain] = viscous_pair(b.alpha, b.beta, b.h, closing, dot(x, x), other[N::c] + viscous[N::c],
-                                          other[N::rho] + viscous[N::rho]);
+    auto const [mu, plain] = viscous_pair(b.alpha, b.beta, b.material_h, closing, dot(x, x),
+                                          other[N::c] + viscous[N::c], other[N::rho] + viscous[N::rho]);
     sum.mu = maximum(sum.mu, -1.0 * mu);
     Lanes const pressure = plain * (0.5 * (other[N::viscosity] + viscous[N::viscosity]));
     Lanes const here = Lanes(viscous[N::inverse_J]), there = other[N::inverse_J];
@@ -205,7 +205,7 @@ struct PublishedMaterialSweep {
     out.heat += mass * a[Accumulated::heat];
     double const mu = largest_of(sum.mu);
     out.compression = mu > out.compression ? mu : out.compression;
-    if (!(own[R::phi] > 0)) deformation[i].gap = std::sqrt(largest_of(sum.gap)) / b.h;
+    if (!(own[R::phi] > 0)) deformation[i].gap = std::sqrt(largest_of(sum.gap)) / b.material_h;
   }
 };
 

@@ -8,7 +8,7 @@
 /// ids; what spatial sums read is gathered into the order of the cell grid in every step.
 namespace piola::adaptle {
 
-enum class Viscosity { monaghan, balsara, morris_monaghan, riemann };
+enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
 enum class Interface {
   owner,   ///< each particle acts through its own gradients, its neighbours feel the reaction: conserves
   printed  ///< each particle sums in its own description over all its neighbours, as published
@@ -37,10 +37,11 @@ struct State {
   double damage;          ///< 1: failed
   double plastic_work;    ///< per reference volume [J/m3]
   double thickness;       ///< in plane stress, over that at the start; else 1
-  double viscosity;       ///< factor on alpha and beta (Morris and Monaghan's switch)
+  double viscosity;       ///< factor on alpha and beta of the switch of the viscosity
   double phi;             ///< 0 total-Lagrangian, 1 Eulerian, between: blended
   double alive;           ///< 0: deleted, bears no stress
-  static constexpr int values = 22;
+  double released;        ///< share of shear and tension that a failed particle does not bear any more
+  static constexpr int values = 23;
 };
 
 /// Rates of the last step, from which the next one predicts half time.
@@ -86,8 +87,10 @@ struct Sums {
   double heat;         ///< of viscosity and artificial stress [W]
   double L[9];         ///< spatial velocity gradient [1/s]
   double contact;      ///< power of contact forces on half the relative velocities [W]
+  double hourglass;    ///< power that the hourglass stiffness stores [W]
   double stiffness;    ///< of contact [N/m]
   double overlap;      ///< largest share of the stand-off distance that a contact has used up
+  double closing;      ///< fastest approach of particles of other bodies within reach, over dp [1/s]
   double compression;  ///< largest |mu_ab| of the viscosity [m/s]
 };
 
@@ -95,20 +98,24 @@ struct Sums {
 struct BodyConstants {
   MaterialParameters material;
   Index first = 0, last = 0;  ///< slots
-  double h = 1;               ///< smoothing length [m]
+  double h = 1;               ///< smoothing length of spatial sums [m]
+  double material_h = 1;      ///< of sums over reference neighbours [m]
   double spacing = 1;         ///< dp [m]
   double rho0 = 1;            ///< [kg/m3]
   double c = 0;               ///< of the viscosity [m/s]
   double alpha = 1, beta = 2;
-  double artificial_stress = 0;  ///< epsilon
-  double hourglass = 0;          ///< damping of velocities that no gradient sees
+  double artificial_stress = 0;    ///< epsilon
+  double hourglass = 0;            ///< damping of velocities that no gradient sees
+  double hourglass_stiffness = 0;  ///< against displacements that no gradient sees, over the shear modulus
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0, jacobian_max = 0, tether = 0;
-  double shear_share = 0.5;       ///< speed of shear waves over that of pressure waves
-  double bulk_modulus = 0;        ///< at rest [Pa]
-  double poisson = 0, young = 0;  ///< of the strain across the plane (eq. 19)
-  bool adaptive = false;          ///< total-Lagrangian particles may convert
-  bool releases = false;          ///< failed particles bear neither shear nor tension
-  bool deletes = false;           ///< failed total-Lagrangian particles are deleted
+  double shear_share = 0.5;         ///< speed of shear waves over that of pressure waves
+  double bulk_modulus = 0;          ///< at rest [Pa]
+  double shear_modulus = 0;         ///< [Pa]
+  double yield_stress = unbounded;  ///< at rest [Pa]; infinity: the material does not yield
+  double poisson = 0, young = 0;    ///< of the strain across the plane (eq. 19)
+  bool adaptive = false;            ///< total-Lagrangian particles may convert
+  bool releases = false;            ///< failed particles lose shear and tension
+  bool deletes = false;             ///< failed total-Lagrangian particles are deleted
 };
 
 /// Forces between two bodies: U = eps (W(r) / W(dp))^n, or a linear spring of that stiffness.
@@ -167,7 +174,7 @@ struct ContactTable {
 };
 
 struct Settings {
-  Viscosity viscosity = Viscosity::monaghan;
+  Viscosity viscosity = Viscosity::compression;
   Interface interface_form = Interface::owner;
   MixedStress mixed_stress = MixedStress::both;
   bool corrected = false;           ///< spatial sums
@@ -182,7 +189,8 @@ struct Settings {
 /// What a step says about itself.
 struct Measures {
   double dt = 0;  ///< stable step from the new state [s]
-  double contact_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0;  ///< [W]
+  double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0,
+         viscous_power = 0;  ///< [W]
   double overlap = 0;
   Index wishes = 0;  ///< particles that want to convert or to be deleted
 };

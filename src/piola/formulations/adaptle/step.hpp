@@ -20,9 +20,9 @@ struct Step {
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{
-                                                law, dt, s.reference, s.state, s.rates, s.half, s.sums, s.position,
-                                                s.body[b].releases, s.material, s.failure});
+        exec::for_each_block(body_range(b),
+                             Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
+                                                                     s.sums, s.position, s.material, s.failure});
       });
   }
 
@@ -120,6 +120,7 @@ struct Step {
     for (Index k = 0; k < blocks; ++k) {
       double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;
       m.contact_power += p[B::contact];
+      m.hourglass_power += p[B::hourglass];
       m.rigid_power += p[B::rigid];
       m.held_power += p[B::held];
       m.load_power += p[B::load];

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/math/symmetric_eigen.hpp"
+#include <cmath>
 
 /// Artificial viscosity and artificial stress of one pair.
 namespace piola::adaptle::inline PIOLA_MACHINE {
@@ -14,7 +15,18 @@ struct ViscousPair {
 };
 
 /// zeta rho0 c h of the hourglass damping [Pa s].
-PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0 * b.c * b.h; }
+PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0 * b.c * b.material_h; }
+/// kappa of the hourglass stiffness [Pa].
+PIOLA_FN double stiffness_of(BodyConstants const& b) { return b.hourglass_stiffness * b.shear_modulus; }
+
+/// What the viscosity keeps where nothing is compressed, so that it still calms noise.
+inline constexpr double compression_floor = 0.05;
+
+/// |rot v| [1/s].
+PIOLA_FN double rotation_of(Mat<3> const& L) {
+  double const x = L(2, 1) - L(1, 2), y = L(0, 2) - L(2, 0), z = L(1, 0) - L(0, 1);
+  return std::sqrt(x * x + y * y + z * z);
+}
 
 /// closing: (v_b - v_a).r; c: sum of both speeds of sound, rho: sum of both densities. One division for both quotients.
 template <class T>
@@ -23,6 +35,29 @@ PIOLA_FN ViscousPair<T> viscous_pair(double alpha, double beta, double h, T cons
   T const distance = square + 0.01 * h * h, share = 1.0 / (distance * rho);
   T const mu = h * minimum(closing, T(0.0)) * (rho * share);
   return {mu, (beta * mu - (0.5 * alpha) * c) * mu * (2.0 * (distance * share))};
+}
+
+/// Balsara's switch: |div v| / (|div v| + |rot v| + 10^-4 c/h), from the velocity gradient L [1/s].
+PIOLA_FN double balsara_factor(Mat<3> const& L, double c, double h) {
+  double const part = std::fabs(trace(L));
+  return part / (part + rotation_of(L) + 1e-4 * c / h);
+}
+
+/// How much of a motion is compression, from its velocity gradient L [1/s]: 1 in plane, cylindrical and spherical
+/// compression, `compression_floor` in shear, rotation and expansion.
+///   f = max(-tr D, 0) / (sqrt(3/2 D':D') + |rot v| + 10^-3 c/h), between the floor and 1
+/// D' is the deviator of the rate D. In a plane shock sqrt(3/2 D':D') is |tr D| itself.
+PIOLA_FN double compression_factor(Mat<3> const& L, double c, double h) {
+  double const divergence = trace(L);
+  if (!(divergence < 0)) return compression_floor;
+  double square = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double const d = 0.5 * (L(i, j) + L(j, i)) - (i == j ? divergence / 3 : 0);
+      square += d * d;
+    }
+  double const f = -divergence / (std::sqrt(1.5 * square) + rotation_of(L) + 1e-3 * c / h);
+  return f < compression_floor ? compression_floor : (f > 1 ? 1 : f);
 }
 
 /// R of Gray, Monaghan and Swift: -epsilon s_k / rho^2 along each principal direction in tension, rotated back. In two
