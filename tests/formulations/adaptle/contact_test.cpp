@@ -198,6 +198,40 @@ TEST(AdaptleContact, TwoParticlesReboundWithTheirSpeed) {
       }
 }
 
+// No step brings bodies nearer to each other by more than 0.07 of a spacing, from the first one on, once they see each
+// other; while they part, or are far apart, it does not matter how fast they are.
+TEST(AdaptleContact, StepsKnowHowFastBodiesClose) {
+  auto const step = [](double distance, double speed) {
+    Assembly a = two_particles(2);
+    double const spacing = a.particles.bodies[0].spacing[0];
+    a.particles.X[1] = a.particles.X[0];
+    a.particles.X[1][0] += distance * spacing;
+    a.contact.closing_speed = 1e-3;
+    a.initial_velocity = {{0.5 * speed, 0, 0}, {-0.5 * speed, 0, 0}};
+    return make_formulation(a)->stable_time_step() * std::fabs(speed) / spacing;
+  };
+  EXPECT_NEAR(step(2, 1e5), 0.07, 1e-12);
+  EXPECT_GT(step(2, -1e5), 0.2);
+  EXPECT_GT(step(4, 1e5), 0.2);
+}
+
+TEST(AdaptleRigid, StepsKnowHowFastAParticleComes) {
+  auto const step = [](double distance, double speed) {
+    Assembly a = two_particles(2);
+    double const spacing = a.particles.bodies[0].spacing[0];
+    RigidShape wall;
+    wall.kind = RigidShape::Kind::plane;
+    wall.centre = {-distance * spacing, 0, 0};
+    wall.axis = {1, 0, 0};
+    a.rigid_shapes.push_back(wall);
+    a.initial_velocity = {{-speed, 0, 0}, {-speed, 0, 0}};
+    return make_formulation(a)->stable_time_step() * std::fabs(speed) / spacing;
+  };
+  EXPECT_NEAR(step(1.5, 1e5), 0.07, 1e-12);
+  EXPECT_GT(step(1.5, -1e5), 0.2);
+  EXPECT_GT(step(2.5, 1e5), 0.2);
+}
+
 // Particles that start within reach of each other: the energy of the contact counts from the start.
 TEST(AdaptleContact, PotentialAtTheStartBecomesMotion) {
   for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::linear, ContactRule::Law::printed}) {

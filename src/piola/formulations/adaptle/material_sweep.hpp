@@ -21,8 +21,9 @@ PIOLA_FN Gradient const* gradients_of(MaterialTable const& table) {
 ///   viscosity   -V0_a V0_b s rho0 q (r.r + 0.01 h^2)/(x.x + 0.01 h^2) x,   q = (beta mu - alpha c) mu,
 ///               along the line of centres, half its power as heat on each side
 ///   damping     t_ab = zeta rho0 c h V0_a V0_b s (w - dF_a/dt r)/2, which a owns with all its heat, w.t_ab
-///   springs     t_ab = kappa V0_a V0_b s (u_b - u_a - (F_a - I) r)/2, from the energy kappa/4 V0_a sum_b V0_b s |x - F_a r|^2: F_a is
-///               the best fit in just this measure, so that the energy does not change with it
+///   springs     t_ab = kappa V0_a V0_b s (u_b - u_a - (F_a - I) r)/2, from the energy
+///               kappa/4 V0_a sum_b V0_b s |x - F_a r|^2: F_a is the best fit in just this measure, so that the energy
+///               does not change with it
 /// Of both the parts with F_b and its rate come with the second sweep: they have the form of the stress forces.
 template <int D, class Gradient>
 struct DeformSweep {
