@@ -32,17 +32,17 @@ TEST(AdaptleViscosity, SwitchIsOneInCompressionAndSmallElsewhere) {
   turn(0, 1) = rate;
   turn(1, 0) = -rate;
   spread(0, 0) = spread(1, 1) = rate;
-  EXPECT_NEAR(compression_factor(plane, c, h), 1 / (1 + small), 1e-14);
-  EXPECT_EQ(compression_factor(round, c, h), 1) << "-tr D = 2, sqrt(3/2 D':D') = 1";
-  EXPECT_EQ(compression_factor(sphere, c, h), 1);
-  EXPECT_EQ(compression_factor(shear, c, h), compression_floor);
-  EXPECT_EQ(compression_factor(turn, c, h), compression_floor);
-  EXPECT_EQ(compression_factor(spread, c, h), compression_floor);
-  EXPECT_EQ(compression_factor(Mat<3>{}, c, h), compression_floor);
+  EXPECT_NEAR(compression_factor(plane, c, h, 0.05), 1 / (1 + small), 1e-14);
+  EXPECT_EQ(compression_factor(round, c, h, 0.05), 1) << "-tr D = 2, sqrt(3/2 D':D') = 1";
+  EXPECT_EQ(compression_factor(sphere, c, h, 0.05), 1);
+  EXPECT_EQ(compression_factor(shear, c, h, 0.05), 0.05);
+  EXPECT_EQ(compression_factor(turn, c, h, 0.05), 0.05);
+  EXPECT_EQ(compression_factor(spread, c, h, 0.05), 0.05);
+  EXPECT_EQ(compression_factor(Mat<3>{}, c, h, 0.05), 0.05);
   // Uniaxial compression beside as fast a shear: D' = diag(-2, 1, 1)/3 with 1/2 off the diagonal, |rot v| = 1.
   mixed(0, 0) = -rate;
   mixed(0, 1) = rate;
-  EXPECT_NEAR(compression_factor(mixed, c, h), 1 / (std::sqrt(1.5 * (6.0 / 9 + 0.5)) + 1 + small), 1e-14);
+  EXPECT_NEAR(compression_factor(mixed, c, h, 0.05), 1 / (std::sqrt(1.5 * (6.0 / 9 + 0.5)) + 1 + small), 1e-14);
   EXPECT_NEAR(balsara_factor(mixed, c, h), 1 / (1 + 1 + 0.1 * small), 1e-14);
 }
 

@@ -191,7 +191,8 @@ struct Finish {
   }
 
   PIOLA_FN void switch_viscosity(State& p, Rates& k, Half const& h, Mat<3> const& L, double divergence) const {
-    if (settings.viscosity == Viscosity::compression) p.viscosity = compression_factor(L, h.c, body.h);
+    if (settings.viscosity == Viscosity::compression)
+      p.viscosity = compression_factor(L, h.c, body.h, p.phi > 0 ? eulerian_floor : compression_floor);
     if (settings.viscosity == Viscosity::balsara) p.viscosity = balsara_factor(L, h.c, body.h);
     if (settings.viscosity == Viscosity::morris_monaghan) {
       // d alpha/dt = -(alpha - 0.1) / tau + max(-div v, 0), tau = h / (0.2 c); alpha stays at or below its full value.

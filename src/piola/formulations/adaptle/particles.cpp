@@ -75,6 +75,9 @@ void Particles::start() {
   spatial_.build(system_, *machine_);
   spatial_.put_into(system_);
   books_.contact_energy = contact_energy(system_);
+  // A pressure that acts for one step is an impulse of the step that waves allow.
+  for (BodyOptions const& o : options_.bodies)
+    if (o.initial_pressure && !o.initial_pressure_lasts) return;
   machine_->predict(system_, 0);
   sweep();
   books_.next_dt = std::min(books_.next_dt, machine_->finish(system_, 0).dt);

@@ -19,8 +19,9 @@ PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0
 /// kappa of the hourglass stiffness [Pa].
 PIOLA_FN double stiffness_of(BodyConstants const& b) { return b.hourglass_stiffness * b.shear_modulus; }
 
-/// What the viscosity keeps where nothing is compressed, so that it still calms noise.
-inline constexpr double compression_floor = 0.05;
+/// What the viscosity keeps where nothing is compressed, so that it still calms noise: of total-Lagrangian particles,
+/// which have hourglass damping besides, and of Eulerian ones, whose disorder nothing else calms.
+inline constexpr double compression_floor = 0.05, eulerian_floor = 0.3;
 
 /// |rot v| [1/s].
 PIOLA_FN double rotation_of(Mat<3> const& L) {
@@ -44,12 +45,12 @@ PIOLA_FN double balsara_factor(Mat<3> const& L, double c, double h) {
 }
 
 /// How much of a motion is compression, from its velocity gradient L [1/s]: 1 in plane, cylindrical and spherical
-/// compression, `compression_floor` in shear, rotation and expansion.
+/// compression, `floor` in shear, rotation and expansion.
 ///   f = max(-tr D, 0) / (sqrt(3/2 D':D') + |rot v| + 10^-3 c/h), between the floor and 1
 /// D' is the deviator of the rate D. In a plane shock sqrt(3/2 D':D') is |tr D| itself.
-PIOLA_FN double compression_factor(Mat<3> const& L, double c, double h) {
+PIOLA_FN double compression_factor(Mat<3> const& L, double c, double h, double floor) {
   double const divergence = trace(L);
-  if (!(divergence < 0)) return compression_floor;
+  if (!(divergence < 0)) return floor;
   double square = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -57,7 +58,7 @@ PIOLA_FN double compression_factor(Mat<3> const& L, double c, double h) {
       square += d * d;
     }
   double const f = -divergence / (std::sqrt(1.5 * square) + rotation_of(L) + 1e-3 * c / h);
-  return f < compression_floor ? compression_floor : (f > 1 ? 1 : f);
+  return f < floor ? floor : (f > 1 ? 1 : f);
 }
 
 /// R of Gray, Monaghan and Swift: -epsilon s_k / rho^2 along each principal direction in tension, rotated back. In two
