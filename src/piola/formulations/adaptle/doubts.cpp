@@ -85,7 +85,7 @@ void doubt_damage(BodyOptions const& o, BodyDoubts& doubts) {
   bool damages = false;
   with_solid(doubts.material(), [&](auto const& law) { damages = law.damages; });
   std::string_view const cannot =
-      "the law has no damage that grows, so that no particle fails; damage = \"johnson_cook\"";
+      "the law has no damage that grows and no spall, so that no particle fails; damage = \"johnson_cook\" or spall";
   bool const converts = o.description == Description::adaptive || o.deletes;
   if (!damages) {
     if (converts) ignore(doubts, {"convert_damage"}, cannot);

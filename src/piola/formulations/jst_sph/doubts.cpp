@@ -87,7 +87,7 @@ void doubt_damage(BodyDoubts& doubts) {
   if (damages)
     doubts.add("material.damage",
                "damage is recorded, but does not weaken the material (jst_sph lets no particle fail) - set damage = "
-               "\"none\", or take the formulation adaptle");
+               "\"none\" and spall = \"limit\", or take the formulation adaptle");
 }
 
 }  // namespace
