@@ -141,13 +141,7 @@ class Solid {
   PIOLA_FN bool spalls(SymMat<3> const& S, double pressure) const {
     if (spall_ == 0) return false;
     if (spall_ == 1) return !(pressure > -spall_pressure);
-    double bound = -1e300;  // no eigenvalue is above this (Gershgorin)
-    for (int i = 0; i < 3; ++i) {
-      double sum = 0;
-      for (int j = 0; j < 3; ++j) sum += i == j ? S(i, i) : std::fabs(S(i, j));
-      bound = sum > bound ? sum : bound;
-    }
-    if (!(bound - pressure > spall_pressure)) return false;
+    if (!(eigenvalue_bound(S) - pressure > spall_pressure)) return false;  // most particles
     Eigen<3> const e = symmetric_eigen(S);
     double largest = e.value[0];
     for (double const value : e.value) largest = value > largest ? value : largest;
@@ -160,7 +154,7 @@ class Solid {
         mu(elastic.mu),
         kappa(0),
         spall_pressure(m.value[Layout::spall]),
-        damages(Strength::yields && (m.word[Layout::damage_word] > 0 || m.word[Layout::spall_word] > 0)),
+        damages(false),
         wears_(Strength::yields && m.word[Layout::damage_word] > 0),
         spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),
@@ -168,6 +162,7 @@ class Solid {
         eos_(EosValues(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
         damage_(m.value + Layout::damage, heat) {
     kappa = eos_.bulk_modulus();
+    damages = wears_ || spall_ > 0;
   }
 
   PIOLA_FN double increment(SolidHistory const& h, double mises, double dt) const {

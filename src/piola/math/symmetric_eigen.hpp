@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/tensor.hpp"
+#include <cmath>
 
 namespace piola::inline PIOLA_MACHINE {
 
@@ -10,6 +11,18 @@ struct Eigen {
   double value[D];
   Vec<D> vector[D];  ///< orthonormal, vector[k] belongs to value[k]; in no particular order
 };
+
+/// No eigenvalue is above this (Gershgorin): the largest sum of a diagonal component and the absolute values beside it.
+template <int D>
+PIOLA_FN double eigenvalue_bound(SymMat<D> const& A) {
+  double bound = -1e300;
+  for (int i = 0; i < D; ++i) {
+    double sum = 0;
+    for (int j = 0; j < D; ++j) sum += i == j ? A(i, i) : std::fabs(A(i, j));
+    bound = sum > bound ? sum : bound;
+  }
+  return bound;
+}
 
 /// Jacobi's method: rotations in the planes of the off-diagonal components until these are round-off of the rest.
 template <int D>

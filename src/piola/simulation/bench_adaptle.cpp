@@ -48,7 +48,10 @@ Assembly body(ImpactSubject const& subject, int cube_side, std::string const& ma
   a.materials = {material};
   FormulationSpec spec{
       "adaptle",
-      {{"smoothing_length", 1.2}, {"artificial_stress", subject.artificial_stress}, {"blend", 0}},
+      {{"smoothing_length", 1.2},
+       {"material_smoothing_length", 1.2},
+       {"artificial_stress", subject.artificial_stress},
+       {"blend", 0}},
       {{"description", subject.description}, {"correction", subject.correction}, {"viscosity_form", "central"}}};
   if (std::string_view(subject.description) == "patch") spec.formulas.emplace("eulerian_where", Expression("X > 0.5"));
   a.formulations = {spec};

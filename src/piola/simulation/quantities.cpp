@@ -82,15 +82,14 @@ Series rows_of(QuantitySpec const& spec, Series all) {
 /// How far the values are from a formula.
 std::optional<double> compare(QuantitySpec const& spec, Series const& s) {
   Expression const reference = spec.reference.value_or(Expression());
-  double count = 0, sum = 0, squares = 0, whole = 0;
+  double sum = 0, squares = 0, whole = 0;
   for (std::size_t k = 0; k < s.value.size(); ++k) {
     double const r = reference({0, 0, 0}, s.time[k]), d = s.value[k] - r;
-    count += 1;
     sum += std::abs(d);
     squares += d * d;
     whole += r * r;
   }
-  if (spec.take == Take::mean_absolute_difference) return sum / count;
+  if (spec.take == Take::mean_absolute_difference) return sum / static_cast<double>(s.value.size());
   return squares == 0 ? 0 : std::sqrt(squares / whole);
 }
 

@@ -5,8 +5,6 @@
 /// Contact between bodies, and with rigid shapes: central, frictionless repulsion.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-PIOLA_FN double largest(double a, double b) { return a > b ? a : b; }
-
 /// Force and stiffness of one pair at distance r.
 struct ContactForce {
   double force = 0;      ///< repulsion [N]
@@ -80,7 +78,7 @@ struct ContactSweep {
       double const r = std::sqrt(square);
       ContactForce const f = force_of(pair, i, j, r);
       if (!(f.stiffness > 0)) continue;
-      out.closing = largest(out.closing, approach(i, j, r) / pair.dp);
+      out.closing = maximum(out.closing, approach(i, j, r) / pair.dp);
       double power = 0;
       for (int c = 0; c < D; ++c) {
         double const force = f.force * (state[i].x[c] - state[j].x[c]) / (r > 0 ? r : 1);
@@ -89,7 +87,7 @@ struct ContactSweep {
       }
       out.contact += power;
       out.stiffness += f.stiffness;
-      out.overlap = largest(out.overlap, f.overlap);
+      out.overlap = maximum(out.overlap, f.overlap);
     }
   }
 };
@@ -189,7 +187,7 @@ struct RigidSweep {
     if (distance < 4 * stand_off) {
       double closing = 0;
       for (int c = 0; c < D; ++c) closing += (s.velocity[c] - half[i].v[c]) * normal[c];
-      out.closing = largest(out.closing, closing / b.spacing);
+      out.closing = maximum(out.closing, closing / b.spacing);
     }
     if (!(distance < stand_off)) return;
     double k = 2 * scale * b.bulk_modulus;
@@ -205,7 +203,7 @@ struct RigidSweep {
     }
     out.stiffness += k;
     double const overlap = 1 - distance / stand_off;
-    out.overlap = largest(out.overlap, overlap);
+    out.overlap = maximum(out.overlap, overlap);
   }
 };
 

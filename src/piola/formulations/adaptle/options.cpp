@@ -92,10 +92,10 @@ constexpr std::array parameters{
     Parameter{"jacobian_max", "1", "largest volume ratio of a total-Lagrangian particle",
               Interval{1, unbounded, true, true}, 3},
     Parameter{"tether", "1",
-              "a particle converts when an Eulerian reference neighbour has moved away by this many h from where its "
-              "deformation gradient would put it; 0: never",
+              "a particle converts when an Eulerian reference neighbour has moved away by this many material smoothing "
+              "lengths from where its deformation gradient would put it; 0: never",
               not_negative, 1},
-    Parameter{"conversion_radius", "1", "reference neighbours within this many h convert, too",
+    Parameter{"conversion_radius", "1", "reference neighbours within this many material smoothing lengths convert, too",
               Interval{0, 2, false, false}, 2},
     Parameter{"blend", "1", "spacings over which descriptions change gradually at a patch; 0: at once", not_negative,
               4}};

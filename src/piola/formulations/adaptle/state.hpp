@@ -66,7 +66,7 @@ struct Half {
 /// Material kinematics of half time, in three dimensions.
 struct Deformation {
   double F[9], rate[9];  ///< deformation gradient and its rate
-  double gap = -1;       ///< largest |x_b - x_a - F_a (X_b - X_a)| / h over Eulerian reference neighbours b
+  double gap = -1;       ///< largest |x_b - x_a - F_a (X_b - X_a)| / material h over Eulerian reference neighbours b
   static constexpr int values = 19;
 };
 

@@ -66,13 +66,7 @@ PIOLA_FN double compression_factor(Mat<3> const& L, double c, double h, double f
 template <int D>
 PIOLA_FN SymMat<D> artificial_stress(SymMat<D> const& stress, double rho, double epsilon) {
   SymMat<D> R{};
-  double diagonal = stress(0, 0), off = 0;
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) {
-      if (i == j) diagonal = diagonal > stress(i, i) ? diagonal : stress(i, i);
-      if (i != j) off += stress(i, j) > 0 ? stress(i, j) : -stress(i, j);
-    }
-  if (diagonal + off <= 0) return R;  // no eigenvalue is above this (Gershgorin)
+  if (eigenvalue_bound(stress) <= 0) return R;
   double const factor = -epsilon / (rho * rho);
   Eigen<D> const e = symmetric_eigen(stress);
   for (int k = 0; k < D; ++k) {
