@@ -50,14 +50,15 @@ TEST(Solids, AreEachPickedByTheirNumberAndTheWordOfTheirEquationOfState) {
     material.law = law.index;
     EXPECT_EQ(is_solid(material), law.rate_form);
     for (double& value : material.value) value = 0.25;
-    for (int eos = 0; eos < 5; ++eos) {
+    auto const known = law.rate_form ? static_cast<int>(law.choices[0].allowed.size()) : 0;
+    for (int eos = 0; eos < 6; ++eos) {
       material.word[0] = eos;
       int calls = 0;
       with_solid(material, [&](auto const& solid) {
         ++calls;
         EXPECT_EQ(solid.rho0, 0.25);
       });
-      EXPECT_EQ(calls, law.rate_form && eos < 4 ? 1 : 0) << law.name << " " << eos;
+      EXPECT_EQ(calls, eos < known ? 1 : 0) << law.name << " " << eos;
     }
     if (law.rate_form) with_law(material, [](auto const&) { ADD_FAILURE() << "a solid is no hyperelastic law"; });
   }

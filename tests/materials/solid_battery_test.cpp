@@ -64,7 +64,7 @@ TYPED_TEST(SolidBattery, HasNoStressAndItsOwnStiffnessAtRest) {
   EXPECT_DOUBLE_EQ(s.sound_speed(s.rho0, 0), s.p_wave_speed());
   EXPECT_DOUBLE_EQ(s.bulk_sound_speed() * s.bulk_sound_speed() * s.rho0, s.kappa);
   EXPECT_EQ(s.initial_temperature(), TestFixture::yields ? 300 : 293);
-  EXPECT_FALSE(s.damages);
+  EXPECT_EQ(s.damages, TestFixture::Strength::brittle);
 }
 
 TYPED_TEST(SolidBattery, RotatesItsStressWithARigidRotation) {
@@ -170,7 +170,9 @@ TYPED_TEST(SolidBattery, LiesOnTheYieldSurfaceOfItsNewHistoryAfterAPlasticStep) 
       }
       SolidHistory const on_surface{.plastic_strain = h.plastic_strain, .temperature = before.temperature};
       double const yield = s.yield_stress(on_surface, strain / dt);
-      EXPECT_NEAR(von_mises(h.S), std::min(yield, mises), 2e-13 * mises);
+      // The strain is a difference, with the round-off of what it is the difference of.
+      double const lost = strain > 0 ? std::log(1 + 1e-17 / strain) * yield : 0;
+      EXPECT_NEAR(von_mises(h.S), std::min(yield, mises), 2e-13 * mises + lost);
       EXPECT_NEAR(von_mises(h.S), mises - 3 * s.mu * strain, 2e-13 * mises);
       EXPECT_LT(distance(h.S, (von_mises(h.S) / mises) * full(trial)), 1e-13 * mises);  // direction kept
       EXPECT_NEAR(h.plastic_work, von_mises(h.S) * strain * 2870 / 2900, 1e-12 * mises);

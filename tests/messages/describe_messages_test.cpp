@@ -79,7 +79,8 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
   EXPECT_EQ(unknown.text,
             "piola: no law or material is named \"neo_hooken\" (known: linear_elastic, neo_hookean, mooney_rivlin, "
             "saint_venant_kirchhoff, compressible_neo_hookean, elastic, perfectly_plastic, isotropic_hardening, "
-            "johnson_cook, aluminium_adaptle_3_2, steel_adaptle_3_3, aluminium_adaptle_3_3, copper_taylor_bar, "
+            "johnson_cook, zerilli_armstrong, johnson_holmquist, aluminium_adaptle_3_2, steel_adaptle_3_3, "
+            "aluminium_adaptle_3_3, copper_taylor_bar, "
             "copper_ofhc, iron_armco, steel_4340, aluminium_2024_t351, aluminium_6061_t6, tungsten_alloy, beryllium) - "
             "did you mean \"neo_hookean\"?\n");
 }

@@ -107,7 +107,7 @@ void check_motion(CaseSpec const& spec, std::vector<BodyFacts> const& facts, Pro
                                                                number_text(body.p_wave, 4) + " m/s - check both units");
     }
     moves = moves || body.largest_speed > 0 || from.initial_displacement || from.initial_deformation_gradient ||
-            from.formulation.formulas.contains("initial_pressure");
+            from.formulation.formulas.contains("initial_pressure") || is_explosive(from.material);
   }
   if (!moves)
     slips.add({},

@@ -146,6 +146,7 @@ struct ProbeSpec {
   std::optional<Expression> anchored_where;  ///< fragment, rim, hole: particles in X, Y, Z of what stays in place
   Fragment fragment = Fragment::largest;     ///< fragment: which one
   double near_axis = std::numeric_limits<double>::infinity();  ///< fragment: extents, distance from the axis [m]
+  int least_particles = 1;                                     ///< fragment: smaller ones are no pieces
   double within = 0, base = 0;        ///< rim: largest radius; coordinate along the axis from which heights count [m]
   int sectors = 24;                   ///< rim
   double slab_from = 0, slab_to = 0;  ///< hole: coordinates along the axis [m]

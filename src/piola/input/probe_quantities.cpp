@@ -21,7 +21,8 @@ constexpr std::array fragment{HistoryName{"fragment_count", "1"},        History
                               HistoryName{"fragment_volume", "m^3"},     HistoryName{"fragment_velocity_x", "m/s"},
                               HistoryName{"fragment_velocity_y", "m/s"}, HistoryName{"fragment_velocity_z", "m/s"},
                               HistoryName{"fragment_extent_x", "m"},     HistoryName{"fragment_extent_y", "m"},
-                              HistoryName{"fragment_extent_z", "m"}};
+                              HistoryName{"fragment_extent_z", "m"},     HistoryName{"piece_count", "1"},
+                              HistoryName{"piece_volume", "m^3"},        HistoryName{"piece_spread", "1"}};
 constexpr std::array rim{HistoryName{"rim_diameter", "m"}, HistoryName{"rim_height", "m"},
                          HistoryName{"rim_sectors", "1"}};
 constexpr std::array hole{HistoryName{"hole_slab", "m"}, HistoryName{"cavity_width", "m"}};

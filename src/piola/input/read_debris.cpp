@@ -16,12 +16,19 @@ struct DebrisKey {
 };
 
 constexpr std::array debris_keys{
-    DebrisKey{"link", true, true, true},        DebrisKey{"anchored_where", true, true, true},
-    DebrisKey{"fragment", true, false, false},  DebrisKey{"near_axis", true, false, false},
-    DebrisKey{"within", false, true, false},    DebrisKey{"base", false, true, false},
-    DebrisKey{"sectors", false, true, false},   DebrisKey{"slab_from", false, false, true},
-    DebrisKey{"slab_to", false, false, true},   DebrisKey{"cavity_from", false, false, true},
-    DebrisKey{"cavity_to", false, false, true}, DebrisKey{"bin", false, false, true},
+    DebrisKey{"link", true, true, true},
+    DebrisKey{"anchored_where", true, true, true},
+    DebrisKey{"fragment", true, false, false},
+    DebrisKey{"near_axis", true, false, false},
+    DebrisKey{"least_particles", true, false, false},
+    DebrisKey{"within", false, true, false},
+    DebrisKey{"base", false, true, false},
+    DebrisKey{"sectors", false, true, false},
+    DebrisKey{"slab_from", false, false, true},
+    DebrisKey{"slab_to", false, false, true},
+    DebrisKey{"cavity_from", false, false, true},
+    DebrisKey{"cavity_to", false, false, true},
+    DebrisKey{"bin", false, false, true},
 };
 
 bool uses(DebrisKey const& key, Kind kind) {
@@ -80,6 +87,7 @@ void read_anchor(Section const& section, BodyNames const* body, ProbeSpec& probe
 void read_fragment(Section const& section, BodyNames const* body, ProbeSpec& probe) {
   if (int const which = section.word_index("fragment"); which >= 0)
     probe.fragment = static_cast<ProbeSpec::Fragment>(which);
+  if (auto const least = section.whole("least_particles")) probe.least_particles = static_cast<int>(*least);
   if (section.read("near_axis", probe.near_axis)) {
     if (body != nullptr) read_line(section, body->dimension, probe);
     return;

@@ -20,7 +20,7 @@ struct LawInfo {
 
 /// A law with the values of its parameters: plain data, so that it may cross to any machine.
 struct MaterialParameters {
-  static constexpr int max_values = 48, max_words = 4;
+  static constexpr int max_values = 64, max_words = 4;
   int law = 0;                 ///< LawInfo::index
   double value[max_values]{};  ///< in the order of LawInfo::parameters, SI
   int word[max_words]{};       ///< in the order of LawInfo::choices: which of the allowed words

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/damage/johnson_cook.hpp"
+#include "piola/materials/damage/scatter.hpp"
 #include "piola/materials/elastic_constants.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/materials/plastic/heat.hpp"
@@ -21,10 +22,13 @@ struct SolidHistory {
   double temperature = 0;     ///< [K]; starts at Solid::initial_temperature
   double damage = 0;          ///< 0 to 1
   double plastic_work = 0;    ///< per reference volume [J/m^3]
+  double bulking = 0;         ///< pressure of broken material that wants more room [Pa]
+  double burnt = 1;           ///< part of an explosive that has become gas
+  double toughness = 1;       ///< the point's own factor on what it bears before it fails; never changes
 };
 
 /// Where the parameters of a solid with this strength lie in MaterialParameters::value: elastic constants, strength,
-/// heat, equations of state, damage, spall.
+/// heat, equations of state, damage, spall, scatter.
 template <class Strength>
 struct SolidLayout {
   static constexpr int strength = static_cast<int>(ElasticConstants::parameters.size());
@@ -32,7 +36,8 @@ struct SolidLayout {
   static constexpr int eos = heat + (Strength::yields ? Heat::size : 0);
   static constexpr int damage = eos + static_cast<int>(EosValues::parameters.size());
   static constexpr int spall = damage + (Strength::yields ? static_cast<int>(JohnsonCookDamage::parameters.size()) : 0);
-  static constexpr int size = spall + 1;
+  static constexpr int scatter = spall + 1;
+  static constexpr int size = scatter + (Strength::yields ? Scatter::size : 0);
   static constexpr int eos_word = 0, damage_word = 1, spall_word = 2;
 };
 
@@ -49,12 +54,14 @@ template <class Strength, class Eos>
 class Solid {
  public:
   using Layout = SolidLayout<Strength>;
+  static constexpr bool pressed = Strength::brittle;  ///< the strength asks for the pressure
 
   double rho0;            ///< density at rest [kg/m^3]
   double mu;              ///< shear modulus [Pa]
   double kappa;           ///< bulk modulus at rest, of the equation of state [Pa]
   double spall_pressure;  ///< largest tension [Pa]; infinity: no limit
   bool damages;           ///< whether damage grows, or spall is a failure
+  Scatter scatter;        ///< of what its particles bear
 
   explicit Solid(MaterialParameters const& material)
       : Solid(ElasticConstants(material.value), material,
@@ -62,9 +69,13 @@ class Solid {
 
   /// Pressure, positive in compression, not below -spall_pressure [Pa]. rho: density [kg/m^3], e: specific energy
   /// [J/kg].
-  PIOLA_FN double pressure(double rho, double e) const {
-    double const p = eos_.pressure(rho, e);
-    return p < -spall_pressure ? -spall_pressure : p;
+  PIOLA_FN double pressure(double rho, double e) const { return pressure(SolidHistory{}, rho, e); }
+  /// The same of a point with a history: with its bulking, and with the tension that it bears.
+  PIOLA_FN double pressure(SolidHistory const& h, double rho, double e) const {
+    double const p = h.burnt * eos_.pressure(rho, e) + h.bulking;
+    double most = spall_pressure * h.toughness;
+    if constexpr (Strength::brittle) most = minimum(most, strength_.largest_tension(h.damage));
+    return p < -most ? -most : p;
   }
   /// Speed of pressure waves in the current state [m/s]: c^2 = dp/drho + (p/rho^2) dp/de + 4 mu / (3 rho). The part of
   /// the pressure is never below a ten-thousandth of the one at rest; the limit of tension does not lower it.
@@ -78,11 +89,21 @@ class Solid {
   PIOLA_FN double p_wave_speed() const { return std::sqrt((kappa + 4 * mu / 3) / rho0); }
   /// Speed of shear waves at rest [m/s].
   PIOLA_FN double s_wave_speed() const { return std::sqrt(mu / rho0); }
+  /// Energy at the start, of explosives [J/kg].
+  PIOLA_FN double initial_energy() const {
+    if constexpr (requires { eos_.initial_energy; }) return eos_.initial_energy;
+    return 0;
+  }
+  /// Speed of the detonation front [m/s]; 0: not an explosive.
+  PIOLA_FN double front_speed() const {
+    if constexpr (requires { eos_.front_speed; }) return eos_.front_speed;
+    return 0;
+  }
   /// [K]
   PIOLA_FN double initial_temperature() const { return heat_.initial; }
-  /// Yield stress of a state at a plastic strain rate [1/s]; infinity for an elastic solid [Pa].
-  PIOLA_FN double yield_stress(SolidHistory const& h, double rate) const {
-    return strength_.yield_stress(h.plastic_strain, rate, h.temperature);
+  /// Yield stress of a state at a plastic strain rate [1/s] and a pressure [Pa]; infinity for an elastic solid [Pa].
+  PIOLA_FN double yield_stress(SolidHistory const& h, double rate, double pressure = 0) const {
+    return strength_.yield_stress(flow_state(h, pressure), rate);
   }
 
   /// Rate of the deviator, 2 mu dev D + W S - S W [Pa/s], D and W the parts of the velocity gradient L [1/s].
@@ -99,14 +120,16 @@ class Solid {
   }
 
   /// The trial deviator brought back to the yield surface after dt [s], for predictions: the history stays as it is.
-  PIOLA_FN SymMat<3> returned(SolidHistory const& h, SymMat<3> const& trial, double dt) const {
+  PIOLA_FN SymMat<3> returned(SolidHistory const& h, SymMat<3> const& trial, double dt, double pressure = 0) const {
     double const mises = von_mises(trial);
-    return scaled(trial, mises, increment(h, mises, dt));
+    return scaled(trial, mises, strength_.increment(mises, 3 * mu, flow_state(h, pressure), dt));
   }
 
   /// The same from the flow stress of the last plastic step [Pa], 0 where there was none: laws whose yield stress asks
-  /// for powers and logarithms are spared them, as it changes little from step to step.
+  /// for powers and logarithms are spared them, as it changes little from step to step. A strength that asks for the
+  /// pressure waits until that is known: the trial itself.
   PIOLA_FN SymMat<3> predicted(SolidHistory const& h, SymMat<3> const& trial, double flow, double dt) const {
+    if constexpr (pressed) return trial;
     if (!Strength::thermal || !(flow > 0)) return returned(h, trial, dt);
     double const mises = von_mises(trial);
     return scaled(trial, mises, (mises - flow) / (3 * mu));
@@ -118,17 +141,13 @@ class Solid {
   /// step.
   PIOLA_FN double update(SolidHistory& h, SymMat<3> const& trial, double pressure, double rho, double dt,
                          double last_flow = 0) const {
-    double const mises = von_mises(trial),
-                 strain = strength_.increment(mises, 3 * mu, h.plastic_strain, h.temperature, dt, last_flow);
+    FlowState const before = flow_state(h, pressure);
+    double const mises = von_mises(trial), strain = strength_.increment(mises, 3 * mu, before, dt, last_flow);
     h.S = scaled(trial, mises, strain);
-    if (spalls(h.S, pressure)) h.damage = 1;
+    if (spalls(h.S, pressure, h.toughness)) h.damage = 1;
     if (!(strain > 0)) return 0;
     double const flow = mises - 3 * mu * strain, rate = dt > 0 ? strain / dt : 0;
-    if (wears_) {
-      double const least = 1e-12 * mu;  // molten: no von Mises stress
-      double const fracture = damage_.fracture_strain(-pressure / (flow > least ? flow : least), rate, h.temperature);
-      h.damage = JohnsonCookDamage::grown(h.damage, strain, fracture);
-    }
+    wear(h, before, flow, strain, rate, rho);
     double const work = (flow > 0 ? flow : 0) * strain * rho0 / rho;
     h.plastic_strain += strain;
     h.plastic_work += work;
@@ -138,24 +157,28 @@ class Solid {
 
   /// Whether tension tears the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
   /// the largest principal stress does. S: deviator; pressure: positive in compression [Pa].
-  PIOLA_FN bool spalls(SymMat<3> const& S, double pressure) const {
+  PIOLA_FN bool spalls(SymMat<3> const& S, double pressure, double toughness = 1) const {
+    double const most = spall_pressure * toughness;
     if (spall_ == 0) return false;
-    if (spall_ == 1) return !(pressure > -spall_pressure);
-    if (!(eigenvalue_bound(S) - pressure > spall_pressure)) return false;  // most particles
+    if (spall_ == 1) return !(pressure > -most);
+    if (!(eigenvalue_bound(S) - pressure > most)) return false;  // most particles
     Eigen<3> const e = symmetric_eigen(S);
     double largest = e.value[0];
     for (double const value : e.value) largest = value > largest ? value : largest;
-    return largest - pressure > spall_pressure;
+    return largest - pressure > most;
   }
 
  private:
+  static constexpr double none[Scatter::size] = {unbounded, 0, 1};
+
   Solid(ElasticConstants const& elastic, MaterialParameters const& m, Heat const& heat)
       : rho0(elastic.rho0),
         mu(elastic.mu),
         kappa(0),
         spall_pressure(m.value[Layout::spall]),
         damages(false),
-        wears_(Strength::yields && m.word[Layout::damage_word] > 0),
+        scatter(Strength::yields ? m.value + Layout::scatter : none),
+        wears_(Strength::brittle || (Strength::yields && m.word[Layout::damage_word] > 0)),
         spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),
         strength_(m.value + Layout::strength, heat),
@@ -165,8 +188,24 @@ class Solid {
     damages = wears_ || spall_ > 0;
   }
 
-  PIOLA_FN double increment(SolidHistory const& h, double mises, double dt) const {
-    return strength_.increment(mises, 3 * mu, h.plastic_strain, h.temperature, dt);
+  PIOLA_FN static FlowState flow_state(SolidHistory const& h, double pressure) {
+    return {h.plastic_strain, h.temperature, pressure, h.damage};
+  }
+  /// Damage of a plastic step, and the bulking that follows from it.
+  PIOLA_FN void wear(SolidHistory& h, FlowState const& before, double flow, double strain, double rate,
+                     double rho) const {
+    if (!wears_) return;
+    if constexpr (Strength::brittle) {
+      h.damage = JohnsonCookDamage::grown(h.damage, strain, h.toughness * strength_.fracture_strain(before.pressure));
+      double const held = strength_.yield_stress(before, rate);
+      h.bulking = strength_.bulked(h.bulking, held, strength_.yield_stress(flow_state(h, before.pressure), rate),
+                                   rho / rho0 - 1, kappa, mu);
+    } else {
+      double const least = 1e-12 * mu;  // molten: no von Mises stress
+      double const fracture =
+          damage_.fracture_strain(-before.pressure / (flow > least ? flow : least), rate, h.temperature);
+      h.damage = JohnsonCookDamage::grown(h.damage, strain, h.toughness * fracture);
+    }
   }
   PIOLA_FN SymMat<3> scaled(SymMat<3> S, double mises, double strain) const {
     if (!(strain > 0)) return S;

@@ -1,27 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/eos/elastic.hpp"
+#include "piola/materials/eos/jwl.hpp"
 #include "piola/materials/eos/mie_grueneisen.hpp"
 #include "piola/materials/eos/polynomial.hpp"
 #include "piola/materials/eos/stiffened_gas.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/materials/plastic/isotropic_hardening.hpp"
 #include "piola/materials/plastic/johnson_cook.hpp"
+#include "piola/materials/plastic/johnson_holmquist.hpp"
 #include "piola/materials/plastic/none.hpp"
 #include "piola/materials/plastic/perfect.hpp"
+#include "piola/materials/plastic/zerilli_armstrong.hpp"
 #include "piola/materials/solid.hpp"
 #include <array>
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// A law of a solid as the registry lists it: a strength, to be combined with any equation of state.
+template <class... Eos>
+struct EosList {
+  static constexpr std::size_t size = sizeof...(Eos);
+};
+
+/// The equations of state that a strength goes with, in the order of `words`. Metals: those of solids.
+template <class Strength>
+struct EquationsFor {
+  using List = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos>;
+  static constexpr std::span<std::string_view const> words{eos_words.data(), List::size};
+  static constexpr std::span<std::string_view const> damage{damage_words};
+};
+/// What is as soft as one likes may be an explosive.
+struct EquationsOfFluids {
+  using List = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos>;
+  static constexpr std::span<std::string_view const> words{eos_words};
+  static constexpr std::span<std::string_view const> damage{damage_words};
+};
+template <>
+struct EquationsFor<NoPlasticity> : EquationsOfFluids {};
+template <>
+struct EquationsFor<PerfectPlasticity> : EquationsOfFluids {};
+/// The second model of Johnson and Holmquist is a strength, a polynomial and a damage in one.
+template <>
+struct EquationsFor<JohnsonHolmquist> {
+  using List = EosList<PolynomialEos>;
+  static constexpr std::span<std::string_view const> words{eos_words.data() + 3, 1};
+  static constexpr std::array<std::string_view, 1> own{JohnsonHolmquist::name};
+  static constexpr std::span<std::string_view const> damage{own};
+};
+
+/// A law of a solid as the registry lists it: a strength, to be combined with its equations of state.
 template <class Strength>
 struct SolidLaw {
   static constexpr std::string_view name = Strength::name;
   static constexpr std::string_view about = Strength::about;
   static constexpr std::array<Choice, 3> all_choices{
-      Choice{"eos", "equation of state: pressure by density and energy", eos_words},
-      Choice{"damage", "growth of damage with plastic strain", damage_words},
+      Choice{"eos", "equation of state: pressure by density and energy", EquationsFor<Strength>::words},
+      Choice{"damage", "growth of damage with plastic strain", EquationsFor<Strength>::damage},
       Choice{"spall",
              "what follows from tension at spall_pressure; limit: the pressure goes no lower, nothing opens; "
              "hydrostatic: the material fails there (damage 1); principal: it fails where the largest principal stress "
@@ -39,11 +73,12 @@ struct SolidLaw {
     };
     append(ElasticConstants::parameters);
     append(Strength::parameters);
-    if (Strength::yields) append(Heat::parameters_for(Strength::thermal));
+    if (Strength::yields) append(Heat::parameters_for(Strength::homologous));
     append(EosValues::parameters);
     if (Strength::yields) append(JohnsonCookDamage::parameters);
     append(std::array{
         Parameter{"spall_pressure", "Pa", "largest tension that the material bears", positive, unbounded, "no limit"}});
+    if (Strength::yields) append(Scatter::parameters);
     return all;
   }
 
@@ -51,18 +86,13 @@ struct SolidLaw {
   static constexpr auto parameters = joined_parameters();
 };
 
-/// The solids in rate form; in the registry they follow the hyperelastic laws. The order of the equations of state is
-/// that of `eos_words`.
+/// The solids in rate form; in the registry they follow the hyperelastic laws.
 template <class... Strength>
 struct StrengthList {
   static constexpr int size = sizeof...(Strength);
 };
-template <class... Eos>
-struct EosList {
-  static_assert(sizeof...(Eos) == eos_words.size());
-};
-using Strengths = StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook>;
-using EquationsOfState = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos>;
+using Strengths =
+    StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook, ZerilliArmstrong, JohnsonHolmquist>;
 
 /// Whether the material is a solid in rate form.
 inline bool is_solid(MaterialParameters const& material) {
@@ -78,13 +108,23 @@ void with_eos(MaterialParameters const& material, F const& f, EosList<Eos...>) {
 template <class F, class... Strength>
 void with_solid(MaterialParameters const& material, F const& f, StrengthList<Strength...>) {
   int index = Laws::size;
-  (void)((index++ == material.law ? (with_eos<Strength>(material, f, EquationsOfState{}), true) : false) || ...);
+  (void)((index++ == material.law ? (with_eos<Strength>(material, f, typename EquationsFor<Strength>::List{}), true)
+                                  : false) ||
+         ...);
 }
 
-/// Calls f(solid) with the solid in rate form that `material` names, one of 16 types; does nothing for other laws.
+/// Calls f(solid) with the solid in rate form that `material` names, one of two dozen types; does nothing for other
+/// laws.
 template <class F>
 void with_solid(MaterialParameters const& material, F const& f) {
   with_solid(material, f, Strengths{});
+}
+
+/// Whether the material becomes gas by itself.
+inline bool is_explosive(MaterialParameters const& material) {
+  double front = 0;
+  with_solid(material, [&](auto const& law) { front = law.front_speed(); });
+  return front > 0;
 }
 
 /// Calls f(law) with the law that `material` names, a hyperelastic one or a solid in rate form: for what both answer.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/math/hash.hpp"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,13 +14,6 @@ constexpr double farthest_cell = 0x1p52;
 
 bool is_finite(std::array<double, 3> const& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
-/// Mixes the bits of a number (multiplication and shifts), the same on every machine.
-std::uint64_t mixed(std::uint64_t number) {
-  number = (number ^ (number >> 30)) * 0xBF58476D1CE4E5B9U;
-  number = (number ^ (number >> 27)) * 0x94D049BB133111EBU;
-  return number ^ (number >> 31);
 }
 
 }  // namespace

@@ -64,6 +64,21 @@ std::array<double, 4> motion(FieldCache& cache, std::vector<std::int64_t> const&
   return out;
 }
 
+/// Number, mean volume and relative spread of the pieces.
+std::array<double, 3> pieces(Measured const& measured, FieldCache& cache, Cloud const& cloud,
+                             Clusters const& clusters) {
+  std::vector<double> volume(clusters.size.size());
+  for (std::size_t k = 0; k < cloud.id.size(); ++k)
+    volume[clusters.of[k]] += cache.particles().volume[static_cast<std::size_t>(cloud.id[k])];
+  std::vector<double> big;
+  for (std::size_t k = 0; k < volume.size(); ++k)
+    if (clusters.size[k] >= static_cast<std::size_t>(measured.spec.least_particles)) big.push_back(volume[k]);
+  if (big.empty()) return {};
+  auto const n = static_cast<double>(big.size());
+  double const mean = std::accumulate(big.begin(), big.end(), 0.0) / n;
+  return {n, mean, deviation(big) / mean};
+}
+
 Point extents(std::vector<Point> const& points) {
   if (points.empty()) return {};
   Point low = points.front(), high = low;
@@ -99,8 +114,10 @@ std::vector<double> spacing_values(Measured const& measured, FieldCache& cache) 
 std::vector<double> fragment_values(Measured const& measured, FieldCache& cache) {
   Cloud const cloud = cloud_of(cache, measured.ids);
   Clusters const clusters = find_clusters(cloud.x, measured.spec.link * measured.spacing);
-  std::vector<double> out(9, 0);
+  std::vector<double> out(12, 0);
   out[0] = static_cast<double>(clusters.size.size());
+  auto const of_pieces = pieces(measured, cache, cloud, clusters);
+  std::copy(of_pieces.begin(), of_pieces.end(), out.begin() + 9);
   auto const fragment = chosen(measured, cloud, clusters);
   if (!fragment) return out;
   std::vector<std::int64_t> ids;

@@ -11,15 +11,17 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Metals yield: any det F that their law can bear is possible.
-bool is_metal(BodySpec const& body) { return is_solid(body.material) && body.law != "elastic"; }
+/// Metals yield, gases of an explosive flow: any det F that their law can bear is possible.
+bool flows(BodySpec const& body) {
+  return is_solid(body.material) && (body.law != "elastic" || is_explosive(body.material));
+}
 
 /// det F of materials that do not yield.
 class JacobianGuard : public Guard {
  public:
   JacobianGuard(CaseSpec const& spec, ParticleSet const& particles)
       : limits_(spec.run.guards.jacobian), particles_(particles) {
-    for (BodySpec const& body : spec.bodies) watched_.push_back(!is_metal(body));
+    for (BodySpec const& body : spec.bodies) watched_.push_back(!flows(body));
   }
 
   void look(Look const& look) override {

@@ -71,7 +71,8 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
   double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;
   double const shock = Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
   double const flow = std::min(flow_pressure(a, v), flow_pressure(b, v));
-  return std::max(std::clamp(flow, 0.25 * shock, shock), 0.01 * std::min(a.bulk_modulus, b.bulk_modulus));
+  return std::max({std::clamp(flow, 0.25 * shock, shock), 0.01 * std::min(a.bulk_modulus, b.bulk_modulus),
+                   a.burst_pressure, b.burst_pressure});
 }
 
 double contact_energy(System const& system) {

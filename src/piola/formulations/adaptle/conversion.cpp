@@ -36,7 +36,7 @@ bool Particles::wishes_by_formula() {
       for (Index i = b.first; i < b.last; ++i) {
         State const& s = state_[at(i)];
         if (s.phi > 0 || wish_[at(i)] == 1) continue;
-        double const p = acting_pressure(law, s, system_.initial_pressure, i, s.rho, s.energy / reference_[at(i)].mass);
+        double const p = acting_pressure(law, s, system_.own, i, s.rho, s.energy / reference_[at(i)].mass);
         SymMat<3> stress = symmetric_of(s.S);
         for (int c = 0; c < 3; ++c) stress.c[c] -= p;
         std::array const values{s.damage,

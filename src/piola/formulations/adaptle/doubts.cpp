@@ -3,6 +3,7 @@
 #include "piola/formulations/adaptle/solver.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 #include <initializer_list>
 
 namespace piola::adaptle {
@@ -75,6 +76,8 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
            "correction = \"mixed\" and interface = \"printed\" have the form that is printed");
   if (all.settings.published)
     ignore(doubts, {"hourglass_stiffness"}, "it needs viscosity_form = \"central\" and correction = \"material\"");
+  if (o.ignition && !is_explosive(doubts.material()))
+    ignore(doubts, {"ignition"}, "the material is no explosive (eos = \"jwl\")");
   if (!o.initial_pressure) ignore(doubts, {"initial_pressure_lasts"}, "there is no initial_pressure");
   if (dimension == 3 && doubts.gives("assumption", "plane_strain"))
     ignore(doubts, {"assumption"}, "the body has three dimensions");
@@ -82,12 +85,18 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
 
 /// Criteria of damage for a law without it, and damage from which nothing follows.
 void doubt_damage(BodyOptions const& o, BodyDoubts& doubts) {
-  bool damages = false;
-  with_solid(doubts.material(), [&](auto const& law) { damages = law.damages; });
+  bool damages = false, scatters = false;
+  with_solid(doubts.material(), [&](auto const& law) {
+    damages = law.damages;
+    scatters = law.scatter.modulus < unbounded;
+  });
   std::string_view const cannot =
       "the law has no damage that grows and no spall, so that no particle fails; damage = \"johnson_cook\" or spall";
   bool const converts = o.description == Description::adaptive || o.deletes;
   if (!damages) {
+    if (scatters)
+      doubts.add("material.weibull_modulus",
+                 fmt::format("weibull_modulus has no effect here ({}) - remove it", cannot));
     if (converts) ignore(doubts, {"convert_damage"}, cannot);
     if (o.releases || (o.deletes && o.convert_strain == unbounded)) ignore(doubts, {"failed"}, cannot);
     if (!o.convert_when) return;

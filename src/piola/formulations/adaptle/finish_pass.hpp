@@ -78,7 +78,7 @@ struct Finish {
       k.S[c] = S_rate.c[c];
       trial.c[c] = p.S[c] + dt * S_rate.c[c];
     }
-    SolidHistory history = history_of(p, p.S);
+    SolidHistory history = history_of(p, p.S, s.own, i);
     if (bears) {
       double const flow = law.update(history, trial, h.pressure, h.rho, dt, k.flow);
       if (flow > 0) k.flow = flow;
@@ -89,6 +89,7 @@ struct Finish {
     p.temperature = history.temperature;
     p.damage = history.damage;
     p.plastic_work = history.plastic_work;
+    p.bulking = history.bulking;
     switch_viscosity(p, k, h, L, trace_L);
     s.half[i].divergence = trace_L;
     m[BlockMeasures::contact] += sum.contact;
@@ -167,13 +168,13 @@ struct Finish {
       SymMat<3> const r = law.deviator_rate(symmetric_of(h.S), L);
       SymMat<3> trial;
       for (int c = 0; c < 6; ++c) trial.c[c] = p.S[c] + dt * r.c[c];
-      SymMat<3> const S = law.returned(history_of(p, p.S), trial, dt);
+      SymMat<3> const S = law.returned(history_of(p, p.S, s.own, i), trial, dt, h.pressure);
       double const energy = p.energy + dt * (stress_power(h, symmetric_of(h.S), L) + sum.heat);
       // A total-Lagrangian density follows from the thickness that the step will end with.
       double const end = p.thickness + dt * h.thickness * rate;
       double const rho =
           p.phi > 0 ? p.rho - dt * h.rho * trace(L) : h.rho * (1 - 0.5 * dt * (L(0, 0) + L(1, 1))) * h.thickness / end;
-      return S.c[2] - acting_pressure(law, p, s.initial_pressure, i, rho, energy / mass);
+      return S.c[2] - acting_pressure(law, p, s.own, i, rho, energy / mass);
     };
     double const bulk = law.kappa, inverse = 1 / (dt * (bulk + 4.0 / 3.0 * law.mu));
     double a = -(bulk - 2.0 / 3.0 * law.mu) / (bulk + 4.0 / 3.0 * law.mu) * (L(0, 0) + L(1, 1)), f_a = stress(a);

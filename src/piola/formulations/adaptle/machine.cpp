@@ -19,12 +19,12 @@ void predict(System& s, double dt) {
 void deform(System& s) {
   with_step(s, [](auto step) { step.deform(); });
 }
-void half_state(System& s) {
+void half_state(System& s, double dt) {
   with_step(s, [&](auto step) {
     if (s.settings.corrected)
-      step.template half_state<true>();
+      step.template half_state<true>(dt);
     else
-      step.template half_state<false>();
+      step.template half_state<false>(dt);
   });
 }
 void correct(System& s) {

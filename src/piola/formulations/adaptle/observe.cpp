@@ -36,7 +36,7 @@ void each_particle(System const& s, F const& f) {
       for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
         State const& p = s.state[i];
         double const specific = p.energy / s.reference[i].mass;
-        f(i, -acting_pressure(law, p, s.initial_pressure, i, p.rho, specific));
+        f(i, -acting_pressure(law, p, s.own, i, p.rho, specific));
       }
     });
 }

@@ -109,10 +109,12 @@ constexpr std::array formulas{
                 "adaptive: a further condition under which a particle and its neighbours convert (pressure is positive "
                 "in tension)",
                 variables},
-    FormulaInfo{"initial_pressure", "pressure added to that of the equation of state, positive in tension, in Pa", {}}};
+    FormulaInfo{"initial_pressure", "pressure added to that of the equation of state, positive in tension, in Pa", {}},
+    FormulaInfo{
+        "ignition", "time at which an explosive (eos = \"jwl\") is lit, in s; without it: at once everywhere", {}}};
 
-constexpr std::array<std::string_view, 4> usable_laws{"elastic", "perfectly_plastic", "isotropic_hardening",
-                                                      "johnson_cook"};
+constexpr std::array<std::string_view, 6> usable_laws{"elastic",      "perfectly_plastic", "isotropic_hardening",
+                                                      "johnson_cook", "zerilli_armstrong", "johnson_holmquist"};
 
 constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"contact_energy", "J"},
@@ -176,6 +178,7 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs) 
   o.eulerian_where = formula("eulerian_where");
   o.convert_when = formula("convert_when");
   o.initial_pressure = formula("initial_pressure");
+  o.ignition = formula("ignition");
   o.initial_pressure_lasts = word(spec, "initial_pressure_lasts") == "always";
   return o;
 }

@@ -25,6 +25,7 @@ struct BodyOptions {
   double hourglass_stiffness = 0;
   std::optional<Expression> eulerian_where, convert_when;
   std::optional<Expression> initial_pressure;  ///< positive in tension [Pa]
+  std::optional<Expression> ignition;          ///< when an explosive is lit [s]
   bool initial_pressure_lasts = true;
 };
 

@@ -55,7 +55,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
   allocate(assembly);
   set_descriptions(assembly);
   set_boundaries(assembly);
-  set_initial_pressure();
+  set_factors();
   choose_material();
   double dt = std::numeric_limits<double>::infinity();
   for (auto const& b : body_)
@@ -79,7 +79,7 @@ void Particles::start() {
   for (BodyOptions const& o : options_.bodies)
     if (o.initial_pressure && !o.initial_pressure_lasts) return;
   machine_->predict(system_, 0);
-  sweep();
+  sweep(0);
   books_.next_dt = std::min(books_.next_dt, machine_->finish(system_, 0).dt);
   seconds_ = {};
 }
@@ -110,12 +110,13 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
     if (o.description == Description::patch) b.tether = b.adaptive = false;
     b.deletes = o.deletes;
-    b.releases = o.releases;
     with_solid(b.material, [&](auto const& law) {
+      b.releases = o.releases && !law.pressed;  // what is broken still bears shear under pressure
       b.rho0 = law.rho0;
       b.bulk_modulus = law.kappa;
       b.shear_modulus = law.mu;
       b.yield_stress = law.yield_stress({{}, 0, law.initial_temperature(), 0, 0}, 0);
+      b.burst_pressure = law.rho0 * law.front_speed() * law.front_speed() / 4;  // Chapman-Jouguet with gamma = 3
       b.c = o.bulk_speed ? law.bulk_sound_speed() : law.p_wave_speed();
       b.shear_share = std::max(0.01, law.s_wave_speed() / law.p_wave_speed());
       b.young = 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
@@ -145,7 +146,10 @@ void Particles::set_particles(Assembly const& assembly) {
     r.mass = b.rho0 * r.volume;
     s.rho = b.rho0;
     s.thickness = s.viscosity = s.alive = 1;
-    with_solid(b.material, [&](auto const& law) { s.temperature = law.initial_temperature(); });
+    with_solid(b.material, [&](auto const& law) {
+      s.temperature = law.initial_temperature();
+      s.energy = r.mass * law.initial_energy();
+    });
     reference_.push_back(r);
     state_.push_back(s);
   }
@@ -264,14 +268,9 @@ void Particles::choose_material() {
   system_.material.used = lagrangian_;
 }
 
-void Particles::set_initial_pressure() {
-  for (std::size_t k = 0; k < body_.size(); ++k) {
-    BodyOptions const& o = options_.bodies[k];
-    if (!o.initial_pressure || (!o.initial_pressure_lasts && books_.time > 0)) continue;
-    initial_pressure_.resize(state_.size());
-    for (Index i = body_[k].first; i < body_[k].last; ++i) initial_pressure_[at(i)] = (*o.initial_pressure)(X_[at(i)]);
-  }
-  system_.initial_pressure = initial_pressure_.empty() ? nullptr : initial_pressure_.data();
+void Particles::set_factors() {
+  factors_.build(body_, options_.bodies, reference_, X_, books_.time);
+  system_.own = factors_.view();
 }
 
 void Particles::set_boundaries(Assembly const&) {
@@ -362,13 +361,11 @@ void Particles::step(double time, double dt) {
   prepare_supports(time + dt);
   prepare_loads(time + 0.5 * dt);
   prepare_rigid(time, dt);
+  factors_.go_to(time + 0.5 * dt);
   books_.time = time + dt;
   evaluate(dt);
   sum_actions(time, dt);
-  // What acts for one step only is gone now.
-  for (std::size_t k = 0; k < body_.size() && !initial_pressure_.empty(); ++k)
-    if (!options_.bodies[k].initial_pressure_lasts)
-      std::fill(initial_pressure_.begin() + body_[k].first, initial_pressure_.begin() + body_[k].last, 0);
+  factors_.end_of_step();
 }
 
 /// Forces act at half time and at the places of then, for the whole step.
@@ -405,11 +402,11 @@ void Particles::sum_actions(double time, double dt) {
 }
 
 /// Sums over neighbours and what they need.
-void Particles::sweep() {
+void Particles::sweep(double dt) {
   Stopwatch const watch(seconds_.sweeps);
   System& s = system_;
   if (lagrangian_) machine_->deform(s);
-  machine_->half_state(s);
+  machine_->half_state(s, dt);
   if (s.settings.corrected && s.spatial.targets > 0) machine_->correct(s);
   machine_->sweep(s);
 }
@@ -427,7 +424,7 @@ void Particles::evaluate(double dt) {
     spatial_.build(s, *machine_);
     spatial_.put_into(s);
   }
-  sweep();
+  sweep(dt);
   Measures m;
   {
     Stopwatch const watch(seconds_.points);
@@ -469,8 +466,7 @@ std::size_t Particles::bytes() const {
 }
 
 void Particles::resumed() {
-  initial_pressure_.clear();
-  set_initial_pressure();
+  set_factors();
   choose_material();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/point_factors.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
@@ -66,7 +67,7 @@ class Particles {
   void set_particles(Assembly const& assembly);
   void set_descriptions(Assembly const& assembly);
   void set_contact(Assembly const& assembly);
-  void set_initial_pressure();
+  void set_factors();
   void set_boundaries(Assembly const& assembly);
   void allocate(Assembly const& assembly);
   void choose_material();
@@ -75,7 +76,7 @@ class Particles {
   void prepare_rigid(double time, double dt);
   void sum_actions(double time, double dt);
   void start();
-  void sweep();
+  void sweep(double dt);
   void evaluate(double dt);
   void convert(double dt);
   bool wishes_by_formula();
@@ -101,7 +102,8 @@ class Particles {
   SpatialLists spatial_;
   Memory material_records_, motion_, force_, viscous_;
   std::vector<ContactPair> contact_pairs_;
-  std::vector<double> partial_, rigid_power_, initial_pressure_;
+  std::vector<double> partial_, rigid_power_;
+  PointFactors factors_;
   FailureSlot failure_;
   Books books_;
   PartSeconds seconds_;

@@ -13,18 +13,25 @@ PIOLA_FN Mat<3> matrix_of(double const* c) {
   for (int k = 0; k < 9; ++k) m.c[k] = c[k];
   return m;
 }
-PIOLA_FN SolidHistory history_of(State const& s, double const* S) {
-  return {symmetric_of(S), s.plastic_strain, s.temperature, s.damage, s.plastic_work};
+PIOLA_FN SolidHistory history_of(State const& s, double const* S, OwnFactors const& own, Index i) {
+  return {symmetric_of(S),
+          s.plastic_strain,
+          s.temperature,
+          s.damage,
+          s.plastic_work,
+          s.bulking,
+          own.burnt != nullptr ? own.burnt[i] : 1,
+          own.toughness != nullptr ? own.toughness[i] : 1};
 }
 
 /// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without the tension that
 /// a failed particle has released, with what the case adds. e: specific energy [J/kg].
 template <class Law>
-PIOLA_FN double acting_pressure(Law const& law, State const& s, double const* initial, Index i, double rho, double e) {
+PIOLA_FN double acting_pressure(Law const& law, State const& s, OwnFactors const& own, Index i, double rho, double e) {
   if (!(s.alive > 0)) return 0;
-  double p = law.pressure(rho, e);
+  double p = law.pressure(history_of(s, s.S, own, i), rho, e);
   if (p < 0) p *= 1 - s.released;
-  return initial != nullptr ? p - initial[i] : p;
+  return own.initial_pressure != nullptr ? p - own.initial_pressure[i] : p;
 }
 
 /// Drifts to half time and predicts there with the rates of the step before. S is brought back to the yield surface
@@ -40,6 +47,7 @@ struct Predict {
   Sums* sums;
   double* position;
   MaterialTable material;
+  OwnFactors own;
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Range block, Index) const {
@@ -63,7 +71,7 @@ struct Predict {
     SymMat<3> trial;
     for (int c = 0; c < 6; ++c) trial.c[c] = s.S[c] + step * k.S[c];
     bool const bears = s.alive > 0 && s.released < 1;
-    SymMat<3> const S = bears ? law.predicted(history_of(s, s.S), trial, k.flow, step) : SymMat<3>{};
+    SymMat<3> const S = bears ? law.predicted(history_of(s, s.S, own, i), trial, k.flow, step) : SymMat<3>{};
     for (int c = 0; c < 6; ++c) out.S[c] = S.c[c];
     out.energy = s.energy + step * k.energy;
     out.thickness = s.thickness + step * k.thickness;
@@ -109,11 +117,12 @@ struct HalfState {
   Law law;
   BodyConstants body;
   Settings settings;
+  double dt;
   Reference const* reference;
   State const* state;
   Half* half;
   Deformation* deformation;
-  double const* initial_pressure;
+  OwnFactors own;
   SpatialTable spatial;    ///< records null: none are needed
   MaterialTable material;  ///< records null: none are needed
   FailureSlot* failure;
@@ -135,7 +144,12 @@ struct HalfState {
     if (!(h.rho > 0)) exec::record(failure, i, negative_density);
     h.volume = reference[i].mass / (h.rho * h.thickness);
     double const specific = h.energy / reference[i].mass;
-    h.pressure = acting_pressure(law, s, initial_pressure, i, h.rho, specific);
+    h.pressure = acting_pressure(law, s, own, i, h.rho, specific);
+    if constexpr (Law::pressed) {
+      SolidHistory const history = history_of(s, h.S, own, i);
+      SymMat<3> const S = law.returned(history, history.S, 0.5 * dt, h.pressure);
+      for (int c = 0; c < 6; ++c) h.S[c] = S.c[c];
+    }
     h.c = law.sound_speed(h.rho, specific);
     SymMat<3> stress = symmetric_of(h.S);
     for (int c = 0; c < 3; ++c) stress.c[c] -= h.pressure;

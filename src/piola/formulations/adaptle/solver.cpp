@@ -18,9 +18,16 @@ void check(Assembly const& assembly) {
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
     if (!is_solid(assembly.materials[b]))
       problems.add({}, fmt::format("adaptle: the law of body \"{}\" has no rate form (allowed: elastic, "
-                                   "perfectly_plastic, isotropic_hardening, johnson_cook) - choose another law or "
-                                   "formulation",
+                                   "perfectly_plastic, isotropic_hardening, johnson_cook, zerilli_armstrong, "
+                                   "johnson_holmquist) - choose another law or formulation",
                                    assembly.particles.bodies[b].name));
+  for (std::size_t b = 0; b < assembly.materials.size(); ++b)
+    with_solid(assembly.materials[b], [&](auto const& law) {
+      if (law.yield_stress({}, 0, law.kappa) > 0) return;
+      problems.add({}, fmt::format("adaptle: the material of body \"{}\" has no strength under pressure (allowed: "
+                                   "hugoniot_elastic_limit above pressure_at_limit) - check both",
+                                   assembly.particles.bodies[b].name));
+    });
   if (!assembly.initial_deformation_gradient.empty())
     problems.add({},
                  "adaptle: there is an initial deformation gradient (deformation follows from positions here) - "

@@ -41,7 +41,15 @@ struct State {
   double phi;             ///< 0 total-Lagrangian, 1 Eulerian, between: blended
   double alive;           ///< 0: deleted, bears no stress
   double released;        ///< share of shear and tension that a failed particle does not bear any more
-  static constexpr int values = 23;
+  double bulking;         ///< pressure of broken material that wants more room [Pa]
+  static constexpr int values = 24;
+};
+
+/// What cases add to the law of a point, per slot; null: nothing.
+struct OwnFactors {
+  double const* initial_pressure = nullptr;  ///< positive in tension [Pa]
+  double const* burnt = nullptr;             ///< part of an explosive that is gas at half time
+  double const* toughness = nullptr;         ///< factor on what it bears before it fails
 };
 
 /// Rates of the last step, from which the next one predicts half time.
@@ -112,6 +120,7 @@ struct BodyConstants {
   double bulk_modulus = 0;          ///< at rest [Pa]
   double shear_modulus = 0;         ///< [Pa]
   double yield_stress = unbounded;  ///< at rest [Pa]; infinity: the material does not yield
+  double burst_pressure = 0;        ///< of an explosive [Pa]
   double poisson = 0, young = 0;    ///< of the strain across the plane (eq. 19)
   bool adaptive = false;            ///< total-Lagrangian particles may convert
   bool releases = false;            ///< failed particles lose shear and tension
@@ -216,12 +225,12 @@ struct System {
   ContactTable contact;
   RigidPlace const* rigid = nullptr;
   int rigids = 0;
-  double* rigid_power = nullptr;             ///< per slot: work of moving shapes [W]
-  double const* initial_pressure = nullptr;  ///< per slot, positive in tension [Pa]; null: none
-  double const* load = nullptr;              ///< acceleration of loads at half time, 3 per slot; null: none
-  std::int8_t const* held = nullptr;         ///< directions with a prescribed velocity, 3 per slot; null: none
-  double const* held_velocity = nullptr;     ///< at the end of the step, 3 per slot
-  double* reaction = nullptr;                ///< per slot: force of supports in the step, 3 values [N]; null: none
+  double* rigid_power = nullptr;  ///< per slot: work of moving shapes [W]
+  OwnFactors own;
+  double const* load = nullptr;           ///< acceleration of loads at half time, 3 per slot; null: none
+  std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
+  double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
+  double* reaction = nullptr;             ///< per slot: force of supports in the step, 3 values [N]; null: none
   double* rigid_action = nullptr;  ///< [block][shape]: force [N] and moment about the origin [N m] of rigid shapes
   std::int8_t* wish = nullptr;     ///< per slot: 0, 1 converts with its neighbours, 2 alone
   double* partial = nullptr;       ///< room for reductions, 16 per block
@@ -237,7 +246,7 @@ struct Machine {
   int lanes;
   void (*predict)(System&, double dt);     ///< to half time; writes motion records
   void (*deform)(System&);                 ///< F and its rate of half time from reference neighbours
-  void (*half_state)(System&);             ///< densities, pressures, and the records of both descriptions
+  void (*half_state)(System&, double dt);  ///< densities, pressures, and the records of both descriptions
   void (*correct)(System&);                ///< kernel and gradient corrections of half time
   void (*sweep)(System&);                  ///< forces, heat and velocity gradients
   Measures (*finish)(System&, double dt);  ///< to the end of the step

@@ -22,7 +22,7 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b),
                              Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
-                                                                     s.sums, s.position, s.material, s.failure});
+                                                                     s.sums, s.position, s.material, s.own, s.failure});
       });
   }
 
@@ -38,12 +38,12 @@ struct Step {
   }
 
   template <bool Corrected>
-  void half_state() const {
+  void half_state(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>{
-                                                law, s.body[b], s.settings, s.reference, s.state, s.half, s.deformation,
-                                                s.initial_pressure, s.spatial, s.material, s.failure});
+                                                law, s.body[b], s.settings, dt, s.reference, s.state, s.half,
+                                                s.deformation, s.own, s.spatial, s.material, s.failure});
       });
   }
 

@@ -98,15 +98,9 @@ constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"}, Dia
                                  DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"hourglass_energy", "J"}};
 
-constexpr std::array<std::string_view, 9> usable_laws{"linear_elastic",
-                                                      "neo_hookean",
-                                                      "mooney_rivlin",
-                                                      "saint_venant_kirchhoff",
-                                                      "compressible_neo_hookean",
-                                                      "elastic",
-                                                      "perfectly_plastic",
-                                                      "isotropic_hardening",
-                                                      "johnson_cook"};
+constexpr std::array<std::string_view, 10> usable_laws{
+    "linear_elastic", "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
+    "elastic",        "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong"};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
@@ -205,6 +199,10 @@ void check_filter(Options const& o, MaterialParameters const& material) {
 
 /// Solids in rate form carry their stress from the last step's deformation gradient on: {p,F} alone.
 void check_solid(Options const& o, MaterialParameters const& material) {
+  if (is_explosive(material))
+    throw InputError(
+        "material: eos = \"jwl\" is an explosive (allowed here: the other words of eos) - take the "
+        "formulation adaptle");
   if (!is_solid(material) || o.variables == Variables::pF) return;
   throw InputError(fmt::format(
       "formulation: variables other than \"pF\" need a hyperelastic law, and {} is a solid in rate form - leave "

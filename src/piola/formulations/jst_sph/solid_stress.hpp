@@ -58,11 +58,11 @@ PIOLA_FN Mat<3> advance_solid(Law const& law, SolidPoint& point, Mat<3> const& F
   if (step.elastic)
     point.history.S = trial;
   else
-    law.update(point.history, trial, law.pressure(rho, before), rho, step.dt);
+    law.update(point.history, trial, law.pressure(point.history, rho, before), rho, step.dt);
   double const shear_work = 0.5 * contract(first_piola_of(point.history.S, 0, F), dF) / law.rho0;
   double const volume = 0.5 * contract(H, dF) / law.rho0;
   auto const energy = [&](double pressure) { return before + old_work + shear_work - pressure * volume; };
-  for (int k = 0; k < 3; ++k) point.pressure = law.pressure(rho, energy(point.pressure));
+  for (int k = 0; k < 3; ++k) point.pressure = law.pressure(point.history, rho, energy(point.pressure));
   point.energy = energy(point.pressure);
   point.F = F;
   return first_piola_of(point.history.S, point.pressure, F);

@@ -9,13 +9,15 @@
 namespace piola::inline PIOLA_MACHINE {
 
 /// The word `eos` of a solid, in the order of the equations of state in solids.hpp.
-inline constexpr std::array<std::string_view, 4> eos_words{"elastic", "stiffened_gas", "mie_grueneisen", "polynomial"};
+inline constexpr std::array<std::string_view, 5> eos_words{"elastic", "stiffened_gas", "mie_grueneisen", "polynomial",
+                                                           "jwl"};
 
 /// Numbers of all equations of state. A solid reads them all; its equation of state takes its own.
 struct EosValues {
   static constexpr Condition with_gas{"eos", "stiffened_gas"};
   static constexpr Condition with_grueneisen{"eos", "mie_grueneisen"};
   static constexpr Condition with_polynomial{"eos", "polynomial"};
+  static constexpr Condition with_jwl{"eos", "jwl"};
   static constexpr std::array parameters{
       Parameter{"bulk_sound_speed", "m/s", "c0, sound speed of the pressure alone at rest", positive, 0,
                 "sqrt(K/density)", Condition{"eos", "stiffened_gas", "mie_grueneisen"}},
@@ -42,7 +44,20 @@ struct EosValues {
       Parameter{"c3", "Pa", "C3 of the polynomial", any_value, 0, {}, with_polynomial},
       Parameter{"c4", "1", "C4 of the polynomial, times the energy", any_value, 0, {}, with_polynomial},
       Parameter{"c5", "1", "C5 of the polynomial, times the energy", any_value, 0, {}, with_polynomial},
-      Parameter{"c6", "1", "C6 of the polynomial, times the energy", any_value, 0, {}, with_polynomial}};
+      Parameter{"c6", "1", "C6 of the polynomial, times the energy", any_value, 0, {}, with_polynomial},
+      Parameter{"jwl_a", "Pa", "A of the gases of an explosive", positive, no_default, {}, with_jwl},
+      Parameter{"jwl_b", "Pa", "B of the gases of an explosive", any_value, no_default, {}, with_jwl},
+      Parameter{"jwl_r1", "1", "R1, times the volume ratio, in the exponent of A", positive, no_default, {}, with_jwl},
+      Parameter{"jwl_r2", "1", "R2, times the volume ratio, in the exponent of B", positive, no_default, {}, with_jwl},
+      Parameter{"jwl_omega", "1", "omega, Grueneisen's gamma of the gases", positive, no_default, {}, with_jwl},
+      Parameter{"detonation_energy",
+                "J/m^3",
+                "E0, energy per volume of the explosive, which its gases start with",
+                positive,
+                no_default,
+                {},
+                with_jwl},
+      Parameter{"detonation_speed", "m/s", "speed of the detonation front", positive, no_default, {}, with_jwl}};
 
   double rho0;          ///< reference density [kg/m^3]
   double kappa;         ///< bulk modulus of Young's modulus and Poisson's ratio [Pa]
@@ -52,6 +67,10 @@ struct EosValues {
   double s1, s2, s3;    ///< shock speed
   double c1, c2, c3;    ///< [Pa]
   double c4, c5, c6;
+  double a, b;           ///< of Jones, Wilkins and Lee [Pa]
+  double r1, r2, omega;  ///< the same
+  double detonation;     ///< energy of the explosive [J/m^3]
+  double front;          ///< speed of detonation [m/s]
 
   /// v: values in the order of `parameters`.
   PIOLA_FN EosValues(double density, double bulk_modulus, double const* v)
@@ -69,7 +88,14 @@ struct EosValues {
         c3(v[9]),
         c4(v[10]),
         c5(v[11]),
-        c6(v[12]) {}
+        c6(v[12]),
+        a(v[13]),
+        b(v[14]),
+        r1(v[15]),
+        r2(v[16]),
+        omega(v[17]),
+        detonation(v[18]),
+        front(v[19]) {}
 };
 
 }  // namespace piola::inline PIOLA_MACHINE

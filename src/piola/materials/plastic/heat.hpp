@@ -7,6 +7,14 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
+/// What the flow stress of a point may depend on, besides the plastic strain rate.
+struct FlowState {
+  double plastic_strain = 0;  ///< equivalent
+  double temperature = 0;     ///< [K]
+  double pressure = 0;        ///< positive in compression [Pa]
+  double damage = 0;          ///< 0 to 1
+};
+
 /// Adiabatic heating by plastic work, and what Johnson and Cook measure temperature and rate by.
 struct Heat {
   static constexpr int size = 6;

@@ -10,19 +10,17 @@ class IsotropicHardening {
  public:
   static constexpr std::string_view name = "isotropic_hardening";
   static constexpr std::string_view about = "elastic solid in rate form whose yield stress grows with plastic strain";
-  static constexpr bool yields = true, thermal = false;
+  static constexpr bool yields = true, thermal = false, homologous = false, brittle = false;
   static constexpr std::array parameters{
       Parameter{"yield_stress", "Pa", "von Mises stress at first yield", positive},
       Parameter{"hardening_modulus", "Pa", "d (yield stress) / d (plastic strain)", not_negative}};
 
   PIOLA_FN IsotropicHardening(double const* values, Heat const&) : yield_(values[0]), modulus_(values[1]) {}
-  /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
-  PIOLA_FN double yield_stress(double plastic_strain, double, double) const {
-    return yield_ + modulus_ * plastic_strain;
-  }
+  /// Yield stress of a state at a plastic strain rate [1/s] [Pa].
+  PIOLA_FN double yield_stress(FlowState const& s, double) const { return yield_ + modulus_ * s.plastic_strain; }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
-  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double, double, double = 0) const {
-    double const yield = yield_stress(plastic_strain, 0, 0);
+  PIOLA_FN double increment(double mises, double three_mu, FlowState const& s, double, double = 0) const {
+    double const yield = yield_stress(s, 0);
     return mises > yield ? (mises - yield) / (three_mu + modulus_) : 0;
   }
 

@@ -13,7 +13,7 @@ class JohnsonCook {
  public:
   static constexpr std::string_view name = "johnson_cook";
   static constexpr std::string_view about = "elastic solid in rate form, flow stress by strain, rate and temperature";
-  static constexpr bool yields = true, thermal = true;
+  static constexpr bool yields = true, thermal = true, homologous = true, brittle = false;
   static constexpr std::array parameters{Parameter{"yield_stress", "Pa", "A, flow stress at first yield", positive},
                                          Parameter{"hardening_coefficient", "Pa", "B of B ep^n", not_negative},
                                          Parameter{"hardening_exponent", "1", "n of B ep^n", not_negative},
@@ -22,15 +22,15 @@ class JohnsonCook {
 
   PIOLA_FN JohnsonCook(double const* v, Heat const& heat)
       : a_(v[0]), b_(v[1]), n_(v[2]), c_(v[3]), m_(v[4]), heat_(heat) {}
-  /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
-  PIOLA_FN double yield_stress(double plastic_strain, double rate, double temperature) const {
-    return static_stress(plastic_strain) * (1 + c_ * heat_.log_rate(rate)) * softening(temperature);
+  /// Yield stress of a state at a plastic strain rate [1/s] [Pa].
+  PIOLA_FN double yield_stress(FlowState const& s, double rate) const {
+    return static_stress(s.plastic_strain) * (1 + c_ * heat_.log_rate(rate)) * softening(s.temperature);
   }
   /// Plastic strain of a step of `dt` [s] whose trial stress has the von Mises stress `mises` [Pa]: Newton's method,
   /// halving where it leaves the interval that is known to hold the root. dt = 0: no effect of rate. last_flow: a guess
   /// of the flow stress [Pa], from which the search starts; 0: none.
-  PIOLA_FN double increment(double mises, double three_mu, double plastic_strain, double temperature, double dt,
-                            double last_flow = 0) const {
+  PIOLA_FN double increment(double mises, double three_mu, FlowState const& s, double dt, double last_flow = 0) const {
+    double const plastic_strain = s.plastic_strain, temperature = s.temperature;
     // Most particles: no power is needed to see that they stay elastic (T*^m is at most T* for m >= 1).
     if (m_ >= 1 && !(mises > a_ * (1 - heat_.homologous(temperature)))) return 0;
     double const soft = softening(temperature);

@@ -10,14 +10,14 @@ class PerfectPlasticity {
  public:
   static constexpr std::string_view name = "perfectly_plastic";
   static constexpr std::string_view about = "elastic solid in rate form with a constant yield stress (von Mises)";
-  static constexpr bool yields = true, thermal = false;
+  static constexpr bool yields = true, thermal = false, homologous = false, brittle = false;
   static constexpr std::array parameters{Parameter{"yield_stress", "Pa", "von Mises stress at yield", positive}};
 
   PIOLA_FN PerfectPlasticity(double const* values, Heat const&) : yield_(values[0]) {}
-  /// Yield stress [Pa] at a plastic strain, its rate [1/s] and a temperature [K].
-  PIOLA_FN double yield_stress(double, double, double) const { return yield_; }
+  /// Yield stress of a state at a plastic strain rate [1/s] [Pa].
+  PIOLA_FN double yield_stress(FlowState const&, double) const { return yield_; }
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
-  PIOLA_FN double increment(double mises, double three_mu, double, double, double, double = 0) const {
+  PIOLA_FN double increment(double mises, double three_mu, FlowState const&, double, double = 0) const {
     return mises > yield_ ? (mises - yield_) / three_mu : 0;
   }
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/machine.hpp"
+#include "piola/materials/eos/values.hpp"
+#include "piola/math/root.hpp"
+#include <cmath>
+
+namespace piola::inline PIOLA_MACHINE {
+
+/// Gases of a detonated explosive, by Jones, Wilkins and Lee (E. L. Lee, H. C. Hornig, J. W. Kury, UCRL-50422, 1968).
+/// V = rho0/rho, E = rho0 e energy per volume of the explosive, which starts at the energy of detonation:
+///   p = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V
+/// What has not burnt yet has a share of this pressure (SolidHistory::burnt).
+class JwlEos {
+ public:
+  PIOLA_FN explicit JwlEos(EosValues const& values)
+      : initial_energy(values.detonation / values.rho0),
+        front_speed(values.front),
+        rho0_(values.rho0),
+        a_(values.a),
+        b_(values.b),
+        r1_(values.r1),
+        r2_(values.r2),
+        omega_(values.omega) {}
+
+  double initial_energy;  ///< [J/kg]
+  double front_speed;     ///< of the detonation [m/s]
+
+  /// Pressure of the gases, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
+  PIOLA_FN double pressure(double rho, double e) const {
+    return term(a_, r1_, rho).value + term(b_, r2_, rho).value + omega_ * rho * e;
+  }
+  /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
+  PIOLA_FN double sound_speed_squared(double rho, double e) const {
+    return term(a_, r1_, rho).slope + term(b_, r2_, rho).slope + omega_ * e + pressure(rho, e) / rho * omega_;
+  }
+  /// Bulk modulus of the gases in the volume of the explosive [Pa].
+  PIOLA_FN double bulk_modulus() const { return rho0_ * sound_speed_squared(rho0_, initial_energy); }
+
+ private:
+  /// One exponential of the density, and its derivative.
+  PIOLA_FN Sloped term(double factor, double r, double rho) const {
+    double const V = rho0_ / rho, fall = factor * std::exp(-r * V), part = omega_ / (r * V);
+    // dV/drho = -V/rho
+    return {fall * (1 - part), fall * (r * V * (1 - part) - part) / rho};
+  }
+
+  double rho0_, a_, b_, r1_, r2_, omega_;
+};
+
+}  // namespace piola::inline PIOLA_MACHINE
