@@ -53,8 +53,8 @@ TEST(ReadMaterial, WordsThatAreLeftOutAreElasticAndWithoutDamage) {
 }
 
 TEST(ReadMaterial, TheLibraryGivesLawWordsAndNumbers) {
-  auto const read = material_of(R"(name = "aluminium_adaptle_3_3")");
-  auto const expected = parameters_of(*find_material("aluminium_adaptle_3_3"));
+  auto const read = material_of(R"(name = "aluminium_spall")");
+  auto const expected = parameters_of(*find_material("aluminium_spall"));
   EXPECT_EQ(read.law, expected.law);
   for (int i = 0; i < MaterialParameters::max_words; ++i) EXPECT_EQ(read.word[i], expected.word[i]);
   for (int i = 0; i < MaterialParameters::max_values; ++i) EXPECT_EQ(read.value[i], expected.value[i]) << i;
