@@ -99,6 +99,28 @@ TEST(MaterialLibrary, HasShocksThatGoWithTheElasticConstants) {
   EXPECT_GE(shocks, 15);
 }
 
+/// In strong compression, tension and heat, and at any rate, every solid of the library answers with numbers.
+TEST(MaterialLibrary, AnswersFarFromRest) {
+  for (LibraryMaterial const& material : material_library()) {
+    SCOPED_TRACE(material.name);
+    with_solid(parameters_of(material), [](auto const& solid) {
+      for (double const ratio : {0.7, 1.0, 1.3, 1.8}) {
+        double const rho = ratio * solid.rho0, p = solid.pressure(rho, 1e5);
+        EXPECT_TRUE(std::isfinite(p) && std::isfinite(solid.sound_speed(rho, 1e5))) << ratio;
+        EXPECT_TRUE(ratio <= 1 || p > 0) << ratio;
+        for (double const dt : {1e-9, 1e-3}) {
+          SolidHistory h{.plastic_strain = 0.1, .temperature = 2 * solid.initial_temperature()};
+          SymMat<3> trial{};
+          trial.c[3] = 0.1 * solid.mu;
+          double const flow = solid.update(h, trial, p, rho, dt);
+          EXPECT_TRUE(std::isfinite(flow) && std::isfinite(von_mises(h.S)) && std::isfinite(h.temperature)) << ratio;
+          EXPECT_TRUE(h.damage >= 0 && h.damage <= 1) << ratio;
+        }
+      }
+    });
+  }
+}
+
 TEST(MaterialLibrary, SaysWhatDoesNotFailAndWhatHasNoShock) {
   for (LibraryMaterial const& material : material_library()) {
     SCOPED_TRACE(material.name);
