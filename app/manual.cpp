@@ -194,7 +194,11 @@ std::string describe_materials(std::string const& name, Layout layout) {
     known.emplace_back(material.name);
     if (name == material.name) text += describe_set(material);
   }
-  if (name.empty()) text += title("Materials of the library, for the key name", 4, layout) + library_table(layout);
+  if (name.empty()) {
+    text += title("Materials of the library, for the key name", 4, layout) +
+            (layout == Layout::markdown ? "Numbers, sources, ranges: [materials.md](materials.md).\n\n" : "") +
+            library_table(layout);
+  }
   if (!text.empty()) return text;
   refuse_renamed(name);
   throw InputError("no law or material is named " + in_quotes(name) + " (known: " + known_names_text(name, known) +

@@ -16,14 +16,16 @@ struct Printed {
   std::string_view source, checked;
 };
 
+constexpr int digits = 7;  ///< as many as the longest number of a source has
+
 std::vector<Printed> printed_numbers(LibraryMaterial const& material) {
   std::vector<Printed> lines;
   LawInfo const law = *find_law(material.law);
   for (Parameter const& parameter : law.parameters) {
     for (LibraryNumber const& number : material.numbers) {
       if (number.parameter != parameter.name) continue;
-      lines.push_back(
-          {parameter.name, quantity_text(number.value, parameter.unit), number.source, checked_text(number.checked)});
+      lines.push_back({parameter.name, quantity_text(number.value, parameter.unit, digits), number.source,
+                       checked_text(number.checked)});
     }
   }
   return lines;
@@ -56,7 +58,7 @@ std::string library_page() {
       "set;\n"
       "keys beside the name change it. Each number has a source and says how it was checked: `read` in the source,\n"
       "`quoted`: read in another text or program that quotes it, `unread`: seen in no text. Before you rest a result\n"
-      "on an unread number, look it up.\n\n"
+      "on an unread number, look it up; the range of an unread source was not read either.\n\n"
       "A set with `eos = \"mie_grueneisen\"` takes its bulk modulus from the shock, density times the square of\n"
       "`bulk_sound_speed`; of `youngs_modulus` and `poissons_ratio` it uses the shear modulus alone. The two bulk "
       "moduli\n"

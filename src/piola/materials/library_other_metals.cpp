@@ -120,7 +120,9 @@ constexpr std::array other_metals_sets{
     LibraryMaterial{
         "copper_ofhc", "oxygen-free copper, annealed, with shock and damage",
         "flow stress: torsion up to about 400 1/s and Hopkinson bars at raised temperature, checked with Taylor "
-        "cylinders; damage: notched tension bars and torsion",
+        "cylinders; damage: notched tension bars and torsion; the same numbers are in use for tough-pitch (ETP) "
+        "copper, for "
+        "which no set of its own was found",
         "", "johnson_cook", with_shock_and_damage, copper_ofhc_numbers},
     LibraryMaterial{
         "tungsten_alloy", "tungsten with 7 % nickel and 3 % iron, with shock and damage",
