@@ -70,11 +70,11 @@ constexpr std::array aluminium_2024_t351_numbers{
     LibraryNumber{"hugoniot_s1", 1.338, "steinberg_1996", quoted},
     LibraryNumber{"grueneisen_gamma", 2.00, "steinberg_1996", quoted},
     LibraryNumber{"grueneisen_slope", 0.48, "steinberg_1996", quoted},
-    LibraryNumber{"d1", 0.112, "johnson_holmquist_1989", unread},
-    LibraryNumber{"d2", 0.123, "johnson_holmquist_1989", unread},
+    LibraryNumber{"d1", 0.112, "johnson_holmquist_1989", quoted},
+    LibraryNumber{"d2", 0.123, "johnson_holmquist_1989", quoted},
     LibraryNumber{"d3", -1.5, "johnson_holmquist_1989", unread},
-    LibraryNumber{"d4", 0.007, "johnson_holmquist_1989", unread},
-    LibraryNumber{"d5", 0, "johnson_holmquist_1989", unread}};
+    LibraryNumber{"d4", 0.007, "johnson_holmquist_1989", quoted},
+    LibraryNumber{"d5", 0, "johnson_holmquist_1989", quoted}};
 
 constexpr std::array aluminium_6061_t6_numbers{LibraryNumber{"density", 2703, "steinberg_1996", quoted},
                                                LibraryNumber{"youngs_modulus", 69e9, "handbook", quoted},

@@ -93,8 +93,8 @@ constexpr std::array titanium_6al_4v_numbers{LibraryNumber{"density", 4430, "han
                                              LibraryNumber{"d1", -0.09, "johnson_1985", quoted},
                                              LibraryNumber{"d2", 0.25, "johnson_1985", quoted},
                                              LibraryNumber{"d3", -0.5, "johnson_1985", quoted},
-                                             LibraryNumber{"d4", 0.014, "johnson_1985", unread},
-                                             LibraryNumber{"d5", 3.87, "johnson_1985", unread}};
+                                             LibraryNumber{"d4", 0.014, "johnson_1985", quoted},
+                                             LibraryNumber{"d5", 3.87, "johnson_1985", quoted}};
 
 constexpr std::array beryllium_numbers{
     LibraryNumber{"density", 1845, "howell_2002", unread}, youngs_of(151e9, verney_bulk, "howell_2002", unread),
