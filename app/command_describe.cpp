@@ -23,7 +23,8 @@ struct Topic {
   Describe describe;
 };
 constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", describe_materials},
-                            Topic{"kernel", describe_kernels}, Topic{"formulation", describe_formulations}};
+                            Topic{"library", describe_library}, Topic{"kernel", describe_kernels},
+                            Topic{"formulation", describe_formulations}};
 
 int describe(DescribeArguments const& options) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
@@ -49,7 +50,8 @@ void add_describe(CLI::App& program, Action& action) {
   auto const options = std::make_shared<DescribeArguments>();
   CLI::App* command =
       program.add_subcommand("describe", "Explain materials, kernels, formulations and the keys of a case file");
-  command->add_option("kind", options->kind, "material, kernel, formulation or case; all in short if left out");
+  command->add_option("kind", options->kind,
+                      "material, library, kernel, formulation or case; all in short if left out");
   command->add_option("name", options->name, "which one, e.g. neo_hookean; for a case a section, e.g. body.shape");
   command->add_flag("--markdown", options->markdown,
                     "As a page of the manual; alone: the whole page docs/user/case-reference.md");

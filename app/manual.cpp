@@ -103,35 +103,6 @@ std::string describe_law(LawInfo const& law, Layout layout) {
          (layout == Layout::markdown ? "" : "  ") + std::string(law.about) + "\n" + table_text(rows, layout);
 }
 
-/// One material of the library: law, words, values with units, source.
-std::string describe_named(LibraryMaterial const& material, Layout layout) {
-  LawInfo const law = *find_law(material.law);
-  MaterialParameters const values = parameters_of(material);
-  std::string text = fmt::format("  law = \"{}\"\n", material.law);
-  for (LibraryWord const& word : material.words) text += fmt::format("  {} = \"{}\"\n", word.choice, word.word);
-  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
-    Parameter const& parameter = law.parameters[i];
-    if (!material.number(parameter.name) || !applies(law, parameter, values)) continue;
-    text += fmt::format("  {} = {}\n", parameter.name, quantity_text(values.value[i], parameter.unit));
-  }
-  bool const markdown = layout == Layout::markdown;
-  std::string const about = fmt::format("  {}\n", material.about),
-                    source = fmt::format("  source: {}\n", material.source);
-  return title(std::string(material.name), 4, layout) + about + (markdown ? "\n```\n" : "") + text +
-         (markdown ? "```\n\n" : "") + source;
-}
-
-std::string describe_library(Layout layout) {
-  bool const markdown = layout == Layout::markdown;
-  std::string text = title("Materials of the library, for the key name", 4, layout);
-  if (markdown) text += "| name | law | what | source |\n|---|---|---|---|\n";
-  for (LibraryMaterial const& m : material_library()) {
-    text += markdown ? fmt::format("| `{}` | `{}` | {} | {} |\n", m.name, m.law, m.about, m.source)
-                     : fmt::format("  {:<22} {}: {}\n", m.name, m.law, m.about);
-  }
-  return text;
-}
-
 std::string describe_kernel(Kernel const& kernel, Layout layout) {
   return title(std::string(kernel.name), 4, layout) + (layout == Layout::markdown ? "" : "  ") +
          std::string(kernel.about) + "\n";
@@ -221,10 +192,15 @@ std::string describe_materials(std::string const& name, Layout layout) {
   }
   for (LibraryMaterial const& material : material_library()) {
     known.emplace_back(material.name);
-    if (name == material.name) text += describe_named(material, layout);
+    if (name == material.name) text += describe_set(material);
   }
-  if (name.empty()) text += describe_library(layout);
+  if (name.empty()) {
+    text += title("Materials of the library, for the key name", 4, layout) +
+            (layout == Layout::markdown ? "Numbers, sources, ranges: [materials.md](materials.md).\n\n" : "") +
+            library_table(layout);
+  }
   if (!text.empty()) return text;
+  refuse_renamed(name);
   throw InputError("no law or material is named " + in_quotes(name) + " (known: " + known_names_text(name, known) +
                    ") - " + advice_for_name(name, known));
 }

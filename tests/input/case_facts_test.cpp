@@ -41,7 +41,7 @@ TEST(CaseFacts, MassWavesAndStepFollowFromTheCase) {
 TEST(CaseFacts, SolidsInRateFormHaveMassAndWavesToo) {
   CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
   spec.bodies[0].law = "isotropic_hardening";
-  spec.bodies[0].material = parameters_of(*find_material("steel_adaptle_3_3"));
+  spec.bodies[0].material = parameters_of(*find_material("steel_linear_hardening"));
   BodyFacts const body = body_facts(spec, make_particles(spec)).at(0);
   EXPECT_NEAR(body.mass, 6 * 7870, 1e-8);
   EXPECT_NEAR(body.p_wave, std::sqrt(200e9 * 0.7 / (1.3 * 0.4 * 7870)), 1e-8);

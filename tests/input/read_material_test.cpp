@@ -53,11 +53,14 @@ TEST(ReadMaterial, WordsThatAreLeftOutAreElasticAndWithoutDamage) {
 }
 
 TEST(ReadMaterial, TheLibraryGivesLawWordsAndNumbers) {
-  auto const read = material_of(R"(name = "aluminium_adaptle_3_3")");
-  auto const expected = parameters_of(*find_material("aluminium_adaptle_3_3"));
-  EXPECT_EQ(read.law, expected.law);
-  for (int i = 0; i < MaterialParameters::max_words; ++i) EXPECT_EQ(read.word[i], expected.word[i]);
-  for (int i = 0; i < MaterialParameters::max_values; ++i) EXPECT_EQ(read.value[i], expected.value[i]) << i;
+  for (LibraryMaterial const& material : material_library()) {
+    SCOPED_TRACE(material.name);
+    auto const read = material_of("name = \"" + std::string(material.name) + "\"");
+    auto const expected = parameters_of(material);
+    EXPECT_EQ(read.law, expected.law);
+    for (int i = 0; i < MaterialParameters::max_words; ++i) EXPECT_EQ(read.word[i], expected.word[i]);
+    for (int i = 0; i < MaterialParameters::max_values; ++i) EXPECT_EQ(read.value[i], expected.value[i]) << i;
+  }
 }
 
 TEST(ReadMaterial, KeysBesideTheNameChangeAMaterialOfTheLibrary) {

@@ -120,10 +120,20 @@ class MaterialReader {
   std::vector<std::string_view> unclear_;  ///< choices whose word could not be read
 };
 
+/// Whether the material of the library has another name now, which is a problem of the case.
+bool is_renamed(Value const& name, Problems& problems) {
+  auto const now = renamed_material(name.node.text);
+  if (!now) return false;
+  problems.add(name.node.place, fmt::format("{} {} is now {} - write name = {}", name.name, in_quotes(name.node.text),
+                                            in_quotes(*now), in_quotes(*now)));
+  return true;
+}
+
 /// The law of the key `law`, or of the material of the library that the key `name` names.
 std::optional<std::string> law_name(Section const& section, std::optional<LibraryMaterial>& base) {
   if (auto const name = section.find("name")) {
     section.refuse("law", "is that of the material of the library when \"name\" is given");
+    if (is_renamed(*name, section.problems())) return std::nullopt;
     auto const word = read_word(*name, material_names(), section.problems());
     if (!word) return std::nullopt;
     base = find_material(*word);

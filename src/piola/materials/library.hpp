@@ -4,8 +4,24 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace piola {
+
+/// How the number of a source was checked by those who put it into the library.
+enum class Checked {
+  read,    ///< in the source itself
+  quoted,  ///< in another text or program that quotes it
+  unread,  ///< in no text: typed from knowledge of the source
+  chosen   ///< not at all: a choice, not a measurement
+};
+std::string_view checked_text(Checked checked);
+
+/// Where numbers of the library are from.
+struct LibrarySource {
+  std::string_view key;   ///< short name, as `LibraryNumber::source` gives it
+  std::string_view text;  ///< full reference
+};
 
 /// A word or a number of a material of the library, by the name of its choice or parameter.
 struct LibraryWord {
@@ -13,24 +29,37 @@ struct LibraryWord {
 };
 struct LibraryNumber {
   std::string_view parameter;
-  double value;  ///< SI
+  double value;             ///< SI
+  std::string_view source;  ///< LibrarySource::key
+  Checked checked;
 };
 
 /// A material that a case file names instead of giving a law and numbers: `material = { name = "steel_4340" }`.
 struct LibraryMaterial {
   std::string_view name;
-  std::string_view about;   ///< one line
-  std::string_view source;  ///< where the numbers are from
-  std::string_view law;     ///< LawInfo::name
+  std::string_view about;  ///< one line
+  std::string_view range;  ///< for which rates, temperatures, pressures and shapes the numbers hold
+  std::string_view lacks;  ///< what the material does and the set does not; empty: nothing that matters in an impact
+  std::string_view law;    ///< LawInfo::name
   std::span<LibraryWord const> words;
   std::span<LibraryNumber const> numbers;
 
   std::optional<std::string_view> word(std::string_view choice) const;
   std::optional<double> number(std::string_view parameter) const;
+  /// Its sources, each once, in the order of its numbers.
+  std::vector<LibrarySource> sources() const;
+};
+
+/// A material that had another name in earlier versions.
+struct RenamedMaterial {
+  std::string_view before, now;
 };
 
 std::span<LibraryMaterial const> material_library();
+std::span<LibrarySource const> library_sources();
 std::optional<LibraryMaterial> find_material(std::string_view name);
+/// The present name of a material that `name` named before.
+std::optional<std::string_view> renamed_material(std::string_view name);
 
 /// Law and numbers of a material of the library; what it does not give has its default.
 MaterialParameters parameters_of(LibraryMaterial const& material);
