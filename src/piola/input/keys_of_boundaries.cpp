@@ -198,7 +198,8 @@ constexpr std::array boundary_keys{
         "kernel: repulsion by the kernel, stiffness from the impedances; linear: a spring with the stiffness of the "
         "material, for slow impacts; printed: as published, with a constant that you give; surface: as other "
         "formulations "
-        "meet, with friction, if all stay total-Lagrangian; none: bodies merge",
+        "meet, with friction, if all stay total-Lagrangian; none: Eulerian "
+        "bodies merge, others do not see each other",
         contact_words},
     KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},
     KeyInfo{"contact",

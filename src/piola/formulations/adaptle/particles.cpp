@@ -24,6 +24,21 @@ Direction load_on(Load const& load, std::size_t k, Direction const& X, double ti
                          time);
 }
 
+/// What the law of a body says of it.
+template <class Law>
+void take_constants(Law const& law, BodyOptions const& o, BodyConstants& b) {
+  b.releases = o.releases && !law.pressed;  // what is broken still bears shear under pressure
+  b.rho0 = law.rho0;
+  b.bulk_modulus = law.kappa;
+  b.shear_modulus = law.mu;
+  b.yield_stress = law.yield_stress({{}, 0, law.initial_temperature(), 0, 0}, 0);
+  b.burst_pressure = law.rho0 * law.front_speed() * law.front_speed() / 4;  // Chapman-Jouguet with gamma = 3
+  b.c = o.bulk_speed ? law.bulk_sound_speed() : law.p_wave_speed();
+  b.shear_share = std::max(0.01, law.s_wave_speed() / law.p_wave_speed());
+  b.young = 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
+  b.poisson = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu));
+}
+
 /// Adds the wall time of its life to a sum.
 class Stopwatch {
  public:
@@ -110,18 +125,7 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
     if (o.description == Description::patch) b.tether = b.adaptive = false;
     b.deletes = o.deletes;
-    with_solid(b.material, [&](auto const& law) {
-      b.releases = o.releases && !law.pressed;  // what is broken still bears shear under pressure
-      b.rho0 = law.rho0;
-      b.bulk_modulus = law.kappa;
-      b.shear_modulus = law.mu;
-      b.yield_stress = law.yield_stress({{}, 0, law.initial_temperature(), 0, 0}, 0);
-      b.burst_pressure = law.rho0 * law.front_speed() * law.front_speed() / 4;  // Chapman-Jouguet with gamma = 3
-      b.c = o.bulk_speed ? law.bulk_sound_speed() : law.p_wave_speed();
-      b.shear_share = std::max(0.01, law.s_wave_speed() / law.p_wave_speed());
-      b.young = 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
-      b.poisson = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu));
-    });
+    with_solid(b.material, [&](auto const& law) { take_constants(law, o, b); });
     body_.push_back(b);
   }
 }
