@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a case adds to the law of each particle: scatter, explosives, glass. Runs are the same however they are cut.
+#include "formulations/adaptle/clouds.hpp"
+#include <cmath>
+
+namespace piola {
+namespace {
+
+using namespace testing;
+
+/// A metal that tears, each particle at its own strain.
+MaterialParameters scattered() {
+  return parameters_by_name("perfectly_plastic", "elastic", "johnson_cook",
+                            {{"density", 2700},
+                             {"youngs_modulus", 70e9},
+                             {"poissons_ratio", 0.33},
+                             {"yield_stress", 3e8},
+                             {"d1", 0.02},
+                             {"spall_pressure", 2e9},
+                             {"weibull_modulus", 4}});
+}
+MaterialParameters glass() {
+  MaterialParameters m = sample_metal("johnson_holmquist", "polynomial");
+  return m;
+}
+MaterialParameters explosive() {
+  return parameters_by_name("elastic", "jwl", "",
+                            {{"density", 1717},
+                             {"youngs_modulus", 1e6},
+                             {"poissons_ratio", 0.2},
+                             {"jwl_a", 524.2e9},
+                             {"jwl_b", 7.678e9},
+                             {"jwl_r1", 4.2},
+                             {"jwl_r2", 1.1},
+                             {"jwl_omega", 0.34},
+                             {"detonation_energy", 8.5e9},
+                             {"detonation_speed", 7980}});
+}
+
+struct Subject {
+  char const* name;
+  MaterialParameters (*material)();
+  double stretch;  ///< rate at the start [1/s]
+  char const* ignition;
+};
+
+Assembly made(Subject const& subject) {
+  Assembly a = adaptle_assembly(unit_box(2, 10, 0.1), subject.material());
+  choose(a, "description", "adaptive");
+  double const rate = subject.stretch;
+  give_velocity(a, [rate](Point const& X) { return Point{rate * (X[0] - 0.5), 0.3 * rate * X[1], 0}; });
+  if (*subject.ignition != 0) choose_formula(a, "ignition", subject.ignition);
+  return a;
+}
+
+double run(Formulation& f, double time, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    double const dt = f.stable_time_step();
+    f.step(time, dt);
+    time += dt;
+  }
+  EXPECT_FALSE(f.failure());
+  return time;
+}
+
+class PointFactorRuns : public ::testing::TestWithParam<Subject> {};
+
+TEST_P(PointFactorRuns, GoOnFromACheckpointAsIfTheyHadNotStopped) {
+  Assembly const a = made(GetParam());
+  auto const whole = make_formulation(a), resumed = make_formulation(a);
+  double const middle = run(*whole, 0, 25);
+  SavedState state = saved(*whole);
+  resumed->load(state);
+  run(*whole, middle, 25);
+  run(*resumed, middle, 25);
+  EXPECT_EQ(saved(*whole).values, saved(*resumed).values);
+}
+
+TEST_P(PointFactorRuns, AreTheSameWithAnyNumberOfThreads) {
+  Assembly const a = made(GetParam());
+  std::map<std::string, Values, std::less<>> first;
+  for (int const threads : testing::thread_counts) {
+    Threads const set(threads);
+    auto const f = make_formulation(a);
+    run(*f, 0, 40);
+    if (threads == 1) first = saved(*f).values;
+    EXPECT_EQ(saved(*f).values, first) << threads;
+  }
+}
+
+TEST_P(PointFactorRuns, KeepTheirEnergy) {
+  Assembly const a = made(GetParam());
+  auto const f = make_formulation(a);
+  double const before = f->diagnose().total_energy();
+  ASSERT_GT(before, 0);
+  run(*f, 0, 150);
+  EXPECT_NEAR(f->diagnose().total_energy(), before, 5e-3 * before);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PointFactorRuns,
+                         ::testing::Values(Subject{"scatter", &scattered, 400, ""}, Subject{"glass", &glass, -3000, ""},
+                                           Subject{"explosive", &explosive, 0, "X/7980"}),
+                         [](auto const& subject) { return subject.param.name; });
+
+TEST(PointFactors, LetParticlesFailOneAfterTheOther) {
+  Assembly const a = made({"", &scattered, 400, ""});
+  auto const f = make_formulation(a);
+  double last = 0;
+  int rises = 0;
+  double time = 0;
+  for (int k = 0; k < 40; ++k) {
+    time = run(*f, time, 10);
+    double failed = 0;
+    for (double const d : sample(*f, "Damage", a.particles.X.size())) failed += d >= 1 ? 1 : 0;
+    rises += failed > last ? 1 : 0;
+    last = failed;
+  }
+  EXPECT_GT(last, 5);
+  EXPECT_GT(rises, 3);
+}
+
+/// The front goes through the charge with its speed: what it has not reached is at rest.
+TEST(PointFactors, BurnAChargeFromWhereItIsLit) {
+  Assembly a = made({"", &explosive, 0, "X/7980"});
+  auto const f = make_formulation(a);
+  double time = 0;
+  while (time < 0.5 / 7980) time = run(*f, time, 1);
+  Values const p = sample(*f, "Pressure", a.particles.X.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (a.particles.X[i][0] > 0.75) {
+      EXPECT_EQ(p[i], 0) << a.particles.X[i][0];
+    }
+    if (a.particles.X[i][0] < 0.25) {
+      EXPECT_LT(p[i], -1e9) << a.particles.X[i][0];  // negative in compression
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piola
