@@ -136,5 +136,27 @@ TEST(PointFactors, BurnAChargeFromWhereItIsLit) {
   }
 }
 
+/// Two particles that see each other's volume grow would else run away in finite time, and the step with them.
+TEST(EulerianDensity, StopsWhereAParticleFillsItsKernel) {
+  Assembly a = adaptle_assembly(unit_box(3, 5));
+  choose(a, "description", "eulerian");
+  give_velocity(a, [](Point const& X) { return Point{1e4 * X[0], 1e4 * X[1], 1e4 * X[2]}; });
+  Cloud cloud(a);
+  double const rho0 = cloud.system().body[0].rho0, least = rho0 / (4 * std::acos(-1.0) / 3 * std::pow(2.4, 3));
+  for (Index i = 0; i < cloud.size(); ++i) cloud.state[i].rho = 1.001 * least;
+  cloud.changed();
+  double time = 0;
+  for (int k = 0; k < 5; ++k) {
+    cloud.particles->step(time, 1e-6);
+    time += 1e-6;
+  }
+  int at_least = 0;
+  for (Index i = 0; i < cloud.size(); ++i) {
+    EXPECT_GE(cloud.state[i].rho, least * (1 - 1e-12));
+    at_least += std::abs(cloud.state[i].rho - least) < 1e-12 * rho0 ? 1 : 0;
+  }
+  EXPECT_GT(at_least, cloud.size() / 2);
+}
+
 }  // namespace
 }  // namespace piola

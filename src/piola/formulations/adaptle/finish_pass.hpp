@@ -68,6 +68,7 @@ struct Finish {
     double const trace_L = trace(L);
     k.rho = -h.rho * trace_L;
     p.rho = p.phi > 0 ? p.rho + dt * k.rho : h.rho;
+    if (p.phi > 0) stay_in_kernel(p, k);
     k.thickness = h.thickness * L(2, 2);
     if (settings.plane_stress) p.thickness += dt * k.thickness;
     k.energy = (p.alive > 0 ? stress_power(h, S_half, L) : 0) + sum.heat;
@@ -102,6 +103,14 @@ struct Finish {
     s.wish[i] = wish_of(i, p, h, S_half, F_inverse);
     m[BlockMeasures::wishes] += s.wish[i] != 0 ? 1 : 0;
     check(i, p);
+  }
+
+  /// A particle fills its kernel at most: what flies apart further has no neighbours left, and two such particles would
+  /// see each other's volume grow without bound.
+  PIOLA_FN void stay_in_kernel(State& p, Rates& k) const {
+    if (!(p.rho < body.least_rho)) return;
+    p.rho = body.least_rho;
+    if (k.rho < 0) k.rho = 0;
   }
 
   /// A failed particle loses its deviator over the time in which shear waves cross its support, 2h/c_s, so that it

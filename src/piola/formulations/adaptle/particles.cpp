@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace piola::adaptle {
 namespace {
@@ -24,11 +25,12 @@ Direction load_on(Load const& load, std::size_t k, Direction const& X, double ti
                          time);
 }
 
-/// What the law of a body says of it.
+/// What the law of a body says of it. kernel_volume: of spatial sums, in volumes of a particle.
 template <class Law>
-void take_constants(Law const& law, BodyOptions const& o, BodyConstants& b) {
+void take_constants(Law const& law, BodyOptions const& o, double kernel_volume, BodyConstants& b) {
   b.releases = o.releases && !law.pressed;  // what is broken still bears shear under pressure
   b.rho0 = law.rho0;
+  b.least_rho = law.rho0 / kernel_volume;
   b.bulk_modulus = law.kappa;
   b.shear_modulus = law.mu;
   b.yield_stress = law.yield_stress({{}, 0, law.initial_temperature(), 0, 0}, 0);
@@ -111,6 +113,8 @@ void Particles::set_bodies(Assembly const& assembly) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c)
       b.spacing = c == 0 ? from.spacing[c] : std::max(b.spacing, from.spacing[c]);
     b.h = o.smoothing_length * b.spacing;
+    double const reach = set.dimension == 2 ? std::numbers::pi * std::pow(2 * o.smoothing_length, 2)
+                                            : 4 * std::numbers::pi / 3 * std::pow(2 * o.smoothing_length, 3);
     b.material_h = o.material_smoothing_length * b.spacing;
     b.alpha = o.alpha;
     b.beta = o.beta;
@@ -125,7 +129,7 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
     if (o.description == Description::patch) b.tether = b.adaptive = false;
     b.deletes = o.deletes;
-    with_solid(b.material, [&](auto const& law) { take_constants(law, o, b); });
+    with_solid(b.material, [&](auto const& law) { take_constants(law, o, reach, b); });
     body_.push_back(b);
   }
 }

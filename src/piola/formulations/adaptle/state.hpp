@@ -110,6 +110,7 @@ struct BodyConstants {
   double material_h = 1;      ///< of sums over reference neighbours [m]
   double spacing = 1;         ///< dp [m]
   double rho0 = 1;            ///< [kg/m3]
+  double least_rho = 0;       ///< of Eulerian particles: one spread over its whole kernel [kg/m3]
   double c = 0;               ///< of the viscosity [m/s]
   double alpha = 1, beta = 2;
   double artificial_stress = 0;    ///< epsilon
