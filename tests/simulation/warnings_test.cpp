@@ -55,7 +55,16 @@ TEST(Warnings, GoodCasesHaveNone) {
   EXPECT_TRUE(warnings(taylor(", configuration = \"fixed\"", support)).empty());
   EXPECT_TRUE(
       warnings(adaptle(", description = \"total_lagrangian\", correction = \"mixed\", correction_limit = 5")).empty());
-  EXPECT_TRUE(warnings(adaptle(", convert_strain = 0.5, conversion_radius = 1")).empty());
+  std::string const tears = perfect + ", spall_pressure = 1e6";
+  EXPECT_TRUE(warnings(adaptle(", convert_strain = 0.5, conversion_radius = 1", "", tears)).empty());
+}
+
+TEST(Warnings, TellOfMetalsWhoseTensionNothingLimits) {
+  for (std::string const settings : {", convert_strain = 0.5", ", description = \"eulerian\""})
+    EXPECT_NE(about("nothing limits the tension", warnings(adaptle(settings))), "") << settings;
+  for (std::string const settings : {"", ", description = \"total_lagrangian\""})
+    EXPECT_EQ(about("nothing limits the tension", warnings(adaptle(settings))), "") << settings;
+  EXPECT_EQ(about("nothing limits the tension", warnings(adaptle(", convert_strain = 0.5", "", failing))), "");
 }
 
 TEST(Warnings, NameTheLineAndWhatToDo) {

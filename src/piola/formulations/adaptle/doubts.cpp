@@ -83,6 +83,22 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
     ignore(doubts, {"assumption"}, "the body has three dimensions");
 }
 
+/// Metals whose tension nothing limits, where they flow as Eulerian particles.
+void doubt_tension(BodyOptions const& o, BodyDoubts& doubts) {
+  bool unlimited = false;
+  with_solid(doubts.material(), [&](auto const& law) {
+    unlimited = !law.pressed && !law.damages && !(law.spall_pressure < unbounded) && law.front_speed() == 0 &&
+                law.yield_stress({}, 0) < unbounded;
+  });
+  bool const flows = o.description == Description::eulerian ||
+                     (o.description == Description::adaptive && (o.convert_strain < unbounded || o.convert_when));
+  if (unlimited && flows)
+    doubts.add(
+        "material.spall_pressure",
+        "nothing limits the tension of a metal that flows as Eulerian particles (where it is fast, hundreds of GPa "
+        "of it, and energies below zero) - give spall_pressure or a damage law");
+}
+
 /// Criteria of damage for a law without it, and damage from which nothing follows.
 void doubt_damage(BodyOptions const& o, BodyDoubts& doubts) {
   bool damages = false, scatters = false;
@@ -120,6 +136,7 @@ void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
   doubt_description(o, all, doubts);
   doubt_mixture(all, doubts);
   doubt_forces(o, all, assembly.particles.dimension, doubts);
+  doubt_tension(o, doubts);
   doubt_damage(o, doubts);
 }
 
