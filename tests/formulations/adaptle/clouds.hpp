@@ -37,6 +37,17 @@ inline void choose_formula(Assembly& a, std::string const& key, std::string cons
   for (auto& f : a.formulations) f.formulas.insert_or_assign(key, Expression(text, names));
 }
 
+/// Goes on by stable steps from a time [s]; the time after them.
+inline double take_steps(Formulation& f, double time, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    double const dt = f.stable_time_step();
+    f.step(time, dt);
+    time += dt;
+  }
+  EXPECT_FALSE(f.failure());
+  return time;
+}
+
 /// Particles and the arrays of their state.
 struct Cloud {
   explicit Cloud(Assembly const& a)

@@ -19,10 +19,7 @@ MaterialParameters scattered() {
                              {"spall_pressure", 2e9},
                              {"weibull_modulus", 4}});
 }
-MaterialParameters glass() {
-  MaterialParameters m = sample_metal("johnson_holmquist", "polynomial");
-  return m;
-}
+MaterialParameters glass() { return sample_metal("johnson_holmquist", "polynomial"); }
 MaterialParameters explosive() {
   return parameters_by_name("elastic", "jwl", "",
                             {{"density", 1717},
@@ -53,26 +50,16 @@ Assembly made(Subject const& subject) {
   return a;
 }
 
-double run(Formulation& f, double time, int steps) {
-  for (int k = 0; k < steps; ++k) {
-    double const dt = f.stable_time_step();
-    f.step(time, dt);
-    time += dt;
-  }
-  EXPECT_FALSE(f.failure());
-  return time;
-}
-
 class PointFactorRuns : public ::testing::TestWithParam<Subject> {};
 
 TEST_P(PointFactorRuns, GoOnFromACheckpointAsIfTheyHadNotStopped) {
   Assembly const a = made(GetParam());
   auto const whole = make_formulation(a), resumed = make_formulation(a);
-  double const middle = run(*whole, 0, 25);
+  double const middle = take_steps(*whole, 0, 25);
   SavedState state = saved(*whole);
   resumed->load(state);
-  run(*whole, middle, 25);
-  run(*resumed, middle, 25);
+  take_steps(*whole, middle, 25);
+  take_steps(*resumed, middle, 25);
   EXPECT_EQ(saved(*whole).values, saved(*resumed).values);
 }
 
@@ -82,7 +69,7 @@ TEST_P(PointFactorRuns, AreTheSameWithAnyNumberOfThreads) {
   for (int const threads : testing::thread_counts) {
     Threads const set(threads);
     auto const f = make_formulation(a);
-    run(*f, 0, 40);
+    take_steps(*f, 0, 40);
     if (threads == 1) first = saved(*f).values;
     EXPECT_EQ(saved(*f).values, first) << threads;
   }
@@ -93,7 +80,7 @@ TEST_P(PointFactorRuns, KeepTheirEnergy) {
   auto const f = make_formulation(a);
   double const before = f->diagnose().total_energy();
   ASSERT_GT(before, 0);
-  run(*f, 0, 150);
+  take_steps(*f, 0, 150);
   EXPECT_NEAR(f->diagnose().total_energy(), before, 5e-3 * before);
 }
 
@@ -109,7 +96,7 @@ TEST(PointFactors, LetParticlesFailOneAfterTheOther) {
   int rises = 0;
   double time = 0;
   for (int k = 0; k < 40; ++k) {
-    time = run(*f, time, 10);
+    time = take_steps(*f, time, 10);
     double failed = 0;
     for (double const d : sample(*f, "Damage", a.particles.X.size())) failed += d >= 1 ? 1 : 0;
     rises += failed > last ? 1 : 0;
@@ -124,7 +111,7 @@ TEST(PointFactors, BurnAChargeFromWhereItIsLit) {
   Assembly a = made({"", &explosive, 0, "X/7980"});
   auto const f = make_formulation(a);
   double time = 0;
-  while (time < 0.5 / 7980) time = run(*f, time, 1);
+  while (time < 0.5 / 7980) time = take_steps(*f, time, 1);
   Values const p = sample(*f, "Pressure", a.particles.X.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (a.particles.X[i][0] > 0.75) {

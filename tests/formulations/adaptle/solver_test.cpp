@@ -45,16 +45,6 @@ double number(Formulation const& f, std::string_view name) {
   return 0;
 }
 
-double run(Formulation& f, double time, int steps) {
-  for (int k = 0; k < steps; ++k) {
-    double const dt = f.stable_time_step();
-    f.step(time, dt);
-    time += dt;
-  }
-  EXPECT_FALSE(f.failure());
-  return time;
-}
-
 class AdaptleRuns : public ::testing::TestWithParam<std::tuple<int, std::string>> {
  protected:
   Assembly assembly(std::string const& machine = "auto", double gap = 1.5) const {
@@ -65,7 +55,7 @@ class AdaptleRuns : public ::testing::TestWithParam<std::tuple<int, std::string>
 TEST_P(AdaptleRuns, GoOnFromACheckpointAsIfTheyHadNotStopped) {
   Assembly const a = assembly();
   auto const whole = make_formulation(a);
-  double const middle = run(*whole, 0, 12);
+  double const middle = take_steps(*whole, 0, 12);
   double const converted = number(*whole, "eulerian_particles");
   SavedState state = saved(*whole);
   auto const resumed = make_formulation(a);
@@ -73,8 +63,8 @@ TEST_P(AdaptleRuns, GoOnFromACheckpointAsIfTheyHadNotStopped) {
   EXPECT_EQ(saved(*resumed).values.at("state"), state.values.at("state"));
   EXPECT_EQ(saved(*resumed).values.at("rates"), state.values.at("rates"));
   EXPECT_EQ(resumed->stable_time_step(), whole->stable_time_step());
-  run(*whole, middle, 15);
-  run(*resumed, middle, 15);
+  take_steps(*whole, middle, 15);
+  take_steps(*resumed, middle, 15);
   EXPECT_GT(converted, 0) << "the test has no conversion before the checkpoint";
   EXPECT_GT(number(*whole, "eulerian_particles"), converted) << "the test has none after it";
   SavedState const left = saved(*whole), right = saved(*resumed);
@@ -91,7 +81,7 @@ TEST_P(AdaptleRuns, AreTheSameWithAnyNumberOfThreads) {
     Threads const set(threads);
     ASSERT_EQ(exec::team(Range{0, static_cast<Index>(a.particles.X.size())}), threads);
     auto const f = make_formulation(a);
-    run(*f, 0, 25);
+    take_steps(*f, 0, 25);
     if (threads == 1) first = saved(*f).values;
     EXPECT_EQ(saved(*f).values, first) << threads;
   }
@@ -123,7 +113,7 @@ TEST_P(AdaptleRuns, KeepTheirBooks) {
   Assembly const a = assembly("auto", 3);  // the books of contact start out of its reach
   auto const f = make_formulation(a);
   Diagnostics const before = f->diagnose();
-  double const time = run(*f, 0, 300);
+  double const time = take_steps(*f, 0, 300);
   Diagnostics const after = f->diagnose();
   double const scale = before.kinetic_energy;
   EXPECT_NEAR(after.total_energy() - after.external_work, before.total_energy(), 5e-3 * scale) << time;
@@ -163,7 +153,7 @@ TEST(AdaptleSolver, HoldsSupportsAndCountsTheirWork) {
   support(a, {true, true, false}, [](Point const& X) { return X[0] < 0.01; });
   support(a, {true, false, false}, [](Point const& X) { return X[0] > 0.99; }).velocity = formulas({"50", "0", "0"});
   auto const f = make_formulation(a);
-  double const time = run(*f, 0, 40);
+  double const time = take_steps(*f, 0, 40);
   Values const u = sample(*f, "Displacement", 81);
   for (std::size_t k = 0; k < 81; ++k) {
     if (a.particles.X[k][0] < 0.01) {
