@@ -2,7 +2,7 @@
 # The library: every room of src/piola. Files named machine.cpp are compiled by PiolaMachines.cmake, which comes first
 # so that they do too: they take longest.
 
-set(PIOLA_ROOMS base math exec kernels materials particles neighbours parallel mechanics formulations setup input output
+set(PIOLA_ROOMS base math exec kernels materials particles geometry neighbours parallel mechanics formulations setup input output
                 simulation)
 set(_patterns "")
 foreach(room IN LISTS PIOLA_ROOMS)
