@@ -2,8 +2,8 @@
 # The library: every room of src/piola. Files named machine.cpp are compiled by PiolaMachines.cmake, which comes first
 # so that they do too: they take longest.
 
-set(PIOLA_ROOMS base math exec kernels materials particles geometry neighbours parallel mechanics formulations setup input output
-                simulation)
+set(PIOLA_ROOMS base math exec kernels materials particles geometry neighbours parallel mechanics formulations setup
+                input output simulation)
 set(_patterns "")
 foreach(room IN LISTS PIOLA_ROOMS)
   list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${room}/*.cpp")
