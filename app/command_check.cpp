@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/exec/threads.hpp"
+#include "piola/geometry/measure.hpp"
+#include "piola/geometry/packing.hpp"
 #include "piola/input/case_facts.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/read_case.hpp"
+#include "piola/input/region_checks.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/warnings.hpp"
@@ -48,6 +52,7 @@ std::string settings_text(FormulationSpec const& spec) {
 
 std::string arrangement_text(ShapeSpec const& shape, BodyFacts const& facts) {
   using enum ShapeSpec::Arrangement;
+  if (shape.arrangement == packed) return "packed";
   if (shape.arrangement == lattice_with_rings) return "a lattice within two circles";
   if (shape.arrangement == lattice) return times(facts.lattice, shape.dimension) + " lattice";
   return shape.inner_radius > 0 ? times(facts.lattice, 2) + " polar grid" : "on circles";
@@ -70,13 +75,38 @@ std::string material_text(BodySpec const& body) {
   return body.law + ": " + joined(values);
 }
 
+/// The exact volume, the patches that supports and loads can name, and how good a packing is.
+void print_solid(ShapeSpec const& shape) {
+  bool const flat = shape.dimension == 2;
+  say("  volume {}", quantity_text(shape.volume, flat ? "m^2" : "m^3"));
+  if (shape.arrangement == ShapeSpec::Arrangement::packed) {
+    SolidParticles const& particles = SolidParticles::of(shape);
+    geometry::PackingQuality const q =
+        geometry::quality_of(*shape.solid, {particles.X, particles.volume, particles.spacing, particles.sweeps});
+    say("; packed in {} sweeps: nearest particles {:.2f} spacings apart on average, {:.2f} at least, {:.0f} % of the "
+        "outer layer in place",
+        particles.sweeps, q.nearest_mean, q.nearest_least, 100 * q.in_place);
+  }
+  say("\n");
+  for (geometry::PatchFacts const& patch : geometry::patch_facts(*shape.solid, 0.25 * shape.spacing)) {
+    std::array<double, 3> const centre{patch.centre[0], patch.centre[1], patch.centre[2]};
+    double const straight = std::sqrt(dot(patch.direction, patch.direction));
+    say("  patch \"{}\": {} around {}", patch.name, quantity_text(patch.area, flat ? "m" : "m^2"),
+        point_text(centre, shape.dimension));
+    if (straight > 0.999)
+      say(", normal {}", point_text({patch.direction[0], patch.direction[1], patch.direction[2]}, shape.dimension));
+    say("\n");
+  }
+}
+
 void print_body(BodySpec const& body, BodyFacts const& facts) {
-  constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};
+  constexpr std::array<std::string_view, 4> kinds{"box", "sphere", "cylinder", "solid"};
   int const dimension = body.shape.dimension;
   std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
   say("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name, body.shape.inner_radius > 0 ? "hollow " : "",
       kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
       arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
+  if (body.shape.solid) print_solid(body.shape);
   say("  {}\n", material_text(body));
   say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
   if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);
@@ -114,9 +144,11 @@ std::string held_text(SupportSpec const& support, int dimension) {
 
 void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
   for (SupportSpec const& support : spec.supports) {
-    auto const count = select_particles(particles, body_named(particles, support.body), &support.where).size();
-    say("support of \"{}\": {} particles where {}, {}{}\n", support.body, count_text(static_cast<std::int64_t>(count)),
-        support.where.text(), held_text(support, particles.dimension), until_text(support.until));
+    auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
+    std::string const patch = support.patch ? " of patch " + face_text(support.shape, *support.patch) : "";
+    std::string const where = support.where ? " where " + support.where->text() : "";
+    say("support of \"{}\": {} particles{}{}, {}{}\n", support.body, count_text(static_cast<std::int64_t>(count)),
+        patch, where, held_text(support, particles.dimension), until_text(support.until));
   }
 }
 
@@ -126,7 +158,10 @@ void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
   for (LoadSpec const& load : spec.loads) {
     auto const kind = static_cast<std::size_t>(load.kind);
     auto const count = loaded_particles(particles, body_named(particles, load.body), load).size();
-    std::string const face = load.on_face() ? " of face " + face_text(load.face) : "";
+    std::string const face = load.on_face()
+                                 ? std::string(load.face.part == Face::Part::patch ? " of patch " : " of face ") +
+                                       face_text(load.shape, load.face)
+                                 : "";
     bool const pressure = load.kind == LoadSpec::Kind::pressure;
     say("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)), face,
         kinds[kind], pressure ? load.value[0].text() : vector_text(load.value, particles.dimension), units[kind],
@@ -135,7 +170,7 @@ void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const count = face_particles(particles, body_named(particles, mirror.body), mirror.face).size();
     say("mirror of \"{}\": {} particles on face {}\n", mirror.body, count_text(static_cast<std::int64_t>(count)),
-        face_text(mirror.face));
+        face_text({}, mirror.face));
   }
 }
 

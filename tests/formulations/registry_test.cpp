@@ -59,10 +59,10 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
     assembly.particles.cracks.resize(1);
     assembly.mirrors.resize(1);
     assembly.particles.bodies.resize(1);
-    assembly.particles.bodies[0].rings = true;
+    assembly.particles.bodies[0].scattered = true;
     assembly.rigid_shapes.resize(1);
     std::string message;
-    if (info.cracks && info.mirrors && info.rings && info.contact) continue;
+    if (info.cracks && info.mirrors && info.scattered && info.contact) continue;
     try {
       make_formulation(assembly);
     } catch (InputError const& error) {
@@ -70,14 +70,14 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
     }
     EXPECT_EQ(message.find(refusal(info, "cracks")) != std::string::npos, !info.cracks) << message;
     EXPECT_EQ(message.find(refusal(info, "mirrors")) != std::string::npos, !info.mirrors) << message;
-    EXPECT_EQ(message.find(refusal(info, "rings")) != std::string::npos, !info.rings) << message;
+    EXPECT_EQ(message.find(refusal(info, "rings")) != std::string::npos, !info.scattered) << message;
     EXPECT_EQ(message.find(refusal(info, "rigid shapes")) != std::string::npos, !info.contact) << message;
   }
   EXPECT_FALSE(find_formulation("jst_sph")->cracks);
   EXPECT_TRUE(find_formulation("jst_sph")->mirrors);
   EXPECT_FALSE(find_formulation("jst_advection")->cracks);
-  EXPECT_TRUE(find_formulation("jst_sph")->rings);
-  EXPECT_FALSE(find_formulation("taylor_sph")->rings);
+  EXPECT_TRUE(find_formulation("jst_sph")->scattered);
+  EXPECT_FALSE(find_formulation("taylor_sph")->scattered);
   EXPECT_FALSE(find_formulation("jst_sph")->contact);
 }
 

@@ -87,7 +87,7 @@ take = "mean_absolute_difference"
 reference = "L*t"
 )");
   EXPECT_EQ(spec.supports[0].fix, (std::array<bool, 3>{true, true, true}));
-  EXPECT_EQ(spec.supports[0].where({0, 0, 0}), 1);
+  EXPECT_EQ((*spec.supports[0].where)({0, 0, 0}), 1);
   EXPECT_EQ(spec.probes[0].kind, ProbeSpec::Kind::point);
   EXPECT_EQ(spec.probes[0].at, (std::array<double, 3>{0.5, 6, 0.5}));
   EXPECT_EQ(spec.probes[1].quantities, std::vector<std::string>{"twist_angle"});
@@ -255,7 +255,7 @@ TEST(CheckCase, ParticlesOfAConditionAreSelected) {
   CaseSpec const spec = read(sample_case());
   ParticleSet const set = make_particles(spec);
   EXPECT_EQ(set.size(), 625);
-  EXPECT_EQ(select_particles(set, set.bodies[0], &spec.supports[0].where).size(), 25u);
+  EXPECT_EQ(select_particles(set, set.bodies[0], &*spec.supports[0].where).size(), 25u);
   EXPECT_EQ(select_particles(set, set.bodies[0], nullptr).size(), 625u);
 }
 

@@ -25,8 +25,8 @@ double area_of(ShapeSpec const& shape, Face const& face) {
 }
 
 TEST(Faces, AreNamedBySignAndAxis) {
-  EXPECT_EQ(face_text({0, false}), "-x");
-  EXPECT_EQ(face_text({2, true}), "+z");
+  EXPECT_EQ(face_text({}, {0, false}), "-x");
+  EXPECT_EQ(face_text({}, {2, true}), "+z");
 }
 
 TEST(Faces, TributaryAreasSumToTheFaceInEveryDimension) {
@@ -82,8 +82,8 @@ void expect_closed(ShapeSpec const& shape, Face const& face, double area) {
 TEST(Faces, CurvedOnesHaveTheExactAreaAndNoResultantOfAPressure) {
   constexpr double pi = std::numbers::pi, R = 0.7, r = 0.31, L = 0.9;
   Face const outer{0, false, Face::Part::outer}, inner{0, false, Face::Part::inner};
-  EXPECT_EQ(face_text(outer), "outer");
-  EXPECT_EQ(face_text(inner), "inner");
+  EXPECT_EQ(face_text({}, outer), "outer");
+  EXPECT_EQ(face_text({}, inner), "inner");
   ShapeSpec shape;
   shape.kind = ShapeSpec::Kind::sphere;
   shape.centre = {0.3, -2, 1};

@@ -39,11 +39,11 @@ std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4
 bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;
   if (what == "mirrors") return info.mirrors;
-  return what == "rings" ? info.rings : info.contact || info.pushable;
+  return what == "rings" || what == "packed clouds" ? info.scattered : info.contact || info.pushable;
 }
 
-bool has_rings(ParticleSet const& particles) {
-  return std::any_of(particles.bodies.begin(), particles.bodies.end(), [](Body const& body) { return body.rings; });
+bool has_scattered(ParticleSet const& particles) {
+  return std::any_of(particles.bodies.begin(), particles.bodies.end(), [](Body const& body) { return body.scattered; });
 }
 
 /// What a case asks for that not every formulation knows.
@@ -51,7 +51,7 @@ void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   Problems problems;
   if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));
   if (!info.mirrors && !assembly.mirrors.empty()) problems.add({}, refusal(info, "mirrors"));
-  if (!info.rings && has_rings(assembly.particles)) problems.add({}, refusal(info, "rings"));
+  if (!info.scattered && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));
   if (!info.contact && !assembly.rigid_shapes.empty()) problems.add({}, refusal(info, "rigid shapes"));
   problems.raise_if_any();
 }

@@ -36,18 +36,18 @@ struct FormulationInfo {
   std::span<DiagnosticInfo const> diagnostics = {};  ///< all that it may put into Diagnostics::more
   bool cracks = false;                               ///< whether bodies may have cracks
   bool mirrors = true;                               ///< whether bodies may go on across a face as their mirror image
-  bool rings = true;                                 ///< whether bodies may be arranged in rings instead of a lattice
-  bool contact = false;                              ///< whether it keeps bodies apart: contact rules and rigid shapes
-  bool pushable = false;                             ///< whether surface contact may push its bodies between steps
-  bool cell_volumes = false;                         ///< whether jittered particles get the volumes of their cells
-  std::span<FormulaInfo const> formulas = {};        ///< optional formulas
+  bool scattered = true;      ///< whether bodies may be packed or arranged in rings instead of a lattice
+  bool contact = false;       ///< whether it keeps bodies apart: contact rules and rigid shapes
+  bool pushable = false;      ///< whether surface contact may push its bodies between steps
+  bool cell_volumes = false;  ///< whether jittered particles get the volumes of their cells
+  std::span<FormulaInfo const> formulas = {};  ///< optional formulas
 };
 
 std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
 
 /// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors",
-/// "rings", "contact" or "rigid shapes".
+/// "rings", "packed clouds", "contact" or "rigid shapes".
 std::string refusal(FormulationInfo const& info, std::string_view what);
 
 /// What a case file says about a formulation: only the keys that were given (checked against FormulationInfo).

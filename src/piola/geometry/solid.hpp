@@ -48,10 +48,13 @@ class Solid {
   /// cylinder, say, any of the directions to the nearest places of the surface.
   virtual Foot at(Vec<3> const& X) const = 0;
 
+  /// Whether the distance is never larger in size than the true one, so that a far place tells of all around it.
+  virtual bool distance_is_bound() const { return true; }
+
   /// A box around the solid, tight where that is cheap; infinite for half-spaces.
   virtual Bounds bounds() const = 0;
 
-  /// The volume [m3; 2D m2] where a formula or a sum over the surface gives it to round-off.
+  /// The volume [m3; 2D m2] where a formula or a sum over the surface gives it: to round-off but for level sets.
   virtual std::optional<double> exact_volume() const { return {}; }
 
   /// The patches of the surface, in the order of SurfacePiece::patch.

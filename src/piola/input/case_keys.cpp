@@ -17,10 +17,23 @@ constexpr std::array sections{
     SectionInfo{"run.guards", "guards = { ... }",
                 "from where on a run warns of its answer, or stops; guards = \"off\" for none, \"off\" for one limit"},
     SectionInfo{"body", "[[body]]", "one body of particles; a case has one or more"},
-    SectionInfo{"body.shape", "shape = { ... }", "what a body looks like: exactly one of box, sphere, cylinder"},
+    SectionInfo{"body.shape", "shape = { ... }",
+                "what a body looks like: exactly one kind of shape, and its particles"},
     SectionInfo{"body.shape.box", "box = { ... }", "a box; the number of components is the dimension of the case"},
     SectionInfo{"body.shape.sphere", "sphere = { ... }", "a sphere; a disc with two components, an interval with one"},
     SectionInfo{"body.shape.cylinder", "cylinder = { ... }", "a circular cylinder, three dimensions only"},
+    SectionInfo{"body.shape.torus", "torus = { ... }", "a ring of circular cross-section, three dimensions only"},
+    SectionInfo{"body.shape.cone", "cone = { ... }", "a cone or a frustum, three dimensions only"},
+    SectionInfo{"body.shape.capsule", "capsule = { ... }", "all places within a radius of a line"},
+    SectionInfo{"body.shape.half_space", "half_space = { ... }",
+                "one side of a plane (2D: a line); it has no end, so it stands in an intersection or is cut away"},
+    SectionInfo{"body.shape.formula", "formula = { ... }", "the places in a box that satisfy a formula"},
+    SectionInfo{"body.shape.extrude", "extrude = { ... }", "a polygon, drawn along z in 3D"},
+    SectionInfo{"body.shape.revolve", "revolve = { ... }", "a polygon in radius and height, turned about an axis"},
+    SectionInfo{"body.shape.part", "union = [{ ... }, ...]",
+                "a part of a union, difference or intersection: exactly one kind of shape"},
+    SectionInfo{"body.shape.transform", "transform = { ... }", "scales, turns and moves a shape, in this order"},
+    SectionInfo{"body.shape.rotate", "rotate = { ... }", "a turn about an axis through the origin"},
     SectionInfo{"body.material", "material = { ... }", "the law of the material and its parameters"},
     SectionInfo{"body.formulation", "formulation = { ... }", "the SPH formulation and its settings"},
     SectionInfo{"support", "[[support]]", "particles whose velocity is prescribed in some directions: zero, or driven"},
@@ -45,7 +58,8 @@ constexpr std::array sections{
 
 std::vector<KeyInfo> joined_tables() {
   std::vector<KeyInfo> all;
-  for (auto const part : {keys_of_run_and_bodies(), keys_of_boundaries(), keys_of_ties(), keys_of_observers()})
+  for (auto const part :
+       {keys_of_run_and_bodies(), keys_of_solids(), keys_of_boundaries(), keys_of_ties(), keys_of_observers()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -49,7 +49,9 @@ struct BodySpec {
 struct SupportSpec {
   std::string name;  ///< "support_1" if the case gives none to the second one
   std::string body;
-  Expression where;
+  std::optional<Expression> where;  ///< both given: those of the patch that it selects
+  std::optional<Face> patch;        ///< of a solid
+  ShapeSpec shape;                  ///< of the body, if there is a patch
   Support::Frame frame = Support::Frame::axes;
   std::array<bool, 3> fix{};                               ///< frame axes
   std::array<double, 3> normal{};                          ///< frames normal, tangent: unit vector

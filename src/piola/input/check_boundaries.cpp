@@ -124,7 +124,7 @@ Hold hold_of(SupportSpec const& support, std::size_t number, ParticleSet const& 
           .place = place_of(support.places, ""),
           .along = projector_of(support, particles.dimension),
           .velocity = support.velocity,
-          .ids = select_particles(particles, body, &support.where)};
+          .ids = supported_particles(particles, body, support)};
 }
 
 // By symmetry the particles on a mirror never leave it, those on a skew one never move along it.
@@ -141,10 +141,18 @@ Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& pa
 
 /// Whether condition and velocity are sound, so that the support can be compared with others.
 bool check_support(SupportSpec const& support, ParticleSet const& particles, Body const& body, Problems& problems) {
-  if (!check_where(support.where, "support.where", place_of(support.places, "where"), particles, body, problems))
+  if (support.where &&
+      !check_where(*support.where, "support.where", place_of(support.places, "where"), particles, body, problems))
     return false;
+  std::vector<std::int64_t> const ids = supported_particles(particles, body, support);
+  if (support.patch && ids.empty()) {
+    problems.add(place_of(support.places, "patch"), "support.where selects no particle of the patch " +
+                                                        in_quotes(face_text(support.shape, *support.patch)) +
+                                                        " of body " + in_quotes(body.name) + " (" +
+                                                        box_of(particles, body) + ") - change the condition");
+    return false;
+  }
   if (!support.velocity) return true;
-  std::vector<std::int64_t> const ids = select_particles(particles, body, &support.where);
   FormulaCheck const check(particles, body, problems);
   bool sound = true;
   for (std::size_t d = 0; d < static_cast<std::size_t>(particles.dimension); ++d) {
@@ -163,7 +171,7 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
   std::vector<std::int64_t> const ids = loaded_particles(particles, body, load);
   if (ids.empty() && body.first < body.last) {
     problems.add(place, "load.where, formula " + in_quotes(load.where->text()) + " selects no particle of the face " +
-                            in_quotes(face_text(load.face)) + " of body " + in_quotes(body.name) + " (" +
+                            in_quotes(face_text(load.shape, load.face)) + " of body " + in_quotes(body.name) + " (" +
                             box_of(particles, body) + ") - change the condition");
   }
   std::string const key = keys[static_cast<std::size_t>(load.kind)];
@@ -180,7 +188,7 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
 bool check_mirror(CaseSpec const& spec, std::size_t number, Body const& body, Problems& problems) {
   MirrorSpec const& mirror = spec.mirrors[number];
   Place const place = place_of(mirror.places, "face");
-  std::string const face = "the face " + in_quotes(face_text(mirror.face)) + " of body " + in_quotes(body.name);
+  std::string const face = "the face " + in_quotes(face_text({}, mirror.face)) + " of body " + in_quotes(body.name);
   auto const axis = static_cast<std::size_t>(mirror.face.axis);
   if (body.lattice[axis] < 2) {
     problems.add(place, face + " cannot be a mirror, because the body has a single particle in " + "xyz"[axis] +

@@ -123,6 +123,16 @@ std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body co
   return ids;
 }
 
+std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body const& body,
+                                              SupportSpec const& support) {
+  if (!support.patch) return select_particles(particles, body, support.where ? &*support.where : nullptr);
+  std::vector<std::int64_t> ids;
+  for (FaceShare const& share : face_shares(support.shape, particles, body, *support.patch))
+    if (!support.where || (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) != 0)
+      ids.push_back(share.particle);
+  return ids;
+}
+
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
   if (!load.on_face()) return select_particles(particles, body, load.where ? &*load.where : nullptr);
   std::vector<std::int64_t> ids;

@@ -24,6 +24,10 @@ std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSe
 /// Ids of a body's particles that a condition selects; all of them without a condition.
 std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body const& body, Expression const* where);
 
+/// Ids of the particles that a support holds.
+std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body const& body,
+                                              SupportSpec const& support);
+
 /// The particle of a body whose reference position is nearest to a place [m]; of several, the first. The body has one
 /// or more.
 std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, std::array<double, 3> const& at);

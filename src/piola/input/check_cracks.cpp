@@ -36,8 +36,10 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
   }
   for (BodySpec const& body : spec.bodies) {
     auto const info = find_formulation(body.formulation.name);
-    bool const rings = body.shape.arrangement != ShapeSpec::Arrangement::lattice;
-    if (info && rings && !info->rings) problems.add(place_of(body.places, "shape"), refusal(*info, "rings"));
+    bool const packed = body.shape.arrangement == ShapeSpec::Arrangement::packed;
+    bool const scattered = body.shape.arrangement != ShapeSpec::Arrangement::lattice;
+    if (info && scattered && !info->scattered)
+      problems.add(place_of(body.places, "shape"), refusal(*info, packed ? "packed clouds" : "rings"));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const info = formulation_of(spec, mirror.body);

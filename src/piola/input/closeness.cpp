@@ -76,6 +76,7 @@ bool find_nearest(Cloud const& a, Cloud const& b, double reach, Closeness& found
 
 /// How far inside a shape a point is [m]; negative outside.
 double depth_in(ShapeSpec const& shape, Vec3 const& x) {
+  if (shape.kind == ShapeSpec::Kind::solid) return -shape.solid->at({{x[0], x[1], x[2]}}).distance;
   auto const D = static_cast<std::size_t>(shape.dimension);
   double least = std::numeric_limits<double>::infinity(), square = 0;
   auto const axis = static_cast<std::size_t>(shape.axis);

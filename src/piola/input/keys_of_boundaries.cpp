@@ -22,7 +22,8 @@ constexpr std::array boundary_keys{
             "first part of the columns NAME.force_x to NAME.moment_z of history.csv",
             {}},
     KeyInfo{"support", "body", name, "", {}, "", "name of the body", {}},
-    KeyInfo{"support", "where", formula, "", {}, "", "condition in X, Y, Z that selects particles", {}},
+    KeyInfo{"support", "where", formula, "", {}, "by patch", "condition in X, Y, Z that selects particles", {}},
+    KeyInfo{"support", "patch", text, "", {}, "by where", "the particles along a patch of a solid's surface", {}},
     KeyInfo{
         "support",
         "fix",
@@ -87,6 +88,7 @@ constexpr std::array boundary_keys{
         "traction, pressure (required there): a face of a box or an end of a cylinder; outer: the curved surface of "
         "a cylinder, ball or disc; inner: that of its hole",
         surface_words},
+    KeyInfo{"load", "patch", text, "", {}, "none", "traction, pressure on a solid: a patch of its surface", {}},
     KeyInfo{"load",
             "body_force",
             formulas,

@@ -137,12 +137,12 @@ std::vector<Definition> read_definitions(Value const& value, Names const& names,
 BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names) {
   BodySpec body;
   section.read("name", body.name);
-  if (auto const shape = section.table("shape")) body.shape = read_shape(*shape);
+  names.names.constants = constants;
+  if (auto const shape = section.table("shape")) body.shape = read_shape(*shape, names.names);
   if (auto const material = section.table("material")) read_material(*material, body);
   names.name = body.name;
   names.dimension = body.shape.dimension;
   names.shape = body.shape;
-  names.names.constants = constants;
   if (auto const define = section.find("define")) {
     names.names.definitions = read_definitions(*define, names.names, section.problems());
   }

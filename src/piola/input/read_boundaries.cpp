@@ -34,7 +34,7 @@ void read_fix(Section const& section, int dimension, SupportSpec& support) {
 std::string faces_of(int dimension) {
   std::string text;
   for (int axis = 0; axis < dimension; ++axis)
-    text += (axis > 0 ? ", " : "") + face_text({axis, false}) + ", " + face_text({axis, true});
+    text += (axis > 0 ? ", " : "") + face_text({}, {axis, false}) + ", " + face_text({}, {axis, true});
   return text;
 }
 
@@ -44,19 +44,20 @@ void read_face(Section const& section, BodyNames const& body, std::string const&
   if (word < 0) return;
   face = {word / 2, word % 2 == 1};
   if (body.shape.kind != ShapeSpec::Kind::box) {
-    section.problems().add(section.place_of("face"), "body " + in_quotes(body.name) + " has no face " +
-                                                         in_quotes(face_text(face)) + ", because it is no box " +
-                                                         "(allowed: " + what + " of boxes)");
+    section.problems().add(section.place_of("face"),
+                           "body " + in_quotes(body.name) + " has no face " + in_quotes(face_text(body.shape, face)) +
+                               ", because it is no box " + "(allowed: " + what + " of boxes)");
   } else if (face.axis >= body.dimension) {
-    section.problems().add(section.place_of("face"), section.name_of("face") + " is " + in_quotes(face_text(face)) +
-                                                         " (allowed in " + std::to_string(body.dimension) +
-                                                         "D: " + faces_of(body.dimension) + ")");
+    section.problems().add(section.place_of("face"),
+                           section.name_of("face") + " is " + in_quotes(face_text(body.shape, face)) + " (allowed in " +
+                               std::to_string(body.dimension) + "D: " + faces_of(body.dimension) + ")");
   }
 }
 
 /// Whether a body has such a face to load.
 bool has_face(ShapeSpec const& shape, Face const& face) {
   bool const box = shape.kind == ShapeSpec::Kind::box;
+  if (shape.kind == ShapeSpec::Kind::solid) return false;
   if (face.part == Face::Part::outer) return !box;
   if (face.part == Face::Part::inner) return !box && shape.inner_radius > 0;
   return (box && face.axis < shape.dimension) || (shape.kind == ShapeSpec::Kind::cylinder && face.axis == shape.axis);
@@ -69,12 +70,42 @@ std::string loadable_faces(ShapeSpec const& shape) {
     for (int axis = 0; axis < (part == Face::Part::flat ? 3 : 1); ++axis)
       for (bool const upper : {false, true})
         if (Face const face{axis, upper, part}; has_face(shape, face) && (part == Face::Part::flat || !upper))
-          text += (text.empty() ? "" : ", ") + face_text(face);
+          text += (text.empty() ? "" : ", ") + face_text(shape, face);
   return text;
+}
+
+/// The patch of a solid that a section names; nothing (and a problem) if there is none.
+std::optional<Face> read_patch(Section const& section, BodyNames const& body) {
+  std::string wanted;
+  if (!section.read("patch", wanted)) return {};
+  if (body.shape.kind != ShapeSpec::Kind::solid || !body.shape.solid) {
+    section.problems().add(section.place_of("patch"),
+                           "body " + in_quotes(body.name) +
+                               " has no patches, because its shape is a box, sphere or "
+                               "cylinder as it is (allowed: face, where) - use face or where, or give the shape "
+                               "arrangement = \"packed\"");
+    return {};
+  }
+  auto const patches = body.shape.solid->patches();
+  std::string names;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    if (patches[k].name == wanted) return Face{static_cast<int>(k), false, Face::Part::patch};
+    if (k < 20) names += (k > 0 ? ", " : "") + patches[k].name;
+  }
+  if (patches.size() > 20) names += ", ... " + std::to_string(patches.size()) + " in all";
+  section.problems().add(section.place_of("patch"), "body " + in_quotes(body.name) + " has no patch " +
+                                                        in_quotes(wanted) + " (allowed: " + names +
+                                                        ") - piola check tells where they are");
+  return {};
 }
 
 void read_loaded_face(Section const& section, BodyNames const& body, LoadSpec& load) {
   load.shape = body.shape;
+  if (section.has("patch")) {
+    section.refuse("face", "and patch exclude each other");
+    if (auto const patch = read_patch(section, body)) load.face = *patch;
+    return;
+  }
   int const word = section.word_index("face");
   if (word < 0) return;
   constexpr int flat = 6;
@@ -82,7 +113,7 @@ void read_loaded_face(Section const& section, BodyNames const& body, LoadSpec& l
                           : Face{0, false, word == flat ? Face::Part::outer : Face::Part::inner};
   if (has_face(body.shape, load.face)) return;
   section.problems().add(section.place_of("face"), "body " + in_quotes(body.name) + " has no face " +
-                                                       in_quotes(face_text(load.face)) +
+                                                       in_quotes(face_text(body.shape, load.face)) +
                                                        " (allowed: " + loadable_faces(body.shape) + ")");
 }
 
@@ -113,7 +144,14 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   section.read("name", support.name);
   BodyNames const* const body = find_body(section, bodies, support.body);
   int const dimension = body != nullptr ? body->dimension : 3;
-  if (auto where = section.formula("where", body != nullptr ? body->names : Names{})) support.where = std::move(*where);
+  if (!section.has("patch") && !section.has("where"))
+    section.report_missing("where\" or \"patch", "the particles that are held", "where = \"X < 1\"");
+  support.where =
+      section.has("where") ? section.formula("where", body != nullptr ? body->names : Names{}) : std::nullopt;
+  if (body != nullptr && section.has("patch")) {
+    support.patch = read_patch(section, *body);
+    support.shape = body->shape;
+  }
   read_fix(section, dimension, support);
   if (body != nullptr) {
     if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;
@@ -121,7 +159,7 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   }
   section.read("until", support.until);
   section.refuse_unknown();
-  support.places = places_of(section, {"where", "body", "fix", "normal", "velocity"});
+  support.places = places_of(section, {"where", "patch", "body", "fix", "normal", "velocity"});
   return support;
 }
 
@@ -131,10 +169,11 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
   BodyNames const* const body = find_body(section, bodies, load.body);
   load.where = section.formula("where", body != nullptr ? body->names : Names{});
   read_load_value(section, body, load);
-  if (!load.on_face())
+  if (!load.on_face()) {
     section.refuse("face", "is used only by a traction or a pressure");
-  else if (!section.has("face"))
-    section.report_missing("face", "the face that the load acts on", "face = \"+x\"");
+    section.refuse("patch", "is used only by a traction or a pressure");
+  } else if (!section.has("face") && !section.has("patch"))
+    section.report_missing("face\" or \"patch", "the part of the surface that the load acts on", "face = \"+x\"");
   else if (body != nullptr)
     read_loaded_face(section, *body, load);
   if (load.kind == LoadSpec::Kind::pressure)
@@ -143,8 +182,8 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
     section.refuse("follows", "is used only by a pressure");
   section.read("until", load.until);
   section.refuse_unknown();
-  load.places =
-      places_of(section, {"where", "body", "face", "traction", "body_force", "acceleration", "pressure", "follows"});
+  load.places = places_of(
+      section, {"where", "body", "face", "patch", "traction", "body_force", "acceleration", "pressure", "follows"});
   return load;
 }
 

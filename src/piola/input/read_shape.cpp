@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/read_solid.hpp"
 #include "piola/input/sections.hpp"
 #include <array>
 
@@ -13,6 +14,8 @@ void set_point(std::vector<double> const& numbers, std::array<double, 3>& target
 }
 
 int axis_number(std::string_view word) { return word == "x" ? 0 : word == "y" ? 1 : 2; }
+
+}  // namespace
 
 void read_box(Section const& section, ShapeSpec& shape) {
   auto const min = section.point("min"), max = section.point("max");
@@ -36,6 +39,8 @@ void read_box(Section const& section, ShapeSpec& shape) {
   }
 }
 
+namespace {
+
 void read_inner_radius(Section const& section, ShapeSpec& shape) {
   if (!section.read("inner_radius", shape.inner_radius) || !(shape.radius > 0) || shape.inner_radius < shape.radius)
     return;
@@ -58,6 +63,8 @@ void read_arrangement(Section const& section, ShapeSpec& shape) {
                            is + " (allowed with inner_radius: lattice, rings) - choose one of these");
   }
 }
+
+}  // namespace
 
 void read_sphere(Section const& section, ShapeSpec& shape) {
   if (auto const centre = section.point("centre")) {
@@ -88,6 +95,8 @@ void read_cylinder(Section const& section, ShapeSpec& shape) {
   shape.axis = axis_number(axis);
   section.refuse_unknown();
 }
+
+namespace {
 
 void refuse_box_key(Section const& section, std::string_view key) {
   if (!section.has(key)) return;
@@ -131,7 +140,8 @@ void read_fineness(Section const& section, ShapeSpec& shape) {
 
 }  // namespace
 
-ShapeSpec read_shape(Section const& section) {
+ShapeSpec read_shape(Section const& section, Names const& names) {
+  if (is_solid_section(section)) return read_solid_shape(section, names);
   ShapeSpec shape;
   constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};
   int given = 0;
@@ -147,9 +157,9 @@ ShapeSpec read_shape(Section const& section) {
   }
   section.refuse_unknown();
   if (given != 1) {
-    section.problems().add(section.place(), "body.shape has " +
-                                                (given == 0 ? std::string("no") : std::to_string(given)) +
-                                                " of box, sphere, cylinder (allowed: one) - add or remove one");
+    section.problems().add(section.place(),
+                           "body.shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
+                               " of box, sphere, cylinder or another shape (allowed: one) - add or remove one");
     return shape;
   }
   using Placement = ShapeSpec::Placement;

@@ -37,7 +37,8 @@ void read_run(Section const& section, RunSpec& run);
 void read_output(Section const& section, OutputSpec& output);
 std::map<std::string, double> read_constants(Value const& value, Problems& problems);
 
-ShapeSpec read_shape(Section const& section);
+/// `names`: constants, for formulas.
+ShapeSpec read_shape(Section const& section, Names const& names);
 BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names);
 void read_material(Section const& section, BodySpec& body);
 /// `names` may be used in its formulas.

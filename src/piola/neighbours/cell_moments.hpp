@@ -33,7 +33,7 @@ struct BodyCells {
 };
 
 /// Whether cells are the blocks of a lattice: a box that one fills.
-inline bool has_lattice_cells(Body const& body) { return body.regular && !body.rings && !body.outline.inside; }
+inline bool has_lattice_cells(Body const& body) { return body.regular && !body.scattered && !body.outline.inside; }
 
 /// Exact for boxes filled from a lattice. Other bodies are sampled by blocks of a sixth of the spacing, aligned with
 /// the box around them: volumes and surface are then those of the sampled body, so that the divergence theorem holds

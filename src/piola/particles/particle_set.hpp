@@ -17,14 +17,14 @@ struct Outline {
   std::function<bool(std::array<double, 3> const&)> inside = {};
 };
 
-/// A body: a contiguous range of particles of one material, born on a lattice or on rings about a centre.
+/// A body: a contiguous range of particles of one material, born on a lattice, on rings about a centre, or packed.
 struct Body {
   std::string name;
   std::int64_t first = 0, last = 0;  ///< particle ids [first, last)
   std::array<double, 3> spacing{};   ///< lattice spacing [m]; 1 for dimensions that do not exist
   std::array<int, 3> lattice{};      ///< lattice points per direction
   bool regular = true;               ///< positions are exactly on the lattice (no jitter)
-  bool rings = false;  ///< not born on a lattice: `lattice` and the lattice indices only say who is near whom
+  bool scattered = false;  ///< not born on a lattice: `lattice` and the lattice indices only say who is near whom
   Outline outline = {};
 };
 

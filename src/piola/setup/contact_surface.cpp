@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/contact_surface.hpp"
 #include "piola/setup/faces.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -42,11 +43,32 @@ double height_above(ShapeSpec const& shape, Face const& face, std::array<double,
   return face.part == Face::Part::outer ? shape.radius - r : r - shape.inner_radius;
 }
 
+/// A point for each patch that a particle has a share of.
+void add_patch_points(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                      contact::Surface& surface) {
+  constexpr double rounding = 1e-6;
+  for (PatchShare const& share : patch_shares(shape, particles, body)) {
+    Vec<3> const area{{share.vector[0], share.vector[1], share.vector[2]}};
+    double const size = std::sqrt(dot(area, area));
+    if (!(size > rounding * share.area)) continue;  // a fold within one particle's reach
+    Vec<3> const normal = (1 / size) * area;
+    double height = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      height +=
+          normal[static_cast<int>(c)] * (share.middle[c] - particles.X[static_cast<std::size_t>(share.particle)][c]);
+    surface.points.push_back({share.particle, height * normal, normal, share.area});
+  }
+}
+
 }  // namespace
 
 contact::Surface contact_surface(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
   contact::Surface surface;
   surface.spacing = *std::max_element(body.spacing.begin(), body.spacing.begin() + particles.dimension);
+  if (shape.kind == Kind::solid) {
+    add_patch_points(shape, particles, body, surface);
+    return surface;
+  }
   for (Face const& face : faces_of(shape))
     for (FaceShare const& share : face_shares(shape, particles, body, face)) {
       Vec<3> const normal{{share.normal[0], share.normal[1], share.normal[2]}};

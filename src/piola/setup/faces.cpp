@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/faces.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -82,9 +83,22 @@ std::vector<FaceShare> stair_shares(ShapeSpec const& shape, ParticleSet const& p
   return shares;
 }
 
+std::vector<FaceShare> shares_of_patch(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                       int patch) {
+  std::vector<FaceShare> shares;
+  for (PatchShare const& share : patch_shares(shape, particles, body)) {
+    if (share.patch != patch) continue;
+    Vec3 normal = share.vector;
+    for (double& c : normal) c /= share.area;
+    shares.push_back({share.particle, share.area, normal});
+  }
+  return shares;
+}
+
 }  // namespace
 
-std::string face_text(Face const& face) {
+std::string face_text(ShapeSpec const& shape, Face const& face) {
+  if (face.part == Face::Part::patch) return shape.solid->patches()[static_cast<std::size_t>(face.axis)].name;
   if (face.part != Face::Part::flat) return face.part == Face::Part::outer ? "outer" : "inner";
   return std::string(face.upper ? "+" : "-") + "xyz"[face.axis];
 }
@@ -119,9 +133,11 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
 
 std::vector<FaceShare> face_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
                                    Face const& face) {
+  if (face.part == Face::Part::patch) return shares_of_patch(shape, particles, body, face.axis);
   if (face.part == Face::Part::flat) return flat_shares(shape, particles, body, face);
   bool const outer = face.part == Face::Part::outer;
-  auto shares = body.rings ? ring_shares(shape, particles, body, outer) : stair_shares(shape, particles, body, outer);
+  auto shares =
+      body.scattered ? ring_shares(shape, particles, body, outer) : stair_shares(shape, particles, body, outer);
   for (FaceShare& share : shares) {
     Vec3 const r = radial(shape, particles.X[static_cast<std::size_t>(share.particle)]);
     for (std::size_t c = 0; c < 3; ++c) share.normal[c] = (outer ? 1 : -1) * r[c] / length(r);

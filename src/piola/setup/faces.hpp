@@ -8,17 +8,17 @@
 namespace piola {
 
 /// A face of a body: of a box, or an end of a cylinder, across an axis, at the smallest or the largest coordinate; or
-/// the curved surface of a cylinder, a ball or a disc, outside or around its hole.
+/// the curved surface of a cylinder, a ball or a disc, outside or around its hole; or a patch of a solid.
 struct Face {
-  enum class Part { flat, outer, inner };
-  int axis = 0;  ///< 0 x, 1 y, 2 z
+  enum class Part { flat, outer, inner, patch };
+  int axis = 0;  ///< 0 x, 1 y, 2 z; patch: its number
   bool upper = false;
   Part part = Part::flat;
   bool operator==(Face const&) const = default;
 };
 
-/// "-x", "+y", "outer", "inner": as case files name a face.
-std::string face_text(Face const& face);
+/// "-x", "+y", "outer", "inner": as case files name a face; patches by their names.
+std::string face_text(ShapeSpec const& shape, Face const& face);
 
 /// Ids of the outermost particles of a box towards a face: on it, or half a spacing inside (cell_centred).
 std::vector<std::int64_t> face_particles(ParticleSet const& particles, Body const& body, Face const& face);
@@ -32,7 +32,7 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
 struct FaceShare {
   std::int64_t particle = 0;       ///< id
   double area = 0;                 ///< [m^(Dim-1); 1 in 1D]
-  std::array<double, 3> normal{};  ///< outward unit normal of the exact surface
+  std::array<double, 3> normal{};  ///< outward unit normal of the exact surface; patch: vector area over area
 };
 
 /// The particles of a face with their parts of it. The parts sum to the area of the exact face: 2 pi R L of a cylinder,

@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,7 +43,10 @@ Lattice box_lattice(ShapeSpec const& shape) {
   return lattice;
 }
 
-bool in_rings(ShapeSpec const& shape) { return shape.arrangement != ShapeSpec::Arrangement::lattice; }
+bool is_solid(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::solid; }
+bool in_rings(ShapeSpec const& shape) {
+  return !is_solid(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
+}
 
 // Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
 int cells_over(double length, double spacing) {
@@ -195,6 +199,8 @@ double row_count_estimate(ShapeSpec const& shape, Lattice const& lattice) {
 
 std::int64_t count_particles(ShapeSpec const& shape) {
   constexpr double countable = 1e8;
+  if (is_solid(shape))
+    return static_cast<std::int64_t>(std::min(shape.volume / std::pow(shape.spacing, shape.dimension), 9e18) + 0.5);
   if (in_rings(shape)) return static_cast<std::int64_t>(std::min(count_ring_particles(shape), 9e18));
   Lattice const lattice = lattice_of(shape);
   double const estimate = row_count_estimate(shape, lattice);
@@ -212,6 +218,11 @@ std::int64_t count_particles(ShapeSpec const& shape) {
 }
 
 std::array<double, 3> spacing_of(ShapeSpec const& shape) {
+  if (is_solid(shape)) {
+    std::array<double, 3> spacing{1, 1, 1};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) spacing[c] = shape.spacing;
+    return spacing;
+  }
   if (!in_rings(shape)) return lattice_of(shape).spacing;
   double const width = shape.radius - shape.inner_radius;
   double const d = shape.inner_radius > 0 ? width / cells_over(width, shape.spacing) : shape.spacing;
@@ -233,7 +244,7 @@ void fill_rings(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.spacing = rings.spacing;
   body.lattice = rings.lattice;
   body.regular = false;
-  body.rings = true;
+  body.scattered = true;
   auto const append = [](auto const& from, auto& to) {
     auto& own = to.own();
     own.insert(own.end(), from.begin(), from.end());
@@ -295,8 +306,10 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   Body body;
   body.name = name;
   body.first = set.size();
-  body.outline = outline_of(shape);
-  if (in_rings(shape))
+  if (!is_solid(shape)) body.outline = outline_of(shape);
+  if (is_solid(shape))
+    fill_solid(shape, set, body);
+  else if (in_rings(shape))
     fill_rings(shape, set, body);
   else
     fill_lattice(shape, set, body);

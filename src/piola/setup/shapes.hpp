@@ -1,34 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/geometry/solid.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace piola {
 
+class SolidParticles;
+
 /// What a case file says about the shape of a body. Lengths in m. The number of components that the user
 /// gave for `min`/`centre` is the dimension (1, 2 or 3).
 struct ShapeSpec {
-  enum class Kind { box, sphere, cylinder };
+  enum class Kind { box, sphere, cylinder, solid };
   enum class Placement { on_boundary, cell_centred };
-  enum class Arrangement { lattice, rings, lattice_with_rings };
+  enum class Arrangement { lattice, rings, lattice_with_rings, packed };
   Kind kind = Kind::box;
   int dimension = 3;
   std::array<double, 3> min{}, max{};              ///< box
   std::array<double, 3> centre{};                  ///< sphere (2D: disc); cylinder: centre of the lower end
   double radius = 0;                               ///< sphere, cylinder
   double inner_radius = 0;                         ///< sphere, cylinder: of the hole; 0: none
-  Arrangement arrangement = Arrangement::lattice;  ///< sphere in 2D
+  Arrangement arrangement = Arrangement::lattice;  ///< sphere in 2D; solid
   double length = 0;                               ///< cylinder
   int axis = 2;                                    ///< cylinder: 0 x, 1 y, 2 z
   std::array<int, 3> particles{1, 1,
                                1};  ///< box: particles per direction (already derived from spacing if that was given)
-  double spacing = 0;               ///< sphere, cylinder
-  Placement placement = Placement::on_boundary;  ///< box, and cylinder along its axis; the rest is cell centred
-  bool random = false;                           ///< box, on_boundary: inner particles at random, then relaxed
-  double jitter = 0;                             ///< random shift of each inner particle, as a fraction of the spacing
-  std::uint32_t seed = 1;                        ///< of the jitter or of the random places
+  double spacing = 0;               ///< sphere, cylinder, solid
+  geometry::SolidPtr solid;         ///< solid: the region
+  double volume = 0;                ///< solid: of it [m^dimension]
+  std::shared_ptr<SolidParticles> solid_particles;  ///< solid: never null
+  Placement placement = Placement::on_boundary;     ///< box, and cylinder along its axis; the rest is cell centred
+  bool random = false;                              ///< box, on_boundary: inner particles at random, then relaxed
+  double jitter = 0;       ///< random shift of each inner particle, as a fraction of the spacing
+  std::uint32_t seed = 1;  ///< of the jitter or of the random places
 };
 
 /// Number of particles that `fill` would create, without creating them: exact for a box and up to about 1e8, an
@@ -60,6 +67,9 @@ int particles_over(double length, double spacing, ShapeSpec::Placement placement
 ///    equal widths d, each of round(2 pi r/d) particles, r the mean radius; volumes are those of the sectors.
 ///    Circles start at the angle 0, the x axis. Ids run along the circles, from the innermost one outwards; such bodies
 ///    are not regular, and their kernel volumes are their volumes.
+///  - Solid, packed: round(volume/spacing^dimension) particles of equal volumes that sum to the solid's, pushed apart
+///    until they fill it evenly (geometry/packing.hpp); ids run cell by cell. Kernel volumes are the volumes.
+///  - Solid, lattice: the cells of a lattice about the middle of its box whose middle lies inside, all full.
 /// Tributary volumes of a box sum to its exact volume; kernel volumes are the product of the spacings.
 /// Jitter moves particles that are not on a face of the body by up to jitter * spacing in each direction; the same seed
 /// gives the same particles on every machine.

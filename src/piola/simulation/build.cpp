@@ -80,7 +80,7 @@ std::array<double, 3> middle_of(std::vector<std::int64_t> const& ids, ParticleSe
 
 Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
   Body const& body = particles.bodies[index_of_body(spec.body, particles)];
-  auto const ids = select_particles(particles, body, &spec.where);
+  auto const ids = supported_particles(particles, body, spec);
   return {.particles = ids,
           .fix = spec.fix,
           .frame = spec.frame,

@@ -192,6 +192,19 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
 
 ShapeSpec part_of(ShapeSpec const& shape, int particles) {
   ShapeSpec part = shape;
+  if (shape.kind == ShapeSpec::Kind::solid) {
+    // A shaken box stands for it.
+    part.kind = ShapeSpec::Kind::box;
+    part.jitter = shape.arrangement == ShapeSpec::Arrangement::packed ? 0.2 : 0;
+    part.arrangement = ShapeSpec::Arrangement::lattice;
+    auto const n = static_cast<double>(count_particles(shape));
+    int const across = std::clamp(static_cast<int>(std::pow(n, 1.0 / shape.dimension)), 3, particles);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(shape.dimension); ++d) {
+      part.particles[d] = across;
+      part.max[d] = across * shape.spacing;
+    }
+    return part;
+  }
   auto const spacing = spacing_of(shape);
   bool const cells = shape.placement == ShapeSpec::Placement::cell_centred;
   for (std::size_t d = 0; d < static_cast<std::size_t>(shape.dimension); ++d) {

@@ -20,7 +20,7 @@ LatticeShape shape_of(ParticleSet const& set, Body const& body) {
 
 bool may_fill(Body const& body, LatticeShape const& shape) {
   auto const points = static_cast<std::int64_t>(shape.count[0]) * shape.count[1] * shape.count[2];
-  return body.regular && !body.rings && body.last - body.first == points;
+  return body.regular && !body.scattered && body.last - body.first == points;
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ class Tables {
   double parity(std::size_t a) const {
     auto const id = from_.order.id[a];
     auto const& at = from_.set.lattice_index[static_cast<std::size_t>(id)];
-    auto const sum = from_.body.rings ? id : static_cast<std::int64_t>(at[0] + at[1] + at[2]);
+    auto const sum = from_.body.scattered ? id : static_cast<std::int64_t>(at[0] + at[1] + at[2]);
     return sum % 2 == 0 ? 1 : -1;
   }
 

@@ -89,7 +89,7 @@ FormulationInfo info() {
       diagnostics};
   info.cracks = true;
   info.mirrors = false;
-  info.rings = false;  // its hourglass control needs boxes of a lattice
+  info.scattered = false;  // its hourglass control needs boxes of a lattice
   return info;
 }
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/geometry/solid.hpp"
+#include <array>
+#include <cstdint>
+#include <functional>
+
+namespace piola::geometry {
+
+/// Particles that fill a solid evenly, their outermost layer half a spacing inside.
+struct Packing {
+  std::vector<std::array<double, 3>> X;  ///< [m]
+  double volume = 0;                     ///< of each: that of the solid over their number [m3; 2D m2]
+  double spacing = 0;                    ///< volume^(1/dimension) [m]
+  int sweeps = 0;
+};
+
+struct PackingOptions {
+  int sweeps = 100;  ///< at most
+  /// Told after each sweep how many are done; false ends the packing early.
+  std::function<bool(int)> progress = {};
+};
+
+/// Number of particles: the volume over that of a spacing, rounded; may be beyond what memory holds.
+double packed_count(double volume, double spacing, int dimension);
+
+/// Packs n = packed_count(volume, spacing) particles. They start on the places of a lattice that lie deepest inside and
+/// are pushed apart by a constant pressure, as in Zhu et al. (J. Hydrodyn. 33, 2021) and Neher et al. (arXiv
+/// 2506.21206, 2025); what the kernel misses outside is the exact integral of W n over the surface. The same places for
+/// any number of threads.
+Packing pack(Solid const& solid, double volume, double spacing, PackingOptions const& options = {});
+
+/// How good a packing is.
+struct PackingQuality {
+  double nearest_least = 0, nearest_mean = 0;  ///< distance to the nearest particle, in spacings
+  double in_place = 0;  ///< share of the outer layer (depth below 0.9 spacings) at half a spacing, to 0.02
+  double gap = 0;       ///< largest distance of the surface from a particle, in spacings
+};
+PackingQuality quality_of(Solid const& solid, Packing const& packing);
+
+}  // namespace piola::geometry

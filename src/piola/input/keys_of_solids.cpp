@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/input/key_tables.hpp"
+#include <array>
+
+namespace piola {
+namespace {
+
+using enum KeyInfo::Kind;
+
+constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
+constexpr std::array<std::string_view, 2> filling_words{"packed", "lattice"};
+
+/// The kinds of solids that stand in a shape and in the parts of others.
+struct SolidKey {
+  std::string_view key, meaning;
+  KeyInfo::Kind kind = table;
+};
+constexpr std::array solid_kinds{
+    SolidKey{"torus", "a ring of circular cross-section"},
+    SolidKey{"cone", "a cone or a frustum"},
+    SolidKey{"capsule", "all places within a radius of a line; 2D, too"},
+    SolidKey{"half_space", "one side of a plane or line; only in an intersection or to be cut away"},
+    SolidKey{"formula", "the places that satisfy a formula"},
+    SolidKey{"extrude", "a polygon, drawn along z in 3D"},
+    SolidKey{"revolve", "a polygon in radius and height, turned about an axis"},
+    SolidKey{"union", "a list of shapes: what is in one of them or more", list},
+    SolidKey{"difference", "a list of shapes: what is in the first and in none of the others", list},
+    SolidKey{"intersection", "a list of shapes: what is in all of them", list},
+    SolidKey{"transform", "scales, turns and moves the shape, in this order"},
+};
+constexpr std::array plain_kinds{SolidKey{"box", "a box"}, SolidKey{"sphere", "a sphere or disc"},
+                                 SolidKey{"cylinder", "a cylinder"}};
+
+constexpr std::array parameters{
+    KeyInfo{"body.shape",
+            "arrangement",
+            word,
+            "",
+            {},
+            "\"lattice\" for a box, sphere or cylinder as it is, else \"packed\"",
+            "packed: particles of equal volume pushed apart until they fill the shape evenly; lattice: cells of a "
+            "lattice whose middle is inside",
+            filling_words},
+
+    KeyInfo{"body.shape.torus", "centre", point, "m", place_range, "", "centre", {}},
+    KeyInfo{"body.shape.torus", "radius", quantity, "m", length_range, "", "from the centre to that of the tube", {}},
+    KeyInfo{"body.shape.torus", "tube_radius", quantity, "m", length_range, "", "radius of the tube", {}},
+    KeyInfo{"body.shape.torus", "axis", word, "", {}, "\"z\"", "direction of its axis", axis_names},
+
+    KeyInfo{"body.shape.cone", "centre", point, "m", place_range, "", "centre of the lower end", {}},
+    KeyInfo{"body.shape.cone", "radius", quantity, "m", not_negative, "", "radius at the lower end", {}},
+    KeyInfo{"body.shape.cone", "end_radius", quantity, "m", not_negative, "0", "radius at the upper end", {}},
+    KeyInfo{"body.shape.cone", "length", quantity, "m", length_range, "", "from the lower to the upper end", {}},
+    KeyInfo{"body.shape.cone", "axis", word, "", {}, "\"z\"", "direction from the lower to the upper end", axis_names},
+
+    KeyInfo{"body.shape.capsule", "from", point, "m", place_range, "", "beginning of the line", {}},
+    KeyInfo{"body.shape.capsule", "to", point, "m", place_range, "", "end of the line", {}},
+    KeyInfo{"body.shape.capsule", "radius", quantity, "m", length_range, "", "radius about the line", {}},
+
+    KeyInfo{"body.shape.half_space", "point", point, "m", place_range, "", "a place on the plane", {}},
+    KeyInfo{"body.shape.half_space", "normal", point, "1", place_range, "", "direction out of the material", {}},
+
+    KeyInfo{"body.shape.formula",
+            "inside",
+            text,
+            "",
+            {},
+            "",
+            "a comparison of formulas in X, Y, Z with < or >, such as \"(X/a)^2 + Y^2 < 1\"",
+            {}},
+    KeyInfo{"body.shape.formula", "min", point, "m", place_range, "", "lowest corner of a box around the shape", {}},
+    KeyInfo{"body.shape.formula", "max", point, "m", place_range, "", "highest corner of that box", {}},
+
+    KeyInfo{"body.shape.extrude", "polygon", list, "", {}, "", "corners [x, y] of the outline, in order", {}},
+    KeyInfo{"body.shape.extrude", "holes", list, "", {}, "none", "polygons cut out of it", {}},
+    KeyInfo{"body.shape.extrude", "from", quantity, "m", place_range, "2D", "3D: z at the lower end", {}},
+    KeyInfo{"body.shape.extrude", "to", quantity, "m", place_range, "2D", "3D: z at the upper end", {}},
+
+    KeyInfo{"body.shape.revolve", "polygon", list, "", {}, "", "corners [radius, height], in order", {}},
+    KeyInfo{"body.shape.revolve", "axis", word, "", {}, "\"z\"", "axis through the origin", axis_names},
+
+    KeyInfo{"body.shape.transform", "scale", quantity, "1", positive, "1", "factor on all lengths", {}},
+    KeyInfo{"body.shape.transform",
+            "rotate",
+            table,
+            "",
+            {},
+            "none",
+            "a turn about the origin, or a list of them in order: { axis = [0, 0, 1], angle = \"30 degree\" }; in 2D "
+            "without axis",
+            {}},
+    KeyInfo{"body.shape.transform", "move", point, "m", place_range, "none", "displacement after that", {}},
+
+    KeyInfo{"body.shape.rotate", "axis", point, "1", place_range, "[0, 0, 1]", "direction of the axis", {}},
+    KeyInfo{"body.shape.rotate", "angle", quantity, "rad", place_range, "", "positive as a right-handed screw", {}},
+};
+
+std::vector<KeyInfo> solid_keys() {
+  std::vector<KeyInfo> all;
+  auto const add = [&](std::string_view section, SolidKey const& k) {
+    all.push_back({section, k.key, k.kind, "", {}, "none", k.meaning, {}});
+  };
+  for (SolidKey const& k : solid_kinds) add("body.shape", k);
+  for (SolidKey const& k : plain_kinds) add("body.shape.part", k);
+  for (SolidKey const& k : solid_kinds) add("body.shape.part", k);
+  all.insert(all.end(), parameters.begin(), parameters.end());
+  return all;
+}
+
+}  // namespace
+
+std::span<KeyInfo const> keys_of_solids() {
+  static std::vector<KeyInfo> const keys = solid_keys();
+  return keys;
+}
+
+}  // namespace piola

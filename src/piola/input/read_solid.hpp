@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/input/section.hpp"
+#include "piola/setup/shapes.hpp"
+
+namespace piola {
+
+/// Whether a shape is a solid: anything but a box, sphere or cylinder as it is, on a lattice or in rings.
+bool is_solid_section(Section const& section);
+
+/// Reads such a shape. `names`: constants for formulas.
+ShapeSpec read_solid_shape(Section const& section, Names const& names);
+
+/// The solid of a box, sphere or cylinder.
+geometry::SolidPtr solid_of(ShapeSpec const& shape);
+
+/// One of box, sphere, cylinder, torus, cone, capsule, half_space, formula, extrude, revolve; null if something is
+/// wrong, which is then among the problems. `spacing` [m] is the scale of a formula's differences.
+geometry::SolidPtr read_primitive(Section const& section, std::string_view kind, Names const& names, double spacing);
+
+/// Parts that shapes of both kinds read, internal to input/.
+void read_box(Section const& section, ShapeSpec& shape);
+void read_sphere(Section const& section, ShapeSpec& shape);
+void read_cylinder(Section const& section, ShapeSpec& shape);
+
+}  // namespace piola

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/setup/solid_bodies.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/geometry/packing.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace piola {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Vec<3> vector_of(Point const& p) { return {{p[0], p[1], p[2]}}; }
+Point point_of(Vec<3> const& v) { return {v[0], v[1], v[2]}; }
+
+std::array<int, 3> cells_around(geometry::Bounds const& box, double spacing, int dimension) {
+  std::array<int, 3> count{1, 1, 1};
+  for (int c = 0; c < dimension; ++c)
+    count[static_cast<std::size_t>(c)] =
+        std::max(1, static_cast<int>(std::ceil((box.max[c] - box.min[c]) / spacing - 1e-9)));
+  return count;
+}
+
+/// The cells of a lattice about the middle of the box whose middle is inside, row by row.
+void cut_lattice(ShapeSpec const& shape, SolidParticles& to) {
+  geometry::Bounds const box = shape.solid->bounds();
+  to.spacing = shape.spacing;
+  to.volume = std::pow(shape.spacing, shape.dimension);
+  to.lattice = cells_around(box, shape.spacing, shape.dimension);
+  Point first{};
+  for (int c = 0; c < shape.dimension; ++c) {
+    auto const i = static_cast<std::size_t>(c);
+    first[i] = 0.5 * (box.min[c] + box.max[c]) - 0.5 * (to.lattice[i] - 1) * shape.spacing;
+  }
+  Index const rows = to.lattice[1] * to.lattice[2];
+  std::vector<std::vector<int>> inside(static_cast<std::size_t>(rows));
+  auto const place = [&](Index row, int i) {
+    Point X{};
+    std::array<int, 3> const at{i, row % to.lattice[1], row / to.lattice[1]};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) X[c] = first[c] + at[c] * shape.spacing;
+    return std::pair{X, at};
+  };
+  exec_host::for_each_part_in_set_up(rows, rows * to.lattice[0], [&](Index row) {
+    for (int i = 0; i < to.lattice[0]; ++i)
+      if (shape.solid->at(vector_of(place(row, i).first)).distance < 0)
+        inside[static_cast<std::size_t>(row)].push_back(i);
+  });
+  for (Index row = 0; row < rows; ++row)
+    for (int const i : inside[static_cast<std::size_t>(row)]) {
+      auto const [X, at] = place(row, i);
+      to.X.push_back(X);
+      to.lattice_index.push_back(at);
+    }
+}
+
+void pack_solid(ShapeSpec const& shape, SolidParticles& to) {
+  geometry::PackingOptions options;
+  options.progress = [&](int sweep) {
+    if (to.progress) to.progress(static_cast<double>(sweep) / options.sweeps);
+    return true;
+  };
+  geometry::Packing packing = geometry::pack(*shape.solid, shape.volume, shape.spacing, options);
+  to.volume = packing.volume;
+  to.spacing = packing.spacing;
+  to.sweeps = packing.sweeps;
+  geometry::Bounds const box = shape.solid->bounds();
+  to.lattice = cells_around(box, to.spacing, shape.dimension);
+  // Particles of a cell stand together: what is near in space is near in memory.
+  std::vector<std::pair<std::array<int, 3>, std::size_t>> order;
+  for (std::size_t a = 0; a < packing.X.size(); ++a) {
+    std::array<int, 3> cell{};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) {
+      double const at = (packing.X[a][c] - box.min[static_cast<int>(c)]) / to.spacing;
+      cell[2 - c] = std::clamp(static_cast<int>(at), 0, to.lattice[c] - 1);
+    }
+    order.emplace_back(cell, a);
+  }
+  std::sort(order.begin(), order.end());
+  for (auto const& [cell, a] : order) {
+    to.X.push_back(packing.X[a]);
+    to.lattice_index.push_back({cell[2], cell[1], cell[0]});
+  }
+}
+
+/// Which particle of a body is nearest to a place; of several the first.
+class NearestParticle {
+ public:
+  NearestParticle(std::vector<Point> X, double spacing) : X_(std::move(X)), near_(X_, 1.5 * spacing) {}
+  std::size_t operator()(Vec<3> const& place) const {
+    std::size_t best = X_.size();
+    double least = std::numeric_limits<double>::infinity();
+    auto const see = [&](Index b) {
+      Vec<3> const r = vector_of(X_[static_cast<std::size_t>(b)]) - place;
+      double const square = dot(r, r);
+      if (square > least || (square == least && static_cast<std::size_t>(b) > best)) return;
+      least = square;
+      best = static_cast<std::size_t>(b);
+    };
+    near_.visit(point_of(place), see);
+    for (std::size_t b = 0; best == X_.size() && b < X_.size(); ++b) see(static_cast<Index>(b));
+    return best;
+  }
+
+ private:
+  std::vector<Point> X_;
+  CellGrid near_;
+};
+
+}  // namespace
+
+SolidParticles const& SolidParticles::of(ShapeSpec const& shape) {
+  SolidParticles& own = *shape.solid_particles;
+  std::call_once(own.once_, [&] { own.make(shape); });
+  return own;
+}
+
+void SolidParticles::make(ShapeSpec const& shape) {
+  if (shape.arrangement == ShapeSpec::Arrangement::packed)
+    pack_solid(shape, *this);
+  else
+    cut_lattice(shape, *this);
+}
+
+void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
+  SolidParticles const& from = SolidParticles::of(shape);
+  bool const packed = shape.arrangement == ShapeSpec::Arrangement::packed;
+  body.spacing = {1, 1, 1};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) body.spacing[c] = from.spacing;
+  body.lattice = from.lattice;
+  body.regular = !packed;
+  body.scattered = packed;
+  geometry::Bounds const box = shape.solid->bounds();
+  body.outline = {point_of(box.min), point_of(box.max),
+                  [solid = shape.solid](Point const& X) { return solid->at(vector_of(X)).distance <= 0; }};
+  auto const append = [](auto const& some, auto& to) { to.own().insert(to.own().end(), some.begin(), some.end()); };
+  append(from.X, set.X);
+  append(from.lattice_index, set.lattice_index);
+  set.volume.resize(set.X.size(), from.volume);
+  set.kernel_volume.resize(set.X.size(), from.volume);
+  set.body.resize(set.X.size(), static_cast<int>(set.bodies.size()));
+}
+
+std::vector<PatchShare> patch_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  double const spacing = body.spacing[0];
+  std::vector<geometry::SurfacePiece> pieces;
+  shape.solid->cut_surface(0.25 * spacing, pieces);
+  NearestParticle const nearest({particles.X.begin() + body.first, particles.X.begin() + body.last}, spacing);
+  std::vector<std::size_t> owner(pieces.size());
+  exec_host::for_each_in_set_up(static_cast<Index>(pieces.size()), [&](Index i) {
+    owner[static_cast<std::size_t>(i)] = nearest(pieces[static_cast<std::size_t>(i)].X);
+  });
+  std::map<std::pair<int, std::size_t>, PatchShare> sums;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    PatchShare& share = sums[{pieces[i].patch, owner[i]}];
+    share.patch = pieces[i].patch;
+    share.particle = body.first + static_cast<std::int64_t>(owner[i]);
+    double const area = std::sqrt(dot(pieces[i].area, pieces[i].area));
+    share.area += area;
+    for (std::size_t c = 0; c < 3; ++c) {
+      share.vector[c] += pieces[i].area[static_cast<int>(c)];
+      share.middle[c] += area * pieces[i].X[static_cast<int>(c)];
+    }
+  }
+  std::vector<PatchShare> shares;
+  for (auto& [key, share] : sums) {
+    if (!(share.area > 0)) continue;
+    for (double& c : share.middle) c /= share.area;
+    shares.push_back(share);
+  }
+  return shares;
+}
+
+}  // namespace piola

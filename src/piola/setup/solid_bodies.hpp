@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/setup/shapes.hpp"
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace piola {
+
+/// The particles of a solid, made when they are first asked for and then kept; shapes that are copies share them.
+class SolidParticles {
+ public:
+  std::vector<std::array<double, 3>> X;           ///< [m]
+  std::vector<std::array<int, 3>> lattice_index;  ///< packed: the cell of a spacing in which it lies
+  std::array<int, 3> lattice{1, 1, 1};
+  double volume = 0;   ///< of each particle
+  double spacing = 0;  ///< [m]
+  int sweeps = 0;      ///< packed
+
+  /// Of a shape of the kind `solid`, which must be the one that it belongs to.
+  static SolidParticles const& of(ShapeSpec const& shape);
+
+  /// Told the share that is done while a packing goes on; set before anybody asks.
+  std::function<void(double)> progress = {};
+
+ private:
+  void make(ShapeSpec const& shape);
+  std::once_flag once_;
+};
+
+/// Appends them to a set; lattice indices, volumes and the outline of `body` with them. Called by `fill`.
+void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body);
+
+/// What a particle stands for of one patch of a solid's surface.
+struct PatchShare {
+  int patch = 0;
+  std::int64_t particle = 0;       ///< id
+  double area = 0;                 ///< [m2; 2D m]; the shares sum to the patch
+  std::array<double, 3> vector{};  ///< vector area, outward; those of a closed surface sum to zero
+  std::array<double, 3> middle{};  ///< of this part of the surface [m]
+};
+
+/// Each piece of the surface, a quarter of a spacing wide, goes to the nearest particle. Ordered by patch, then by id.
+std::vector<PatchShare> patch_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
+
+}  // namespace piola
