@@ -24,10 +24,11 @@ TEST(BoundaryMessages, SupportsSayWhatMayBeHeld) {
             "case.toml:18:10: support.normal is zero (allowed: any other length) - give a direction");
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"tangent\"\nnormal = [1, 0]")),
             "case.toml:18:10: support.normal has 2 components (allowed: 3, the dimension of the body)");
-  EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"xyz\"\nuntill = 1\nuntil = 0")),
-            "case.toml:18:1: \"untill\" is not a key of support (allowed: name, body, where, fix, normal, velocity, "
-            "until) - did you mean \"until\"?\n"
-            "case.toml:19:9: support.until is 0 s (allowed: above 0)");
+  EXPECT_EQ(
+      message_of(sample_with("fix = \"xyz\"", "fix = \"xyz\"\nuntill = 1\nuntil = 0")),
+      "case.toml:18:1: \"untill\" is not a key of support (allowed: name, body, where, patch, fix, normal, velocity, "
+      "until) - did you mean \"until\"?\n"
+      "case.toml:19:9: support.until is 0 s (allowed: above 0)");
 }
 
 TEST(BoundaryMessages, VelocitiesMustBeFiniteAtTheStart) {
@@ -62,7 +63,7 @@ TEST(BoundaryMessages, LoadsAreOfOneKind) {
             "one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nforce = [0, 0, 0]\nbody_force = [0, \"1 Pa\", 0]\n"),
             "case.toml:25:1: \"force\" is not a key of load (allowed: name, body, where, traction, pressure, follows, "
-            "face, body_force, acceleration, until) - choose one of these\n"
+            "face, patch, body_force, acceleration, until) - choose one of these\n"
             "case.toml:26:18: load.body_force[1] cannot be read: \"1 Pa\" is not a force per volume (expected a unit "
             "such as N/m^3)");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nacceleration = [0, \"1/(Y - 6)\", 0]\nface = \"+x\"\n"),
@@ -74,7 +75,8 @@ TEST(BoundaryMessages, LoadsAreOfOneKind) {
 
 TEST(BoundaryMessages, TractionsNeedAFaceOfABox) {
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\n"),
-            "case.toml:23:1: load needs \"face\" (the face that the load acts on) - add face = \"+x\"");
+            "case.toml:23:1: load needs \"face\" or \"patch\" (the part of the surface that the load acts on) - add "
+            "face = \"+x\"");
   EXPECT_EQ(
       with("[[load]]\nbody = \"column\"\ntraction = [0, 0, 0]\nface = \"y\"\n"),
       "case.toml:26:8: load.face is \"y\" (allowed: -x, +x, -y, +y, -z, +z, outer, inner) - did you mean \"-y\"?");
