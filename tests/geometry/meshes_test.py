@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The surfaces in cases/geometry/meshes are what their script makes, closed, with the volumes of the solids they show."""
+"""The surfaces in cases/geometry/meshes are what their script makes, closed, with the volumes of what they show."""
 import collections
 import math
 import os

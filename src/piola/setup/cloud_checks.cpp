@@ -14,8 +14,8 @@ constexpr double least_median = 1e-12;     // m: far below atoms, where nothing 
 constexpr double least_distance = 0.3;     // of the median: two closer points are one that is there twice
 constexpr double least_fit = 0.25;         // median distance over spacing: 0.55 of random points
 constexpr double largest_fit = 2.5;        // 1.1 of the densest packing; 2 of eight points on the corners of a cube
-constexpr double singular_part = 0.02;     // of the mean eigenvalue: a corner of a lattice has 0.1
-constexpr double weak_part = 0.05;         // noted
+constexpr double singular_part = 0.02;     // of the mean eigenvalue: a corner of a lattice has 0.2
+constexpr double weak_part = 0.1;          // noted
 constexpr double density_tolerance = 0.2;  // of number densities
 
 std::string cloud_unit(int dimension) { return dimension == 1 ? "m" : fmt::format("m^{}", dimension); }
@@ -132,7 +132,7 @@ void note_density(Cloud& cloud, std::vector<CloudMoment> const& moments, CloudSo
   cloud.notes.push_back(
       fmt::format("{}: at {} % of the {} inside, the number density is more than {:.0f} % off ({} to "
                   "{} of the even one): a more even cloud is more accurate",
-                  source.file, number_text(share, 2), counted(inside, "point"), 100 * density_tolerance,
+                  source.file, number_text(share, 3), counted(inside, "point"), 100 * density_tolerance,
                   number_text(low, 2), number_text(high, 2)));
 }
 

@@ -14,7 +14,7 @@ namespace {
 using CloudPoints = std::vector<std::array<double, 3>>;
 
 constexpr double cloud_h = 1.2;            // smoothing length over spacing: the widest that cases use
-constexpr double even_asymmetry = 0.02;    // |sum V r W| / h of a point that is surrounded on all sides
+constexpr double even_asymmetry = 0.02;    // |sum V r W| / (h sum V W) of neighbours on all sides
 constexpr double cone_cosine = 0.7071;     // neighbours within 45 degrees of the sparse side
 constexpr double smallest_part = 1e-12;    // of the box: distances below it do not set the size of cells
 constexpr double cell_growth = 4;          // from one search to the next
@@ -52,7 +52,8 @@ double first_radius(CloudPoints const& X, double longest) {
 
 /// The sums over the neighbours of one point.
 struct CloudSums {
-  double density = 0;
+  double density = 0;             ///< sum V W
+  double neighbours = 0;          ///< of it, what is not of the point itself
   std::array<double, 3> first{};  ///< sum V r W
   SymMat<3> second{};             ///< sum V (-W'/r) r r
 };
@@ -96,17 +97,17 @@ class CloudSurroundings {
 
   CloudSums sums_at(std::size_t i) const {
     CloudSums sums;
-    sums.density = cloud_.kernel_volume[i] * scale_ * WendlandC2::w(cloud_.dimension, 0.0);
     visit(i, [&](std::size_t j, double q, std::array<double, 3> const& d) {
       double const w = cloud_.kernel_volume[j] * scale_ * WendlandC2::w(cloud_.dimension, q);
       double const slope = -cloud_.kernel_volume[j] * scale_ * WendlandC2::dw(cloud_.dimension, q) / (q * h_ * h_);
-      sums.density += w;
+      sums.neighbours += w;
       for (int a = 0; a < 3; ++a) {
         auto const da = d[static_cast<std::size_t>(a)];
         sums.first[static_cast<std::size_t>(a)] += w * da;
         for (int b = a; b < 3; ++b) sums.second(a, b) += slope * da * d[static_cast<std::size_t>(b)];
       }
     });
+    sums.density = sums.neighbours + cloud_.kernel_volume[i] * scale_ * WendlandC2::w(cloud_.dimension, 0.0);
     return sums;
   }
 
@@ -114,7 +115,8 @@ class CloudSurroundings {
   bool surrounded(std::size_t i, CloudSums const& sums) const {
     auto const& g = sums.first;
     double const length = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    if (!(length > even_asymmetry * h_ * sums.density)) return true;
+    if (!(sums.neighbours > 0)) return false;
+    if (length <= even_asymmetry * h_ * sums.neighbours) return true;
     bool found = false;
     visit(i, [&](std::size_t, double q, std::array<double, 3> const& d) {
       double const along = -(d[0] * g[0] + d[1] * g[1] + d[2] * g[2]) / length;
