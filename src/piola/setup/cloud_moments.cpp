@@ -16,7 +16,7 @@ using CloudPoints = std::vector<std::array<double, 3>>;
 constexpr double cloud_h = 1.2;            // smoothing length over spacing: the widest that cases use
 constexpr double even_asymmetry = 0.02;    // |sum V r W| / (h sum V W) of neighbours on all sides
 constexpr double cone_cosine = 0.7071;     // neighbours within 45 degrees of the sparse side
-constexpr double smallest_part = 1e-12;    // of the box: distances below it do not set the size of cells
+constexpr double smallest_part = 1e-15;    // of the box: with smaller cells, it has more than a grid can count
 constexpr double cell_growth = 4;          // from one search to the next
 constexpr std::size_t probed_points = 64;  // compared with all others to learn how far apart points are
 
