@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a sealed frame holds, the reader returns a frame that can be drawn, or throws FileError or InputError.
+// Whatever a sealed frame holds, the reader returns a frame that can be drawn, or throws FileError or InputError; as a
+// cloud of points it is read or refused in words.
 #include "piola/base/problems.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/picture.hpp"
+#include "piola/setup/cloud_file.hpp"
 #include "odd_file.hpp"
 #include <algorithm>
 #include <limits>
@@ -66,5 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   } catch (FileError const&) {
   } catch (InputError const&) {
   }
+  std::vector<std::string> problems;
+  read_cloud(scratch.path().string(), {}, problems);
   return 0;
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/setup/cloud_file.hpp"
+#include "piola/setup/cloud_table.hpp"
+
+namespace piola {
+
+/// The nearest other point of each point.
+struct NearestPoint {
+  double distance = 0;  ///< m
+  std::int64_t other = -1;
+};
+
+/// Finds them; time grows with the number of points, also of clouds that are dense in one place and sparse in another.
+/// No position may be there twice; there are at least two.
+std::vector<NearestPoint> nearest_points(std::vector<std::array<double, 3>> const& X);
+
+/// How the surroundings of a point are filled, seen with Wendland's kernel C2 of h = 1.2 spacings (support 2h).
+struct CloudMoment {
+  double density = 0;          ///< sum_j V_j W_ij, itself included: 1 in a full neighbourhood
+  double mean_eigenvalue = 0;  ///< of sum_j V_j grad W_ij (x_j - x_i): 1 in a full neighbourhood
+  double least_eigenvalue = 0;
+  bool inside = false;  ///< there are neighbours on the side where fewer are
+};
+std::vector<CloudMoment> cloud_moments(Cloud const& cloud);
+
+/// Refuses numbers that are not finite or absurd, and volumes that are not positive.
+void check_cloud_numbers(Cloud const& cloud, CloudSource const& source, std::vector<std::string>& problems);
+
+/// Refuses clouds of too few points, with points too close to each other, with volumes that do not fit the distances,
+/// or with places where no gradient can be formed. Notes what is uneven. Needs numbers that passed.
+void check_cloud_places(Cloud& cloud, CloudSource const& source, std::vector<std::string>& problems);
+
+}  // namespace piola

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/setup/cloud_header.hpp"
+#include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+constexpr std::string_view cloud_example = "such as \"x [mm],y [mm],z [mm],volume [mm^3]\"";
+
+std::string_view without_blanks(std::string_view text) {
+  auto const blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The end of a text in quotation marks that starts at `from`: the mark that is not followed by another one.
+std::size_t closing_mark(std::string_view line, std::size_t from) {
+  std::size_t at = line.find('"', from + 1);
+  while (at != std::string_view::npos && at + 1 < line.size() && line[at + 1] == '"') at = line.find('"', at + 2);
+  return at;
+}
+
+CloudColumn meaning_of(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  constexpr std::array<std::string_view, 6> names{"x", "y", "z", "volume", "kernel_volume", "body"};
+  return static_cast<CloudColumn>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+bool is_cloud_length(CloudColumn column) { return column <= CloudColumn::z; }
+bool is_cloud_volume(CloudColumn column) {
+  return column == CloudColumn::volume || column == CloudColumn::kernel_volume;
+}
+
+/// A title such as "volume [mm^3]".
+struct CloudTitle {
+  std::string_view name;
+  std::string_view unit;  ///< empty: none is given
+  bool broken = false;    ///< a bracket without the other
+};
+
+CloudTitle title_of_field(std::string_view text) {
+  std::size_t const open = text.find('[');
+  if (open == std::string_view::npos) return {text, {}, text.find(']') != std::string_view::npos};
+  bool const closed = text.ends_with(']');
+  std::string_view const unit = without_blanks(text.substr(open + 1, text.size() - open - (closed ? 2 : 1)));
+  return {without_blanks(text.substr(0, open)), unit, !closed || unit.empty()};
+}
+
+/// Reads a header, title by title.
+class CloudHeaderReader {
+ public:
+  CloudHeaderReader(std::string const& place, double length_unit, std::vector<std::string>& problems)
+      : place_(place), length_unit_(length_unit), problems_(problems), before_(problems.size()) {}
+
+  CloudHeader read(std::string_view text) {
+    header_.separator = text.find(';') != std::string_view::npos ? ';' : ',';
+    if (std::size_t const mark = cut_cloud_line(text, header_.separator, fields_); mark > 0) {
+      add(mark, "the quotation mark is not closed - close it");
+      return header_;
+    }
+    for (CloudField const& field : fields_) titles_.push_back(title_of_field(field.text));
+    if (begins_with_numbers()) return header_;
+    for (std::size_t k = 0; k < fields_.size(); ++k) take(k);
+    int const dimension = count_components();
+    if (dimension > 0) take_units(dimension);
+    if (problems_.size() == before_) header_.dimension = dimension;
+    return header_;
+  }
+
+ private:
+  void add(std::size_t column, std::string const& text) {
+    problems_.push_back(fmt::format("{}:{}: {}", place_, column, text));
+  }
+
+  bool begins_with_numbers() {
+    std::string_view const first = fields_.front().text;
+    bool const number = !first.empty() && std::string_view("+-.0123456789").find(first[0]) != std::string_view::npos;
+    if (number) {
+      problems_.push_back(
+          fmt::format("{}: {} stands where the header should be (expected a line {}) - write the names "
+                      "of the columns above the numbers, without #",
+                      place_, in_quotes(first), cloud_example));
+    }
+    return number;
+  }
+
+  void take(std::size_t k) {
+    CloudColumn const column = meaning_of(std::string(titles_[k].name));
+    bool& there = header_.has[static_cast<std::size_t>(column)];
+    if (column == CloudColumn::unused) header_.not_used.push_back(titles_[k].name);
+    if (there && column != CloudColumn::unused)
+      add(fields_[k].column, fmt::format("the column {} stands twice - remove one", in_quotes(titles_[k].name)));
+    if (titles_[k].broken && column != CloudColumn::unused)
+      add(fields_[k].column, fmt::format("the unit in {} cannot be read (expected one in brackets, such as \"x [mm]\") "
+                                         "- write it so, or leave it out",
+                                         in_quotes(fields_[k].text)));
+    there = true;
+    header_.columns.push_back(column);
+    header_.names += (header_.names.empty() ? "" : ", ") + std::string(titles_[k].name);
+  }
+
+  /// 0 if components are missing.
+  int count_components() {
+    bool const x = header_.has[0], y = header_.has[1], z = header_.has[2];
+    if (x && (y || !z)) return z ? 3 : y ? 2 : 1;
+    problems_.push_back(
+        fmt::format("{}: has no column \"{}\" (columns: {}; expected a line {}, in 2D without z) - name "
+                    "the columns so",
+                    place_, x ? "y" : "x", in_quotes(header_.names), cloud_example));
+    return 0;
+  }
+
+  void take_units(int dimension) {
+    std::size_t with = 0, without = 0;
+    CloudTitle bare;
+    for (std::size_t k = 0; k < titles_.size(); ++k) {
+      CloudColumn const column = header_.columns[k];
+      bool const measured = is_cloud_length(column) || is_cloud_volume(column);
+      header_.factor.push_back(measured ? factor_of(k, is_cloud_length(column) ? 1 : dimension) : 1);
+      if (measured && titles_[k].unit.empty()) bare = titles_[k];
+      with += measured && !titles_[k].unit.empty() ? 1 : 0;
+      without += measured && titles_[k].unit.empty() ? 1 : 0;
+    }
+    if (problems_.size() > before_) return;
+    if (with > 0 && without > 0)
+      problems_.push_back(
+          fmt::format("{}: the column {} has no unit, others have one - give every length and volume a "
+                      "unit, or none",
+                      place_, in_quotes(bare.name)));
+    if (with > 0 && length_unit_ != 1)
+      problems_.push_back(
+          fmt::format("{}: gives units, and the case gives one for this file - leave out one of them", place_));
+  }
+
+  double factor_of(std::size_t k, int power) {
+    double own = 1;
+    for (int p = 0; p < power; ++p) own *= length_unit_;
+    if (titles_[k].unit.empty() || titles_[k].broken) return own;
+    std::string const si = power == 1 ? "m" : fmt::format("m^{}", power);
+    Quantity const one = read_quantity("1 " + std::string(titles_[k].unit), si);
+    if (!one.problem && one.value > 0) return one.value;
+    add(fields_[k].column,
+        fmt::format("{} is not a unit of {} (expected one such as {}) - correct it", in_quotes(titles_[k].unit),
+                    in_quotes(titles_[k].name), power == 1 ? "mm" : fmt::format("mm^{}", power)));
+    return 1;
+  }
+
+  std::string const& place_;
+  double length_unit_;
+  std::vector<std::string>& problems_;
+  std::size_t before_;
+  CloudHeader header_;
+  std::vector<CloudField> fields_;
+  std::vector<CloudTitle> titles_;
+};
+
+}  // namespace
+
+std::size_t cut_cloud_line(std::string_view line, char separator, std::vector<CloudField>& fields) {
+  fields.clear();
+  for (std::size_t at = 0; at <= line.size();) {
+    std::size_t const start = std::min(line.find_first_not_of(" \t", at), line.size());
+    std::size_t from = at;
+    if (start < line.size() && line[start] == '"') {
+      from = closing_mark(line, start);
+      if (from == std::string_view::npos) return start + 1;
+    }
+    std::size_t const end = std::min(line.find(separator, from), line.size());
+    std::string_view text = without_blanks(line.substr(at, end - at));
+    if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    fields.push_back({text, std::min(start, end) + 1});
+    at = end + 1;
+  }
+  return 0;
+}
+
+CloudHeader read_cloud_header(std::string_view text, std::string const& place, double length_unit,
+                              std::vector<std::string>& problems) {
+  return CloudHeaderReader(place, length_unit, problems).read(text);
+}
+
+}  // namespace piola
