@@ -22,6 +22,7 @@ constexpr std::array sections{
     SectionInfo{"body.shape.box", "box = { ... }", "a box; the number of components is the dimension of the case"},
     SectionInfo{"body.shape.sphere", "sphere = { ... }", "a sphere; a disc with two components, an interval with one"},
     SectionInfo{"body.shape.cylinder", "cylinder = { ... }", "a circular cylinder, three dimensions only"},
+    SectionInfo{"body.shape.points", "points = { ... }", "particles from a file, as they stand there"},
     SectionInfo{"body.shape.torus", "torus = { ... }", "a ring of circular cross-section, three dimensions only"},
     SectionInfo{"body.shape.cone", "cone = { ... }", "a cone or a frustum, three dimensions only"},
     SectionInfo{"body.shape.capsule", "capsule = { ... }", "all places within a radius of a line"},
