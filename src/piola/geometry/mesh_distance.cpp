@@ -174,7 +174,7 @@ MeshDistance::~MeshDistance() = default;
 
 Foot MeshDistance::at(Vec<3> const& X) const {
   Search::Nearest const nearest = search_->nearest_to(X);
-  if (nearest.face < 0) return {std::numeric_limits<double>::infinity(), {{1, 0, 0}}};  // X is not finite
+  if (nearest.face < 0) return {std::numeric_limits<double>::infinity(), {{1, 0, 0}}};  // all faces are flat
   Vec<3> const gap = X - nearest.foot.X, n = search_->normals.at(nearest.face, nearest.foot.feature);
   double const distance = std::sqrt(nearest.square);
   // Below this the difference of two places has no direction any more, and the surface's own is as good.
