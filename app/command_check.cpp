@@ -109,8 +109,7 @@ void print_body(BodySpec const& body, BodyFacts const& facts) {
       kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
       arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
   if (body.shape.solid) print_solid(body.shape);
-  for (std::string const& note : body.shape.cloud ? body.shape.cloud->notes : std::vector<std::string>{})
-    say("  {}\n", note);
+  for (std::string const& note : body.shape.notes) say("  note: {}\n", note);
   say("  {}\n", material_text(body));
   say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
   if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);

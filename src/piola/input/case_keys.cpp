@@ -31,6 +31,7 @@ constexpr std::array sections{
     SectionInfo{"body.shape.formula", "formula = { ... }", "the places in a box that satisfy a formula"},
     SectionInfo{"body.shape.extrude", "extrude = { ... }", "a polygon, drawn along z in 3D"},
     SectionInfo{"body.shape.revolve", "revolve = { ... }", "a polygon in radius and height, turned about an axis"},
+    SectionInfo{"body.shape.mesh", "mesh = { ... }", "the inside of a closed surface of triangles"},
     SectionInfo{"body.shape.part", "union = [{ ... }, ...]",
                 "a part of a union, difference or intersection: exactly one kind of shape"},
     SectionInfo{"body.shape.transform", "transform = { ... }", "scales, turns and moves a shape, in this order"},

@@ -32,6 +32,7 @@ ShapeSpec read_points_shape(Section const& section) {
   auto cloud = std::make_shared<PointCloud>(read_cloud(shape.files.back().path.string(), options, problems));
   for (std::string const& problem : problems) section.problems().add(points->place_of("file"), problem);
   if (!problems.empty()) return shape;
+  shape.notes = cloud->notes;
   shape.dimension = cloud->dimension;
   shape.spacing = cloud->spacing;
   shape.cloud = std::move(cloud);

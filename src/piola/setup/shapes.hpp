@@ -43,6 +43,7 @@ struct ShapeSpec {
   std::shared_ptr<SolidParticles> solid_particles{};  ///< solid: never null
   std::shared_ptr<PointCloud const> cloud{};          ///< points: as they stand in the file
   std::vector<CaseFile> files{};                      ///< that it was read from
+  std::vector<std::string> notes{};                   ///< on these files
   Placement placement = Placement::on_boundary;       ///< box, and cylinder along its axis; the rest is cell centred
   bool random = false;                                ///< box, on_boundary: inner particles at random, then relaxed
   double jitter = 0;       ///< random shift of each inner particle, as a fraction of the spacing
