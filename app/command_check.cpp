@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 
 namespace piola::app {
@@ -90,13 +91,19 @@ void print_solid(ShapeSpec const& shape) {
         particles.sweeps, q.nearest_mean, q.nearest_least, 100 * q.in_place);
   }
   say("\n");
+  // What is 0 but for round-off reads as 0.
+  auto const places = [&](Vec<3> const& v, double size) {
+    std::string text = "(";
+    for (int c = 0; c < shape.dimension; ++c)
+      text += (c > 0 ? ", " : "") + number_text(std::abs(v[c]) < 1e-4 * size ? 0.0 : v[c], 4);
+    return text + ")";
+  };
+  geometry::Bounds const box = shape.solid->bounds();
+  double const size = std::sqrt(dot(box.max - box.min, box.max - box.min));
   for (geometry::PatchFacts const& patch : geometry::patch_facts(*shape.solid, 0.25 * shape.spacing)) {
-    std::array<double, 3> const centre{patch.centre[0], patch.centre[1], patch.centre[2]};
-    double const straight = std::sqrt(dot(patch.direction, patch.direction));
-    say("  patch \"{}\": {} around {}", patch.name, quantity_text(patch.area, flat ? "m" : "m^2"),
-        point_text(centre, shape.dimension));
-    if (straight > 0.999)
-      say(", normal {}", point_text({patch.direction[0], patch.direction[1], patch.direction[2]}, shape.dimension));
+    say("  patch \"{}\": {} around {} m", patch.name, quantity_text(patch.area, flat ? "m" : "m^2"),
+        places(patch.centre, size));
+    if (std::sqrt(dot(patch.direction, patch.direction)) > 0.999) say(", normal {}", places(patch.direction, 1));
     say("\n");
   }
 }
@@ -334,7 +341,9 @@ void print_cost(CaseSpec const& spec, Estimate const& cost) {
 
 int check(CaseOptions const& options) {
   ParticleSet particles;
-  CaseSpec const spec = read_case(case_file(options.file), options.overrides(), {}, &particles);
+  PackingLine line(false);
+  CaseSpec const spec =
+      read_case(case_file(options.file), options.overrides(), {.packing = std::ref(line)}, &particles);
   std::vector<BodyFacts> const facts = body_facts(spec, particles);
   Look const look = look_at(spec, particles);
   say("{}\n", spec.title);

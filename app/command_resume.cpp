@@ -5,6 +5,7 @@
 #include "run_support.hpp"
 #include "signals.hpp"
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 
 namespace piola::app {
@@ -28,7 +29,8 @@ int resume(ResumeArguments const& options) {
         options.folder));
   }
   ParticleSet particles;
-  CaseSpec spec = read_case(file, options.from.overrides(), {}, &particles);
+  PackingLine line(options.quiet);
+  CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
   Simulation simulation = build(std::move(spec), std::move(particles));
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
                         options.quiet);

@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "signals.hpp"
+#include <functional>
 #include <memory>
 
 namespace piola::app {
@@ -20,7 +21,8 @@ int run(RunArguments const& options) {
   double const wall_time = read_wall_time(options.wall_time);
   auto const file = case_file(options.from.file);
   ParticleSet particles;
-  CaseSpec spec = read_case(file, options.from.overrides(), {}, &particles);
+  PackingLine line(options.quiet);
+  CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
   if (options.no_pictures) spec.output.pictures_every = 0;
   Simulation simulation = build(std::move(spec), std::move(particles));
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),

@@ -66,6 +66,36 @@ void Console::warning(std::string const& text) {
   tell("warning: {}\n", text);
 }
 
+PackingLine::PackingLine(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0) {}
+PackingLine::~PackingLine() { clear(); }
+
+void PackingLine::clear() {
+  if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
+  shown_ = 0;
+}
+
+void PackingLine::operator()(std::string const& body, double share) {
+  if (quiet_) return;
+  auto const now = std::chrono::steady_clock::now();
+  if (body != body_) {
+    clear();
+    body_ = body;
+    begun_ = last_ = now;
+  }
+  using Seconds = std::chrono::duration<double>;
+  double const spent = Seconds(now - begun_).count();
+  if (spent < 2 || Seconds(now - last_).count() < (terminal_ ? 0.2 : 10)) return;
+  last_ = now;
+  std::string const line =
+      fmt::format("packing {}: {}, {} left", body, percent(share), duration_text(spent * (1 - share) / share));
+  if (terminal_) {
+    tell("\r{:<{}}", line, shown_);
+    shown_ = std::max(shown_, line.size());
+  } else {
+    tell("{}\n", line);
+  }
+}
+
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
   std::string text =
       fmt::format("{}\n{} in {}D, {} particles, {} thread{}\n", s.spec.title, s.formulation_name, s.particles.dimension,

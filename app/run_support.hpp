@@ -24,6 +24,23 @@ class Console : public Listener {
   std::chrono::steady_clock::time_point last_;
 };
 
+/// For read_case: shows how far a packing is that takes more than two seconds, with the time left.
+class PackingLine {
+ public:
+  explicit PackingLine(bool quiet = false);
+  ~PackingLine();
+  PackingLine(PackingLine const&) = delete;
+  PackingLine& operator=(PackingLine const&) = delete;
+  void operator()(std::string const& body, double share);
+
+ private:
+  void clear();
+  bool quiet_, terminal_;
+  std::size_t shown_ = 0;
+  std::string body_;
+  std::chrono::steady_clock::time_point begun_, last_;
+};
+
 /// What is about to run, in a few lines.
 std::string start_report(Simulation const& simulation, std::filesystem::path const& folder);
 /// What came out.

@@ -4,6 +4,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/document_guard.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
@@ -127,6 +128,11 @@ void read_bodies(Section const& top, std::map<std::string, double> const& consta
   std::vector<Section> const sections = tables_of(top, "body");
   for (Section const& section : sections) spec.bodies.push_back(read_body(section, constants, names.emplace_back()));
   refuse_twins(sections, spec.bodies, "body");
+  for (BodySpec const& body : spec.bodies)
+    if (limits.packing && body.shape.solid_particles)
+      body.shape.solid_particles->progress = [tell = limits.packing, name = body.name](double share) {
+        tell(name, share);
+      };
   if (top.problems().count() > before) return;
   check_bodies_together(sections, spec.bodies);
   check_size(sections, spec, limits);

@@ -4,6 +4,7 @@
 #include "piola/particles/particle_set.hpp"
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@ namespace piola {
 struct ReadLimits {
   std::int64_t particles = 2147483647;  ///< of all bodies together; Ids fit in 32 bits
   bool memory = true;                   ///< refuse cases that cannot fit into the memory of this machine
+  /// Told the name of a body that is being packed and the share of it that is done.
+  std::function<void(std::string const&, double)> packing = {};
 };
 
 /// Bytes per particle that a run needs at least; used to refuse hopeless cases before any particle is made.

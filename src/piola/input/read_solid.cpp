@@ -6,10 +6,13 @@
 #include "piola/geometry/mesh.hpp"
 #include "piola/geometry/placed.hpp"
 #include "piola/input/case_files.hpp"
+#include "piola/setup/packing_file.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace piola {
 namespace {
@@ -17,8 +20,8 @@ namespace {
 using geometry::Combination;
 using geometry::SolidPtr;
 
-constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     "cylinder",    "torus",   "cone",
-                                                       "capsule", "half_space", "formula",     "extrude", "revolve",
+constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     "cylinder",     "torus",   "cone",
+                                                       "capsule", "half_space", "formula",      "extrude", "revolve",
                                                        "union",   "difference", "intersection", "mesh"};
 
 Vec<3> vec_of(std::vector<double> const& numbers) {
@@ -31,7 +34,8 @@ Vec<3> vec_of(std::vector<double> const& numbers) {
 class SolidReader {
  public:
   /// Files that are read are added to those of the shape.
-  SolidReader(Names const& names, ShapeSpec& shape) : names_(names), shape_(shape), spacing_(shape.spacing > 0 ? shape.spacing : 1) {}
+  SolidReader(Names const& names, ShapeSpec& shape)
+      : names_(names), shape_(shape), spacing_(shape.spacing > 0 ? shape.spacing : 1) {}
 
   SolidPtr read(Section const& node) const {
     int given = 0;
@@ -42,10 +46,11 @@ class SolidReader {
       solid = read_kind(node, kind);
     }
     if (given != 1) {
-      node.problems().add(node.place(), "a shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                                            " of box, sphere, cylinder, torus, cone, capsule, half_space, formula, "
-                                            "extrude, revolve, mesh, union, difference, intersection (allowed: one) - add or "
-                                            "remove one");
+      node.problems().add(node.place(),
+                          "a shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
+                              " of box, sphere, cylinder, torus, cone, capsule, half_space, formula, "
+                              "extrude, revolve, mesh, union, difference, intersection (allowed: one) - add or "
+                              "remove one");
       return nullptr;
     }
     return solid ? placed_by(node, solid) : nullptr;
@@ -214,6 +219,21 @@ void measure(Section const& section, ShapeSpec& shape) {
                                                 "the spacing smaller");
 }
 
+/// Where the packing may lie from before. Its key holds the text of the shape, the constants, and what is in its files.
+void set_cache(Section const& section, Names const& names, bool beside, ShapeSpec& shape) {
+  SolidParticles& particles = *shape.solid_particles;
+  particles.key = toml_value(section.node());
+  for (auto const& [name, value] : names.constants) particles.key += "\n" + name + " = " + number_text(value, 17);
+  for (CaseFile const& file : shape.files) {
+    std::ifstream content(file.path, std::ios::binary);
+    std::string const bytes{std::istreambuf_iterator<char>(content), {}};
+    particles.key += "\n" + file.given + " " + std::to_string(digest_of(bytes));
+  }
+  std::filesystem::path const folder = std::filesystem::path(section.place().file).parent_path();
+  particles.folders = {folder / kept_files, folder};
+  if (beside) particles.cache = folder;
+}
+
 }  // namespace
 
 bool is_solid_section(Section const& section) {
@@ -235,9 +255,13 @@ ShapeSpec read_solid_shape(Section const& section, Names const& names) {
   if (!section.has("spacing")) section.report_missing("spacing", "how fine the body is", "spacing = \"1 mm\"");
   section.refuse_unknown();
   shape.solid = SolidReader(names, shape).read(section);
+  bool beside = false;
+  if (section.read("cache", beside) && shape.arrangement == ShapeSpec::Arrangement::lattice)
+    section.refuse("cache", "is used only by packed shapes");
   if (!shape.solid) return shape;
   shape.dimension = shape.solid->dimension();
   if (spaced) measure(section, shape);
+  set_cache(section, names, beside, shape);
   return shape;
 }
 

@@ -15,6 +15,8 @@ struct Outline {
   std::array<double, 3> min{}, max{};  ///< the box around it [m]
   /// Whether a point of that box belongs to it; nothing: all do.
   std::function<bool(std::array<double, 3> const&)> inside = {};
+  /// If it is known, the same as a signed distance, negative inside, in size no larger than the true one [m].
+  std::function<double(std::array<double, 3> const&)> distance = {};
 };
 
 /// A body: a contiguous range of particles of one material, born on a lattice, on rings about a centre, or packed.

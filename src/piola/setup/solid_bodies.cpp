@@ -4,6 +4,7 @@
 #include "piola/geometry/packing.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include "piola/setup/cloud_file.hpp"
+#include "piola/setup/packing_file.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,13 +58,19 @@ void cut_lattice(ShapeSpec const& shape, SolidParticles& to) {
     }
 }
 
-void pack_solid(ShapeSpec const& shape, SolidParticles& to) {
+/// From the disk if it lies there, else made.
+geometry::Packing packing_of(ShapeSpec const& shape, SolidParticles const& to) {
+  for (auto const& folder : to.folders)
+    if (auto found = read_packing(folder / packing_name(to.key), to.key)) return std::move(*found);
   geometry::PackingOptions options;
   options.progress = [&](int sweep) {
     if (to.progress) to.progress(static_cast<double>(sweep) / options.sweeps);
     return true;
   };
-  geometry::Packing packing = geometry::pack(*shape.solid, shape.volume, shape.spacing, options);
+  return geometry::pack(*shape.solid, shape.volume, shape.spacing, options);
+}
+
+void take_packing(ShapeSpec const& shape, geometry::Packing const& packing, SolidParticles& to) {
   to.volume = packing.volume;
   to.spacing = packing.spacing;
   to.sweeps = packing.sweeps;
@@ -110,6 +117,37 @@ class NearestParticle {
   CellGrid near_;
 };
 
+/// Particles counted from the body's first.
+std::vector<PatchShare> find_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  double const spacing = body.spacing[0];
+  std::vector<geometry::SurfacePiece> pieces;
+  shape.solid->cut_surface(0.25 * spacing, pieces);
+  NearestParticle const nearest({particles.X.begin() + body.first, particles.X.begin() + body.last}, spacing);
+  std::vector<std::size_t> owner(pieces.size());
+  exec_host::for_each_in_set_up(static_cast<Index>(pieces.size()), [&](Index i) {
+    owner[static_cast<std::size_t>(i)] = nearest(pieces[static_cast<std::size_t>(i)].X);
+  });
+  std::map<std::pair<int, std::size_t>, PatchShare> sums;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    PatchShare& share = sums[{pieces[i].patch, owner[i]}];
+    share.patch = pieces[i].patch;
+    share.particle = static_cast<std::int64_t>(owner[i]);
+    double const area = std::sqrt(dot(pieces[i].area, pieces[i].area));
+    share.area += area;
+    for (std::size_t c = 0; c < 3; ++c) {
+      share.vector[c] += pieces[i].area[static_cast<int>(c)];
+      share.middle[c] += area * pieces[i].X[static_cast<int>(c)];
+    }
+  }
+  std::vector<PatchShare> shares;
+  for (auto& [key, share] : sums) {
+    if (!(share.area > 0)) continue;
+    for (double& c : share.middle) c /= share.area;
+    shares.push_back(share);
+  }
+  return shares;
+}
+
 }  // namespace
 
 SolidParticles const& SolidParticles::of(ShapeSpec const& shape) {
@@ -119,10 +157,16 @@ SolidParticles const& SolidParticles::of(ShapeSpec const& shape) {
 }
 
 void SolidParticles::make(ShapeSpec const& shape) {
-  if (shape.arrangement == ShapeSpec::Arrangement::packed)
-    pack_solid(shape, *this);
-  else
-    cut_lattice(shape, *this);
+  if (shape.arrangement != ShapeSpec::Arrangement::packed) return cut_lattice(shape, *this);
+  packing_ = packing_of(shape, *this);
+  take_packing(shape, packing_, *this);
+  if (!cache.empty()) save(cache);
+}
+
+void SolidParticles::save(std::filesystem::path const& folder) const {
+  if (packing_.X.empty() || key.empty()) return;
+  auto const path = folder / packing_name(key);
+  if (!read_packing(path, key)) write_packing(path, key, packing_);
 }
 
 void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
@@ -134,8 +178,11 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.regular = !packed;
   body.scattered = packed;
   geometry::Bounds const box = shape.solid->bounds();
-  body.outline = {point_of(box.min), point_of(box.max),
-                  [solid = shape.solid](Point const& X) { return solid->at(vector_of(X)).distance <= 0; }};
+  auto const distance = [solid = shape.solid](Point const& X) { return solid->at(vector_of(X)).distance; };
+  body.outline.min = point_of(box.min);
+  body.outline.max = point_of(box.max);
+  body.outline.inside = [distance](Point const& X) { return distance(X) <= 0; };
+  if (shape.solid->distance_is_bound()) body.outline.distance = distance;
   auto const append = [](auto const& some, auto& to) { to.own().insert(to.own().end(), some.begin(), some.end()); };
   append(from.X, set.X);
   append(from.lattice_index, set.lattice_index);
@@ -165,32 +212,13 @@ void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }
 
 std::vector<PatchShare> patch_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
-  double const spacing = body.spacing[0];
-  std::vector<geometry::SurfacePiece> pieces;
-  shape.solid->cut_surface(0.25 * spacing, pieces);
-  NearestParticle const nearest({particles.X.begin() + body.first, particles.X.begin() + body.last}, spacing);
-  std::vector<std::size_t> owner(pieces.size());
-  exec_host::for_each_in_set_up(static_cast<Index>(pieces.size()), [&](Index i) {
-    owner[static_cast<std::size_t>(i)] = nearest(pieces[static_cast<std::size_t>(i)].X);
-  });
-  std::map<std::pair<int, std::size_t>, PatchShare> sums;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    PatchShare& share = sums[{pieces[i].patch, owner[i]}];
-    share.patch = pieces[i].patch;
-    share.particle = body.first + static_cast<std::int64_t>(owner[i]);
-    double const area = std::sqrt(dot(pieces[i].area, pieces[i].area));
-    share.area += area;
-    for (std::size_t c = 0; c < 3; ++c) {
-      share.vector[c] += pieces[i].area[static_cast<int>(c)];
-      share.middle[c] += area * pieces[i].X[static_cast<int>(c)];
-    }
-  }
-  std::vector<PatchShare> shares;
-  for (auto& [key, share] : sums) {
-    if (!(share.area > 0)) continue;
-    for (double& c : share.middle) c /= share.area;
-    shares.push_back(share);
-  }
+  return shape.solid_particles->shares(shape, particles, body);
+}
+
+std::vector<PatchShare> SolidParticles::shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  std::call_once(shared_, [&] { shares_ = find_shares(shape, particles, body); });
+  std::vector<PatchShare> shares = shares_;
+  for (PatchShare& share : shares) share.particle += body.first;
   return shares;
 }
 

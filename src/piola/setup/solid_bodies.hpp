@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/geometry/packing.hpp"
 #include "piola/setup/shapes.hpp"
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 
 namespace piola {
+
+/// What a particle stands for of one patch of a solid's surface.
+struct PatchShare {
+  int patch = 0;
+  std::int64_t particle = 0;       ///< id
+  double area = 0;                 ///< [m2; 2D m]; the shares sum to the patch
+  std::array<double, 3> vector{};  ///< vector area, outward; those of a closed surface sum to zero
+  std::array<double, 3> middle{};  ///< of this part of the surface [m]
+};
 
 /// The particles of a solid, made when they are first asked for and then kept; shapes that are copies share them.
 class SolidParticles {
@@ -20,12 +31,23 @@ class SolidParticles {
   /// Of a shape of the kind `solid`, which must be the one that it belongs to.
   static SolidParticles const& of(ShapeSpec const& shape);
 
-  /// Told the share that is done while a packing goes on; set before anybody asks.
-  std::function<void(double)> progress = {};
+  // Set before anybody asks.
+  std::function<void(double)> progress = {};     ///< told the share that is done while a packing goes on
+  std::string key = {};                          ///< all that the places depend on; empty: nothing is looked for
+  std::vector<std::filesystem::path> folders{};  ///< where the packing may lie from an earlier run
+  std::filesystem::path cache = {};              ///< folder to which it goes once it is made; empty: none
+
+  /// Writes the packing into a folder, if there is one. Throws FileError.
+  void save(std::filesystem::path const& folder) const;
+
+  /// patch_shares, found once.
+  std::vector<PatchShare> shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
 
  private:
   void make(ShapeSpec const& shape);
-  std::once_flag once_;
+  geometry::Packing packing_ = {};
+  std::once_flag once_, shared_;
+  std::vector<PatchShare> shares_;
 };
 
 /// Appends them to a set; lattice indices, volumes and the outline of `body` with them. Called by `fill`.
@@ -33,15 +55,6 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body);
 
 /// The same for points from a file, which keep their order and have no outline.
 void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body);
-
-/// What a particle stands for of one patch of a solid's surface.
-struct PatchShare {
-  int patch = 0;
-  std::int64_t particle = 0;       ///< id
-  double area = 0;                 ///< [m2; 2D m]; the shares sum to the patch
-  std::array<double, 3> vector{};  ///< vector area, outward; those of a closed surface sum to zero
-  std::array<double, 3> middle{};  ///< of this part of the surface [m]
-};
 
 /// Each piece of the surface, a quarter of a spacing wide, goes to the nearest particle. Ordered by patch, then by id.
 std::vector<PatchShare> patch_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);

@@ -8,6 +8,7 @@
 #include "piola/input/case_files.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/failure_text.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
@@ -61,7 +62,11 @@ std::string start_text(Simulation const& s) {
 void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journal& journal) {
   constexpr std::uintmax_t most = 50'000'000;
   namespace fs = std::filesystem;
-  for (BodySpec const& body : spec.bodies)
+  for (BodySpec const& body : spec.bodies) {
+    if (body.shape.solid && body.shape.arrangement == ShapeSpec::Arrangement::packed) {
+      make_folder(folder / kept_files);
+      SolidParticles::of(body.shape).save(folder / kept_files);
+    }
     for (CaseFile const& file : body.shape.files) {
       fs::path const to = folder / kept_files / kept_name(file.given);
       std::error_code error;
@@ -77,6 +82,7 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journ
       if (!fs::copy_file(file.path, to, fs::copy_options::overwrite_existing, error))
         journal.warn(fmt::format("{} could not be copied to {}: {}", file.given, to.string(), error.message()));
     }
+  }
 }
 
 /// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.

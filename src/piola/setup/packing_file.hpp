@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/geometry/packing.hpp"
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace piola {
+
+/// Packings on disk, so that a body is packed once. `key` says all that the places depend on.
+
+/// What the file of a packing is called: "packed-0123456789abcdef.cloud", by its key.
+std::string packing_name(std::string const& key);
+
+/// Throws FileError.
+void write_packing(std::filesystem::path const& path, std::string const& key, geometry::Packing const& packing);
+
+/// Nothing if there is no such file, if it is damaged or if it is of another key: the body is packed anew then.
+std::optional<geometry::Packing> read_packing(std::filesystem::path const& path, std::string const& key);
+
+/// 64 bits that stand for a text.
+std::uint64_t digest_of(std::string_view text);
+
+}  // namespace piola
