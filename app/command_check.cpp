@@ -8,6 +8,7 @@
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/setup/cloud_file.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/estimate.hpp"
@@ -52,6 +53,7 @@ std::string settings_text(FormulationSpec const& spec) {
 
 std::string arrangement_text(ShapeSpec const& shape, BodyFacts const& facts) {
   using enum ShapeSpec::Arrangement;
+  if (shape.kind == ShapeSpec::Kind::points) return "from " + shape.files.front().given;
   if (shape.arrangement == packed) return "packed";
   if (shape.arrangement == lattice_with_rings) return "a lattice within two circles";
   if (shape.arrangement == lattice) return times(facts.lattice, shape.dimension) + " lattice";
@@ -100,13 +102,14 @@ void print_solid(ShapeSpec const& shape) {
 }
 
 void print_body(BodySpec const& body, BodyFacts const& facts) {
-  constexpr std::array<std::string_view, 4> kinds{"box", "sphere", "cylinder", "solid"};
+  constexpr std::array<std::string_view, 5> kinds{"box", "sphere", "cylinder", "solid", "cloud"};
   int const dimension = body.shape.dimension;
   std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
   say("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name, body.shape.inner_radius > 0 ? "hollow " : "",
       kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
       arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
   if (body.shape.solid) print_solid(body.shape);
+  for (std::string const& note : body.shape.notes) say("  note: {}\n", note);
   say("  {}\n", material_text(body));
   say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
   if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);

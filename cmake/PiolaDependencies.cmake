@@ -30,6 +30,10 @@ piola_find_plain_library(hdf5 hdf5.h hdf5_serial hdf5)
 piola_find_plain_library(libdeflate libdeflate.h deflate)
 piola_find_plain_library(qhull libqhull_r/qhull_ra.h qhull_r)
 piola_find_plain_library(udunits2 udunits2.h udunits2)
+if(PIOLA_MESH)
+  piola_find_plain_library(assimp assimp/Importer.hpp assimp)
+  piola_find_plain_library(embree embree3/rtcore.h embree3)
+endif()
 
 # toml++ is used as headers only: the compiled Debian library aborts on some malformed files, while the headers let the
 # reader turn such an assertion into an error message.

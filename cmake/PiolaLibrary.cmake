@@ -13,12 +13,20 @@ foreach(room IN ITEMS materials mechanics formulations)
 endforeach()
 file(GLOB _sources CONFIGURE_DEPENDS ${_patterns})
 list(FILTER _sources EXCLUDE REGEX "/machine\\.cpp$")
+if(PIOLA_MESH)
+  list(FILTER _sources EXCLUDE REGEX "/geometry/mesh_absent\\.cpp$")
+else()
+  list(FILTER _sources EXCLUDE REGEX "/geometry/mesh(_[b-z][a-z]*)?\\.cpp$")
+endif()
 set(_input_sources ${_sources})
 list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")
 list(FILTER _sources EXCLUDE REGEX "/src/piola/input/")
 
 set(_outside Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2 muparser::muparser
              nlohmann_json::nlohmann_json)
+if(PIOLA_MESH)
+  list(APPEND _outside Piola::assimp Piola::embree)
+endif()
 
 # A library of object files that become part of piola. It does not wait for the machines, which take longest.
 function(piola_add_rooms target)

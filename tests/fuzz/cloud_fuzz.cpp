@@ -21,7 +21,7 @@ CloudOptions options_of(std::string_view text) {
   return options;
 }
 
-bool can_be_computed_with(Cloud const& cloud) {
+bool can_be_computed_with(PointCloud const& cloud) {
   std::size_t const n = cloud.X.size();
   bool good = n > static_cast<std::size_t>(cloud.dimension) && cloud.volume.size() == n &&
               cloud.kernel_volume.size() == n && cloud.spacing > 0 && std::isfinite(cloud.spacing);
@@ -34,7 +34,7 @@ bool can_be_computed_with(Cloud const& cloud) {
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   std::string_view const text(reinterpret_cast<char const*>(data), size);
   std::vector<std::string> problems;
-  Cloud const cloud = read_cloud_text(text, "fuzz.csv", options_of(text), problems);
+  PointCloud const cloud = read_cloud_text(text, "fuzz.csv", options_of(text), problems);
   if (problems.empty() && !can_be_computed_with(cloud)) std::abort();
   return 0;
 }

@@ -17,7 +17,7 @@ using testing::TemporaryFolder;
 using Words = std::vector<std::string>;
 
 struct Read {
-  Cloud cloud;
+  PointCloud cloud;
   Words problems;
 };
 
@@ -384,7 +384,7 @@ TEST(CloudFrame, IsReadBack) {
   writer.write(0, cache);
   std::string const path = (folder / "frames/000000.hdf").string();
   Words problems;
-  Cloud const cloud = read_cloud(path, {.body = "0"}, problems);
+  PointCloud const cloud = read_cloud(path, {.body = "0"}, problems);
   EXPECT_EQ(problems, Words{});
   EXPECT_EQ(cloud.dimension, 2);
   ASSERT_EQ(cloud.X.size(), set.X.size());

@@ -39,6 +39,7 @@ std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4
 bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;
   if (what == "mirrors") return info.mirrors;
+  if (what == "points from files") return info.scattered && !info.outline;
   return what == "rings" || what == "packed clouds" ? info.scattered : info.contact || info.pushable;
 }
 

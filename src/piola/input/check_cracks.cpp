@@ -40,6 +40,8 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
     bool const scattered = body.shape.arrangement != ShapeSpec::Arrangement::lattice;
     if (info && scattered && !info->scattered)
       problems.add(place_of(body.places, "shape"), refusal(*info, packed ? "packed clouds" : "rings"));
+    if (info && info->outline && body.shape.kind == ShapeSpec::Kind::points)
+      problems.add(place_of(body.places, "shape"), refusal(*info, "points from files"));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const info = formulation_of(spec, mirror.body);

@@ -21,15 +21,15 @@ double largest_spacing(Body const& body, int dimension) {
 }
 
 /// The particles of a body at the start, and the box around them. Those without a finite position are left out.
-struct Cloud {
+struct BodyPlaces {
   std::vector<Vec3> x;
   Vec3 low, high;
 
-  Cloud() {
+  BodyPlaces() {
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
   }
-  Cloud(BodySpec const& spec, ParticleSet const& particles, Body const& body) : Cloud() {
+  BodyPlaces(BodySpec const& spec, ParticleSet const& particles, Body const& body) : BodyPlaces() {
     for (std::int64_t id = body.first; id < body.last; ++id)
       add(start_of(spec, particles.X[static_cast<std::size_t>(id)]));
   }
@@ -42,8 +42,8 @@ struct Cloud {
     }
   }
   /// Those that are in a box, or nearer to it than `margin`.
-  Cloud near(Cloud const& box, double margin) const {
-    Cloud some;
+  BodyPlaces near(BodyPlaces const& box, double margin) const {
+    BodyPlaces some;
     for (Vec3 const& p : x) {
       bool inside = true;
       for (std::size_t c = 0; c < 3; ++c)
@@ -55,8 +55,8 @@ struct Cloud {
 };
 
 /// The nearest two particles, if they are nearer than `reach` [m].
-bool find_nearest(Cloud const& a, Cloud const& b, double reach, Closeness& found) {
-  Cloud const from = a.near(b, reach), to = b.near(from, reach);
+bool find_nearest(BodyPlaces const& a, BodyPlaces const& b, double reach, Closeness& found) {
+  BodyPlaces const from = a.near(b, reach), to = b.near(from, reach);
   if (from.x.empty() || to.x.empty()) return false;
   CellGrid const grid(to.x, reach);
   double least2 = reach * reach;
@@ -76,6 +76,7 @@ bool find_nearest(Cloud const& a, Cloud const& b, double reach, Closeness& found
 
 /// How far inside a shape a point is [m]; negative outside.
 double depth_in(ShapeSpec const& shape, Vec3 const& x) {
+  if (shape.kind == ShapeSpec::Kind::points) return -1;  // nobody knows where it ends
   if (shape.kind == ShapeSpec::Kind::solid) return -shape.solid->at({{x[0], x[1], x[2]}}).distance;
   auto const D = static_cast<std::size_t>(shape.dimension);
   double least = std::numeric_limits<double>::infinity(), square = 0;
@@ -148,7 +149,7 @@ void report_contact(CaseSpec const& spec, ParticleSet const& particles, Closenes
 
 std::vector<Closeness> close_bodies(CaseSpec const& spec, ParticleSet const& particles, double reach) {
   std::vector<Closeness> found;
-  std::vector<Cloud> clouds;
+  std::vector<BodyPlaces> clouds;
   for (std::size_t b = 0; b < spec.bodies.size() && spec.bodies.size() > 1; ++b)
     clouds.emplace_back(spec.bodies[b], particles, particles.bodies[b]);
   for (std::size_t a = 0; a < clouds.size(); ++a)

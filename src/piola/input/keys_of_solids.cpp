@@ -9,6 +9,7 @@ using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr std::array<std::string_view, 2> filling_words{"packed", "lattice"};
+constexpr std::array<std::string_view, 3> repair_words{"none", "orient", "holes"};
 
 /// The kinds of solids that stand in a shape and in the parts of others.
 struct SolidKey {
@@ -23,6 +24,7 @@ constexpr std::array solid_kinds{
     SolidKey{"formula", "the places that satisfy a formula"},
     SolidKey{"extrude", "a polygon, drawn along z in 3D"},
     SolidKey{"revolve", "a polygon in radius and height, turned about an axis"},
+    SolidKey{"mesh", "the inside of a surface from a CAD program"},
     SolidKey{"union", "a list of shapes: what is in one of them or more", list},
     SolidKey{"difference", "a list of shapes: what is in the first and in none of the others", list},
     SolidKey{"intersection", "a list of shapes: what is in all of them", list},
@@ -41,6 +43,19 @@ constexpr std::array parameters{
             "packed: particles of equal volume pushed apart until they fill the shape evenly; lattice: cells of a "
             "lattice whose middle is inside",
             filling_words},
+
+    KeyInfo{"body.shape", "points", table, "", {}, "none", "particles from a file", {}},
+    KeyInfo{"body.shape.points", "file", text, "", {}, "", "path from the case file: .csv, or a frame (.hdf)", {}},
+    KeyInfo{"body.shape.points", "unit", text, "", {}, "m", "of a table whose header has no units", {}},
+    KeyInfo{"body.shape.points",
+            "volume",
+            quantity,
+            "m^3",
+            positive,
+            "the column volume",
+            "of the body, shared equally; in 2D a number in m^2",
+            {}},
+    KeyInfo{"body.shape.points", "body", text, "", {}, "all rows", "only rows with this in the column body", {}},
 
     KeyInfo{"body.shape.torus", "centre", point, "m", place_range, "", "centre", {}},
     KeyInfo{"body.shape.torus", "radius", quantity, "m", length_range, "", "from the centre to that of the tube", {}},
@@ -78,6 +93,26 @@ constexpr std::array parameters{
 
     KeyInfo{"body.shape.revolve", "polygon", list, "", {}, "", "corners [radius, height], in order", {}},
     KeyInfo{"body.shape.revolve", "axis", word, "", {}, "\"z\"", "axis through the origin", axis_names},
+
+    KeyInfo{"body.shape.mesh", "file", text, "", {}, "", "path from the case file: .stl, .obj or .ply", {}},
+    KeyInfo{"body.shape.mesh", "unit", text, "", {}, "", "what one is in the file, such as mm: meshes do not say", {}},
+    KeyInfo{"body.shape.mesh",
+            "repair",
+            word,
+            "",
+            {},
+            "\"none\"",
+            "orient: faces are turned until neighbours agree; holes: holes are allowed up to largest_hole",
+            repair_words},
+    KeyInfo{"body.shape.mesh", "largest_hole", quantity, "m", positive, "none", "repair = \"holes\"", {}},
+    KeyInfo{"body.shape.mesh",
+            "feature_angle",
+            quantity,
+            "rad",
+            {0, 3.2, true, false},
+            "30 degree",
+            "patches end where the surface turns by more; a file with groups has these as patches",
+            {}},
 
     KeyInfo{"body.shape.transform", "scale", quantity, "1", positive, "1", "factor on all lengths", {}},
     KeyInfo{"body.shape.transform",

@@ -57,7 +57,7 @@ void read_face(Section const& section, BodyNames const& body, std::string const&
 /// Whether a body has such a face to load.
 bool has_face(ShapeSpec const& shape, Face const& face) {
   bool const box = shape.kind == ShapeSpec::Kind::box;
-  if (shape.kind == ShapeSpec::Kind::solid) return false;
+  if (shape.kind == ShapeSpec::Kind::solid || shape.kind == ShapeSpec::Kind::points) return false;
   if (face.part == Face::Part::outer) return !box;
   if (face.part == Face::Part::inner) return !box && shape.inner_radius > 0;
   return (box && face.axis < shape.dimension) || (shape.kind == ShapeSpec::Kind::cylinder && face.axis == shape.axis);

@@ -141,6 +141,7 @@ void read_fineness(Section const& section, ShapeSpec& shape) {
 }  // namespace
 
 ShapeSpec read_shape(Section const& section, Names const& names) {
+  if (section.has("points")) return read_points_shape(section);
   if (is_solid_section(section)) return read_solid_shape(section, names);
   ShapeSpec shape;
   constexpr std::array<std::string_view, 3> kinds{"box", "sphere", "cylinder"};

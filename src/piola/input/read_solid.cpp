@@ -3,7 +3,9 @@
 #include "piola/base/text.hpp"
 #include "piola/geometry/combined.hpp"
 #include "piola/geometry/measure.hpp"
+#include "piola/geometry/mesh.hpp"
 #include "piola/geometry/placed.hpp"
+#include "piola/input/case_files.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <array>
@@ -15,9 +17,9 @@ namespace {
 using geometry::Combination;
 using geometry::SolidPtr;
 
-constexpr std::array<std::string_view, 13> solid_kinds{"box",     "sphere",     "cylinder",    "torus",   "cone",
+constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     "cylinder",    "torus",   "cone",
                                                        "capsule", "half_space", "formula",     "extrude", "revolve",
-                                                       "union",   "difference", "intersection"};
+                                                       "union",   "difference", "intersection", "mesh"};
 
 Vec<3> vec_of(std::vector<double> const& numbers) {
   Vec<3> v;
@@ -28,7 +30,8 @@ Vec<3> vec_of(std::vector<double> const& numbers) {
 /// Reads the tree of a shape. Null where something is wrong, which is then among the problems.
 class SolidReader {
  public:
-  SolidReader(Names const& names, double spacing) : names_(names), spacing_(spacing) {}
+  /// Files that are read are added to those of the shape.
+  SolidReader(Names const& names, ShapeSpec& shape) : names_(names), shape_(shape), spacing_(shape.spacing > 0 ? shape.spacing : 1) {}
 
   SolidPtr read(Section const& node) const {
     int given = 0;
@@ -41,7 +44,7 @@ class SolidReader {
     if (given != 1) {
       node.problems().add(node.place(), "a shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
                                             " of box, sphere, cylinder, torus, cone, capsule, half_space, formula, "
-                                            "extrude, revolve, union, difference, intersection (allowed: one) - add or "
+                                            "extrude, revolve, mesh, union, difference, intersection (allowed: one) - add or "
                                             "remove one");
       return nullptr;
     }
@@ -64,8 +67,33 @@ class SolidReader {
     auto const section = inner(node, kind);
     if (!section) return nullptr;
     std::size_t const before = node.problems().count();
-    SolidPtr solid = read_primitive(*section, kind, names_, spacing_);
+    SolidPtr solid = kind == "mesh" ? read_surface(*section) : read_primitive(*section, kind, names_, spacing_);
     return node.problems().count() == before ? solid : nullptr;
+  }
+
+  SolidPtr read_surface(Section const& section) const {
+    std::string file;
+    geometry::MeshOptions options;
+    options.spacing = shape_.spacing;
+    bool const given = section.read("file", file);
+    auto const unit = read_length_unit(section);
+    int const word = section.word_index("repair");
+    options.repair = static_cast<geometry::MeshOptions::Repair>(std::max(0, word));
+    section.read("feature_angle", options.feature_angle);
+    if (options.repair != geometry::MeshOptions::Repair::holes)
+      section.refuse("largest_hole", "is used only with repair = \"holes\"");
+    else if (!section.has("largest_hole"))
+      section.report_missing("largest_hole", "how large a hole may be", "largest_hole = \"1 mm\"");
+    section.read("largest_hole", options.largest_hole);
+    section.refuse_unknown();
+    if (!given || !unit) return nullptr;
+    options.scale = *unit;
+    shape_.files.push_back(case_file(section.place_of("file"), file));
+    geometry::MeshReport report;
+    SolidPtr solid = geometry::read_mesh(shape_.files.back().path.string(), options, report);
+    for (std::string const& problem : report.problems) section.problems().add(section.place_of("file"), problem);
+    shape_.notes.insert(shape_.notes.end(), report.notes.begin(), report.notes.end());
+    return solid;
   }
 
   SolidPtr read_parts(Section const& node, std::string_view kind) const {
@@ -150,6 +178,7 @@ class SolidReader {
   }
 
   Names const& names_;
+  ShapeSpec& shape_;
   double spacing_;
 };
 
@@ -205,7 +234,7 @@ ShapeSpec read_solid_shape(Section const& section, Names const& names) {
   bool const spaced = section.read("spacing", shape.spacing);
   if (!section.has("spacing")) section.report_missing("spacing", "how fine the body is", "spacing = \"1 mm\"");
   section.refuse_unknown();
-  shape.solid = SolidReader(names, spaced ? shape.spacing : 1).read(section);
+  shape.solid = SolidReader(names, shape).read(section);
   if (!shape.solid) return shape;
   shape.dimension = shape.solid->dimension();
   if (spaced) measure(section, shape);

@@ -11,6 +11,11 @@ bool is_solid_section(Section const& section);
 /// Reads such a shape. `names`: constants for formulas.
 ShapeSpec read_solid_shape(Section const& section, Names const& names);
 
+/// Reads the shape `points`, a file of particles.
+ShapeSpec read_points_shape(Section const& section);
+/// The key `unit`: how many m one of them has.
+std::optional<double> read_length_unit(Section const& section);
+
 /// The solid of a box, sphere or cylinder.
 geometry::SolidPtr solid_of(ShapeSpec const& shape);
 

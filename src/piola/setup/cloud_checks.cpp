@@ -30,7 +30,7 @@ struct SamePlaces {
   std::size_t first = 0, second = 0;  ///< the pair whose later point comes first
 };
 
-SamePlaces same_places(Cloud const& cloud) {
+SamePlaces same_places(PointCloud const& cloud) {
   std::vector<std::size_t> order(cloud.X.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
@@ -46,7 +46,7 @@ SamePlaces same_places(Cloud const& cloud) {
 }
 
 /// The median of the nearest distances, if the cloud is not refused here.
-std::optional<double> check_distances(Cloud const& cloud, CloudSource const& source,
+std::optional<double> check_distances(PointCloud const& cloud, CloudSource const& source,
                                       std::vector<std::string>& problems) {
   if (SamePlaces const same = same_places(cloud); same.count > 0) {
     problems.push_back(
@@ -83,7 +83,7 @@ std::optional<double> check_distances(Cloud const& cloud, CloudSource const& sou
   return std::nullopt;
 }
 
-void check_gradients(Cloud& cloud, std::vector<CloudMoment> const& moments, CloudSource const& source,
+void check_gradients(PointCloud& cloud, std::vector<CloudMoment> const& moments, CloudSource const& source,
                      std::vector<std::string>& problems) {
   std::vector<double> means;
   for (CloudMoment const& m : moments) means.push_back(m.mean_eigenvalue);
@@ -117,7 +117,7 @@ void check_gradients(Cloud& cloud, std::vector<CloudMoment> const& moments, Clou
   }
 }
 
-void note_density(Cloud& cloud, std::vector<CloudMoment> const& moments, CloudSource const& source) {
+void note_density(PointCloud& cloud, std::vector<CloudMoment> const& moments, CloudSource const& source) {
   std::size_t inside = 0, off = 0;
   double low = 1, high = 1;
   for (CloudMoment const& m : moments) {
@@ -138,7 +138,7 @@ void note_density(Cloud& cloud, std::vector<CloudMoment> const& moments, CloudSo
 
 }  // namespace
 
-void check_cloud_numbers(Cloud const& cloud, CloudSource const& source, std::vector<std::string>& problems) {
+void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std::vector<std::string>& problems) {
   CloudProblems list(source.file, problems);
   auto const check_volume = [&](std::size_t i, double volume, std::string_view name) {
     if (volume > 0 && std::isfinite(volume)) return;
@@ -160,7 +160,7 @@ void check_cloud_numbers(Cloud const& cloud, CloudSource const& source, std::vec
   }
 }
 
-void check_cloud_places(Cloud& cloud, CloudSource const& source, std::vector<std::string>& problems) {
+void check_cloud_places(PointCloud& cloud, CloudSource const& source, std::vector<std::string>& problems) {
   auto const distance = check_distances(cloud, source, problems);
   if (!distance) return;
   double const median = *distance;

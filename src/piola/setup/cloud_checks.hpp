@@ -22,13 +22,13 @@ struct CloudMoment {
   double least_eigenvalue = 0;
   bool inside = false;  ///< there are neighbours on the side where fewer are
 };
-std::vector<CloudMoment> cloud_moments(Cloud const& cloud);
+std::vector<CloudMoment> cloud_moments(PointCloud const& cloud);
 
 /// Refuses numbers that are not finite or absurd, and volumes that are not positive.
-void check_cloud_numbers(Cloud const& cloud, CloudSource const& source, std::vector<std::string>& problems);
+void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std::vector<std::string>& problems);
 
 /// Refuses clouds of too few points, with points too close to each other, with volumes that do not fit the distances,
 /// or with places where no gradient can be formed. Notes what is uneven. Needs numbers that passed.
-void check_cloud_places(Cloud& cloud, CloudSource const& source, std::vector<std::string>& problems);
+void check_cloud_places(PointCloud& cloud, CloudSource const& source, std::vector<std::string>& problems);
 
 }  // namespace piola

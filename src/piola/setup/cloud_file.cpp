@@ -92,7 +92,7 @@ void keep_body(CloudTable& table, std::string const& wanted, std::vector<std::st
 }
 
 /// Volumes from the file, or equal shares of what the case says.
-void take_volumes(Cloud& cloud, CloudSource const& source, CloudOptions const& options,
+void take_volumes(PointCloud& cloud, CloudSource const& source, CloudOptions const& options,
                   std::vector<std::string>& problems) {
   auto const n = static_cast<double>(cloud.X.size());
   bool const shared = cloud.volume.empty() && options.total_volume;
@@ -113,8 +113,8 @@ void take_volumes(Cloud& cloud, CloudSource const& source, CloudOptions const& o
 }
 
 /// The cloud of a table, if nothing is wrong with it.
-Cloud make_cloud(CloudTable table, CloudOptions const& options, std::vector<std::string>& problems) {
-  Cloud cloud;
+PointCloud make_cloud(CloudTable table, CloudOptions const& options, std::vector<std::string>& problems) {
+  PointCloud cloud;
   keep_body(table, options.body, problems);
   std::size_t const before = problems.size();
   cloud.dimension = table.dimension;
@@ -142,21 +142,21 @@ Cloud make_cloud(CloudTable table, CloudOptions const& options, std::vector<std:
 }
 
 /// A table that cannot be read is not looked at further: its problems would come twice.
-Cloud checked_cloud(CloudTable table, CloudOptions const& options, std::vector<std::string>& problems,
-                    std::size_t before) {
+PointCloud checked_cloud(CloudTable table, CloudOptions const& options, std::vector<std::string>& problems,
+                         std::size_t before) {
   if (problems.size() > before) return {};
   return make_cloud(std::move(table), options, problems);
 }
 
 }  // namespace
 
-Cloud read_cloud_text(std::string_view text, std::string const& name, CloudOptions const& options,
-                      std::vector<std::string>& problems) {
+PointCloud read_cloud_text(std::string_view text, std::string const& name, CloudOptions const& options,
+                           std::vector<std::string>& problems) {
   std::size_t const before = problems.size();
   return checked_cloud(read_cloud_table(text, name, options.length_unit, problems), options, problems, before);
 }
 
-Cloud read_cloud(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems) {
+PointCloud read_cloud(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems) {
   std::size_t const before = problems.size();
   switch (cloud_format(path)) {
     case CloudFormat::frame: return checked_cloud(read_cloud_frame(path, options, problems), options, problems, before);

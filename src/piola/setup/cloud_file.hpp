@@ -10,7 +10,7 @@
 namespace piola {
 
 /// The particles of one body, read from a file. Lengths in m, volumes in m^dimension; unused components are zero.
-struct Cloud {
+struct PointCloud {
   int dimension = 3;
   std::vector<std::array<double, 3>> X;
   std::vector<double> volume;          ///< sums to the volume of the body
@@ -32,10 +32,10 @@ struct CloudOptions {
 /// the points in it is added to `problems`, everything at once, and the cloud is not to be used then. Never throws on a
 /// bad file. Checked are: numbers that are finite and not absurd, positive volumes, enough points, no two too close,
 /// volumes that fit the distances, a gradient that can be formed everywhere.
-Cloud read_cloud(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems);
+PointCloud read_cloud(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems);
 
 /// The same for the text of a table; `name` stands for the file in messages.
-Cloud read_cloud_text(std::string_view text, std::string const& name, CloudOptions const& options,
-                      std::vector<std::string>& problems);
+PointCloud read_cloud_text(std::string_view text, std::string const& name, CloudOptions const& options,
+                           std::vector<std::string>& problems);
 
 }  // namespace piola

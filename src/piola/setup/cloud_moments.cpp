@@ -60,7 +60,7 @@ struct CloudSums {
 
 class CloudSurroundings {
  public:
-  explicit CloudSurroundings(Cloud const& cloud)
+  explicit CloudSurroundings(PointCloud const& cloud)
       : cloud_(cloud), h_(cloud_h * cloud.spacing), grid_(cloud.X, WendlandC2::support * h_) {
     scale_ = WendlandC2::sigma(cloud.dimension) / std::pow(h_, cloud.dimension);
   }
@@ -125,7 +125,7 @@ class CloudSurroundings {
     return found;
   }
 
-  Cloud const& cloud_;
+  PointCloud const& cloud_;
   double h_, scale_ = 1;
   CellGrid grid_;
 };
@@ -159,7 +159,7 @@ std::vector<NearestPoint> nearest_points(CloudPoints const& X) {
   return nearest;
 }
 
-std::vector<CloudMoment> cloud_moments(Cloud const& cloud) {
+std::vector<CloudMoment> cloud_moments(PointCloud const& cloud) {
   std::vector<CloudMoment> moments(cloud.X.size());
   CloudSurroundings const surroundings(cloud);
   exec_host::for_each_in_set_up(static_cast<Index>(cloud.X.size()), [&](Index i) {

@@ -2,6 +2,7 @@
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/setup/cloud_file.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
 #include "piola/setup/solid_bodies.hpp"
@@ -43,9 +44,10 @@ Lattice box_lattice(ShapeSpec const& shape) {
   return lattice;
 }
 
+bool are_points(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::points; }
 bool is_solid(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::solid; }
 bool in_rings(ShapeSpec const& shape) {
-  return !is_solid(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
+  return !is_solid(shape) && !are_points(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
 }
 
 // Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
@@ -199,6 +201,7 @@ double row_count_estimate(ShapeSpec const& shape, Lattice const& lattice) {
 
 std::int64_t count_particles(ShapeSpec const& shape) {
   constexpr double countable = 1e8;
+  if (are_points(shape)) return shape.cloud ? static_cast<std::int64_t>(shape.cloud->X.size()) : 0;
   if (is_solid(shape))
     return static_cast<std::int64_t>(std::min(shape.volume / std::pow(shape.spacing, shape.dimension), 9e18) + 0.5);
   if (in_rings(shape)) return static_cast<std::int64_t>(std::min(count_ring_particles(shape), 9e18));
@@ -218,7 +221,7 @@ std::int64_t count_particles(ShapeSpec const& shape) {
 }
 
 std::array<double, 3> spacing_of(ShapeSpec const& shape) {
-  if (is_solid(shape)) {
+  if (is_solid(shape) || are_points(shape)) {
     std::array<double, 3> spacing{1, 1, 1};
     for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) spacing[c] = shape.spacing;
     return spacing;
@@ -306,9 +309,11 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   Body body;
   body.name = name;
   body.first = set.size();
-  if (!is_solid(shape)) body.outline = outline_of(shape);
+  if (!is_solid(shape) && !are_points(shape)) body.outline = outline_of(shape);
   if (is_solid(shape))
     fill_solid(shape, set, body);
+  else if (are_points(shape))
+    fill_points(shape, set, body);
   else if (in_rings(shape))
     fill_rings(shape, set, body);
   else

@@ -4,17 +4,26 @@
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace piola {
 
 class SolidParticles;
+struct PointCloud;
+
+/// A file that a case names, and where it is.
+struct CaseFile {
+  std::string given;
+  std::filesystem::path path;
+};
 
 /// What a case file says about the shape of a body. Lengths in m. The number of components that the user
 /// gave for `min`/`centre` is the dimension (1, 2 or 3).
 struct ShapeSpec {
-  enum class Kind { box, sphere, cylinder, solid };
+  enum class Kind { box, sphere, cylinder, solid, points };
   enum class Placement { on_boundary, cell_centred };
   enum class Arrangement { lattice, rings, lattice_with_rings, packed };
   Kind kind = Kind::box;
@@ -29,11 +38,14 @@ struct ShapeSpec {
   std::array<int, 3> particles{1, 1,
                                1};  ///< box: particles per direction (already derived from spacing if that was given)
   double spacing = 0;               ///< sphere, cylinder, solid
-  geometry::SolidPtr solid;         ///< solid: the region
+  geometry::SolidPtr solid{};       ///< solid: the region
   double volume = 0;                ///< solid: of it [m^dimension]
-  std::shared_ptr<SolidParticles> solid_particles;  ///< solid: never null
-  Placement placement = Placement::on_boundary;     ///< box, and cylinder along its axis; the rest is cell centred
-  bool random = false;                              ///< box, on_boundary: inner particles at random, then relaxed
+  std::shared_ptr<SolidParticles> solid_particles{};  ///< solid: never null
+  std::shared_ptr<PointCloud const> cloud{};          ///< points: as they stand in the file
+  std::vector<CaseFile> files{};                      ///< that it was read from
+  std::vector<std::string> notes{};                   ///< on these files
+  Placement placement = Placement::on_boundary;       ///< box, and cylinder along its axis; the rest is cell centred
+  bool random = false;                                ///< box, on_boundary: inner particles at random, then relaxed
   double jitter = 0;       ///< random shift of each inner particle, as a fraction of the spacing
   std::uint32_t seed = 1;  ///< of the jitter or of the random places
 };
@@ -70,6 +82,7 @@ int particles_over(double length, double spacing, ShapeSpec::Placement placement
 ///  - Solid, packed: round(volume/spacing^dimension) particles of equal volumes that sum to the solid's, pushed apart
 ///    until they fill it evenly (geometry/packing.hpp); ids run cell by cell. Kernel volumes are the volumes.
 ///  - Solid, lattice: the cells of a lattice about the middle of its box whose middle lies inside, all full.
+///  - Points: as read from a file; such a body has no outline.
 /// Tributary volumes of a box sum to its exact volume; kernel volumes are the product of the spacings.
 /// Jitter moves particles that are not on a face of the body by up to jitter * spacing in each direction; the same seed
 /// gives the same particles on every machine.

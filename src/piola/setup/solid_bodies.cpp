@@ -3,6 +3,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/geometry/packing.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/setup/cloud_file.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -140,6 +141,26 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   append(from.lattice_index, set.lattice_index);
   set.volume.resize(set.X.size(), from.volume);
   set.kernel_volume.resize(set.X.size(), from.volume);
+  set.body.resize(set.X.size(), static_cast<int>(set.bodies.size()));
+}
+
+void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body) {
+  PointCloud const& from = *shape.cloud;
+  body.spacing = spacing_of(shape);
+  body.regular = false;
+  body.scattered = true;
+  geometry::Bounds const box{vector_of(from.min), vector_of(from.max)};
+  body.lattice = cells_around(box, from.spacing, from.dimension);
+  for (Point const& X : from.X) {
+    std::array<int, 3> cell{};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(from.dimension); ++c)
+      cell[c] = std::clamp(static_cast<int>((X[c] - from.min[c]) / from.spacing), 0, body.lattice[c] - 1);
+    set.lattice_index.own().push_back(cell);
+  }
+  auto const append = [](auto const& some, auto& to) { to.own().insert(to.own().end(), some.begin(), some.end()); };
+  append(from.X, set.X);
+  append(from.volume, set.volume);
+  append(from.kernel_volume, set.kernel_volume);
   set.body.resize(set.X.size(), static_cast<int>(set.bodies.size()));
 }
 

@@ -31,6 +31,9 @@ class SolidParticles {
 /// Appends them to a set; lattice indices, volumes and the outline of `body` with them. Called by `fill`.
 void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body);
 
+/// The same for points from a file, which keep their order and have no outline.
+void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body);
+
 /// What a particle stands for of one patch of a solid's surface.
 struct PatchShare {
   int patch = 0;

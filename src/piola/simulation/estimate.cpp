@@ -192,7 +192,7 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
 
 ShapeSpec part_of(ShapeSpec const& shape, int particles) {
   ShapeSpec part = shape;
-  if (shape.kind == ShapeSpec::Kind::solid) {
+  if (shape.kind == ShapeSpec::Kind::solid || shape.kind == ShapeSpec::Kind::points) {
     // A shaken box stands for it.
     part.kind = ShapeSpec::Kind::box;
     part.jitter = shape.arrangement == ShapeSpec::Arrangement::packed ? 0.2 : 0;

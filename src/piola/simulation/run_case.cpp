@@ -5,6 +5,7 @@
 #include "piola/base/version.hpp"
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/input/case_difference.hpp"
+#include "piola/input/case_files.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/simulation/failure_text.hpp"
@@ -56,10 +57,33 @@ std::string start_text(Simulation const& s) {
                      count_text(s.particles.size()), s.threads, s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
 }
 
+/// Copies of the files that the case names, without which it could not be resumed elsewhere.
+void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journal& journal) {
+  constexpr std::uintmax_t most = 50'000'000;
+  namespace fs = std::filesystem;
+  for (BodySpec const& body : spec.bodies)
+    for (CaseFile const& file : body.shape.files) {
+      fs::path const to = folder / kept_files / kept_name(file.given);
+      std::error_code error;
+      if (fs::equivalent(file.path, to, error)) continue;
+      if (fs::file_size(file.path, error) > most) {
+        journal.warn(
+            fmt::format("{} is larger than 50 MB and is not copied to the results: a resumed run reads it from "
+                        "{}",
+                        file.given, file.path.string()));
+        continue;
+      }
+      fs::create_directories(folder / kept_files, error);
+      if (!fs::copy_file(file.path, to, fs::copy_options::overwrite_existing, error))
+        journal.warn(fmt::format("{} could not be copied to {}: {}", file.given, to.string(), error.message()));
+    }
+}
+
 /// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.
 Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
   journal.note(start_text(s));
   write_whole_file(options.folder / "case.toml", s.spec.source);
+  keep_files(s.spec, options.folder, journal);
   watch.history.open(*s.formulation, {});
   Moment const moment;
   for (Observer* observer : watch.all()) observer->see(*s.formulation, moment);
