@@ -63,8 +63,9 @@ class Start {
     Bounds const box = solid.bounds();
     for (int c = 0; c < solid.dimension(); ++c) {
       auto const i = static_cast<std::size_t>(c);
-      // Two more beyond the box on each side, for slender bodies.
-      count_[i] = static_cast<Index>(std::ceil((box.max[c] - box.min[c]) / spacing)) + 4;
+      // Two more beyond the box on each side, for slender bodies. A length of whole spacings but for rounding is one.
+      constexpr double fits = 1e-3;
+      count_[i] = static_cast<Index>(std::ceil((box.max[c] - box.min[c]) / spacing - fits)) + 4;
       first_[i] = 0.5 * (box.min[c] + box.max[c]) - 0.5 * (count_[i] - 1) * spacing;
     }
   }

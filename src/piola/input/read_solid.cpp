@@ -17,8 +17,8 @@ namespace {
 using geometry::Combination;
 using geometry::SolidPtr;
 
-constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     "cylinder",    "torus",   "cone",
-                                                       "capsule", "half_space", "formula",     "extrude", "revolve",
+constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     "cylinder",     "torus",   "cone",
+                                                       "capsule", "half_space", "formula",      "extrude", "revolve",
                                                        "union",   "difference", "intersection", "mesh"};
 
 Vec<3> vec_of(std::vector<double> const& numbers) {
@@ -31,7 +31,8 @@ Vec<3> vec_of(std::vector<double> const& numbers) {
 class SolidReader {
  public:
   /// Files that are read are added to those of the shape.
-  SolidReader(Names const& names, ShapeSpec& shape) : names_(names), shape_(shape), spacing_(shape.spacing > 0 ? shape.spacing : 1) {}
+  SolidReader(Names const& names, ShapeSpec& shape)
+      : names_(names), shape_(shape), spacing_(shape.spacing > 0 ? shape.spacing : 1) {}
 
   SolidPtr read(Section const& node) const {
     int given = 0;
@@ -42,10 +43,11 @@ class SolidReader {
       solid = read_kind(node, kind);
     }
     if (given != 1) {
-      node.problems().add(node.place(), "a shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                                            " of box, sphere, cylinder, torus, cone, capsule, half_space, formula, "
-                                            "extrude, revolve, mesh, union, difference, intersection (allowed: one) - add or "
-                                            "remove one");
+      node.problems().add(node.place(),
+                          "a shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
+                              " of box, sphere, cylinder, torus, cone, capsule, half_space, formula, "
+                              "extrude, revolve, mesh, union, difference, intersection (allowed: one) - add or "
+                              "remove one");
       return nullptr;
     }
     return solid ? placed_by(node, solid) : nullptr;
