@@ -4,6 +4,8 @@
 #include "piola/geometry/combined.hpp"
 #include "piola/geometry/measure.hpp"
 #include "piola/geometry/primitives.hpp"
+#include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 
 using namespace piola;
@@ -46,6 +48,15 @@ TEST(Packing, InThePlane) {
   expect_good(*ball({}, 0.5, 0, 2), 0.05);
   expect_good(*ball({}, 0.5, 0.2, 2), 0.03);
   expect_good(*box({}, {{1, 0.5, 0}}, 2), 0.05);
+}
+
+TEST(Packing, BarIsAsDenseEverywhereAlongIt) {
+  // 28.3 particles to a layer: of places as deep as each other some are taken, some are not.
+  auto const bar = cylinder({}, {{1, 0, 0}}, 1, 0.03, 0);
+  Packing const packing = packed(*bar, 0.01);
+  std::array<int, 10> in_tenth{};
+  for (auto const& X : packing.X) ++in_tenth[std::min<std::size_t>(9, static_cast<std::size_t>(10 * X[0]))];
+  for (int const count : in_tenth) EXPECT_NEAR(10.0 * count / static_cast<double>(packing.X.size()), 1, 0.02);
 }
 
 TEST(Packing, PlateWithAHole) {

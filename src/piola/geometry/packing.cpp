@@ -63,8 +63,9 @@ class Start {
     Bounds const box = solid.bounds();
     for (int c = 0; c < solid.dimension(); ++c) {
       auto const i = static_cast<std::size_t>(c);
-      // Two more beyond the box on each side, for slender bodies.
-      count_[i] = static_cast<Index>(std::ceil((box.max[c] - box.min[c]) / spacing)) + 4;
+      // Two more beyond the box on each side, for slender bodies. A length of whole spacings but for rounding is one.
+      constexpr double fits = 1e-3;
+      count_[i] = static_cast<Index>(std::ceil((box.max[c] - box.min[c]) / spacing - fits)) + 4;
       first_[i] = 0.5 * (box.min[c] + box.max[c]) - 0.5 * (count_[i] - 1) * spacing;
     }
   }
@@ -76,10 +77,11 @@ class Start {
                                        [&](Index row) { find_row(row, found[static_cast<std::size_t>(row)]); });
     std::vector<std::pair<double, Point>> all;
     for (auto const& row : found) all.insert(all.end(), row.begin(), row.end());
-    // Ties by place in the lattice, which is the order they stand in.
     std::vector<std::size_t> order(all.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return all[a].first < all[b].first; });
+    std::vector<std::pair<double, double>> rank;
+    for (std::size_t i = 0; i < all.size(); ++i) rank.push_back(rank_of(all[i].first, i));
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank[a] < rank[b]; });
     order.resize(std::min(wanted, order.size()));
     std::sort(order.begin(), order.end());
     std::vector<Point> X;
@@ -88,6 +90,16 @@ class Start {
   }
 
  private:
+  /// Places that are as deep but for a hundredth of a spacing are ties: in a bar those of a whole row. Any share of
+  /// them is spread evenly over the body by the fractional parts of i times the golden section; one end would else be
+  /// denser, and the sweeps move nothing that far.
+  std::pair<double, double> rank_of(double depth, std::size_t i) const {
+    constexpr double golden = 0.6180339887498949, steps = 100, aside = 0.37;
+    double whole = 0;
+    return {std::floor(std::max(depth / spacing_, -1e6) * steps + aside),
+            std::modf(golden * static_cast<double>(i), &whole)};
+  }
+
   void find_row(Index row, std::vector<std::pair<double, Point>>& found) const {
     std::array<Index, 3> at{0, row % count_[1], row / count_[1]};
     double far = 0;  // how far along the row the last distance still holds
