@@ -89,7 +89,8 @@ std::vector<FaceShare> shares_of_patch(ShapeSpec const& shape, ParticleSet const
   for (PatchShare const& share : patch_shares(shape, particles, body)) {
     if (share.patch != patch) continue;
     Vec3 normal = share.vector;
-    for (double& c : normal) c /= share.area;
+    // A flat patch looks along its axis exactly.
+    for (double& c : normal) c = std::abs(c) < 1e-9 * share.area ? 0 : c / share.area;
     shares.push_back({share.particle, share.area, normal});
   }
   return shares;
