@@ -57,7 +57,7 @@ TEST(ShapeMessages, NumbersAndPartsThatCannotBe) {
   expect_told("torus = { centre = [0, 0, 0], radius = 1, tube_radius = 0.4 }", {"spacing", "how fine"});
   expect_told("spacing = 0.2, difference = []", {"difference"});
   expect_told("spacing = 0.2, difference = [{ box = { min = [0, 0, 0], max = [1, 1, 1] } }, 5]", {"a table"});
-  expect_told("spacing = 0.2, union = [{ bocks = {} }]", {"\"bocks\"", "did you mean \"box\""});
+  expect_told("spacing = 0.2, union = [{ boxx = {} }]", {"\"boxx\"", "did you mean \"box\""});
   expect_told(
       "spacing = 0.2, union = [{ sphere = { centre = [0, 0], radius = 1 } }, { sphere = { centre = [0, 0, 0], "
       "radius = 1 } }]",
@@ -78,7 +78,7 @@ TEST(ShapeMessages, NumbersAndPartsThatCannotBe) {
 }
 
 TEST(ShapeMessages, PolygonsAndFormulas) {
-  expect_told("spacing = 0.2, extrude = { polygon = [[0, 0], [1, 1], [1, 0], [0, 1]] }",
+  expect_told("spacing = 0.2, extrude = { polygon = [[0, 0], [1, 1], [1, 0], [0, 0.5]] }",
               {"meets", "order of the corners"});
   expect_told("spacing = 0.2, extrude = { polygon = [[0, 0], [1, 1], [2, 2]] }", {"without area"});
   expect_told("spacing = 0.2, extrude = { polygon = [[0, 0], [0, 0], [2, 2], [1, 0]] }", {"same as the corner before"});
