@@ -28,8 +28,10 @@ bool holds(std::string const& text, std::string_view part) { return text.find(pa
 
 /// A number that cannot be negative and ought to be zero has its lower bound by nature.
 bool ought_to_vanish(Check const& c) {
-  if (c.as == Check::As::order || c.as == Check::As::ratio) return false;
   std::string const& q = c.quantity;
+  // An error may be as small a part of another one as it likes.
+  if (c.as == Check::As::ratio) return holds(q, "error");
+  if (c.as == Check::As::order) return false;
   return c.as == Check::As::field_error || holds(q, "error") || holds(q, "drift") || holds(q, "change") ||
          holds(q, "max_increase") || holds(q, "max_decrease") || holds(q, "kinetic_energy");
 }
