@@ -93,10 +93,10 @@ class Start {
   /// Places that are as deep but for a hundredth of a spacing are ties: in a bar those of a whole row. Any share of
   /// them is spread evenly over the body by the fractional parts of i times the golden section; one end would else be
   /// denser, and the sweeps move nothing that far.
-  std::pair<double, double> rank_of(double depth, std::size_t i) const {
+  std::pair<double, double> rank_of(double phi, std::size_t i) const {
     constexpr double golden = 0.6180339887498949, steps = 100, aside = 0.37;
     double whole = 0;
-    return {std::floor(std::max(depth / spacing_, -1e6) * steps + aside),
+    return {std::floor(std::max(phi / spacing_, -1e6) * steps + aside),
             std::modf(golden * static_cast<double>(i), &whole)};
   }
 

@@ -38,8 +38,8 @@ bool has_surface(CaseSpec const& spec, std::size_t body) {
 bool can_have_surface(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
-  bool const unbounded = b.shape.kind == ShapeSpec::Kind::points;  // nobody knows its surface
-  if (!info || !info->pushable || b.shape.dimension < 2 || unbounded) return false;
+  bool const open_ended = b.shape.kind == ShapeSpec::Kind::points;  // nobody knows its surface
+  if (!info || !info->pushable || b.shape.dimension < 2 || open_ended) return false;
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
                                     [&](MirrorSpec const& mirror) { return mirror.body == b.name; });
   auto const description = b.formulation.words.find("description");
