@@ -67,7 +67,7 @@ void check_ply(std::string_view bytes, std::string const& name, std::vector<std:
     if (word == "element") good = good && (words >> kind >> count) && count >= 0 && count < 1e9;
     if (word == "property") wanted += count;
   }
-  double const room = static_cast<double>(bytes.size() - end);
+  auto const room = static_cast<double>(bytes.size() - end);
   if (!good || wanted > room)
     problems.push_back(
         fmt::format("{}: the header promises more elements than the file has room for: it was cut off - "

@@ -85,6 +85,7 @@ class Start {
     order.resize(std::min(wanted, order.size()));
     std::sort(order.begin(), order.end());
     std::vector<Point> X;
+    X.reserve(order.size());
     for (auto const i : order) X.push_back(all[i].second);
     return X;
   }

@@ -9,6 +9,7 @@ namespace {
 
 std::vector<Patch> patches_named(std::vector<std::string> const& names) {
   std::vector<Patch> patches;
+  patches.reserve(names.size());
   for (std::string const& name : names) patches.push_back({name});
   return patches;
 }

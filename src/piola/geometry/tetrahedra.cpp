@@ -93,7 +93,7 @@ class LevelGrid {
     Vec<3> const outwards = place(node[out[0]]) - place(node[in[0]]);
     if (dimension_ == 2) {
       bool const one = in.size() == 1;
-      int const a = one ? point(in[0], out[0]) : point(in[0], out[0]);
+      int const a = point(in[0], out[0]);
       int const b = one ? point(in[0], out[1]) : point(in[1], out[0]);
       add_line(a, b, outwards);
       return;

@@ -57,6 +57,7 @@ std::optional<double> check_distances(PointCloud const& cloud, CloudSource const
   }
   auto const nearest = nearest_points(cloud.X);
   std::vector<double> distances;
+  distances.reserve(nearest.size());
   for (NearestPoint const& n : nearest) distances.push_back(n.distance);
   auto const middle = distances.begin() + std::ssize(distances) / 2;
   std::nth_element(distances.begin(), middle, distances.end());
@@ -86,6 +87,7 @@ std::optional<double> check_distances(PointCloud const& cloud, CloudSource const
 void check_gradients(PointCloud& cloud, std::vector<CloudMoment> const& moments, CloudSource const& source,
                      std::vector<std::string>& problems) {
   std::vector<double> means;
+  means.reserve(moments.size());
   for (CloudMoment const& m : moments) means.push_back(m.mean_eigenvalue);
   auto const middle = means.begin() + std::ssize(means) / 2;
   std::nth_element(means.begin(), middle, means.end());

@@ -41,7 +41,7 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
     table.volume = std::move(frame.volume);
     int const last = frame.body.empty() ? -1 : *std::max_element(frame.body.begin(), frame.body.end());
     int const first = frame.body.empty() ? 0 : *std::min_element(frame.body.begin(), frame.body.end());
-    if (first < 0 || static_cast<std::size_t>(last + 1) > std::max<std::size_t>(table.X.size(), 1)) {
+    if (first < 0 || static_cast<std::size_t>(last) + 1 > std::max<std::size_t>(table.X.size(), 1)) {
       problems.push_back(path + ": numbers its bodies in a way no frame does - the file is damaged");
       return {};
     }
