@@ -38,18 +38,15 @@ std::string body_line(Body const& body, BodySpec const& spec, int dimension) {
 
 }  // namespace
 
-Console::Console(bool quiet)
-    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
-Console::~Console() { clear(); }
+StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
+StatusLine::~StatusLine() { clear(); }
 
-void Console::clear() {
+void StatusLine::clear() {
   if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
   shown_ = 0;
 }
 
-void Console::progress(Progress const& progress) {
-  if (quiet_) return;
-  std::string const line = progress_line(progress);
+void StatusLine::show(std::string const& line) {
   if (terminal_) {
     tell("\r{:<{}}", line, shown_);
     shown_ = std::max(shown_, line.size());
@@ -61,39 +58,26 @@ void Console::progress(Progress const& progress) {
   tell("{}\n", line);
 }
 
+void Console::progress(Progress const& progress) {
+  if (!quiet_) line_.show(progress_line(progress));
+}
+
 void Console::warning(std::string const& text) {
   clear();
   tell("warning: {}\n", text);
-}
-
-PackingLine::PackingLine(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0) {}
-PackingLine::~PackingLine() { clear(); }
-
-void PackingLine::clear() {
-  if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
-  shown_ = 0;
 }
 
 void PackingLine::operator()(std::string const& body, double share) {
   if (quiet_) return;
   auto const now = std::chrono::steady_clock::now();
   if (body != body_) {
-    clear();
+    line_.clear();
     body_ = body;
-    begun_ = last_ = now;
+    begun_ = now;
   }
-  using Seconds = std::chrono::duration<double>;
-  double const spent = Seconds(now - begun_).count();
-  if (spent < 2 || Seconds(now - last_).count() < (terminal_ ? 0.2 : 10)) return;
-  last_ = now;
-  std::string const line =
-      fmt::format("packing {}: {}, {} left", body, percent(share), duration_text(spent * (1 - share) / share));
-  if (terminal_) {
-    tell("\r{:<{}}", line, shown_);
-    shown_ = std::max(shown_, line.size());
-  } else {
-    tell("{}\n", line);
-  }
+  double const spent = std::chrono::duration<double>(now - begun_).count();
+  if (spent < 2) return;
+  line_.show(fmt::format("packing {}: {}, {} left", body, percent(share), duration_text(spent * (1 - share) / share)));
 }
 
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {

@@ -8,37 +8,46 @@
 
 namespace piola::app {
 
-/// Shows progress on stderr: one line that is renewed on a terminal, otherwise a line about every ten seconds. Warnings
-/// always.
-class Console : public Listener {
+/// A line on stderr that is renewed on a terminal; elsewhere a new one about every ten seconds.
+class StatusLine {
  public:
-  explicit Console(bool quiet);
-  ~Console() override;
-  void progress(Progress const& progress) override;
-  void warning(std::string const& text) override;
-  void clear();  ///< removes a progress line before other text
+  StatusLine();
+  ~StatusLine();
+  StatusLine(StatusLine const&) = delete;
+  StatusLine& operator=(StatusLine const&) = delete;
+  void show(std::string const& line);
+  void clear();  ///< removes it before other text
 
  private:
-  bool quiet_, terminal_;
+  bool terminal_;
   std::size_t shown_ = 0;
   std::chrono::steady_clock::time_point last_;
+};
+
+/// Shows progress by a status line. Warnings always.
+class Console : public Listener {
+ public:
+  explicit Console(bool quiet) : quiet_(quiet) {}
+  void progress(Progress const& progress) override;
+  void warning(std::string const& text) override;
+  void clear() { line_.clear(); }  ///< removes a progress line before other text
+
+ private:
+  bool quiet_;
+  StatusLine line_;
 };
 
 /// For read_case: shows how far a packing is that takes more than two seconds, with the time left.
 class PackingLine {
  public:
-  explicit PackingLine(bool quiet = false);
-  ~PackingLine();
-  PackingLine(PackingLine const&) = delete;
-  PackingLine& operator=(PackingLine const&) = delete;
+  explicit PackingLine(bool quiet) : quiet_(quiet) {}
   void operator()(std::string const& body, double share);
 
  private:
-  void clear();
-  bool quiet_, terminal_;
-  std::size_t shown_ = 0;
+  bool quiet_;
+  StatusLine line_;
   std::string body_;
-  std::chrono::steady_clock::time_point begun_, last_;
+  std::chrono::steady_clock::time_point begun_;
 };
 
 /// What is about to run, in a few lines.

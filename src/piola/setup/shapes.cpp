@@ -2,6 +2,7 @@
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/geometry/packing.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
@@ -203,7 +204,8 @@ std::int64_t count_particles(ShapeSpec const& shape) {
   constexpr double countable = 1e8;
   if (are_points(shape)) return shape.cloud ? static_cast<std::int64_t>(shape.cloud->X.size()) : 0;
   if (is_solid(shape))
-    return static_cast<std::int64_t>(std::min(shape.volume / std::pow(shape.spacing, shape.dimension), 9e18) + 0.5);
+    return static_cast<std::int64_t>(
+        std::min(geometry::packed_count(shape.volume, shape.spacing, shape.dimension), 9e18));
   if (in_rings(shape)) return static_cast<std::int64_t>(std::min(count_ring_particles(shape), 9e18));
   Lattice const lattice = lattice_of(shape);
   double const estimate = row_count_estimate(shape, lattice);
