@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_moments.hpp"
 #include "piola/exec/set_up_loop.hpp"
-#include "piola/neighbours/cell_grid.hpp"
+#include "piola/neighbours/nearest_particle.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -99,49 +99,6 @@ BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
   return std::move(sums.cells);
 }
 
-/// Finds the particle nearest to a place, distances in spacings; of several the first.
-class Nearest {
- public:
-  Nearest(ParticleSet const& set, Body const& body) : scaled_(scaled(set, body)), near_(scaled_, 1), far_(scaled_, 3) {
-    for (std::size_t c = 0; c < 3; ++c) per_spacing_[c] = 1 / body.spacing[c];
-  }
-  std::size_t operator()(Point const& X) const {
-    Point const at{X[0] * per_spacing_[0], X[1] * per_spacing_[1], X[2] * per_spacing_[2]};
-    Found found = among(near_, at);
-    if (!(found.square <= 1)) found = among(far_, at);
-    if (found.square <= 9) return found.particle;
-    found = {};
-    for (std::size_t a = 0; a < scaled_.size(); ++a) see(a, at, found);
-    return found.particle;
-  }
-
- private:
-  struct Found {
-    std::size_t particle = 0;
-    double square = std::numeric_limits<double>::infinity();
-  };
-  static std::vector<Point> scaled(ParticleSet const& set, Body const& body) {
-    std::vector<Point> points(set.X.begin() + body.first, set.X.begin() + body.last);
-    for (auto& p : points)
-      for (std::size_t c = 0; c < 3; ++c) p[c] /= body.spacing[c];
-    return points;
-  }
-  void see(std::size_t a, Point const& at, Found& found) const {
-    double square = 0;
-    for (std::size_t c = 0; c < 3; ++c) square += (scaled_[a][c] - at[c]) * (scaled_[a][c] - at[c]);
-    if (square < found.square || (square == found.square && a < found.particle)) found = {a, square};
-  }
-  Found among(CellGrid const& grid, Point const& at) const {
-    Found found;
-    grid.visit(at, [&](Index a) { see(static_cast<std::size_t>(a), at, found); });
-    return found;
-  }
-
-  std::vector<Point> scaled_;
-  CellGrid near_, far_;
-  Point per_spacing_{};
-};
-
 /// Blocks of a sixth of the spacing.
 class Sampling {
  public:
@@ -231,7 +188,7 @@ class Sampling {
   Outline const& outline_;
   std::size_t D_;
   Point const* X_;
-  Nearest nearest_;
+  NearestParticle nearest_;
   Sums sums_;
   Place count_{1, 1, 1};
   Point edge_{};

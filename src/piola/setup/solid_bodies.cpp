@@ -2,12 +2,11 @@
 #include "piola/setup/solid_bodies.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/geometry/packing.hpp"
-#include "piola/neighbours/cell_grid.hpp"
+#include "piola/neighbours/nearest_particle.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/packing_file.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace piola {
@@ -93,39 +92,15 @@ void take_packing(ShapeSpec const& shape, geometry::Packing const& packing, Soli
   }
 }
 
-/// Which particle of a body is nearest to a place; of several the first.
-class NearestParticle {
- public:
-  NearestParticle(std::vector<Point> X, double spacing) : X_(std::move(X)), near_(X_, 1.5 * spacing) {}
-  std::size_t operator()(Vec<3> const& place) const {
-    std::size_t best = X_.size();
-    double least = std::numeric_limits<double>::infinity();
-    auto const see = [&](Index b) {
-      Vec<3> const r = vector_of(X_[static_cast<std::size_t>(b)]) - place;
-      double const square = dot(r, r);
-      if (square > least || (square == least && static_cast<std::size_t>(b) > best)) return;
-      least = square;
-      best = static_cast<std::size_t>(b);
-    };
-    near_.visit(point_of(place), see);
-    for (std::size_t b = 0; best == X_.size() && b < X_.size(); ++b) see(static_cast<Index>(b));
-    return best;
-  }
-
- private:
-  std::vector<Point> X_;
-  CellGrid near_;
-};
-
 /// Particles counted from the body's first.
 std::vector<PatchShare> find_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
   double const spacing = body.spacing[0];
   std::vector<geometry::SurfacePiece> pieces;
   shape.solid->cut_surface(0.25 * spacing, pieces);
-  NearestParticle const nearest({particles.X.begin() + body.first, particles.X.begin() + body.last}, spacing);
+  NearestParticle const nearest(particles, body);
   std::vector<std::size_t> owner(pieces.size());
   exec_host::for_each_in_set_up(static_cast<Index>(pieces.size()), [&](Index i) {
-    owner[static_cast<std::size_t>(i)] = nearest(pieces[static_cast<std::size_t>(i)].X);
+    owner[static_cast<std::size_t>(i)] = nearest(point_of(pieces[static_cast<std::size_t>(i)].X));
   });
   std::map<std::pair<int, std::size_t>, PatchShare> sums;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
