@@ -71,7 +71,7 @@ struct MeshDistance::Search {
   Search(Search const&) = delete;
   Search& operator=(Search const&) = delete;
 
-  void release() {
+  void release() const {
     if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }

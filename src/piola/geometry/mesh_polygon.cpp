@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_polygon.hpp"
+#include <algorithm>
 #include <cstddef>
 
 namespace piola::geometry {
@@ -19,13 +20,12 @@ bool is_ear(std::span<Vec<3> const> X, std::vector<int> const& loop, std::size_t
   int const corner[3] = {loop[(tip + size - 1) % size], loop[tip], loop[(tip + 1) % size]};
   Vec<3> const a = X[corner[0]], b = X[corner[1]], c = X[corner[2]];
   if (!(dot(n, cross(b - a, c - a)) > 0)) return false;
-  for (int const other : loop) {
-    if (other == corner[0] || other == corner[1] || other == corner[2]) continue;
+  auto const blocks = [&](int other) {
+    if (other == corner[0] || other == corner[1] || other == corner[2]) return false;
     Vec<3> const p = X[other];
-    if (dot(n, cross(b - a, p - a)) >= 0 && dot(n, cross(c - b, p - b)) >= 0 && dot(n, cross(a - c, p - c)) >= 0)
-      return false;
-  }
-  return true;
+    return dot(n, cross(b - a, p - a)) >= 0 && dot(n, cross(c - b, p - b)) >= 0 && dot(n, cross(a - c, p - c)) >= 0;
+  };
+  return std::none_of(loop.begin(), loop.end(), blocks);
 }
 
 std::size_t next_tip(std::span<Vec<3> const> X, std::vector<int> const& loop, Vec<3> const& n) {
