@@ -26,9 +26,12 @@ if(_sources)
   gtest_discover_tests(piola_tests DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES PROPERTIES TIMEOUT 300)
 endif()
 
-set(PIOLA_PYTHON "/usr/bin/python3" CACHE FILEPATH "Python that sees Debian's packages (numpy, h5py)")
+set(PIOLA_TEST_PYTHON "/usr/bin/python3" CACHE FILEPATH "Python that sees Debian's packages (numpy, h5py)")
 file(GLOB_RECURSE _scripts CONFIGURE_DEPENDS
   "${PROJECT_SOURCE_DIR}/tests/*_test.sh" "${PROJECT_SOURCE_DIR}/tests/*_test.py")
+if(NOT PIOLA_PYTHON)
+  list(FILTER _scripts EXCLUDE REGEX "/tests/python/")
+endif()
 set(_environment
   "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
   "PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>"
@@ -36,12 +39,12 @@ set(_environment
 foreach(script IN LISTS _scripts)
   file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/tests" "${script}")
   if(script MATCHES "\\.py$")
-    add_test(NAME "${name}" COMMAND "${PIOLA_PYTHON}" "${script}")
+    add_test(NAME "${name}" COMMAND "${PIOLA_TEST_PYTHON}" "${script}")
   else()
     add_test(NAME "${name}" COMMAND bash "${script}")
   endif()
   set_tests_properties("${name}" PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT
-    "${_environment}")
+    "${_environment};PYTHONPATH=${PROJECT_BINARY_DIR}/python")
 endforeach()
 
 # The stored inputs of every fuzz target are ordinary tests; finding new ones needs clang (PiolaFuzz.cmake).

@@ -4,6 +4,7 @@
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/image.hpp"
+#include "piola/simulation/run_summary.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>

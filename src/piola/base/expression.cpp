@@ -282,6 +282,7 @@ std::string explain(mu::Parser::exception_type const& error) {
 struct Expression::Compiled {
   std::string text = "0";
   Names names;
+  Function function;  ///< instead of the formula, if there is one
   double X = 0, Y = 0, Z = 0, t = 0;
   std::vector<double> values;  ///< of the variables in `names`; never resized once parsers point to them
   bool needs_values = false;
@@ -375,10 +376,21 @@ Expression::Expression(std::string const& text, Names const& names) {
   }
 }
 
-Expression::Expression(Expression const& other)
-    : compiled_(other.compiled_->constant && other.compiled_->text == "0"
-                    ? std::make_unique<Compiled>()
-                    : std::make_unique<Compiled>(other.compiled_->text, other.compiled_->names)) {}
+Expression::Expression(std::string text, Function function) : compiled_(std::make_unique<Compiled>()) {
+  compiled_->text = std::move(text);
+  compiled_->function = std::move(function);
+  compiled_->constant = false;
+}
+
+Expression::Expression(Expression const& other) {
+  Compiled const& c = *other.compiled_;
+  if (c.function)
+    *this = Expression(c.text, c.function);
+  else if (c.constant && c.text == "0")
+    compiled_ = std::make_unique<Compiled>();
+  else
+    compiled_ = std::make_unique<Compiled>(c.text, c.names);
+}
 Expression& Expression::operator=(Expression const& other) {
   if (this != &other) *this = Expression(other);
   return *this;
@@ -392,6 +404,7 @@ double Expression::operator()(std::array<double, 3> const& X, double t) const { 
 double Expression::operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const {
   Compiled& c = *compiled_;
   if (c.constant) return c.constant_value;
+  if (c.function) return c.function(X, t);
   PIOLA_EXPECTS(!c.needs_values || variables.size() == c.values.size());
   if (c.needs_values) std::copy(variables.begin(), variables.end(), c.values.begin());
   c.X = X[0];
@@ -405,6 +418,7 @@ double Expression::operator()(std::array<double, 3> const& X, double t, std::spa
 std::string const& Expression::text() const { return compiled_->text; }
 
 bool Expression::depends_on_time() const {
+  if (compiled_->function) return true;
   auto const uses_time = [](std::string const& text) {
     auto const words = words_of(text);
     return std::any_of(words.begin(), words.end(), [](Word const& word) { return word.text == "t"; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -33,6 +34,10 @@ class Expression {
   Expression();  ///< the constant 0
   /// Throws ExpressionError (with a column in `text`) if the text is not a formula in the known names.
   explicit Expression(std::string const& text, Names const& names = {});
+  /// A value that a function of the program gives instead of a formula; it depends on time. Copies share the function,
+  /// which is called from any thread. `text` says in messages what it is.
+  using Function = std::function<double(std::array<double, 3> const& X, double t)>;
+  Expression(std::string text, Function function);
   Expression(Expression const&);
   Expression& operator=(Expression const&);
   Expression(Expression&&) noexcept;

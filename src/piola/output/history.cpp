@@ -204,15 +204,18 @@ void HistoryFile::take_rows(std::string_view text, double time) {
 }
 
 void HistoryFile::sync() {
+  if (!file_) return;
   if (::fsync(::fileno(file_.get())) != 0) throw FileError(cannot_write(path_, errno));
 }
 
 void HistoryFile::open(char const* mode) {
+  if (path_.empty()) return;
   file_.reset(std::fopen(path_.c_str(), mode));
   if (!file_) throw FileError(cannot_write(path_, errno));
 }
 
 void HistoryFile::put(std::string const& line) {
+  if (!file_) return;
   bool const written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
   if (!written || std::fflush(file_.get()) != 0) throw FileError(cannot_write(path_, errno));
   bytes_ += line.size();

@@ -43,7 +43,7 @@ struct HistoryMark {
 /// history.csv on the disk: a line is complete as soon as `append` returns.
 class HistoryFile {
  public:
-  /// Starts a new file. Throws FileError.
+  /// Starts a new file; an empty path: rows are kept in the table only. Throws FileError.
   HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns);
   /// Continues a file after its last row with time <= `time`; later rows are cut off. What differs from the `mark` of
   /// the checkpoint is told by `complaint`; a missing file is begun anew. Throws FileError if the file has other

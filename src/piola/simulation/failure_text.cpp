@@ -50,10 +50,13 @@ std::string failure_text(Failure const& failure, std::string const& causes, Mome
                          std::filesystem::path const& results) {
   std::string const values = values_text(failure);
   std::string const likely = causes.empty() ? usual_causes(failure, moment) : causes;
-  return fmt::format(
-      "stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  last state: {} and {}; see docs/user/when-it-stops.md",
-      moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values, limit_text(moment, cfl), likely,
-      (results / "frames.hdf.series").string(), (results / failed_checkpoint).string());
+  std::string const where = results.empty()
+                                ? ""
+                                : fmt::format("last state: {} and {}; ", (results / "frames.hdf.series").string(),
+                                              (results / failed_checkpoint).string());
+  return fmt::format("stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  {}see docs/user/when-it-stops.md",
+                     moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values,
+                     limit_text(moment, cfl), likely, where);
 }
 
 }  // namespace piola

@@ -9,6 +9,7 @@
 namespace piola {
 
 void Journal::write(std::string const& line, char const* mode) {
+  if (file_.empty()) return;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(file_.c_str(), mode), &std::fclose);
   std::string const text = line + "\n";
   bool const good =

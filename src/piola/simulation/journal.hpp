@@ -28,6 +28,7 @@ class Listener {
 /// log.txt of a results folder (start, warnings, outcome), and the list of warnings of the run.
 class Journal {
  public:
+  /// An empty path: warnings are kept and told, nothing is written.
   Journal(std::filesystem::path file, Listener& listener) : file_(std::move(file)), listener_(listener) {}
   /// Starts the file anew. Throws FileError.
   void start(std::string const& first_line);

@@ -42,7 +42,7 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
     auto const more = probe.columns();
     columns.insert(columns.end(), more.begin(), more.end());
   }
-  auto const path = results_.folder / "history.csv";
+  auto const path = results_.folder.empty() ? std::filesystem::path() : results_.folder / "history.csv";
   if (resume_time) {
     file_.emplace(path, std::move(columns), *resume_time, mark_);
     if (!file_->complaint().empty()) results_.journal.warn(file_->complaint());

@@ -74,6 +74,8 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     stops.wall.step_took(seconds_since(step_start));
     if (moment.time >= run.end || moment.at_rest) continue;
     if (stops.asked.load(std::memory_order_relaxed) != 0) return {.ending = Ending::stopped};
+    if (moment.time >= stops.pause.time || moment.step >= stops.pause.step)
+      return {.ending = Ending::stopped, .paused = true};
     if (stops.wall.reached()) return {.ending = Ending::stopped, .out_of_time = true};
   }
   return {};

@@ -13,17 +13,13 @@
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/picture_observer.hpp"
-#include "piola/simulation/quantities.hpp"
 #include "piola/simulation/relaxation.hpp"
 #include "piola/simulation/results_folder.hpp"
-#include "piola/simulation/run.hpp"
+#include "piola/simulation/run_summary.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace piola {
-namespace {
 
 /// All observers of a run, in the order in which they look.
 struct Watch {
@@ -35,7 +31,8 @@ struct Watch {
   CheckpointObserver checkpoints;
   ProgressObserver progress;
 
-  Observer* also;
+  std::vector<Observer*> also;
+  bool written;  // to a folder
 
   Watch(Results const& results, double mass, Listener& listener, CheckpointOrders const& orders, Observer* last)
       : history(results),
@@ -45,13 +42,21 @@ struct Watch {
         relaxation(results.spec.run),
         checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}, orders),
         progress(listener, results.spec.run.end, results.particles.size(), history),
-        also(last) {}
+        written(!results.folder.empty()) {
+    if (last != nullptr) also.push_back(last);
+  }
   std::vector<Observer*> all() {
-    std::vector<Observer*> list{&history, &guards, &frames, &pictures, &relaxation, &checkpoints, &progress};
-    if (also != nullptr) list.push_back(also);
+    std::vector<Observer*> list{&history, &guards};
+    if (written) list.insert(list.end(), {&frames, &pictures});
+    list.push_back(&relaxation);
+    if (written) list.push_back(&checkpoints);
+    list.push_back(&progress);
+    list.insert(list.end(), also.begin(), also.end());
     return list;
   }
 };
+
+namespace {
 
 std::string start_text(Simulation const& s) {
   return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name,
@@ -88,8 +93,10 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journ
 /// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.
 Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
   journal.note(start_text(s));
-  write_whole_file(options.folder / "case.toml", s.spec.source);
-  keep_files(s.spec, options.folder, journal);
+  if (watch.written) {
+    write_whole_file(options.folder / "case.toml", s.spec.source);
+    keep_files(s.spec, options.folder, journal);
+  }
   watch.history.open(*s.formulation, {});
   Moment const moment;
   for (Observer* observer : watch.all()) observer->see(*s.formulation, moment);
@@ -200,113 +207,6 @@ Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, W
   return *moment;
 }
 
-double largest(std::vector<double> const& values) {
-  double most = 0;
-  for (double v : values) most = std::max(most, std::isfinite(v) ? std::abs(v) : 0.0);
-  return most;
-}
-
-/// Largest rise (sign 1) or fall (sign -1) of the energy that no support or load brought, by the largest energy.
-double largest_rise(HistoryTable const& history, double sign) {
-  auto const energy = history.values("total_energy"), work = history.values("external_work");
-  double rise = 0, lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < energy.size(); ++k) {
-    double const own = sign * (energy[k] - work[k]);
-    if (!std::isfinite(own)) continue;
-    lowest = std::min(lowest, own);
-    rise = std::max(rise, own - lowest);
-  }
-  double const scale = largest(energy);
-  return scale > 0 ? rise / scale : rise;
-}
-
-/// Largest change of a vector column triple since the first row.
-double drift(HistoryTable const& history, std::string const& name) {
-  double most = 0;
-  auto const x = history.values(name + "_x"), y = history.values(name + "_y"), z = history.values(name + "_z");
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    double const d = std::hypot(x[k] - x[0], y[k] - y[0], z[k] - z[0]);
-    if (std::isfinite(d)) most = std::max(most, d);
-  }
-  return most;
-}
-
-/// Half the diagonal of the box around the particles [m]: the arm of the angular momentum scale.
-double half_diagonal(ParticleSet const& particles) {
-  double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    auto const [low, high] = std::minmax_element(particles.X.begin(), particles.X.end(),
-                                                 [c](auto const& a, auto const& b) { return a[c] < b[c]; });
-    if (low != particles.X.end()) sum += ((*high)[c] - (*low)[c]) * ((*high)[c] - (*low)[c]);
-  }
-  return std::sqrt(sum) / 2;
-}
-
-/// Whether nothing but bodies and other shapes act on a rigid shape.
-bool is_left_alone(RigidSpec const& rigid) {
-  bool const weightless = std::all_of(rigid.gravity.begin(), rigid.gravity.end(),
-                                      [](Expression const& component) { return component.text() == "0"; });
-  return rigid.free && weightless && rigid.can_turn && rigid.held == std::array<bool, 3>{};
-}
-
-void add_conservation(Summary& summary, HistoryTable const& history, Simulation const& s) {
-  if (history.rows.empty()) return;
-  auto const energy = history.values("total_energy");
-  summary.energy_initial = energy.front();
-  summary.energy_final = energy.back();
-  summary.energy_max_increase = energy_increase(history);
-  summary.energy_max_decrease = energy_decrease(history);
-  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() &&
-                    std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
-  if (!free) return;
-  // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
-  double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));
-  double const arm = half_diagonal(s.particles);
-  summary.linear_drift = momentum > 0 ? drift(history, "linear_momentum") / momentum : 0;
-  summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;
-}
-
-std::string status_word(Ending ending) {
-  switch (ending) {
-    case Ending::completed: return "completed";
-    case Ending::failed: return "failed";
-    default: return "stopped";
-  }
-}
-
-Summary summarise(Simulation const& s, Moment const& moment, Ending ending, HistoryTable const& history,
-                  Journal& journal) {
-  Summary summary;
-  summary.status = status_word(ending);
-  summary.title = s.spec.title;
-  summary.version = version();
-  summary.formulation = s.formulation_name;
-  summary.particles = s.particles.size();
-  summary.steps = moment.step;
-  summary.end_time = moment.time;
-  summary.wall_seconds = moment.wall_seconds;
-  summary.threads = s.threads;
-  double const stages =
-      static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
-  summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
-  summary.seconds = s.formulation->costs();
-  add_conservation(summary, history, s);
-  for (QuantitySpec const& spec : s.spec.quantities) {
-    std::string why;
-    if (auto const value = measure(spec, history, why)) summary.quantities.push_back(*value);
-    if (!why.empty() && ending == Ending::completed) journal.warn(why);
-  }
-  summary.warnings = journal.warnings();
-  return summary;
-}
-
-}  // namespace
-
-double energy_increase(HistoryTable const& history) { return largest_rise(history, 1); }
-double energy_decrease(HistoryTable const& history) { return largest_rise(history, -1); }
-
-namespace {
-
 /// Says whether a dynamic relaxation came to rest.
 void report_rest(Simulation const& s, Relaxation const& relaxation, Ending ending, Journal& journal) {
   if (!relaxation.active() || ending != Ending::completed) return;
@@ -322,54 +222,109 @@ void report_rest(Simulation const& s, Relaxation const& relaxation, Ending endin
                     rest.stops, share));
 }
 
+/// Makes sure that the folder may be used, and keeps others out of it.
+std::unique_ptr<FolderLock> take_folder(Simulation const& s, RunOptions const& options) {
+  if (options.folder.empty()) return nullptr;
+  if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
+  return std::make_unique<FolderLock>(options.folder);
+}
+
 }  // namespace
 
-CaseOutcome run_case(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop) {
-  if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
-  FolderLock const lock(options.folder);
-  Journal journal(options.folder / "log.txt", listener);
+struct CaseRun::Parts {
+  Simulation& simulation;
+  RunOptions options;
+  std::atomic<int> const& stop;
+  std::unique_ptr<FolderLock> lock;  // null if nothing is written
+  Journal journal;
+  WallLimit wall;
+  Watch watch;
+  Moment moment;
+  March last;  // how the last part ended
+
+  Parts(Simulation& s, RunOptions const& given, Listener& listener, std::atomic<int> const& stop_request)
+      : simulation(s),
+        options(given),
+        stop(stop_request),
+        lock(take_folder(s, given)),
+        journal(given.folder.empty() ? std::filesystem::path() : given.folder / "log.txt", listener),
+        wall(given.wall_time, given.started),
+        watch({given.folder, s.spec, s.particles, journal}, s.mass, listener, {given.checkpoint_request, &wall},
+              given.also) {}
+};
+
+CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop)
+    : parts_(std::make_unique<Parts>(s, options, listener, stop)) {
+  Journal& journal = parts_->journal;
   if (!options.resume) {
-    clear_results(options.folder);
+    if (!options.folder.empty()) clear_results(options.folder);
     journal.start(log_headline(s.spec.title));
   }
-  if (!lock.held())
+  if (parts_->lock && !parts_->lock->held())
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
   for (std::string const& warning : s.warnings) journal.warn(warning);
-  WallLimit wall(options.wall_time, options.started);
-  Watch watch({options.folder, s.spec, s.particles, journal}, s.mass, listener, {options.checkpoint_request, &wall},
-              options.also);
   auto const before = WallLimit::Clock::now();
-  Moment moment = options.resume ? begin_again(s, options, journal, watch) : begin_new(s, options, journal, watch);
-  if (wall.exists()) {
-    wall.step_took(std::chrono::duration<double>(WallLimit::Clock::now() - before).count());
-    wall.checkpoint_has(size_of_state(*s.formulation));
-  }
-  std::vector<Observer*> const observers = watch.all();
-  March const end = march(*s.formulation, s.spec.run, moment, observers, {stop, wall}, &watch.relaxation);
-  report_rest(s, watch.relaxation, end.ending, journal);
-  for (Observer* observer : observers) observer->finish(*s.formulation, moment, end.ending);
+  parts_->moment =
+      options.resume ? begin_again(s, options, journal, parts_->watch) : begin_new(s, options, journal, parts_->watch);
+  if (!parts_->wall.exists()) return;
+  parts_->wall.step_took(std::chrono::duration<double>(WallLimit::Clock::now() - before).count());
+  parts_->wall.checkpoint_has(size_of_state(*s.formulation));
+}
 
-  CaseOutcome outcome{.ending = end.ending,
-                      .summary = summarise(s, moment, end.ending, watch.history.table(), journal),
+CaseRun::~CaseRun() = default;
+
+Moment const& CaseRun::moment() const { return parts_->moment; }
+void CaseRun::put_moment(Moment const& moment) { parts_->moment = moment; }
+HistoryTable const& CaseRun::history() const { return parts_->watch.history.table(); }
+void CaseRun::also(Observer& observer) { parts_->watch.also.push_back(&observer); }
+
+March const& CaseRun::advance(Pause const& pause) {
+  Parts& p = *parts_;
+  RunSpec run = p.simulation.spec.run;
+  if (pause.exactly) run.end = std::min(run.end, pause.time);
+  p.last = march(*p.simulation.formulation, run, p.moment, p.watch.all(), {p.stop, p.wall, pause}, &p.watch.relaxation);
+  p.last.paused = p.last.paused || (p.last.ending == Ending::completed && !p.moment.at_rest &&
+                                    p.moment.time < p.simulation.spec.run.end);
+  return p.last;
+}
+
+CaseOutcome CaseRun::finish() {
+  Parts& p = *parts_;
+  Simulation const& s = p.simulation;
+  Ending const ending = p.last.paused ? Ending::stopped : p.last.ending;
+  report_rest(s, p.watch.relaxation, ending, p.journal);
+  for (Observer* observer : p.watch.all()) observer->finish(*s.formulation, p.moment, ending);
+
+  CaseOutcome outcome{.ending = ending,
+                      .summary = summarise(s, p.moment, ending, history(), p.journal),
                       .failure = {},
-                      .out_of_time = end.out_of_time,
-                      .last_picture = watch.pictures.last(),
+                      .out_of_time = p.last.out_of_time,
+                      .last_picture = p.watch.pictures.last(),
                       .index = {}};
-  outcome.summary.guards = watch.guards.report();
-  if (end.failure) outcome.failure = failure_text(*end.failure, end.causes, moment, s.spec.run.cfl, options.folder);
-  if (std::filesystem::exists(options.folder / "frames.hdf.series"))
-    outcome.index = options.folder / "frames.hdf.series";
-  if (watch.relaxation.active()) {
-    Rest const& rest = watch.relaxation.rest();
+  outcome.summary.guards = p.watch.guards.report();
+  auto const& folder = p.options.folder;
+  if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
+  if (p.watch.relaxation.active()) {
+    Rest const& rest = p.watch.relaxation.rest();
     outcome.summary.relaxation = {rest.reached, rest.residual, rest.stops};
   }
-  write_summary(options.folder / "summary.json", outcome.summary);
-  journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time,
-                           duration_text(moment.wall_seconds)));
-  if (end.failure) journal.note(outcome.failure);
-  if (end.out_of_time) journal.note("the wall time is used up");
+  if (folder.empty()) return outcome;
+  if (std::filesystem::exists(folder / "frames.hdf.series")) outcome.index = folder / "frames.hdf.series";
+  write_summary(folder / "summary.json", outcome.summary);
+  p.journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, p.moment.step,
+                             p.moment.time, duration_text(p.moment.wall_seconds)));
+  if (p.last.failure) p.journal.note(outcome.failure);
+  if (p.last.out_of_time) p.journal.note("the wall time is used up");
+  p.lock.reset();
   return outcome;
+}
+
+CaseOutcome run_case(Simulation& simulation, RunOptions const& options, Listener& listener,
+                     std::atomic<int> const& stop) {
+  CaseRun run(simulation, options, listener, stop);
+  run.advance();
+  return run.finish();
 }
 
 }  // namespace piola

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cases: what is to be run."""
+from __future__ import annotations
+
+import copy as copying
+import os
+from typing import Any, Callable, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _piola
+from .errors import InputError
+from .toml import document_text, value_text
+
+
+class Body:
+    """What functions give one body of a case instead of the case file.
+
+    initial_velocity [m/s] and initial_displacement [m]: functions of (X, t) that are called once, with all points X of
+    the body (n, 3) [m] and t = 0, and return (n, 3); or such arrays; or None for what the case file says.
+    """
+
+    def __init__(self):
+        self.initial_velocity: Optional[Any] = None
+        self.initial_displacement: Optional[Any] = None
+
+
+class Support:
+    """velocity [m/s]: a function of (X, t) that is called once for each instant with all points X of the support (n, 3)
+    [m] and the time t [s], and returns (n, 3), of which the fixed directions count; None for what the case file says.
+    """
+
+    def __init__(self):
+        self.velocity: Optional[Callable] = None
+
+
+class _Named(dict):
+    """Bodies or supports by name; supports also by number."""
+
+    def __init__(self, kind, make):
+        super().__init__()
+        self._kind, self._make = kind, make
+
+    def __missing__(self, name):
+        entry = self._make()
+        self[name] = entry
+        return entry
+
+
+class Case:
+    """A case: a text in TOML, or a dict of the same structure, with settings that replace values of it.
+
+    Nothing is read or checked before check(), particles or Run ask for it. Raises InputError then, with all that is
+    wrong.
+    """
+
+    def __init__(self, source: Union[str, Mapping], set: Optional[Mapping[str, Any]] = None):
+        if not isinstance(source, (str, Mapping)):
+            raise TypeError("a case is made of a text in TOML or of a dict; Case.read(path) reads a file")
+        self._file = ""
+        self._text = source if isinstance(source, str) else document_text(dict(source))
+        self._settings: dict = {}
+        self._read = None
+        self.body = _Named("body", Body)
+        self.support = _Named("support", Support)
+        for key, value in (set or {}).items():
+            self[key] = value
+
+    @classmethod
+    def read(cls, path: Union[str, os.PathLike], set: Optional[Mapping[str, Any]] = None) -> "Case":
+        """The case of a file, or of the case.toml in a folder; `set` as in __setitem__."""
+        case = cls("", set)
+        case._file = os.fspath(path)
+        return case
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Replaces a value: case["run.end"] = "20 ms", case["body.column.material.poissons_ratio"] = 0.499.
+
+        The same keys as those of --set on the command line. Raises ValueError, TypeError for values that no case file
+        can hold.
+        """
+        value_text(value)
+        self._settings[key] = value
+        self._read = None
+
+    def copy(self, set: Optional[Mapping[str, Any]] = None) -> "Case":
+        """Another case like this one, with more settings."""
+        other = copying.copy(self)
+        other._settings = dict(self._settings)
+        other.body, other.support = copying.deepcopy(self.body), copying.deepcopy(self.support)
+        for key, value in (set or {}).items():
+            other[key] = value
+        return other
+
+    def overrides(self) -> list:
+        """The settings as "key=value"."""
+        return [f"{key}={value_text(value)}" for key, value in self._settings.items()]
+
+    def check(self) -> list:
+        """Reads the case and builds its particles and its formulation. Returns what looks doubtful, a text each.
+
+        Raises InputError with all that is wrong.
+        """
+        self._known_names(self._case())
+        return _piola.warnings(self._case())
+
+    @property
+    def title(self) -> str:
+        return self._case().title
+
+    @property
+    def bodies(self) -> list:
+        """Names of the bodies."""
+        return [name for name, _, _ in self._case().bodies]
+
+    @property
+    def X(self) -> np.ndarray:
+        """Reference positions of all particles [m], (n, 3), read-only."""
+        return self._case().X
+
+    @property
+    def volume(self) -> np.ndarray:
+        """Volumes of all particles [m^3; m^2 per unit thickness in 2D], (n), read-only."""
+        return self._case().volume
+
+    def __repr__(self) -> str:
+        return f"piola.Case({self._file or 'text'!r}, set={self._settings!r})"
+
+    def _case(self):
+        if self._read is None:
+            self._read = _piola.read(self._file, self._text, "case", self.overrides())
+        return self._read
+
+    def _has_functions(self) -> bool:
+        given = [b.initial_velocity for b in self.body.values()] + [b.initial_displacement for b in self.body.values()]
+        return any(what is not None for what in given + [s.velocity for s in self.support.values()])
+
+    def _known_names(self, case) -> None:
+        problems = []
+        bodies, supports = [name for name, _, _ in case.bodies], list(case.supports)
+        for key in self.body:
+            if key not in bodies:
+                problems.append(f"there is no body {key!r} (bodies: {', '.join(bodies)}) - check the name")
+        for key in self.support:
+            if key not in supports and not (isinstance(key, int) and 0 <= key < len(supports)):
+                problems.append(f"there is no support {key!r} (supports: {', '.join(supports) or 'none'}) - check it")
+        if problems:
+            raise InputError("\n".join(problems))
+
+    def _given(self) -> tuple:
+        """Initial velocities, initial displacements, velocities of supports, as the library takes them."""
+        case = self._case()
+        self._known_names(case)
+        ranges = {name: (first, last) for name, first, last in case.bodies}
+        velocity, displacement = {}, {}
+        for name, body in self.body.items():
+            X = case.X[slice(*ranges[name])]
+            for what, out in ((body.initial_velocity, velocity), (body.initial_displacement, displacement)):
+                if what is not None:
+                    out[name] = np.asarray(what(X.copy(), 0.0) if callable(what) else what, dtype=float)
+        moved = {case.supports[key] if isinstance(key, int) else key: support.velocity
+                 for key, support in self.support.items() if support.velocity is not None}
+        return velocity, displacement, moved

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results of a run, read from its folder."""
+from __future__ import annotations
+
+import json
+import os
+from typing import Dict, Iterator, List, Union
+
+import numpy as np
+
+from .errors import FileError
+
+
+def read_table(path: str) -> Dict[str, np.ndarray]:
+    """The columns of a CSV file with a header; empty cells are nan."""
+    with open(path, encoding="utf-8") as file:
+        names = file.readline().strip().split(",")
+        rows = [[float(cell) if cell else np.nan for cell in line.rstrip("\n").split(",")] for line in file]
+    values = np.array([row for row in rows if len(row) == len(names)]).reshape(-1, len(names))
+    return {name: values[:, column] for column, name in enumerate(names)}
+
+
+class Frame:
+    """One instant: fields by name, read when they are asked for, in the order of the particles' ids.
+
+    Shapes: (n), or (n, components). "Position" is where the particles are [m]; "Body" numbers their bodies.
+    """
+
+    def __init__(self, path: str, time: float):
+        self.path, self.time = path, time
+
+    @property
+    def fields(self) -> List[str]:
+        """The names that [] knows."""
+        with _open(self.path) as file:
+            return ["Position"] + sorted(file["VTKHDF/PointData"])
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        with _open(self.path) as file:
+            data = file["VTKHDF/PointData"]
+            if name != "Position" and name not in data:
+                raise KeyError(f"{self.path} has no field {name!r} (it has Position, {', '.join(sorted(data))})")
+            order = np.argsort(data["Id"][:], kind="stable")
+            return (file["VTKHDF/Points"] if name == "Position" else data[name])[:][order]
+
+    def __repr__(self) -> str:
+        return f"<frame at t = {self.time:.6g} s of {self.path}>"
+
+
+class Frames:
+    """The frames of a run; times [s]."""
+
+    def __init__(self, folder: str):
+        index = os.path.join(folder, "frames.hdf.series")
+        entries = _json(index)["files"] if os.path.exists(index) else []
+        self.times = np.array([entry["time"] for entry in entries], dtype=float)
+        self._paths = [os.path.join(folder, entry["name"]) for entry in entries]
+
+    def __len__(self) -> int:
+        return len(self._paths)
+
+    def __getitem__(self, number: int) -> Frame:
+        return Frame(self._paths[number], float(self.times[number]))
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[number] for number in range(len(self)))
+
+    def at(self, time: float) -> Frame:
+        """The frame that is nearest to a time [s]."""
+        if not len(self):
+            raise FileError("the run has written no frames: see [output.frames] every")
+        return self[int(np.argmin(np.abs(self.times - time)))]
+
+
+class Results:
+    """What a run has written to its folder so far. Needs numpy, and h5py for frames. Raises FileError."""
+
+    def __init__(self, folder: Union[str, os.PathLike]):
+        self.folder = os.fspath(folder)
+        if not os.path.exists(os.path.join(self.folder, "log.txt")):
+            raise FileError(f"{self.folder}: holds no results of a run - give the folder that the run wrote to")
+
+    @property
+    def history(self) -> Dict[str, np.ndarray]:
+        """The columns of history.csv, in SI units."""
+        return read_table(os.path.join(self.folder, "history.csv"))
+
+    @property
+    def summary(self) -> dict:
+        """summary.json; empty as long as the run goes on."""
+        path = os.path.join(self.folder, "summary.json")
+        return _json(path) if os.path.exists(path) else {}
+
+    @property
+    def quantities(self) -> Dict[str, float]:
+        """The measured quantities of the summary, by name."""
+        return {name: entry["value"] for name, entry in self.summary.get("quantities", {}).items()}
+
+    @property
+    def frames(self) -> Frames:
+        """The frames as a sequence: frames[3]["Pressure"], frames[-1], frames.at(0.01), frames.times."""
+        return Frames(self.folder)
+
+    def to_pandas(self):
+        """The history as a pandas.DataFrame, indexed by time."""
+        import pandas
+        return pandas.DataFrame(self.history).set_index("time")
+
+    def to_xarray(self):
+        """All fields of all frames as an xarray.Dataset with the dimensions time and particle."""
+        import xarray
+        frames = list(self.frames)
+        variables = {}
+        for name in frames[0].fields if frames else []:
+            values = np.stack([frame[name] for frame in frames])
+            more = () if values.ndim == 2 else (f"component_{values.shape[2]}",)
+            variables[name] = (("time", "particle") + more, values)
+        return xarray.Dataset(variables, coords={"time": self.frames.times})
+
+
+def _open(path: str):
+    import h5py
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read ({error})") from error
+
+
+def _json(path: str) -> dict:
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except (OSError, ValueError) as error:
+        raise FileError(f"{path}: cannot be read ({error})") from error

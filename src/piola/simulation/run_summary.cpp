@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/run_summary.hpp"
+#include "piola/base/version.hpp"
+#include "piola/simulation/quantities.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace piola {
+namespace {
+
+double largest(std::vector<double> const& values) {
+  double most = 0;
+  for (double v : values) most = std::max(most, std::isfinite(v) ? std::abs(v) : 0.0);
+  return most;
+}
+
+/// Largest rise (sign 1) or fall (sign -1) of the energy that no support or load brought, by the largest energy.
+double largest_rise(HistoryTable const& history, double sign) {
+  auto const energy = history.values("total_energy"), work = history.values("external_work");
+  double rise = 0, lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < energy.size(); ++k) {
+    double const own = sign * (energy[k] - work[k]);
+    if (!std::isfinite(own)) continue;
+    lowest = std::min(lowest, own);
+    rise = std::max(rise, own - lowest);
+  }
+  double const scale = largest(energy);
+  return scale > 0 ? rise / scale : rise;
+}
+
+/// Largest change of a vector column triple since the first row.
+double drift(HistoryTable const& history, std::string const& name) {
+  double most = 0;
+  auto const x = history.values(name + "_x"), y = history.values(name + "_y"), z = history.values(name + "_z");
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    double const d = std::hypot(x[k] - x[0], y[k] - y[0], z[k] - z[0]);
+    if (std::isfinite(d)) most = std::max(most, d);
+  }
+  return most;
+}
+
+/// Half the diagonal of the box around the particles [m]: the arm of the angular momentum scale.
+double half_diagonal(ParticleSet const& particles) {
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    auto const [low, high] = std::minmax_element(particles.X.begin(), particles.X.end(),
+                                                 [c](auto const& a, auto const& b) { return a[c] < b[c]; });
+    if (low != particles.X.end()) sum += ((*high)[c] - (*low)[c]) * ((*high)[c] - (*low)[c]);
+  }
+  return std::sqrt(sum) / 2;
+}
+
+/// Whether nothing but bodies and other shapes act on a rigid shape.
+bool is_left_alone(RigidSpec const& rigid) {
+  bool const weightless = std::all_of(rigid.gravity.begin(), rigid.gravity.end(),
+                                      [](Expression const& component) { return component.text() == "0"; });
+  return rigid.free && weightless && rigid.can_turn && rigid.held == std::array<bool, 3>{};
+}
+
+void add_conservation(Summary& summary, HistoryTable const& history, Simulation const& s) {
+  if (history.rows.empty()) return;
+  auto const energy = history.values("total_energy");
+  summary.energy_initial = energy.front();
+  summary.energy_final = energy.back();
+  summary.energy_max_increase = energy_increase(history);
+  summary.energy_max_decrease = energy_decrease(history);
+  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() &&
+                    std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
+  if (!free) return;
+  // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
+  double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));
+  double const arm = half_diagonal(s.particles);
+  summary.linear_drift = momentum > 0 ? drift(history, "linear_momentum") / momentum : 0;
+  summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;
+}
+
+std::string status_word(Ending ending) {
+  switch (ending) {
+    case Ending::completed: return "completed";
+    case Ending::failed: return "failed";
+    default: return "stopped";
+  }
+}
+
+}  // namespace
+
+double energy_increase(HistoryTable const& history) { return largest_rise(history, 1); }
+double energy_decrease(HistoryTable const& history) { return largest_rise(history, -1); }
+
+Summary summarise(Simulation const& s, Moment const& moment, Ending ending, HistoryTable const& history,
+                  Journal& journal) {
+  Summary summary;
+  summary.status = status_word(ending);
+  summary.title = s.spec.title;
+  summary.version = version();
+  summary.formulation = s.formulation_name;
+  summary.particles = s.particles.size();
+  summary.steps = moment.step;
+  summary.end_time = moment.time;
+  summary.wall_seconds = moment.wall_seconds;
+  summary.threads = s.threads;
+  double const stages =
+      static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
+  summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
+  summary.seconds = s.formulation->costs();
+  add_conservation(summary, history, s);
+  for (QuantitySpec const& spec : s.spec.quantities) {
+    std::string why;
+    if (auto const value = measure(spec, history, why)) summary.quantities.push_back(*value);
+    if (!why.empty() && ending == Ending::completed) journal.warn(why);
+  }
+  summary.warnings = journal.warnings();
+  return summary;
+}
+
+}  // namespace piola

@@ -1,0 +1,342 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The module piola, used as a script would.
+
+Environment: PYTHONPATH finds piola; PIOLA_PROGRAM and PIOLA_SOURCE_DIR.
+"""
+import contextlib
+import gc
+import inspect
+import io
+import os
+import re
+import resource
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import piola
+
+SOURCE = Path(os.environ["PIOLA_SOURCE_DIR"])
+PROGRAM = os.environ["PIOLA_PROGRAM"]
+
+
+def column(**settings):
+    """A small column on a support."""
+    return piola.Case({
+        "title": "column",
+        "run": {"end": "4 ms", "threads": 2},
+        "body": [{
+            "name": "column",
+            "formulation": {"name": "jst_sph"},
+            "shape": {"box": {"min": [0, 0, 0], "max": [1, 2, 1]}, "particles": [3, 6, 3]},
+            "material": {"law": "neo_hookean", "density": 1000, "youngs_modulus": "10 GPa", "poissons_ratio": 0.3},
+            "initial_velocity": ["3 * Y", 0, 0]}],
+        "support": [{"name": "ground", "body": "column", "where": "Y < 0.1", "fix": "xyz"}],
+        "output": {"frames": {"every": "1 ms"}, "history": {"every": "0.1 ms"}, "checkpoints": {"every": "1 ms"}},
+    }, set=settings)
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        before = os.getcwd()
+        folder = tempfile.TemporaryDirectory()
+        os.chdir(folder.name)
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, before)
+        # Doubts that a test does not look for fail it.
+        caught = warnings.catch_warnings()
+        caught.__enter__()
+        warnings.simplefilter("error", piola.CaseWarning)
+        self.addCleanup(caught.__exit__, None, None, None)
+
+
+class Runs(InFolder):
+    def test_parts_are_the_program_bit_for_bit(self):
+        run = piola.Run(column(), out="parts")
+        run.step(7)
+        run.advance("1.5 ms")
+        self.assertGreaterEqual(run.time, 1.5e-3)
+        self.assertEqual(run.finish()["status"], "completed")
+        subprocess.run([PROGRAM, "run", "parts/case.toml", "--out", "whole", "--quiet"], check=True)
+        self.assertEqual(Path("parts/history.csv").read_bytes(), Path("whole/history.csv").read_bytes())
+        frames = [piola.Results(name).frames[-1] for name in ("parts", "whole")]
+        for field in frames[0].fields:
+            np.testing.assert_array_equal(frames[0][field], frames[1][field])
+
+    def test_observers_change_nothing(self):
+        plain, watched = piola.Run(column()), piola.Run(column())
+        watched.observe(lambda run: run.field("Pressure"))
+        plain.finish(), watched.finish()
+        for name, values in plain.history.items():
+            np.testing.assert_array_equal(values, watched.history[name], name)
+
+    def test_without_a_folder_nothing_is_written(self):
+        run = piola.Run(column())
+        run.finish()
+        self.assertEqual(os.listdir("."), [])
+        self.assertEqual(len(run.history["time"]), 41)
+        self.assertEqual(run.history_units["total_energy"], "J")
+
+    def test_exactly(self):
+        run = piola.Run(column())
+        self.assertFalse(run.advance(1e-3, exact=True))
+        self.assertEqual(run.time, 1e-3)
+        self.assertTrue(run.advance(1))
+        self.assertEqual(run.time, 4e-3)
+        self.assertTrue(run.step())
+
+    def test_views_are_read_only_and_outlive_the_run(self):
+        run = piola.Run(column())
+        X, volume = run.X, run.volume
+        with self.assertRaises(ValueError):
+            X[0, 0] = 1
+        copy, total = X.copy(), volume.sum()
+        del run
+        gc.collect()
+        np.testing.assert_array_equal(X, copy)
+        self.assertAlmostEqual(total, 2, delta=1e-12)
+
+    def test_fields(self):
+        run = piola.Run(column())
+        run.advance("1 ms")
+        self.assertEqual(run.fields["CauchyStress"], ("Pa", 6))
+        stress, velocity = run.field("CauchyStress"), np.empty((len(run.X), 3))
+        self.assertEqual(stress.shape, (len(run.X), 6))
+        self.assertIs(run.field("Velocity", out=velocity), velocity)
+        np.testing.assert_allclose(run.field("Position"), run.X + run.field("Displacement"), rtol=0, atol=1e-15)
+        momentum = (1000 * run.volume[:, None] * velocity).sum(0)
+        np.testing.assert_allclose(momentum, run.momentum, rtol=1e-10, atol=1e-9)
+        with self.assertRaisesRegex(KeyError, "no field 'Presure'"):
+            run.field("Presure")
+        with self.assertRaisesRegex(ValueError, r"\(54, 3\)"):
+            run.field("Velocity", out=np.empty((3, 3)))
+        with self.assertRaises(TypeError):
+            run.field("Velocity", out=np.empty((54, 3), dtype=np.float32))
+
+    def test_observer_stops_and_goes_on(self):
+        run, seen = piola.Run(column()), []
+
+        @run.observe(every="1 ms")
+        def see(run):
+            seen.append(run.time)
+            return piola.STOP if len(seen) == 2 else None
+
+        self.assertFalse(run.advance(1))
+        self.assertLess(run.time, 1.1e-3)
+        self.assertTrue(run.advance(1))
+        self.assertEqual(len(seen), 5)
+
+    def test_observer_raises(self):
+        run = piola.Run(column(), out="results")
+
+        @run.observe(every="1 ms")
+        def see(run):
+            if run.time > 2e-3:
+                raise ZeroDivisionError("as planned")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "as planned"):
+            run.finish()
+        self.assertLess(run.time, 2.2e-3)
+        self.assertEqual(run.close()["status"], "stopped")
+        again = piola.Run.resume("results")
+        self.assertEqual(again.finish()["status"], "completed")
+        plain = piola.Run(column())
+        plain.finish()
+        np.testing.assert_array_equal(piola.Results("results").history["kinetic_energy"],
+                                      plain.history["kinetic_energy"])
+
+    def test_interrupt(self):
+        warnings.simplefilter("ignore")  # by then most of the energy is gone
+        run = piola.Run(column(**{"run.end": "100 s"}))
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            run.finish()
+        self.assertGreater(run.steps, 0)
+
+    def test_state(self):
+        run = piola.Run(column())
+        run.step(20)
+        state = run.state()
+        run.step(20)
+        later = run.field("Velocity")
+        other = piola.Run(column())
+        other.load(state)
+        self.assertEqual(other.steps, 20)
+        other.step(20)
+        np.testing.assert_array_equal(other.field("Velocity"), later)
+        with self.assertRaisesRegex(ValueError, "out=None"):
+            piola.Run(column(), out="results").load(state)
+        with self.assertRaises(piola.FileError):
+            other.load({"run": state["run"]})
+
+    def test_failure(self):
+        run = piola.Run(column(**{"run.min_step": "1 s"}), out="results")
+        with self.assertRaisesRegex(piola.PhysicsError, "time step collapsed"):
+            run.finish()
+        self.assertEqual(run.close()["status"], "failed")
+        with self.assertRaisesRegex(ValueError, "finished"):
+            run.step()
+
+    def test_no_leak(self):
+        def grow(times):
+            case = column(**{"run.threads": 1})
+            case._case()
+            for _ in range(times):
+                piola.Run(case).step(1)
+            gc.collect()
+            return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        first = grow(100)
+        self.assertLess(grow(1000) - first, 1024)  # kB
+
+
+class Cases(InFolder):
+    def test_all_problems(self):
+        case = piola.Case("[run]\nend = 'soon'\n[[body]]\nname = 'a'\ncolour = 3\n")
+        with self.assertRaises(piola.InputError) as caught:
+            case.check()
+        lines = [problem.line for problem in caught.exception.problems]
+        self.assertIn(2, lines)
+        self.assertIn(5, lines)
+        with self.assertRaisesRegex(piola.InputError, "no such case file"):
+            piola.Case.read("nowhere.toml").check()
+        for bad in (float("nan"), object(), {"a": {1}}):
+            with self.assertRaises((ValueError, TypeError)):
+                column()["run.end"] = bad
+
+    def test_dicts_are_case_files(self):
+        Path("case.toml").write_text((SOURCE / "cases/nodal/cantilever/case.toml").read_text())
+        import tomllib
+        as_dict = tomllib.loads(Path("case.toml").read_text())
+        a, b = piola.Run(piola.Case.read("case.toml")), piola.Run(piola.Case(as_dict))
+        a.step(3), b.step(3)
+        np.testing.assert_array_equal(a.field("Velocity"), b.field("Velocity"))
+
+    def test_warnings(self):
+        odd = {"body.column.material.youngs_modulus": 10}
+        self.assertTrue(column(**odd).check())
+        with self.assertWarns(piola.CaseWarning):
+            piola.Run(column(**odd))
+        self.assertEqual(column().check(), [])
+
+    def test_initial_functions(self):
+        by_formula, by_function = column(), column(**{"body.column.initial_velocity": [0, 0, 0]})
+        asked = []
+
+        def velocity(X, t):
+            asked.append((X.shape, t))
+            return np.stack([3 * X[:, 1], 0 * X[:, 0], 0 * X[:, 0]], axis=1)
+
+        by_function.body["column"].initial_velocity = velocity
+        runs = [piola.Run(by_formula, out="formula"), piola.Run(by_function, out="function")]
+        for run in runs:
+            run.finish()
+        self.assertEqual(asked, [((54, 3), 0.0)])
+        self.assertEqual(Path("formula/history.csv").read_bytes(), Path("function/history.csv").read_bytes())
+
+    def test_initial_arrays(self):
+        case = column(**{"body.column.initial_velocity": [0, 0, 0]})
+        case.body["column"].initial_displacement = 1e-3 * case.X
+        self.assertAlmostEqual(float(np.median(piola.Run(case).field("Jacobian"))), 1.001 ** 3, delta=1e-9)
+        for wrong in (np.zeros((3, 3)), np.full((54, 3), np.nan)):
+            case.body["column"].initial_displacement = wrong
+            with self.assertRaisesRegex(piola.InputError, "initial_displacement of body 'column'"):
+                piola.Run(case)
+        case.body["colum"].initial_velocity = wrong
+        with self.assertRaisesRegex(piola.InputError, "no body 'colum'"):
+            piola.Run(case)
+
+    def test_support_functions(self):
+        for formulation in ("jst_sph", "nodal", "adaptle"):
+            settings = {"body.column.formulation": {"name": formulation}, "body.column.initial_velocity": [0, 0, 0]}
+            if formulation == "adaptle":
+                settings["body.column.material.law"] = "elastic"
+            by_formula = column(**settings, **{"support.0.velocity": ["sin(1000 * t) * X", "t", 0]})
+            by_function = column(**settings)
+            times = []
+
+            def velocity(X, t):
+                times.append(t)
+                return np.stack([np.sin(1000 * t) * X[:, 0], np.full(len(X), t), 0 * X[:, 0]], axis=1)
+
+            by_function.support["ground"].velocity = velocity
+            a, b = piola.Run(by_formula), piola.Run(by_function)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                a.finish(), b.finish()
+            self.assertEqual(len(times), len(set(times)), formulation)
+            np.testing.assert_allclose(a.field("Velocity"), b.field("Velocity"), rtol=0, atol=1e-9, err_msg=formulation)
+            self.assertGreater(np.abs(a.field("Velocity")).max(), 0.1)
+
+    def test_support_functions_that_fail(self):
+        for wrong, error in ((lambda X, t: 1 / 0, ZeroDivisionError), (lambda X, t: X[:2], ValueError),
+                             (lambda X, t: X * np.nan, ValueError)):
+            case = column()
+            case.support[0].velocity = wrong
+            with self.assertRaises(error):
+                piola.Run(case).finish()
+
+
+class Folders(InFolder):
+    def test_results(self):
+        with piola.Run(column(), out="results") as run:
+            run.finish()
+            last = run.field("Pressure")
+        results = piola.Results("results")
+        self.assertEqual(len(results.frames), 5)
+        np.testing.assert_allclose(results.frames.times, [0, 1e-3, 2e-3, 3e-3, 4e-3], atol=1e-4)
+        np.testing.assert_allclose(results.frames[-1]["Pressure"], last, rtol=1e-5, atol=1)
+        self.assertEqual(results.frames.at(2e-3).path, results.frames[2].path)
+        self.assertEqual(set(results.history), set(run.history))
+        self.assertEqual(results.summary["status"], "completed")
+        with self.assertRaisesRegex(KeyError, "no field"):
+            results.frames[0]["Nothing"]
+        with self.assertRaises(piola.FileError):
+            piola.Results("elsewhere")
+
+    def test_study(self):
+        key = "body.column.material.poissons_ratio"
+        case = column(**{"run.threads": 1, "quantity": [{"name": "peak", "column": "strain_energy", "take": "maximum",
+                                                        "unit": "J"}]})
+        rows = piola.study(case, {key: [0.1, 0.2, 0.3], "run.end": ["1 ms", "2 ms"]}, out="study", jobs=2)
+        self.assertEqual([row["status"] for row in rows], ["completed"] * 6)
+        self.assertEqual(len({row["peak"] for row in rows}), 6)
+        self.assertEqual(len(Path("study/study.csv").read_text().splitlines()), 7)
+        stamp = os.stat("study/run-1/summary.json").st_mtime_ns
+        again = piola.study(case, {key: [0.1, 0.2, 0.3], "run.end": ["1 ms", "2 ms"]}, out="study", jobs=2)
+        self.assertEqual(rows, again)
+        self.assertEqual(os.stat("study/run-1/summary.json").st_mtime_ns, stamp)
+        with self.assertRaisesRegex(piola.InputError, "0.9"):
+            piola.study(case, {key: [0.1, 0.9]}, out="other")
+        self.assertFalse(os.path.exists("other/run-1"))
+
+
+class Manual(InFolder):
+    def test_everything_is_explained(self):
+        for one in (piola.Case, piola.Run, piola.Results, piola.study, piola.InputError, piola.PhysicsError):
+            self.assertTrue(inspect.getdoc(one), one)
+            for name, member in inspect.getmembers(one):
+                if not name.startswith("_") and getattr(member, "__module__", "").startswith("piola"):
+                    self.assertTrue(inspect.getdoc(member), f"{one}.{name}")
+
+    def test_examples_of_the_page(self):
+        text = (SOURCE / "docs/user/python.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        self.assertGreater(len(blocks), 4)
+        self.assertLess(len([line for line in blocks[0].splitlines() if line.strip()]), 40)
+        space, said = {}, io.StringIO()
+        with contextlib.redirect_stdout(said):
+            for number, block in enumerate(blocks):
+                exec(compile(block, f"python.md, block {number + 1}", "exec"), space)  # pylint: disable=exec-used
+        self.assertEqual([row["status"] for row in space["rows"]], ["completed"] * 10)
+        self.assertIn("strain energy", said.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
