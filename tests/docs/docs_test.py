@@ -150,6 +150,8 @@ def check_path(page, line, path):
     counts["paths"] += 1
     steps = path.split(".")
     section = steps.pop(0)
+    if page.name == "python.md" and section == "run":  # a piola.Run: tests/python looks at its page
+        return
     if steps and section in ("body", "support", "load", "mirror", "crack", "rigid", "probe", "quantity"):
         if steps[0].isdigit() or (steps[0] not in TABLES[section]):
             steps.pop(0)

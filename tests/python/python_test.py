@@ -325,6 +325,15 @@ class Manual(InFolder):
                 if not name.startswith("_") and getattr(member, "__module__", "").startswith("piola"):
                     self.assertTrue(inspect.getdoc(member), f"{one}.{name}")
 
+    def test_names_of_the_page(self):
+        text = (SOURCE / "docs/user/python.md").read_text()
+        names = set(re.findall(r"`(?:piola\.R|r)un\.(\w+)", text))
+        self.assertGreater(len(names), 20)
+        run = piola.Run(column())
+        self.assertEqual([name for name in names if not hasattr(run, name)], [])
+        self.assertEqual([name for name in dir(piola.Run) if not name.startswith("_") and name not in names],
+                         [])
+
     def test_examples_of_the_page(self):
         text = (SOURCE / "docs/user/python.md").read_text()
         blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
