@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "commands.hpp"
 #include "manual.hpp"
+#include "own_pages.hpp"
 #include "streams.hpp"
 #include <cstdio>
 #include <fmt/format.h>
@@ -26,10 +27,14 @@ constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", desc
                             Topic{"library", describe_library}, Topic{"kernel", describe_kernels},
                             Topic{"formulation", describe_formulations}};
 
-int describe(DescribeArguments const& options) {
+int describe(DescribeArguments const& options, CLI::App const& program) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
   if (options.kind.empty()) {
     write_out(options.markdown ? manual_page() : overview());
+    return with_output(completed);
+  }
+  if (options.kind == "man-page" || options.kind == "completion") {
+    write_out(options.kind == "completion" ? bash_completion(program) : man_page(program));
     return with_output(completed);
   }
   std::vector<std::string> known;
@@ -50,12 +55,15 @@ void add_describe(CLI::App& program, Action& action) {
   auto const options = std::make_shared<DescribeArguments>();
   CLI::App* command =
       program.add_subcommand("describe", "Explain materials, kernels, formulations and the keys of a case file");
-  command->add_option("kind", options->kind,
-                      "material, library, kernel, formulation or case; all in short if left out");
+  command->add_option(
+      "kind", options->kind,
+      "material, library, kernel, formulation or case; all in short if left out; man-page or completion: of "
+      "this program, for man and bash");
   command->add_option("name", options->name, "which one, e.g. neo_hookean; for a case a section, e.g. body.shape");
   command->add_flag("--markdown", options->markdown,
                     "As a page of the manual; alone: the whole page docs/user/case-reference.md");
-  command->callback([options, &action] { action = [options] { return describe(*options); }; });
+  command->callback(
+      [options, &action, &program] { action = [options, &program] { return describe(*options, program); }; });
 }
 
 }  // namespace piola::app
