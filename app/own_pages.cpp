@@ -90,6 +90,28 @@ Number of threads if neither the case nor \-\-threads says it.
 The manual and the theory in /usr/share/doc/piola/, examples in /usr/share/piola/cases/.
 )";
 
+constexpr char const* completion = R"(# bash completion of piola
+_piola() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} words=
+  COMPREPLY=()
+  if [[ $COMP_CWORD -eq 1 ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "{} --help --version" -- "$word")
+    return
+  fi
+  case ${{COMP_WORDS[1]}} in
+{}  esac
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  elif [[ ${{COMP_WORDS[1]}} == describe && $COMP_CWORD -eq 2 ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "case material library kernel formulation" -- "$word")
+  else
+    compopt -o filenames 2>/dev/null
+    mapfile -t COMPREPLY < <(compgen -f -- "$word")
+  fi
+}}
+complete -F _piola piola
+)";
+
 }  // namespace
 
 std::string man_page(CLI::App const& program) {
@@ -111,28 +133,7 @@ std::string bash_completion(CLI::App const& program) {
     commands += (commands.empty() ? "" : " ") + command->get_name();
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), flags_of(*command));
   }
-  return fmt::format(R"(# bash completion of piola
-_piola() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} words=
-  COMPREPLY=()
-  if [[ $COMP_CWORD -eq 1 ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "{} --help --version" -- "$word")
-    return
-  fi
-  case ${{COMP_WORDS[1]}} in
-{}  esac
-  if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
-  elif [[ ${{COMP_WORDS[1]}} == describe && $COMP_CWORD -eq 2 ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "case material library kernel formulation" -- "$word")
-  else
-    compopt -o filenames 2>/dev/null
-    mapfile -t COMPREPLY < <(compgen -f -- "$word")
-  fi
-}}
-complete -F _piola piola
-)",
-                     commands, cases);
+  return fmt::format(fmt::runtime(completion), commands, cases);
 }
 
 }  // namespace piola::app
