@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/geometry/measure.hpp"
-#include "piola/geometry/packing.hpp"
 #include "piola/input/case_facts.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/setup/cloud_file.hpp"
-#include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/warnings.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "solid_report.hpp"
 #include "streams.hpp"
 #include <algorithm>
 #include <cmath>
@@ -78,54 +75,24 @@ std::string material_text(BodySpec const& body) {
   return body.law + ": " + joined(values);
 }
 
-/// The exact volume, the patches that supports and loads can name, and how good a packing is.
-void print_solid(ShapeSpec const& shape) {
-  bool const flat = shape.dimension == 2;
-  say("  volume {}", quantity_text(shape.volume, flat ? "m^2" : "m^3"));
-  if (shape.arrangement == ShapeSpec::Arrangement::packed) {
-    SolidParticles const& particles = SolidParticles::of(shape);
-    geometry::PackingQuality const q =
-        geometry::quality_of(*shape.solid, {particles.X, particles.volume, particles.spacing, particles.sweeps});
-    say("; packed in {} sweeps: nearest particles {:.2f} spacings apart on average, {:.2f} at least, {:.0f} % of the "
-        "outer layer in place",
-        particles.sweeps, q.nearest_mean, q.nearest_least, 100 * q.in_place);
-  }
-  say("\n");
-  // What is 0 but for round-off reads as 0.
-  auto const places = [&](Vec<3> const& v, double size) {
-    std::string text = "(";
-    for (int c = 0; c < shape.dimension; ++c)
-      text += (c > 0 ? ", " : "") + number_text(std::abs(v[c]) < 1e-4 * size ? 0.0 : v[c], 4);
-    return text + ")";
-  };
-  geometry::Bounds const box = shape.solid->bounds();
-  double const size = std::sqrt(dot(box.max - box.min, box.max - box.min));
-  for (geometry::PatchFacts const& patch : geometry::patch_facts(*shape.solid, 0.25 * shape.spacing)) {
-    say("  patch \"{}\": {} around {} m", patch.name, quantity_text(patch.area, flat ? "m" : "m^2"),
-        places(patch.centre, size));
-    if (std::sqrt(dot(patch.direction, patch.direction)) > 0.999) say(", normal {}", places(patch.direction, 1));
-    say("\n");
-  }
+Body const& body_named(ParticleSet const& particles, std::string const& name) {
+  return *std::find_if(particles.bodies.begin(), particles.bodies.end(), [&](Body const& b) { return b.name == name; });
 }
 
-void print_body(BodySpec const& body, BodyFacts const& facts) {
+void print_body(BodySpec const& body, BodyFacts const& facts, ParticleSet const& particles) {
   constexpr std::array<std::string_view, 5> kinds{"box", "sphere", "cylinder", "solid", "cloud"};
   int const dimension = body.shape.dimension;
   std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
   say("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name, body.shape.inner_radius > 0 ? "hollow " : "",
       kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
       arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
-  if (body.shape.solid) print_solid(body.shape);
+  say_solid(body.shape, particles, body_named(particles, body.name));
   for (std::string const& note : body.shape.notes) say("  note: {}\n", note);
   say("  {}\n", material_text(body));
   say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
   if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);
   say("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
   say("  {}{}\n", body.formulation.name, settings_text(body.formulation));
-}
-
-Body const& body_named(ParticleSet const& particles, std::string const& name) {
-  return *std::find_if(particles.bodies.begin(), particles.bodies.end(), [&](Body const& b) { return b.name == name; });
 }
 
 std::string vector_text(std::array<Expression, 3> const& formulas, int dimension) {
@@ -349,7 +316,7 @@ int check(CaseOptions const& options) {
   say("{}\n", spec.title);
   say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
       quantity_text(spec.run.end, "s"));
-  for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b]);
+  for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b], particles);
   print_supports(spec, particles);
   print_loads(spec, particles);
   print_cracks(particles);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/input/read_case.hpp"
+#include "piola/output/files.hpp"
 #include "piola/simulation/render.hpp"
+#include "piola/simulation/shape_picture.hpp"
 #include "commands.hpp"
+#include "run_support.hpp"
 #include "streams.hpp"
 #include <cstdio>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 
 namespace piola::app {
@@ -14,11 +19,33 @@ struct RenderArguments {
   std::vector<double> range, view{30, 20};
   std::vector<int> size{1000, 800};
   std::vector<std::size_t> frames;
-  bool last = false;
+  bool last = false, shape = false, patches = false;
   std::size_t every = 1;
+  CaseOptions with;
+  bool view_given = false, size_given = false;
 };
 
+/// The bodies of a case instead of the frames of a run.
+int render_shape(RenderArguments const& options) {
+  std::filesystem::path const out = options.out.empty() ? "shape.png" : options.out;
+  if (out.extension() != ".png")
+    throw InputError(fmt::format("--out: {} is not the name of a picture (allowed with --shape: NAME.png) - add .png",
+                                 out.string()));
+  ParticleSet particles;
+  PackingLine line(false);
+  CaseSpec const spec =
+      read_case(case_file(options.folder), options.with.overrides(), {.packing = std::ref(line)}, &particles);
+  ShapePictureOptions what{.up = options.up, .patches = options.patches};
+  if (options.view_given) what.view = {options.view[0], options.view[1]};
+  if (options.size_given) what.size = {options.size[0], options.size[1]};
+  if (out.has_parent_path()) make_folder(out.parent_path());
+  write_png(out, draw_shape(spec, particles, what));
+  say("the bodies are drawn to {}\n", out.string());
+  return completed;
+}
+
 int render(RenderArguments const& options) {
+  if (options.shape) return render_shape(options);
   RenderOptions what{.field = options.field,
                      .range = {},
                      .view = {options.view[0], options.view[1]},
@@ -37,12 +64,23 @@ int render(RenderArguments const& options) {
   return completed;
 }
 
+void add_shape_options(CLI::App& command, RenderArguments& options) {
+  auto* const shape =
+      command.add_flag("--shape", options.shape, "Draw the bodies of a case as they stand before anything runs");
+  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every"})
+    shape->excludes(command.get_option(of_frames));
+  command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
+  options.with.add_to(command, false);
+  for (char const* const of_case : {"--set", "--threads", "--machine"}) command.get_option(of_case)->needs(shape);
+}
+
 }  // namespace
 
 void add_render(CLI::App& program, Action& action) {
   auto const options = std::make_shared<RenderArguments>();
-  CLI::App* command = program.add_subcommand("render", "Draw pictures from the frames of a run");
-  command->add_option("folder", options->folder, "The results folder of the run")->required();
+  CLI::App* command =
+      program.add_subcommand("render", "Draw pictures from the frames of a run, or the bodies of a case");
+  command->add_option("folder", options->folder, "The results folder of the run; with --shape the case")->required();
   command
       ->add_option("--field", options->field, "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress")
       ->capture_default_str();
@@ -51,7 +89,8 @@ void add_render(CLI::App& program, Action& action) {
   command
       ->add_option("--range", options->range, "Lowest and highest value of the colours, in SI (default: of all frames)")
       ->expected(2);
-  command->add_option("--view", options->view, "Azimuth and elevation in degrees")->expected(2)->capture_default_str();
+  auto* const view = command->add_option("--view", options->view, "Azimuth and elevation in degrees");
+  view->expected(2)->capture_default_str();
   command->add_option("--up", options->up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: as the case has it")
       ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
       ->capture_default_str();
@@ -62,12 +101,16 @@ void add_render(CLI::App& program, Action& action) {
       ->check(CLI::Range(1, 1000000))
       ->excludes(frames)
       ->excludes(last);
-  command->add_option("--out,-o", options->out, "Folder of the pictures (default: pictures in the results folder)");
-  command->add_option("--size", options->size, "Width and height in pixels")
-      ->expected(2)
-      ->check(CLI::Range(200, 20000))
-      ->capture_default_str();
-  command->callback([options, &action] { action = [options] { return render(*options); }; });
+  command->add_option("--out,-o", options->out,
+                      "Folder of the pictures (default: pictures in the results folder); with --shape the picture");
+  auto* const size = command->add_option("--size", options->size, "Width and height in pixels");
+  size->expected(2)->check(CLI::Range(200, 20000))->capture_default_str();
+  add_shape_options(*command, *options);
+  command->callback([options, view, size, &action] {
+    options->view_given = view->count() > 0;
+    options->size_given = size->count() > 0;
+    action = [options] { return render(*options); };
+  });
 }
 
 }  // namespace piola::app

@@ -22,6 +22,12 @@ expect 2 "holds the results of another case" "$program" run bar.toml --set 'titl
 expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 240
 expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
 expect 2 "no frames" "$program" render .
+expect 0 "drawn to look/shape.png" "$program" render --shape bar.toml -o look/shape.png --size 300 240
+check test -s look/shape.png
+expect 2 "no body of the case has patches" "$program" render --shape bar.toml --patches
+expect 2 "add .png" "$program" render --shape bar.toml --out look
+expect 2 "excludes" "$program" render --shape bar.toml --last
+expect 2 "no such case file" "$program" render --shape nothing.toml
 
 # A number without its unit is allowed, but never in silence: on the screen, in the log and in the summary.
 expect 0 "so that the run is a single step" "$program" run bar.toml --quiet --out soft \

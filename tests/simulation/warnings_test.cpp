@@ -294,5 +294,26 @@ TEST(Warnings, ASlipOfUnitsThatMakesOneStepOfARun) {
   EXPECT_NE(about("above the speed of pressure waves", all), "");
 }
 
+std::string solid(std::string const& shape, std::string const& spacing) {
+  return "title = \"Solid\"\n[run]\nend = \"1 us\"\n[[body]]\nname = \"part\"\nshape = { spacing = " + spacing + ", " +
+         shape +
+         " }\nmaterial = { law = \"neo_hookean\", density = 1000, youngs_modulus = 1e7, poissons_ratio = 0.3 }\n"
+         "formulation = { name = \"jst_sph\" }\ninitial_velocity = [\"0.1*Y\", \"0\", \"0\"]\n";
+}
+
+TEST(Warnings, PartsOfSolidsThatAreThin) {
+  // A plate of 0.22 and a needle of 0.2 across.
+  std::string const plate =
+                        "difference = [ { box = { min = [0, 0, 0], max = [1, 1, 0.22] } }, "
+                        "{ cylinder = { centre = [0.5, 0.5, -1], radius = 0.2, length = 3 } } ]",
+                    needle = "capsule = { from = [0, 0, 0], to = [2, 0, 0], radius = 0.1 }";
+  std::string const of_plate = about("spacings thick", warnings(solid(plate, "0.1")));
+  EXPECT_NE(of_plate.find("case.toml:6:"), std::string::npos) << of_plate;
+  EXPECT_NE(of_plate.find("body \"part\" is 2.2 spacings thick around ("), std::string::npos) << of_plate;
+  EXPECT_NE(about("is 2 spacings thick", warnings(solid(needle, "0.1"))), "");
+  EXPECT_EQ(about("spacings thick", warnings(solid(plate, "0.07"))), "");
+  EXPECT_EQ(about("spacings thick", warnings(solid(needle, "0.05"))), "");
+}
+
 }  // namespace
 }  // namespace piola

@@ -79,7 +79,8 @@ Image draw_scene(PictureData const& data, PictureStyle const& style, Layout cons
     double const radius = std::max(data.radius[i] * project.scale * fine, least);
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(radius)) continue;
     double const depth = dot(data.points[i], project.towards) * project.scale * fine;
-    draw_ball(out, {p[0] * fine, p[1] * fine}, depth, radius, map(data.values[i]), data.dimension < 3);
+    Colour const colour = data.colours.empty() ? map(data.values[i]) : data.colours[i];
+    draw_ball(out, {p[0] * fine, p[1] * fine}, depth, radius, colour, data.dimension < 3);
   }
   return reduce(out.colour, fine);
 }
@@ -117,6 +118,29 @@ void draw_colour_bar(Image& image, PictureData const& data, ColourMap const& map
   draw_text(image, fits ? x0 : right_edge, top - 20 * u, caption, layout.text, ink, fits ? Align::left : Align::right);
 }
 
+/// The part of a title that fits, with dots if some is left out.
+std::string shortened(std::string text, double height, double width) {
+  if (text_width(text, height) <= width) return text;
+  while (!text.empty() && text_width(text + "...", height) > width) text.pop_back();
+  return text + "...";
+}
+
+/// As many names as there is room for.
+void draw_legend(Image& image, std::span<LegendEntry const> legend, Layout const& layout) {
+  double const u = layout.unit, row = 1.9 * layout.text, side = 0.5 * layout.text, x = image.width - 155 * u;
+  auto const room = static_cast<std::size_t>(std::max(1.0, (layout.bottom - layout.top) / row));
+  std::size_t const shown = legend.size() <= room ? legend.size() : room - 1;
+  double const wide = image.width - 8 * u - x - 3.5 * side, first = layout.top + row;
+  for (std::size_t k = 0; k < shown; ++k) {
+    double const y = first + static_cast<double>(k) * row;
+    draw_line(image, {x + side, y - side}, {x + side + 0.1, y - side}, 2 * side, legend[k].colour);
+    draw_text(image, x + 3.5 * side, y, shortened(legend[k].name, layout.text, wide), layout.text, ink);
+  }
+  if (shown < legend.size())
+    draw_text(image, x, first + static_cast<double>(shown) * row, fmt::format("and {} more", legend.size() - shown),
+              layout.text, ink);
+}
+
 void draw_axes(Image& image, View const& view, int dimension, Layout const& layout) {
   double const length = 34 * layout.unit;
   Pixel const origin{52 * layout.unit, image.height - 50 * layout.unit};
@@ -141,13 +165,6 @@ Point turned(Up up, Point const& d) {
     case Up::minus_x: return {-d[1], d[0], d[2]};
     default: return d;
   }
-}
-
-/// The part of a title that fits, with dots if some is left out.
-std::string shortened(std::string text, double height, double width) {
-  if (text_width(text, height) <= width) return text;
-  while (!text.empty() && text_width(text + "...", height) > width) text.pop_back();
-  return text + "...";
 }
 
 }  // namespace
@@ -203,9 +220,13 @@ Image draw_picture(PictureData const& data, PictureStyle const& asked, Window co
   auto const range = style.range ? *style.range : typical_range(data.values);
   ColourMap const map(range[0], range[1]);
   Image image = draw_scene(data, style, layout, make_projection(style.view, window, layout), map);
-  draw_colour_bar(image, data, map, layout);
+  bool const named = !data.colours.empty();
+  if (named)
+    draw_legend(image, data.legend, layout);
+  else
+    draw_colour_bar(image, data, map, layout);
   draw_axes(image, style.view, data.dimension, layout);
-  std::string const time = "t = " + quantity_text(data.time, "s");
+  std::string const time = named ? data.label : "t = " + quantity_text(data.time, "s");
   double const right = style.width - 20 * layout.unit, baseline = 38 * layout.unit, large = 1.3 * layout.text;
   draw_text(image, right, baseline, time, large, ink, Align::right);
   double const room = right - text_width(time, large) - 60 * layout.unit;

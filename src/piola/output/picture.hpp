@@ -37,6 +37,12 @@ struct Window {
   void include(View const& view, std::span<std::array<double, 3> const> points, double margin);
 };
 
+/// What a colour stands for.
+struct LegendEntry {
+  std::string name;
+  Colour colour{};
+};
+
 /// What one picture shows; one entry per particle.
 struct PictureData {
   std::span<std::array<double, 3> const> points;  ///< m
@@ -49,6 +55,10 @@ struct PictureData {
   int dimension = 3;
   std::span<RigidShape const> rigid_shapes = {};    ///< as they stand at that time
   std::array<double, 3> stage_low{}, stage_high{};  ///< the box around the bodies at the start [m]
+  /// If given, particles have these colours, a legend stands in place of the bar, and the label in place of the time;
+  /// values and unit are not used.
+  std::span<Colour const> colours = {};
+  std::span<LegendEntry const> legend = {};
 };
 
 struct PictureStyle {

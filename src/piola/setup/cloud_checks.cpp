@@ -86,18 +86,12 @@ std::optional<double> check_distances(PointCloud const& cloud, CloudSource const
 
 void check_gradients(PointCloud& cloud, std::vector<CloudMoment> const& moments, CloudSource const& source,
                      std::vector<std::string>& problems) {
-  std::vector<double> means;
-  means.reserve(moments.size());
-  for (CloudMoment const& m : moments) means.push_back(m.mean_eigenvalue);
-  auto const middle = means.begin() + std::ssize(means) / 2;
-  std::nth_element(means.begin(), middle, means.end());
-  double const typical = *middle;
-  std::size_t singular = 0, worst = 0;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    if (!(moments[i].least_eigenvalue > singular_part * typical)) ++singular;
-    if (moments[i].least_eigenvalue < moments[worst].least_eigenvalue) worst = i;
-  }
-  double const part = typical > 0 ? moments[worst].least_eigenvalue / typical : 0;
+  WorstNeighbourhood const found = worst_neighbourhood(moments);
+  std::size_t const worst = found.point;
+  double const typical = found.typical, part = found.part();
+  std::size_t singular = 0;
+  for (CloudMoment const& m : moments)
+    if (!(m.least_eigenvalue > singular_part * typical)) ++singular;
   if (singular == moments.size()) {
     problems.push_back(fmt::format(
         "{}: no gradient can be formed at any of the {}: in every neighbourhood they lie on one {} - {}", source.file,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/particles/particle_set.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/cloud_table.hpp"
 
@@ -20,9 +21,23 @@ struct CloudMoment {
   double density = 0;          ///< sum_j V_j W_ij, itself included: 1 in a full neighbourhood
   double mean_eigenvalue = 0;  ///< of sum_j V_j grad W_ij (x_j - x_i): 1 in a full neighbourhood
   double least_eigenvalue = 0;
+  int neighbours = 0;   ///< within the support
   bool inside = false;  ///< there are neighbours on the side where fewer are
 };
 std::vector<CloudMoment> cloud_moments(PointCloud const& cloud);
+
+/// The place where a gradient is hardest to form.
+struct WorstNeighbourhood {
+  std::size_t point = 0;
+  double least = 0;    ///< eigenvalue of its matrix
+  double typical = 0;  ///< median over all points of the mean eigenvalue
+  int neighbours = 0;
+  double part() const { return typical > 0 ? least / typical : 0; }
+};
+/// Of one point or more.
+WorstNeighbourhood worst_neighbourhood(std::vector<CloudMoment> const& moments);
+/// Of a body that has particles; the point is an id.
+WorstNeighbourhood worst_neighbourhood(ParticleSet const& particles, Body const& body);
 
 /// Refuses numbers that are not finite or absurd, and volumes that are not positive.
 void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std::vector<std::string>& problems);

@@ -52,8 +52,9 @@ double first_radius(CloudPoints const& X, double longest) {
 
 /// The sums over the neighbours of one point.
 struct CloudSums {
-  double density = 0;             ///< sum V W
-  double neighbours = 0;          ///< of it, what is not of the point itself
+  double density = 0;     ///< sum V W
+  double neighbours = 0;  ///< of it, what is not of the point itself
+  int count = 0;
   std::array<double, 3> first{};  ///< sum V r W
   SymMat<3> second{};             ///< sum V (-W'/r) r r
 };
@@ -69,6 +70,7 @@ class CloudSurroundings {
     CloudSums const sums = sums_at(i);
     CloudMoment moment;
     moment.density = sums.density;
+    moment.neighbours = sums.count;
     SymMat<3> matrix = sums.second;
     double trace = 0;
     for (int c = 0; c < cloud_.dimension; ++c) trace += matrix(c, c);
@@ -101,6 +103,7 @@ class CloudSurroundings {
       double const w = cloud_.kernel_volume[j] * scale_ * WendlandC2::w(cloud_.dimension, q);
       double const slope = -cloud_.kernel_volume[j] * scale_ * WendlandC2::dw(cloud_.dimension, q) / (q * h_ * h_);
       sums.neighbours += w;
+      ++sums.count;
       for (int a = 0; a < 3; ++a) {
         auto const da = d[static_cast<std::size_t>(a)];
         sums.first[static_cast<std::size_t>(a)] += w * da;
@@ -166,6 +169,35 @@ std::vector<CloudMoment> cloud_moments(PointCloud const& cloud) {
     moments[static_cast<std::size_t>(i)] = surroundings.at(static_cast<std::size_t>(i));
   });
   return moments;
+}
+
+WorstNeighbourhood worst_neighbourhood(std::vector<CloudMoment> const& moments) {
+  std::vector<double> means;
+  means.reserve(moments.size());
+  for (CloudMoment const& m : moments) means.push_back(m.mean_eigenvalue);
+  auto const middle = means.begin() + std::ssize(means) / 2;
+  std::nth_element(means.begin(), middle, means.end());
+  WorstNeighbourhood worst;
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    if (moments[i].least_eigenvalue < moments[worst.point].least_eigenvalue) worst.point = i;
+  worst.least = moments[worst.point].least_eigenvalue;
+  worst.typical = *middle;
+  worst.neighbours = moments[worst.point].neighbours;
+  return worst;
+}
+
+WorstNeighbourhood worst_neighbourhood(ParticleSet const& particles, Body const& body) {
+  PointCloud cloud;
+  cloud.dimension = particles.dimension;
+  for (int c = 0; c < particles.dimension; ++c)
+    cloud.spacing += body.spacing[static_cast<std::size_t>(c)] / particles.dimension;
+  auto const part = [&](auto const& all, auto& to) { to.assign(all.begin() + body.first, all.begin() + body.last); };
+  part(particles.X.seen(), cloud.X);
+  part(particles.volume.seen(), cloud.volume);
+  part(particles.kernel_volume.seen(), cloud.kernel_volume);
+  WorstNeighbourhood worst = worst_neighbourhood(cloud_moments(cloud));
+  worst.point += static_cast<std::size_t>(body.first);
+  return worst;
 }
 
 }  // namespace piola

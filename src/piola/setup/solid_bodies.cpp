@@ -197,4 +197,9 @@ std::vector<PatchShare> SolidParticles::shares(ShapeSpec const& shape, ParticleS
   return shares;
 }
 
+std::optional<geometry::Thinnest> SolidParticles::thinnest(ShapeSpec const& shape) {
+  std::call_once(measured_, [&] { thinnest_ = geometry::thinnest(*shape.solid, shape.spacing); });
+  return thinnest_;
+}
+
 }  // namespace piola

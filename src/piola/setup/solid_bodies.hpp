@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/geometry/packing.hpp"
+#include "piola/geometry/thickness.hpp"
 #include "piola/setup/shapes.hpp"
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 namespace piola {
 
@@ -42,11 +44,14 @@ class SolidParticles {
 
   /// patch_shares, found once.
   std::vector<PatchShare> shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
+  /// Where the solid is thinnest, by pieces of a spacing; found once.
+  std::optional<geometry::Thinnest> thinnest(ShapeSpec const& shape);
 
  private:
   void make(ShapeSpec const& shape);
   geometry::Packing packing_ = {};
-  std::once_flag once_, shared_;
+  std::once_flag once_, shared_, measured_;
+  std::optional<geometry::Thinnest> thinnest_;
   std::vector<PatchShare> shares_;
 };
 

@@ -5,6 +5,7 @@
 #include "piola/input/closeness.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -160,12 +161,29 @@ void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::opti
   }
 }
 
+/// Parts of solids that have too few particles across.
+void warn_of_thin_parts(CaseSpec const& spec, Problems& found) {
+  constexpr double least = 3;  // spacings
+  for (BodySpec const& body : spec.bodies) {
+    if (!body.shape.solid) continue;
+    auto const thin = body.shape.solid_particles->thinnest(body.shape);
+    double const across = thin ? thin->thickness / body.shape.spacing : least;
+    if (across > least * (1 - 1e-6)) continue;
+    found.add(place_in_table(body.places, "shape", "spacing"),
+              fmt::format("body {} is {} spacings thick around {} (at least {} to be computed) - make the spacing "
+                          "smaller, or leave the part out",
+                          in_quotes(body.name), number_text(across, 2),
+                          point_text({thin->X[0], thin->X[1], thin->X[2]}, body.shape.dimension), least));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, Prospect const& prospect) {
   Problems found;
   find_slips(spec, body_facts(spec, assembly.particles), prospect.step, found);
   for (Doubt const& doubt : doubts(assembly)) found.add(place_of_doubt(spec.bodies[doubt.body], doubt.key), doubt.text);
+  warn_of_thin_parts(spec, found);
   warn_of_strangers(spec, found);
   warn_of_idle_contact(spec, found);
   warn_of_chatter(spec, found);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/geometry/thickness.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace piola::geometry {
+namespace {
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Straight inwards from a foot on the surface, by steps of the distance.
+struct InwardRay {
+  Solid const& solid;
+  double shortest, longest;  ///< steps [m]
+
+  /// The way to the face opposite, if that is less than `most`; X becomes half of it.
+  double from(Vec<3> const& place, double most, Vec<3>& X) const {
+    constexpr double opposite = 0.8;
+    constexpr int most_steps = 1000;
+    Foot const first = solid.at(place);
+    Vec<3> const start = place - first.distance * first.normal, inwards = -1.0 * first.normal;
+    double way = shortest;
+    for (int k = 0; k < most_steps && way < most; ++k) {
+      Foot const foot = solid.at(start + way * inwards);
+      if (foot.distance >= 0) {
+        double const facing = dot(foot.normal, inwards);
+        if (facing < opposite) return nowhere;
+        way -= foot.distance / facing;
+        X = start + (0.5 * way) * inwards;
+        return way;
+      }
+      double const step = std::max(-foot.distance, shortest);
+      way += solid.distance_is_bound() ? step : std::min(step, longest);
+    }
+    return nowhere;
+  }
+};
+
+}  // namespace
+
+std::optional<Thinnest> thinnest(Solid const& solid, double edge) {
+  constexpr std::size_t together = 4096;  // all of them know what those before found
+  constexpr double shortest = 1e-3;       // of a piece
+  std::vector<SurfacePiece> pieces;
+  solid.cut_surface(edge, pieces);
+  InwardRay const ray{solid, shortest * edge, edge};
+  Thinnest best{nowhere, {}};
+  std::vector<Thinnest> found(std::min(pieces.size(), together));
+  for (std::size_t first = 0; first < pieces.size(); first += together) {
+    std::size_t const count = std::min(together, pieces.size() - first);
+    exec_host::for_each_in_set_up(static_cast<Index>(count), [&](Index k) {
+      Thinnest& one = found[static_cast<std::size_t>(k)];
+      one.thickness = ray.from(pieces[first + static_cast<std::size_t>(k)].X, best.thickness, one.X);
+    });
+    for (std::size_t k = 0; k < count; ++k)
+      if (found[k].thickness < best.thickness) best = found[k];
+  }
+  if (!(best.thickness < nowhere)) return std::nullopt;
+  return best;
+}
+
+}  // namespace piola::geometry

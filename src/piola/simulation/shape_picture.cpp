@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/shape_picture.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "piola/input/region_checks.hpp"
+#include "piola/output/rigid_picture.hpp"
+#include "piola/setup/solid_bodies.hpp"
+#include "piola/simulation/scene.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+constexpr Colour inner_grey{200, 203, 208};
+
+/// Colours that stay apart for eyes that do not tell red from green (Okabe and Ito, 2008, without black); of more,
+/// hues by the golden section, first dark, then light.
+Colour colour_number(std::size_t k) {
+  constexpr std::array<Colour, 7> first{Colour{86, 180, 233}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167},
+                                        {240, 228, 66},       {0, 114, 178}, {213, 94, 0}};
+  if (k < first.size()) return first[k];
+  constexpr double golden = 0.6180339887498949;
+  double const value = k % 2 == 0 ? 0.95 : 0.65, saturation = k % 2 == 0 ? 0.4 : 0.7;
+  double const hue = 6 * std::fmod(golden * static_cast<double>(k), 1.0);
+  Colour colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    double const k_of_hue = std::fmod(5 - 2 * static_cast<double>(c) + hue, 6.0);
+    double const share = std::clamp(std::min(k_of_hue, 4 - k_of_hue), 0.0, 1.0);
+    colour[c] = static_cast<std::uint8_t>(std::lround(255 * value * (1 - saturation * share)));
+  }
+  return colour;
+}
+
+/// The colours of particles and what they mean.
+struct Paint {
+  std::vector<Colour> colours;
+  std::vector<LegendEntry> legend;
+};
+
+Paint by_body(ParticleSet const& particles) {
+  Paint paint;
+  for (Body const& body : particles.bodies) paint.legend.push_back({body.name, colour_number(paint.legend.size())});
+  for (int const body : particles.body) paint.colours.push_back(paint.legend[static_cast<std::size_t>(body)].colour);
+  return paint;
+}
+
+Paint by_patch(CaseSpec const& spec, ParticleSet const& particles) {
+  Paint paint{std::vector<Colour>(particles.X.size(), inner_grey), {}};
+  std::vector<double> largest(particles.X.size(), 0);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    ShapeSpec const& shape = spec.bodies[b].shape;
+    if (!shape.solid) continue;
+    std::size_t const before = paint.legend.size();
+    for (geometry::Patch const& patch : shape.solid->patches()) {
+      std::string const name = spec.bodies.size() > 1 ? spec.bodies[b].name + " " + patch.name : patch.name;
+      paint.legend.push_back({name, colour_number(paint.legend.size())});
+    }
+    for (PatchShare const& share : patch_shares(shape, particles, particles.bodies[b])) {
+      auto const i = static_cast<std::size_t>(share.particle);
+      if (share.area <= largest[i]) continue;
+      largest[i] = share.area;
+      paint.colours[i] = paint.legend[before + static_cast<std::size_t>(share.patch)].colour;
+    }
+  }
+  if (paint.legend.empty())
+    throw InputError("--patches: no body of the case has patches (allowed: for solids) - leave it out");
+  return paint;
+}
+
+View view_of(CaseSpec const& spec, ShapePictureOptions const& options, int dimension) {
+  View view{spec.output.picture_view[0], spec.output.picture_view[1], upwards(spec)};
+  if (options.view) view = {(*options.view)[0], (*options.view)[1], view.upwards};
+  for (std::size_t k = 0; k < up_words.size(); ++k)
+    if (options.up == up_words[k]) view.upwards = static_cast<Up>(k);
+  return view.in(dimension);
+}
+
+}  // namespace
+
+Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictureOptions const& options) {
+  Paint const paint = options.patches ? by_patch(spec, particles) : by_body(particles);
+  std::vector<std::array<double, 3>> points;
+  for (std::size_t i = 0; i < particles.X.size(); ++i)
+    points.push_back(start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]));
+  auto const radii = ball_radii(particles.volume, particles.body, particles.dimension);
+  auto const shapes = shapes_at(spec.rigids, 0);
+  Stage const stage = Stage::around(points);
+  View const view = view_of(spec, options, particles.dimension);
+  Window window;
+  window.include(view, points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
+  show_shapes(window, view, shapes, stage);
+  PictureData const data{.points = points,
+                         .radius = radii,
+                         .values = {},
+                         .label = count_text(particles.size()) + " particles",
+                         .unit = {},
+                         .title = spec.title,
+                         .dimension = particles.dimension,
+                         .rigid_shapes = shapes,
+                         .stage_low = stage.low,
+                         .stage_high = stage.high,
+                         .colours = paint.colours,
+                         .legend = paint.legend};
+  std::array<int, 2> const size =
+      options.size ? *options.size : std::array{spec.output.picture_width, spec.output.picture_height};
+  return draw_picture(data, {size[0], size[1], view, {}}, window);
+}
+
+}  // namespace piola
