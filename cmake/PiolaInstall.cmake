@@ -80,8 +80,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME piola)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-    "Piola computes the fast motion of solids that deform, flow and break, with\nsmoothed particle hydrodynamics. Cases are \
-text files; results open in\nParaView. This package has the program, its examples and its manual.")
+    "Piola computes the fast motion of solids that deform, flow and break, with\nsmoothed particle \
+hydrodynamics. Cases are text files; results open in\nParaView. This package has the program, its examples and its \
+manual.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libpiola-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # The static library needs the libraries that it stands on.
