@@ -22,7 +22,7 @@ if(TARGET piola_app)
   install(FILES "${_pages}/piola" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT program)
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/cases" DESTINATION "${CMAKE_INSTALL_DATADIR}/piola" COMPONENT program
-        USE_SOURCE_PERMISSIONS)
+        PATTERN "*.py" EXCLUDE PATTERN "make_meshes" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/user" "${PROJECT_SOURCE_DIR}/docs/theory"
         DESTINATION "${_doc}/piola" COMPONENT program FILES_MATCHING PATTERN "*.md")
 
@@ -86,8 +86,8 @@ manual.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libpiola-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # The static library needs the libraries that it stands on.
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhdf5-dev, libdeflate-dev, libfmt-dev, libmuparser-dev, libpng-dev, \
-libqhull-dev, libtomlplusplus-dev, libudunits2-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcairo2-dev, libhdf5-dev, libdeflate-dev, libfmt-dev, libmuparser-dev, \
+libpng-dev, libqhull-dev, libtomlplusplus-dev, libudunits2-dev, nlohmann-json3-dev")
 if(PIOLA_MESH)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libassimp-dev, libembree-dev")
 endif()

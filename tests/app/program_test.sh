@@ -22,6 +22,13 @@ expect 2 "holds the results of another case" "$program" run bar.toml --set 'titl
 expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 240
 expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
 expect 2 "no frames" "$program" render .
+expect 0 "curves drawn to bar-results/energies.svg" "$program" plot bar-results
+expect 0 "1 curve drawn to dt.pdf" "$program" plot bar-results dt --log y -o dt.pdf
+expect 2 'did you mean "total_energy"' "$program" plot bar-results total_energie
+expect 2 "no history.csv" "$program" plot .
+expect 2 "end in .svg, .png or .pdf" "$program" plot bar-results -o dt.gif
+expect 0 "piola plot" "$program" describe man-page
+expect 0 "complete -F _piola piola" "$program" describe completion
 expect 0 "drawn to look/shape.png" "$program" render --shape bar.toml -o look/shape.png --size 300 240
 check test -s look/shape.png
 expect 2 "no body of the case has patches" "$program" render --shape bar.toml --patches

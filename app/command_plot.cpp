@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/files.hpp"
+#include "piola/simulation/history_plot.hpp"
+#include "commands.hpp"
+#include "streams.hpp"
+#include <algorithm>
+#include <memory>
+
+namespace piola::app {
+namespace {
+
+struct PlotArguments {
+  std::string folder, out;
+  std::vector<std::string> columns, with, log;
+  std::string against = "time";
+  std::vector<int> size{800, 500};
+};
+
+int plot(PlotArguments const& options) {
+  auto const has = [&](char const* axis) {
+    return std::find(options.log.begin(), options.log.end(), axis) != options.log.end();
+  };
+  Plot drawn = history_plot(options.folder, {.columns = options.columns,
+                                             .against = options.against,
+                                             .with = {options.with.begin(), options.with.end()},
+                                             .log_x = has("x"),
+                                             .log_y = has("y")});
+  drawn.width = options.size[0];
+  drawn.height = options.size[1];
+  std::filesystem::path const name =
+      options.columns.empty() ? "energies.svg"
+                              : options.columns.front() + (options.columns.size() > 1 ? "-and-more.svg" : ".svg");
+  std::filesystem::path const out =
+      options.out.empty() ? std::filesystem::path(options.folder) / name : std::filesystem::path(options.out);
+  if (out.has_parent_path()) make_folder(out.parent_path());
+  write_plot(out, drawn);
+  say("{} curve{} drawn to {}\n", drawn.curves.size(), drawn.curves.size() == 1 ? "" : "s", out.string());
+  return completed;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program, Action& action) {
+  auto const options = std::make_shared<PlotArguments>();
+  CLI::App* command = program.add_subcommand("plot", "Draw columns of the history of a run, by default its energies");
+  command->add_option("folder", options->folder, "The results folder of the run")->required();
+  command->add_option("columns", options->columns, "Columns of history.csv (default: the energies as a ledger)");
+  command->add_option("--against", options->against, "The column of the horizontal axis")->capture_default_str();
+  command->add_option("--with", options->with, "Another results folder to draw beside it; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command->add_option("--log", options->log, "A logarithmic axis: x, y; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"x", "y"}));
+  command->add_option("--out,-o", options->out, "The file: NAME.svg, NAME.png or NAME.pdf (default: in the folder)");
+  command->add_option("--size", options->size, "Width and height in pixels; a PNG has twice as many")
+      ->expected(2)
+      ->check(CLI::Range(200, 20000))
+      ->capture_default_str();
+  command->callback([options, &action] { action = [options] { return plot(*options); }; });
+}
+
+}  // namespace piola::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/plot.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+struct HistoryPlotOptions {
+  std::vector<std::string> columns = {};  ///< none: the energies as a ledger
+  std::string against = "time";
+  std::vector<std::filesystem::path> with = {};  ///< results of other runs, drawn broken
+  bool log_x = false, log_y = false;
+};
+
+/// Columns of history.csv of a run, and of others beside it. Throws InputError for folders without a history and for
+/// columns that it does not have; FileError if one cannot be read.
+Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const& options);
+
+/// The unit of a column of history.csv in SI, "" if its name does not tell.
+std::string unit_of_column(std::string const& name);
+
+}  // namespace piola
