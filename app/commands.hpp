@@ -21,6 +21,7 @@ void add_describe(CLI::App& program, Action& action);
 void add_verify(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
+void add_study(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 
 /// Options that several commands share: how a case is changed on the command line before it is read.

@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   app::add_check(program, action);
   app::add_resume(program, action);
   app::add_render(program, action);
+  app::add_study(program, action);
   app::add_plot(program, action);
   app::add_verify(program, action);
   app::add_describe(program, action);

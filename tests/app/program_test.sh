@@ -22,6 +22,11 @@ expect 2 "holds the results of another case" "$program" run bar.toml --set 'titl
 expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 240
 expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
 expect 2 "no frames" "$program" render .
+printf 'case = "bar.toml"\n[parameters]\n"run.cfl" = [0.4, 0.5]\n"run.end" = ["1 ms", "2 ms"]\n' >study.toml
+expect 0 "4 of 4 completed" "$program" study study.toml
+expect 0 "completed before" "$program" study study.toml --jobs 1
+printf 'case = "bar.toml"\n[parameters]\n"run.cfl" = [0.4, -1]\n' >bad.toml
+expect 2 "with run.cfl=-1" "$program" study bad.toml
 expect 0 "curves drawn to bar-results/energies.svg" "$program" plot bar-results
 expect 0 "1 curve drawn to dt.pdf" "$program" plot bar-results dt --log y -o dt.pdf
 expect 2 'did you mean "total_energy"' "$program" plot bar-results total_energie

@@ -139,6 +139,9 @@ def check_blocks(page, text):
                         complain(page, line, f'"{key}" is no key of checks.toml')
                     for setting in row.get("set", []):
                         check_path(page, line, setting.split("=")[0])
+            elif "parameters" in table:  # of a study
+                for key in table["parameters"]:
+                    check_path(page, line, key)
             else:
                 check_fragment(page, line, table)
 
