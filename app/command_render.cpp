@@ -23,6 +23,9 @@ struct RenderArguments {
   std::size_t every = 1;
   CaseOptions with;
   bool view_given = false, size_given = false;
+  std::vector<std::string> as;
+  std::vector<double> cut;
+  bool ghost = false, no_outline = false;
 };
 
 /// The bodies of a case instead of the frames of a run.
@@ -57,6 +60,12 @@ int render(RenderArguments const& options) {
                      .only = options.frames,
                      .last = options.last,
                      .every = options.every};
+  what.as = options.as;
+  what.outline = !options.no_outline;
+  if (!options.cut.empty()) {
+    auto const& c = options.cut;
+    what.cut = CutPlane{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
+  }
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   auto const paths = render_frames(options.folder, what);
   say("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
@@ -64,10 +73,22 @@ int render(RenderArguments const& options) {
   return completed;
 }
 
+void add_appearance_options(CLI::App& command, RenderArguments& options) {
+  command.add_option("--as", options.as,
+                     "How bodies are drawn: auto, skin, balls, points, none; BODY=skin for one body; also several");
+  auto* const cut = command.add_option("--cut", options.cut,
+                                       "Cuts bodies open: a point of the plane [m] and its normal, six numbers; what "
+                                       "the normal points to is taken away");
+  cut->expected(6);
+  command.add_flag("--ghost", options.ghost, "With --cut: what is taken away stays as a shade")->needs(cut);
+  command.add_flag("--no-outline", options.no_outline, "No dashed lines where the edges of bodies were");
+}
+
 void add_shape_options(CLI::App& command, RenderArguments& options) {
   auto* const shape =
       command.add_flag("--shape", options.shape, "Draw the bodies of a case as they stand before anything runs");
-  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every"})
+  for (char const* const of_frames :
+       {"--field", "--component", "--range", "--frame", "--last", "--every", "--as", "--cut", "--no-outline"})
     shape->excludes(command.get_option(of_frames));
   command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
   options.with.add_to(command, false);
@@ -105,6 +126,7 @@ void add_render(CLI::App& program, Action& action) {
                       "Folder of the pictures (default: pictures in the results folder); with --shape the picture");
   auto* const size = command->add_option("--size", options->size, "Width and height in pixels");
   size->expected(2)->check(CLI::Range(200, 20000))->capture_default_str();
+  add_appearance_options(*command, *options);
   add_shape_options(*command, *options);
   command->callback([options, view, size, &action] {
     options->view_given = view->count() > 0;

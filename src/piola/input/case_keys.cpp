@@ -55,6 +55,7 @@ constexpr std::array sections{
     SectionInfo{"output.frames", "[output.frames]", "files for ParaView with a field of values per particle"},
     SectionInfo{"output.history", "[output.history]", "the table history.csv"},
     SectionInfo{"output.pictures", "[output.pictures]", "PNG pictures coloured by a field"},
+    SectionInfo{"output.pictures.cut", "cut = { ... }", "a plane that cuts bodies open"},
     SectionInfo{"output.checkpoints", "[output.checkpoints]", "files to resume from; one is always written at the end"},
 };
 

@@ -189,6 +189,22 @@ struct QuantitySpec {
   double until = std::numeric_limits<double>::infinity();  ///< and up to this one; change: end [s]
 };
 
+/// How bodies are drawn in pictures: the words of output/appearance.hpp.
+struct AppearanceSpec {
+  struct OfBody {
+    std::string body, as;
+    Place place;
+  };
+  struct Cut {
+    std::array<double, 3> point{}, normal{1, 0, 0};  ///< [m]; what lies on the side of the normal is taken away
+    bool ghost = false, in_reference = false;
+  };
+  std::string as = "auto";
+  std::vector<OfBody> of_body = {};
+  bool outline = true;  ///< of the reference shape
+  std::optional<Cut> cut = {};
+};
+
 /// [output]; times in s, 0 = never. Output falls on the first step at or after each multiple.
 struct OutputSpec {
   double frames_every = 0;
@@ -202,6 +218,7 @@ struct OutputSpec {
   std::optional<std::array<double, 2>> picture_range;  ///< SI; otherwise from the data
   std::array<double, 2> picture_view{30, 20};          ///< azimuth, elevation [deg]
   int picture_width = 1000, picture_height = 800;
+  AppearanceSpec appearance;
   bool compress = true;
 };
 

@@ -136,7 +136,7 @@ void check_component(Section const& section, OutputSpec const& output) {
   }
 }
 
-void read_pictures(Section const& section, OutputSpec& output) {
+void read_pictures(Section const& section, std::vector<BodySpec> const& bodies, OutputSpec& output) {
   section.read("every", output.pictures_every);
   if (auto const field = section.find("field")) {
     if (auto const word = read_word(*field, known_fields(), section.problems())) output.picture_field = *word;
@@ -159,6 +159,7 @@ void read_pictures(Section const& section, OutputSpec& output) {
     }
   }
   read_size(section, output);
+  read_appearance(section, bodies, output.appearance);
   section.refuse_unknown();
 }
 
@@ -184,13 +185,13 @@ void read_run(Section const& section, RunSpec& run) {
   run.places = places_of(section, {"end", "cfl", "max_step"});
 }
 
-void read_output(Section const& section, OutputSpec& output) {
+void read_output(Section const& section, std::vector<BodySpec> const& bodies, OutputSpec& output) {
   if (auto const frames = section.table("frames")) read_frames(*frames, output);
   if (auto const history = section.table("history")) {
     history->read("every", output.history_every);
     history->refuse_unknown();
   }
-  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output);
+  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, bodies, output);
   if (auto const checkpoints = section.table("checkpoints")) {
     checkpoints->read("every", output.checkpoints_every);
     checkpoints->refuse_unknown();

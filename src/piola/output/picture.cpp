@@ -2,8 +2,8 @@
 #include "piola/output/picture.hpp"
 #include "piola/base/text.hpp"
 #include "piola/output/colour_map.hpp"
+#include "piola/output/draw_bodies.hpp"
 #include "piola/output/lettering.hpp"
-#include "piola/output/rigid_picture.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -18,8 +18,7 @@ namespace {
 using Point = std::array<double, 3>;
 using Pixel = std::array<double, 2>;
 
-constexpr int fine = 2;  // pixels are the mean of fine x fine samples
-constexpr Colour background{255, 255, 255}, ink{40, 44, 52}, faint_ink{110, 116, 126};
+constexpr Colour ink{40, 44, 52}, faint_ink{110, 116, 126};
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -43,46 +42,6 @@ Projection make_projection(View const& view, Window const& w, Layout const& area
   p.x_shift = (area.left + area.right) / 2 - p.scale * (w.x0 + w.x1) / 2;
   p.y_shift = (area.top + area.bottom) / 2 + p.scale * (w.y0 + w.y1) / 2;
   return p;
-}
-
-void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colour colour, bool flat) {
-  auto const inside_of = [](double pixel, int size) { return static_cast<int>(std::clamp(pixel, -1.0, size + 0.0)); };
-  int const x0 = std::max(0, inside_of(std::floor(centre[0] - radius), out.colour.width)),
-            x1 = std::min(out.colour.width - 1, inside_of(std::ceil(centre[0] + radius), out.colour.width));
-  int const y0 = std::max(0, inside_of(std::floor(centre[1] - radius), out.colour.height)),
-            y1 = std::min(out.colour.height - 1, inside_of(std::ceil(centre[1] + radius), out.colour.height));
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
-      double const nx = (x + 0.5 - centre[0]) / radius, ny = (y + 0.5 - centre[1]) / radius;
-      double const inside = 1 - nx * nx - ny * ny;
-      if (inside < 0) continue;
-      double const nz = std::sqrt(inside);
-      out.put(x, y, depth + radius * nz, colour, flat ? 0.9 + 0.1 * nz : light(nx, ny, nz));
-    }
-  }
-}
-
-Image draw_scene(PictureData const& data, PictureStyle const& style, Layout const& layout, Projection const& project,
-                 ColourMap const& map) {
-  DepthImage out(style.width * fine, style.height * fine, background);
-  Stage const stage{data.stage_low, data.stage_high};
-  RigidCanvas{project,
-              stage,
-              data.dimension,
-              fine,
-              static_cast<int>(0.8 * layout.top * fine),
-              static_cast<int>(layout.right * fine)}
-      .draw(out, data.rigid_shapes);
-  double const least = (data.dimension == 1 ? 5.0 : 1.2) * fine;  // a line of particles would be too thin to see
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    Pixel const p = project(data.points[i]);
-    double const radius = std::max(data.radius[i] * project.scale * fine, least);
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(radius)) continue;
-    double const depth = dot(data.points[i], project.towards) * project.scale * fine;
-    Colour const colour = data.colours.empty() ? map(data.values[i]) : data.colours[i];
-    draw_ball(out, {p[0] * fine, p[1] * fine}, depth, radius, colour, data.dimension < 3);
-  }
-  return reduce(out.colour, fine);
 }
 
 /// Tick numbers with as many decimals as their distance needs.
@@ -219,7 +178,8 @@ Image draw_picture(PictureData const& data, PictureStyle const& asked, Window co
   Layout const layout(style);
   auto const range = style.range ? *style.range : typical_range(data.values);
   ColourMap const map(range[0], range[1]);
-  Image image = draw_scene(data, style, layout, make_projection(style.view, window, layout), map);
+  SceneArea const area{style.width, style.height, static_cast<int>(0.8 * layout.top), static_cast<int>(layout.right)};
+  Image image = draw_bodies(data, style.appearance, make_projection(style.view, window, layout), area, map);
   bool const named = !data.colours.empty();
   if (named)
     draw_legend(image, data.legend, layout);

@@ -2,7 +2,9 @@
 #pragma once
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/output/appearance.hpp"
 #include "piola/output/image.hpp"
+#include "piola/output/reference_mesh.hpp"
 #include <array>
 #include <optional>
 #include <span>
@@ -59,15 +61,19 @@ struct PictureData {
   /// values and unit are not used.
   std::span<Colour const> colours = {};
   std::span<LegendEntry const> legend = {};
+  std::span<int const> body = {};              ///< numbers, particles of a body one after the other; empty: one body
+  std::span<ReferenceMesh const> meshes = {};  ///< per body; none: particles are balls that do not stretch
+  std::span<std::uint8_t const> loose = {};    ///< not 0: has lost its neighbours for good; empty: none has
 };
 
 struct PictureStyle {
   int width = 1000, height = 800;
   View view;
   std::optional<std::array<double, 2>> range;  ///< SI; otherwise typical_range of the values
+  Appearance appearance = {};
 };
 
-/// Particles as shaded balls, with title, time, colour bar and axes.
+/// Bodies as surfaces or balls and rigid shapes, shaded, with title, time, colour bar and axes.
 Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window);
 
 /// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a

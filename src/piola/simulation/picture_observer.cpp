@@ -55,9 +55,11 @@ void PictureObserver::keep(std::size_t number, Kept const& kept) const {
     for (double const c : p) numbers.push_back(static_cast<float>(c));
   for (double const v : kept.values) numbers.push_back(static_cast<float>(v));
   std::size_t const before = head.size() * sizeof(double);
-  std::vector<std::byte> bytes(before + numbers.size() * sizeof(float));
+  std::size_t const middle = before + numbers.size() * sizeof(float);
+  std::vector<std::byte> bytes(middle + kept.loose.size());
   std::memcpy(bytes.data(), head.data(), before);
   if (!numbers.empty()) std::memcpy(bytes.data() + before, numbers.data(), numbers.size() * sizeof(float));
+  if (!kept.loose.empty()) std::memcpy(bytes.data() + middle, kept.loose.data(), kept.loose.size());
   write_whole_file(kept_path(number), bytes);
 }
 
@@ -69,7 +71,9 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
   kept.rigids = turning_shapes();
   std::vector<double> head(1 + 6 * kept.rigids.size());
   std::size_t const before = head.size() * sizeof(double);
-  if (bytes.size() != before + numbers.size() * sizeof(float)) return false;
+  std::size_t const middle = before + numbers.size() * sizeof(float);
+  if (bytes.size() != middle + n) return false;
+  kept.loose.assign(bytes.begin() + static_cast<std::ptrdiff_t>(middle), bytes.end());
   std::memcpy(head.data(), bytes.data(), before);
   if (n > 0) std::memcpy(numbers.data(), bytes.data() + before, numbers.size() * sizeof(float));
   auto from = head.begin();
@@ -88,6 +92,7 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
 void PictureObserver::draw(std::size_t number, Kept const& kept) {
   auto const& output = results_.spec.output;
   auto const shapes = shapes_at(results_.spec.rigids, kept.time, kept.rigids);
+  if (meshes_.empty()) meshes_ = reference_meshes(results_.particles);
   PictureData const data{.points = kept.points,
                          .radius = radii_,
                          .values = kept.values,
@@ -98,8 +103,12 @@ void PictureObserver::draw(std::size_t number, Kept const& kept) {
                          .dimension = results_.particles.dimension,
                          .rigid_shapes = shapes,
                          .stage_low = stage_low_,
-                         .stage_high = stage_high_};
-  PictureStyle const style{output.picture_width, output.picture_height, view_, look().range};
+                         .stage_high = stage_high_,
+                         .body = results_.particles.body,
+                         .meshes = meshes_,
+                         .loose = kept.loose};
+  PictureStyle const style{output.picture_width, output.picture_height, view_, look().range,
+                           appearance_of(results_.spec)};
   write_png(path(number), draw_picture(data, style, window_));
   drawn_[number] = look();
 }
@@ -132,6 +141,10 @@ void PictureObserver::see_now(Formulation const& formulation, double time) {
   for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = as_kept(x[i]);
   kept.values = picture_values(cache.values(field_.name), field_.components, component_);
   for (double& value : kept.values) value = as_kept(value);
+  auto const if_known = [&](char const* field) {
+    return cache.knows(field) ? cache.values(field) : std::span<double const>();
+  };
+  kept.loose = loose_particles(if_known("Damage"), if_known("KernelType"), radii_.size());
 
   window_.include(view_, kept.points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
   show_shapes(window_, view_, shapes_at(results_.spec.rigids, time, kept.rigids), {stage_low_, stage_high_});

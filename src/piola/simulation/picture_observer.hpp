@@ -27,7 +27,8 @@ class PictureObserver : public Observer {
     double time = 0;
     std::vector<std::array<double, 3>> points;
     std::vector<double> values;
-    std::vector<RigidState> rigids = {};  ///< that are free or turn
+    std::vector<RigidState> rigids = {};   ///< that are free or turn
+    std::vector<std::uint8_t> loose = {};  ///< see loose_particles
   };
   std::vector<RigidState> turning_shapes() const;
   void see_now(Formulation const& formulation, double time);
@@ -47,6 +48,7 @@ class PictureObserver : public Observer {
   Window window_;
   std::array<double, 2> range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   std::vector<double> radii_;
+  std::vector<ReferenceMesh> meshes_;  ///< made for the first picture
   std::array<double, 3> stage_low_{}, stage_high_{};
   FieldInfo field_{};  ///< what is drawn; no name before the first picture
   int component_ = whole_field;

@@ -29,10 +29,10 @@ std::string title_of(fs::path const& folder) {
 }
 
 /// The case that the run was started with; nothing if it is not there or cannot be read any more.
-std::optional<CaseSpec> case_of(fs::path const& folder) {
+std::optional<CaseSpec> case_of(fs::path const& folder, ParticleSet& particles) {
   if (!fs::exists(folder / "case.toml")) return std::nullopt;
   try {
-    return read_case(folder / "case.toml");
+    return read_case(folder / "case.toml", {}, {}, &particles);
   } catch (InputError const&) {
     return std::nullopt;
   }
@@ -44,6 +44,33 @@ View view_of(RenderOptions const& options, std::optional<CaseSpec> const& spec, 
     if (options.up == up_words[k]) view.upwards = static_cast<Up>(k);
   if (options.up == "auto" && spec) view.upwards = upwards(*spec);
   return view.in(dimension);
+}
+
+/// What the case says, changed by what the options say.
+Appearance appearance_of(RenderOptions const& options, std::optional<CaseSpec> const& spec) {
+  Appearance appearance = spec ? appearance_of(*spec) : Appearance{};
+  std::vector<std::string> bodies;
+  for (std::size_t b = 0; spec && b < spec->bodies.size(); ++b) bodies.push_back(spec->bodies[b].name);
+  appearance.as.resize(std::max<std::size_t>(bodies.size(), 1), Representation::automatic);
+  for (std::string const& one : options.as) {
+    auto const sign = one.find('=');
+    std::string const word = sign == std::string::npos ? one : one.substr(sign + 1), body = one.substr(0, sign);
+    if (std::find(representation_words.begin(), representation_words.end(), word) == representation_words.end())
+      throw InputError(fmt::format("--as: {} is no way to draw bodies (allowed: {}) - choose one of these", word,
+                                   fmt::join(representation_words, ", ")));
+    auto const at = std::find(bodies.begin(), bodies.end(), body);
+    if (sign == std::string::npos)
+      appearance.as.assign(appearance.as.size(), representation_of(word));
+    else if (at != bodies.end())
+      appearance.as[static_cast<std::size_t>(at - bodies.begin())] = representation_of(word);
+    else
+      throw InputError(
+          fmt::format("--as: there is no body '{}' (allowed: {}) - name one of these", body,
+                      bodies.empty() ? "none without a case.toml" : fmt::format("{}", fmt::join(bodies, ", "))));
+  }
+  appearance.outline = appearance.outline && options.outline;
+  if (options.cut) appearance.cut = options.cut;
+  return appearance;
 }
 
 std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count) {
@@ -63,7 +90,12 @@ std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count)
 class Renderer {
  public:
   Renderer(fs::path const& folder, RenderOptions const& options)
-      : options_(options), title_(title_of(folder)), spec_(case_of(folder)), frames_(list_frames(folder)) {
+      : options_(options),
+        title_(title_of(folder)),
+        spec_(case_of(folder, particles_)),
+        appearance_(appearance_of(options, spec_)),
+        frames_(list_frames(folder)) {
+    if (spec_) meshes_ = reference_meshes(particles_);
     if (spec_) rigids_.emplace(folder / "history.csv", spec_->rigids);
     for (auto const& entry : frames_) survey(read(entry.second));
   }
@@ -75,25 +107,35 @@ class Renderer {
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
     auto const values = picture_values(frame.values, components, component);
     auto const shapes = shapes_of(frame);
-    PictureData const data{.points = frame.points,
-                           .radius = radii,
-                           .values = values,
-                           .label = picture_label(options_.field, components, component),
-                           .unit = frame.info.unit,
-                           .title = title_,
-                           .time = frame.time,
-                           .dimension = frame.dimension,
-                           .rigid_shapes = shapes,
-                           .stage_low = stage_.low,
-                           .stage_high = stage_.high};
+    auto const loose = loose_particles(frame.damage, frame.kernel_type, frame.points.size());
+    PictureData const data{
+        .points = frame.points,
+        .radius = radii,
+        .values = values,
+        .label = picture_label(options_.field, components, component),
+        .unit = frame.info.unit,
+        .title = title_,
+        .time = frame.time,
+        .dimension = frame.dimension,
+        .rigid_shapes = shapes,
+        .stage_low = stage_.low,
+        .stage_high = stage_.high,
+        .body = frame.body,
+        .meshes = belongs(frame) ? std::span<ReferenceMesh const>(meshes_) : std::span<ReferenceMesh const>(),
+        .loose = loose};
     PictureStyle const style{options_.width, options_.height, view_of(options_, spec_, frame.dimension),
-                             options_.range ? *options_.range : range_};
+                             options_.range ? *options_.range : range_, appearance_};
     fs::path path = folder / picture_name(options_.field, components, component, number);
     write_png(path, draw_picture(data, style, window_));
     return path;
   }
 
  private:
+  /// Whether the frame is of the case that lies in the folder now.
+  bool belongs(Frame const& frame) const {
+    return frame.points.size() == particles_.X.size() && frame.dimension == particles_.dimension &&
+           std::equal(frame.body.begin(), frame.body.end(), particles_.body.begin(), particles_.body.end());
+  }
   Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
   std::vector<RigidShape> shapes_of(Frame const& frame) const {
     if (!spec_) return {};
@@ -118,7 +160,10 @@ class Renderer {
 
   RenderOptions const& options_;
   std::string title_;
+  ParticleSet particles_;  ///< of the case
   std::optional<CaseSpec> spec_;
+  Appearance appearance_;
+  std::vector<ReferenceMesh> meshes_;
   std::optional<RigidHistory> rigids_;  ///< where there is a case
   std::vector<std::pair<double, fs::path>> frames_;
   Window window_;

@@ -21,6 +21,9 @@ struct RenderOptions {
   std::vector<std::size_t> only = {};  ///< numbers of the frames to draw; empty: all
   bool last = false;                   ///< draw the last one
   std::size_t every = 1;               ///< each so many
+  std::vector<std::string> as = {};    ///< "skin" for all bodies, "BODY=balls" for one: besides what the case says
+  std::optional<CutPlane> cut = {};    ///< instead of that of the case
+  bool outline = true;                 ///< false: none, whatever the case says
 };
 
 /// Draws frames of a run to FIELD-000000.png, or FIELD-x-000000.png of a component, with the number of the frame; with

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/picture.hpp"
+#include "piola/output/points.hpp"
+#include <array>
+
+/// What the parts of a picture share: from metres to pixels.
+namespace piola {
+
+/// Parallel projection: pixels = shift + scale * metres, y downwards; depth grows towards the viewer.
+struct Projection {
+  std::array<double, 3> right, up, towards;
+  double scale = 1, x_shift = 0, y_shift = 0;
+  std::array<double, 2> operator()(std::array<double, 3> const& p) const {
+    return {x_shift + scale * dot(p, right), y_shift - scale * dot(p, up)};
+  }
+  /// The point of a pixel whose depth is 0 [m].
+  std::array<double, 3> point(double x, double y) const {
+    std::array<double, 3> p{};
+    double const a = (x - x_shift) / scale, b = (y_shift - y) / scale;
+    for (std::size_t c = 0; c < 3; ++c) p[c] = a * right[c] + b * up[c];
+    return p;
+  }
+};
+
+}  // namespace piola

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/scene.hpp"
+#include "piola/exec/threads.hpp"
+#include "piola/output/draw_bodies.hpp"
+#include "piola/output/points.hpp"
+#include "piola/setup/shapes.hpp"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace piola {
+namespace {
+
+constexpr int width = 400, height = 240;
+constexpr Colour white{255, 255, 255};
+
+/// A box of 2 x 1 x 0.5 and its picture.
+struct Stand {
+  ParticleSet set;
+  std::vector<ReferenceMesh> meshes;
+  std::vector<Place3> x;
+  std::vector<double> radius, values;
+  Appearance appearance;
+  View view{0, 0};
+
+  explicit Stand(int n = 5, int dimension = 3) {
+    set.dimension = dimension;
+    ShapeSpec shape;
+    shape.dimension = dimension;
+    shape.max = {2, 1, dimension == 3 ? 0.5 : 0};
+    shape.particles = {4 * n, 2 * n, dimension == 3 ? n : 1};
+    shape.placement = ShapeSpec::Placement::cell_centred;
+    fill(shape, "b", set);
+    meshes = reference_meshes(set);
+    x.assign(set.X.begin(), set.X.end());
+    radius = ball_radii(set.volume, set.body, dimension);
+    for (std::size_t i = 0; i < x.size(); ++i) values.push_back(x[i][0]);
+  }
+  PictureData data() const {
+    PictureData d{.points = x, .radius = radius, .values = values, .label = {}, .unit = {}, .title = {}};
+    d.dimension = set.dimension;
+    d.body = set.body;
+    d.meshes = meshes;
+    return d;
+  }
+  Projection project() const { return {view.right(), view.up(), view.towards_viewer(), 100, 50, 170}; }
+  Scene scene() const { return make_scene(data(), appearance, project(), 2); }
+  Image image() const { return draw_bodies(data(), appearance, project(), {width, height, 0, width}, ColourMap(0, 2)); }
+};
+
+int pixels(Image const& image) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) count += image.at(x, y) != white;
+  return count;
+}
+
+TEST(Scene, DrawsASkinWhereParticlesHangTogetherAndBallsElse) {
+  Stand stand;
+  EXPECT_TRUE(stand.scene().bodies.ellipsoids.empty());
+  EXPECT_FALSE(stand.scene().bodies.triangles.empty());
+  stand.appearance.as = {Representation::balls};
+  EXPECT_EQ(stand.scene().bodies.ellipsoids.size(), stand.x.size());
+  EXPECT_TRUE(stand.scene().bodies.triangles.empty());
+  stand.appearance.as = {Representation::none};
+  EXPECT_TRUE(stand.scene().bodies.ellipsoids.empty());
+  stand.appearance.as = {};
+  stand.meshes.clear();
+  EXPECT_EQ(stand.scene().bodies.ellipsoids.size(), stand.x.size());
+}
+
+TEST(Scene, ShowsTheWholeBodyAndNothingElse) {
+  // 200 x 100 pixels, and the outer halves of pixels at its edge.
+  for (int const dimension : {2, 3}) {
+    Stand const stand(5, dimension);
+    EXPECT_NEAR(pixels(stand.image()), 200 * 100, 300) << dimension;
+  }
+}
+
+TEST(Scene, HasNoHolesInAStretchedBody) {
+  for (auto const as : {Representation::skin, Representation::balls}) {
+    Stand stand;
+    stand.appearance.as = {as};
+    stand.appearance.outline = false;
+    for (Place3& p : stand.x) p = {1.2 * p[0] + 0.3 * p[1], 0.4 * p[1], p[2]};
+    for (Place3& p : stand.x) p[1] *= 3.2;  // 28 % longer across: plain balls would come apart along x
+    Image const image = stand.image();
+    Projection const project = stand.project();
+    int holes = 0;
+    for (std::size_t i = 0; i < stand.x.size(); ++i)
+      for (double const part : {0.25, 0.5, 0.75}) {
+        Place3 const& a = stand.meshes[0].X[i];
+        if (a[0] > 1.85 || a[1] > 0.85) continue;
+        Place3 const b = stand.x[i + 1], c = stand.x[i + 20];
+        for (Place3 const& next : {b, c}) {
+          auto const p = project(plus(stand.x[i], part, minus(next, stand.x[i])));
+          holes += image.at(static_cast<int>(p[0]), static_cast<int>(p[1])) == white;
+        }
+      }
+    EXPECT_EQ(holes, 0) << static_cast<int>(as);
+  }
+}
+
+TEST(Scene, CutsABodyOpenAndColoursTheSection) {
+  Stand stand;
+  stand.appearance.cut = CutPlane{{1, 0, 0}, {1, 0, 0}};
+  EXPECT_NEAR(pixels(stand.image()), 100 * 100, 300);
+  // Seen from the end, the section shows the values at x = 1, not those of the far end.
+  stand.view = {90, 0};
+  Image const open = stand.image();
+  auto const p = stand.project()(Place3{1, 0.5, 0.25});
+  Colour const seen = open.at(static_cast<int>(p[0]), static_cast<int>(p[1]));
+  Colour const wanted = ColourMap(0, 2)(1);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], wanted[c], 25);
+  stand.view = {0, 0};
+  stand.appearance.cut->ghost = true;
+  Image const ghost = stand.image();
+  EXPECT_NEAR(pixels(ghost), 200 * 100, 400);
+  EXPECT_GT(ghost.at(50 + 150, 170 - 50)[1], 215) << "a shade only";
+}
+
+TEST(Scene, ShowsWhereABodyWas) {
+  Stand stand;
+  for (Place3& p : stand.x) p[1] += 0.5;
+  Image const with = stand.image();
+  stand.appearance.outline = false;
+  Image const without = stand.image();
+  EXPECT_GT(pixels(with), pixels(without) + 200);
+}
+
+TEST(Scene, IsTheSameForAnyNumberOfThreads) {
+  int const before = exec_host::threads(), share = exec_host::set_least_share(1);
+  std::vector<Image> images;
+  for (int const threads : {1, 4}) {
+    exec_host::set_threads(threads);
+    for (auto const as : {Representation::skin, Representation::balls}) {
+      Stand stand;
+      stand.view = {30, 20};
+      stand.appearance.as = {as};
+      stand.appearance.cut = CutPlane{{1.2, 0, 0}, {1, 0.3, 0}, true};
+      for (Place3& p : stand.x) p[0] += 0.2 * std::sin(7 * p[1]);
+      images.push_back(stand.image());
+    }
+  }
+  exec_host::set_threads(before);
+  exec_host::set_least_share(share);
+  EXPECT_EQ(images[0].rgb, images[2].rgb);
+  EXPECT_EQ(images[1].rgb, images[3].rgb);
+  EXPECT_NE(images[0].rgb, images[1].rgb);
+}
+
+TEST(Scene, TakesWhatIsNowhereAloneOrInOnePlace) {
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  Stand stand;
+  for (auto const as : {Representation::automatic, Representation::balls, Representation::points}) {
+    stand.appearance.as = {as};
+    stand.x.assign(stand.x.size(), {0.5, 0.5, 0.5});
+    EXPECT_NO_THROW(stand.image()) << "all in one place";
+    stand.x.assign(stand.x.size(), {nan, nan, nan});
+    EXPECT_EQ(pixels(stand.image()), 0);
+  }
+  Stand one;
+  one.set = {};
+  one.meshes.clear();
+  one.x.resize(1);
+  one.values = {nan};
+  one.radius = {0.1};
+  EXPECT_GT(pixels(one.image()), 100) << "magenta";
+  one.x.clear();
+  one.values.clear();
+  one.radius.clear();
+  EXPECT_EQ(pixels(one.image()), 0);
+}
+
+}  // namespace
+}  // namespace piola
