@@ -74,8 +74,10 @@ int render(RenderArguments const& options) {
 }
 
 void add_appearance_options(CLI::App& command, RenderArguments& options) {
-  command.add_option("--as", options.as,
-                     "How bodies are drawn: auto, skin, balls, points, none; BODY=skin for one body; also several");
+  command
+      .add_option("--as", options.as,
+                  "How bodies are drawn: auto, skin, balls, points, none; BODY=skin for one body; also several")
+      ->allow_extra_args(false);
   auto* const cut = command.add_option("--cut", options.cut,
                                        "Cuts bodies open: a point of the plane [m] and its normal, six numbers; what "
                                        "the normal points to is taken away");

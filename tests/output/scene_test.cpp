@@ -25,16 +25,21 @@ struct Stand {
   View view{0, 0};
 
   explicit Stand(int n = 5, int dimension = 3) {
-    set.dimension = dimension;
     ShapeSpec shape;
     shape.dimension = dimension;
     shape.max = {2, 1, dimension == 3 ? 0.5 : 0};
     shape.particles = {4 * n, 2 * n, dimension == 3 ? n : 1};
     shape.placement = ShapeSpec::Placement::cell_centred;
+    reset(shape);
+  }
+  void reset(ShapeSpec const& shape) {
+    set = {};
+    set.dimension = shape.dimension;
     fill(shape, "b", set);
     meshes = reference_meshes(set);
     x.assign(set.X.begin(), set.X.end());
-    radius = ball_radii(set.volume, set.body, dimension);
+    radius = ball_radii(set.volume, set.body, set.dimension);
+    values.clear();
     for (std::size_t i = 0; i < x.size(); ++i) values.push_back(x[i][0]);
   }
   PictureData data() const {
@@ -100,6 +105,99 @@ TEST(Scene, HasNoHolesInAStretchedBody) {
       }
     EXPECT_EQ(holes, 0) << static_cast<int>(as);
   }
+}
+
+/// Pixels of the background that other pixels enclose, in patches smaller than `largest`.
+int pixels_in_small_holes(Image const& image, int largest) {
+  std::vector<bool> seen(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), false);
+  auto const at = [&](int x, int y) { return static_cast<std::size_t>(y * image.width + x); };
+  int sum = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      if (seen[at(x, y)] || image.at(x, y) != white) continue;
+      std::vector<std::array<int, 2>> todo{{x, y}};
+      seen[at(x, y)] = true;
+      for (std::size_t k = 0; k < todo.size(); ++k)
+        for (auto const& [dx, dy] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+          int const i = todo[k][0] + dx, j = todo[k][1] + dy;
+          if (i < 0 || j < 0 || i >= image.width || j >= image.height) continue;
+          if (seen[at(i, j)] || image.at(i, j) != white) continue;
+          seen[at(i, j)] = true;
+          todo.push_back({i, j});
+        }
+      if (static_cast<int>(todo.size()) < largest) sum += static_cast<int>(todo.size());
+    }
+  return sum;
+}
+
+/// A bar on a wall: its foot is 2.3 times as wide, and lower by as much.
+Stand mushroomed_bar() {
+  Stand stand;
+  ShapeSpec bar;
+  bar.kind = ShapeSpec::Kind::cylinder;
+  bar.radius = 0.4;
+  bar.length = 1.6;
+  bar.spacing = 0.08;
+  bar.placement = ShapeSpec::Placement::cell_centred;
+  stand.reset(bar);
+  for (Place3& p : stand.x) {
+    double const wide = 1 + 1.3 * std::exp(-3 * p[2]);
+    p = {1 + wide * p[0], 0.4 + wide * p[1], 1.6 - (1.6 - p[2]) * 0.7};
+  }
+  return stand;
+}
+
+/// A shell of rings that has fallen to half its radius, with a hole that is its own.
+Stand collapsed_ring() {
+  Stand stand;
+  ShapeSpec ring;
+  ring.kind = ShapeSpec::Kind::sphere;
+  ring.dimension = 2;
+  ring.radius = 0.9;
+  ring.inner_radius = 0.6;
+  ring.spacing = 0.03;
+  ring.arrangement = ShapeSpec::Arrangement::rings;
+  stand.reset(ring);
+  for (Place3& p : stand.x) {
+    double const r = std::hypot(p[0], p[1]), now = std::sqrt(r * r - 0.3);
+    p = {1.5 + p[0] / r * now, 0.5 + p[1] / r * now, 0};
+  }
+  return stand;
+}
+
+/// A plate with a hole that an impact has torn: what was there flies off.
+Stand pierced_plate() {
+  Stand stand;
+  ShapeSpec plate;
+  plate.max = {2, 1, 0.1};
+  plate.particles = {80, 40, 4};
+  plate.placement = ShapeSpec::Placement::cell_centred;
+  stand.reset(plate);
+  for (Place3& p : stand.x) {
+    double const r = std::hypot(p[0] - 1, p[1] - 0.5);
+    if (r < 0.25) p[2] += 3 + 5 * (0.25 - r);
+    if (r < 0.25) p[0] += 5;
+  }
+  return stand;
+}
+
+int holes_in(Stand stand, Representation as, View const& view) {
+  stand.appearance.as = {as};
+  stand.appearance.outline = false;
+  stand.view = view.in(stand.set.dimension);
+  double const spacing = 100 * (stand.meshes.empty() ? 0.08 : stand.meshes[0].spacing);
+  return pixels_in_small_holes(stand.image(), static_cast<int>(4 * spacing * spacing));
+}
+
+TEST(Scene, HasNoHolesButThoseOfTheBody) {
+  for (auto const& make : {mushroomed_bar, collapsed_ring, pierced_plate})
+    for (View const& view : {View{0, 0}, View{30, 20}}) EXPECT_EQ(holes_in(make(), Representation::skin, view), 0);
+  // Balls stand at the corners of the staircase of a bar seen obliquely, with the sky between them.
+  for (auto const& make : {mushroomed_bar, collapsed_ring})
+    EXPECT_EQ(holes_in(make(), Representation::balls, {0, 0}), 0);
+  Stand plain = mushroomed_bar();
+  plain.meshes.clear();
+  EXPECT_GT(holes_in(plain, Representation::balls, {0, 0}), 0) << "balls that do not stretch come apart";
 }
 
 TEST(Scene, CutsABodyOpenAndColoursTheSection) {
