@@ -192,7 +192,8 @@ TEST(PictureValues, AreTheComponentAskedFor) {
   EXPECT_EQ(picture_name("PrincipalStress", 3, *find_component("1", 3), 7), "PrincipalStress-1-000007.png");
 }
 
-TEST(Picture, HidesParticlesBehindARigidShapeAndTheShapeBehindParticles) {
+TEST(Picture, ShowsParticlesThroughARigidShapeAndHidesTheShapeBehindParticles) {
+  std::array<int, 2> yellow{};
   std::vector<std::array<double, 3>> const points{{0, 0, 0}};
   std::vector<double> const radius{0.5}, values{1};
   for (double const z : {-2.0, 2.0}) {
@@ -210,9 +211,12 @@ TEST(Picture, HidesParticlesBehindARigidShapeAndTheShapeBehindParticles) {
       Colour const c = image.at(x, 250);
       return std::abs(c[0] - c[2]) < 15 && c[0] < 240;
     };
-    EXPECT_EQ(grey((20 + 490) / 2), z > 0) << z;
+    Colour const seen = image.at((20 + 490) / 2, 250);
+    yellow[z > 0 ? 1 : 0] = seen[0] - seen[2];
+    EXPECT_FALSE(grey((20 + 490) / 2)) << z;
     EXPECT_TRUE(grey((20 + 490) / 2 + 130)) << "beside the particle";
   }
+  EXPECT_LT(yellow[1], 0.8 * yellow[0]) << "through the shape";
 }
 
 TEST(PictureValues, ReduceVectorsAndStressesToOneNumber) {

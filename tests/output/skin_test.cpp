@@ -215,6 +215,18 @@ TEST(FeatureLines, AreTheRimsOfACylinderAndTheBoundaryOfADisc) {
   EXPECT_EQ(lines[0].front(), lines[0].back());
 }
 
+TEST(FeatureLines, HaveTheSidesOfACylinderWhereTheViewerSeesThem) {
+  Subject const s(cylinder());
+  double along = 0;
+  for (Polyline const& line : silhouette(s.mesh, {0, 1, 0}))
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      along += std::abs(line[k + 1][2] - line[k][2]);
+      EXPECT_GT(std::abs(line[k][0]), 0.9) << "left and right";
+    }
+  EXPECT_NEAR(along, 2 * 3, 0.1);
+  EXPECT_TRUE(silhouette(Subject(box(4, ShapeSpec::Placement::cell_centred)).mesh, {0, 1, 0}).empty());
+}
+
 TEST(Stretches, AreBounded) {
   Mat<3> F = identity<3>();
   F(0, 0) = 10;

@@ -92,6 +92,15 @@ TEST(Render, TurnsThePictureSoThatTheAxisAskedForPointsUp) {
   EXPECT_NE(read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
 }
 
+TEST(Render, RefusesWaysToDrawThatThereAreNot) {
+  Drawn d;
+  d.options.as = {"marbles"};
+  EXPECT_EQ(d.refusal(),
+            "--as: marbles is no way to draw bodies (allowed: auto, skin, balls, points, none) - choose one of these");
+  d.options.as = {"nobody=skin"};
+  EXPECT_NE(d.refusal().find("--as: there is no body 'nobody'"), std::string::npos) << d.refusal();
+}
+
 TEST(Render, SaysWhenThereAreNoFrames) {
   testing::TemporaryFolder const folder;
   EXPECT_THROW(render_frames(folder.path(), {}), InputError);

@@ -51,7 +51,9 @@ std::vector<float> outlines(PictureData const& data, Appearance const& appearanc
     if (!shown || mesh.lines.empty() || mesh.first + mesh.count > data.points.size()) continue;
     if (!has_moved(mesh, data.points)) continue;
     coverage.resize(like.depth.size(), 0);
-    DashedLines{project, fine}.draw(mesh.lines, like.width, like.height, coverage);
+    DashedLines const dashed{project, fine};
+    dashed.draw(mesh.lines, like.width, like.height, coverage);
+    dashed.draw(silhouette(mesh, project.towards), like.width, like.height, coverage);
   }
   return coverage;
 }

@@ -49,16 +49,21 @@ std::vector<FacetEdge> edges_of_facets(ReferenceMesh const& mesh) {
   return edges;
 }
 
-std::vector<std::array<Index, 2>> sharp_edges(ReferenceMesh const& mesh) {
-  constexpr double cosine = 0.766;  // 40 degrees
+/// Sorts the edges into those that are sharp, which it returns, and mesh.round.
+std::vector<std::array<Index, 2>> sharp_edges(ReferenceMesh& mesh) {
+  constexpr double cosine = 0.574;  // 55 degrees
+  constexpr double flat = 1 - 1e-9;
   auto const edges = edges_of_facets(mesh);
   std::vector<std::array<Index, 2>> sharp;
   for (std::size_t k = 0; k < edges.size();) {
     std::size_t end = k + 1;
-    bool bent = false;
+    double bend = 1;
     for (; end < edges.size() && edges[end].ends == edges[k].ends; ++end)
-      bent = bent || dot(edges[k].normal, edges[end].normal) < cosine;
-    if (mesh.dimension == 2 || bent) sharp.push_back(edges[k].ends);
+      bend = std::min(bend, dot(edges[k].normal, edges[end].normal));
+    if (mesh.dimension == 2 || bend < cosine)
+      sharp.push_back(edges[k].ends);
+    else if (end == k + 2 && bend < flat)
+      mesh.round.push_back({edges[k].ends, {edges[k].normal, edges[k + 1].normal}});
     k = end;
   }
   return sharp;
@@ -109,6 +114,15 @@ class Joiner {
   std::vector<bool> used_;
 };
 
+std::vector<Polyline> joined_lines(ReferenceMesh const& mesh, std::vector<std::array<Index, 2>> const& edges) {
+  std::vector<Polyline> lines;
+  for (auto const& line : Joiner(edges, mesh.count).lines()) {
+    Polyline& places = lines.emplace_back();
+    for (Index const i : line) places.push_back(corner_place(mesh, i));
+  }
+  return lines;
+}
+
 using Dot = std::array<double, 2>;
 
 /// One straight piece, in samples.
@@ -130,15 +144,21 @@ void cover(Dot const& a, Dot const& b, double width, std::array<int, 2> const& s
 
 }  // namespace
 
-std::vector<Polyline> feature_lines(ReferenceMesh const& mesh) {
-  std::vector<Polyline> lines;
-  if (mesh.cells.count() == 0 || mesh.dimension < 2) return lines;
-  auto const edges = sharp_edges(mesh);
-  for (auto const& line : Joiner(edges, mesh.count).lines()) {
-    Polyline& places = lines.emplace_back();
-    for (Index const i : line) places.push_back(corner_place(mesh, i));
+void find_feature_lines(ReferenceMesh& mesh) {
+  mesh.lines.clear();
+  mesh.round.clear();
+  if (mesh.cells.count() == 0 || mesh.dimension < 2) return;
+  mesh.lines = joined_lines(mesh, sharp_edges(mesh));
+}
+
+std::vector<Polyline> silhouette(ReferenceMesh const& mesh, Place3 const& towards_viewer) {
+  constexpr double edge_on = 1e-6;
+  std::vector<std::array<Index, 2>> seen;
+  for (RoundEdge const& edge : mesh.round) {
+    double const a = dot(edge.normal[0], towards_viewer), b = dot(edge.normal[1], towards_viewer);
+    if (std::min(a, b) < -edge_on && std::max(a, b) >= -edge_on) seen.push_back(edge.ends);
   }
-  return lines;
+  return joined_lines(mesh, seen);
 }
 
 void DashedLines::draw(std::vector<Polyline> const& lines, int columns, int rows, std::vector<float>& coverage) const {

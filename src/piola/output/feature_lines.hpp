@@ -6,11 +6,13 @@
 
 namespace piola {
 
-using Polyline = std::vector<Place3>;
+/// Finds the edges of a body's reference shape: in 3D where outer facets meet at more than 55 degrees, in 2D the whole
+/// boundary; joined to lines as long as they go, so that dashes run on [m]. A body without cells has none. What is
+/// smooth in 3D is kept in mesh.round.
+void find_feature_lines(ReferenceMesh& mesh);
 
-/// The edges of a body's reference shape [m]: in 3D where outer facets meet at more than 40 degrees, in 2D the whole
-/// boundary; joined to lines as long as they go, so that dashes run on. A body without cells has none.
-std::vector<Polyline> feature_lines(ReferenceMesh const& mesh);
+/// The outline of what is round [m], seen by a viewer in that direction.
+std::vector<Polyline> silhouette(ReferenceMesh const& mesh, Place3 const& towards_viewer);
 
 /// Draws dashed lines as coverage per sample, 0 or 1: `width` and `dash` in pixels; `fine`: samples per pixel.
 struct DashedLines {

@@ -179,7 +179,7 @@ ReferenceMesh reference_mesh(ParticleSet const& set, Body const& body) {
     reach_surface(mesh, body.outline);
   else
     mesh.outward.assign(mesh.count, Place3{});
-  mesh.lines = feature_lines(mesh);
+  find_feature_lines(mesh);
   return mesh;
 }
 

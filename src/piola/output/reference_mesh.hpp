@@ -8,6 +8,14 @@
 
 namespace piola {
 
+using Polyline = std::vector<Place3>;
+
+/// Where two outer facets meet smoothly: an outline seen from where one faces the viewer and the other does not.
+struct RoundEdge {
+  std::array<Index, 2> ends{};
+  std::array<Place3, 2> normal{};
+};
+
 /// How the particles of a body hang together in the reference configuration: what skins are made of. Indices count
 /// from the body's first particle.
 struct ReferenceMesh {
@@ -21,8 +29,8 @@ struct ReferenceMesh {
   std::vector<std::size_t> begin;  ///< where the neighbours of a particle begin; one more at the end
   std::vector<Index> neighbour;    ///< particles that share an edge of a cell
 
-  /// Edges of the reference shape, see feature_lines.
-  std::vector<std::vector<Place3>> lines;
+  std::vector<Polyline> lines;   ///< edges of the reference shape, see feature_lines
+  std::vector<RoundEdge> round;  ///< of its surface where it is smooth
 
   std::span<Index const> around(std::size_t particle) const {
     return std::span(neighbour).subspan(begin[particle], begin[particle + 1] - begin[particle]);

@@ -82,7 +82,7 @@ struct Incidence {
 /// Normals at corners: the sum over the facets around that meet this one at less than the angle of an edge, each with
 /// its area.
 void smooth_normals(Skin& skin) {
-  constexpr double cosine_of_edge = 0.766;  // 40 degrees
+  constexpr double cosine_of_edge = 0.574;  // 55 degrees
   auto const count = static_cast<Index>(skin.facets.size());
   std::vector<Place3> area(skin.facets.size());
   exec_host::for_each_in_set_up(count, [&](Index k) {

@@ -31,7 +31,7 @@ Mat<3> with_bounded_stretches(Mat<3> const& F, double least, double most);
 /// A triangle of a body's surface, in 2D of its inside. Corners are particles, counted from the body's first one.
 struct SkinFacet {
   std::array<Index, 3> corner{};
-  std::array<Place3, 3> normal{};  ///< at the corners; smooth but for edges of more than 40 degrees
+  std::array<Place3, 3> normal{};  ///< at the corners; smooth but for edges of more than 55 degrees
 };
 
 /// What a body looks like at one moment.
