@@ -28,6 +28,7 @@ mathjax3_config = None
 html_theme = "furo"
 html_title = f"Piola {release}"
 html_static_path = [str(SOURCE / "_static")]
+html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
 
