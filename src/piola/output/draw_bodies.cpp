@@ -19,7 +19,7 @@ std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const
   } else {
     finish.map = [&scene](double value) {
       auto const last = static_cast<double>(scene.colours.size() - 1);
-      return scene.colours[static_cast<std::size_t>(std::clamp(value, 0.0, last))];
+      return scene.colours[value > 0 ? static_cast<std::size_t>(std::min(value, last)) : 0];  // nobody is not a number
     };
   }
   std::vector<SurfaceFinish> all(scene.spacing.size(), finish);
