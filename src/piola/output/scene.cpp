@@ -200,7 +200,7 @@ class BodyDrawing {
 template <class F>
 void each_body(PictureData const& data, F const& f) {
   std::size_t const n = data.points.size();
-  if (data.body.empty()) return f(std::size_t{0}, std::size_t{0}, n);
+  if (n > 0 && data.body.empty()) return f(std::size_t{0}, std::size_t{0}, n);
   for (std::size_t first = 0; first < n;) {
     std::size_t last = first + 1;
     while (last < n && data.body[last] == data.body[first]) ++last;
