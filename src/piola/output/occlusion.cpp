@@ -38,16 +38,30 @@ std::vector<Tap> spiral(float radius, int turn) {
 /// How much two radii darken an inner corner of a right angle: measured so that it is in the middle of 0.5 to 0.8.
 constexpr float strength = 2.6F;
 
+/// Every so many pixels of a row, from the first one to before the last one.
+struct Pixels {
+  int row = 0, first = 0, last = 0;
+};
+
+/// The pixels of a row between which there is something.
+Pixels shown(PixelSurface const& here, int row) {
+  auto const begin = here.depth.begin() + static_cast<std::ptrdiff_t>(row) * here.width, end = begin + here.width;
+  auto const is_there = [](float depth) { return depth > nothing; };
+  auto const first = std::find_if(begin, end, is_there);
+  auto const last = std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(first), is_there).base();
+  return {row, static_cast<int>(first - begin), static_cast<int>(last - begin)};
+}
+
 /// Adds what the surfaces at one offset hide, for every so many pixels of a row.
-void add_row(PixelSurface const& here, std::span<float const> around, Tap const& tap, std::array<int, 2> const& start,
-             float reach, std::span<float> sum) {
+void add_row(PixelSurface const& here, std::span<float const> around, Tap const& tap, Pixels const& pixels, float reach,
+             std::span<float> sum) {
   constexpr float bias = 0.12F;  // of the sine: what a rounded surface of triangles shows of itself
-  int const y = start[1], other = y + tap.y;
+  int const other = pixels.row + tap.y;
   if (other < 0 || other >= here.height) return;
-  int const x1 = std::min(here.width, here.width - tap.x);
-  int x0 = start[0];
+  int const x1 = std::min(pixels.last, here.width - tap.x);
+  int x0 = pixels.first;
   while (x0 + tap.x < 0) x0 += pattern;
-  auto const row = static_cast<std::size_t>(y) * static_cast<std::size_t>(here.width);
+  auto const row = static_cast<std::size_t>(pixels.row) * static_cast<std::size_t>(here.width);
   float const* const from = &here.depth[row];
   float const* const to = &around[static_cast<std::size_t>(other) * static_cast<std::size_t>(here.width)];
   auto const dx = static_cast<float>(tap.x), dy = static_cast<float>(tap.y), flat = dx * dx + dy * dy;
@@ -119,10 +133,11 @@ std::vector<float> openness(PixelSurface const& surface, std::span<float const> 
   }
   exec_host::for_each_part_in_set_up(surface.height, static_cast<Index>(pixels), [&](Index y) {
     std::vector<float> sum(static_cast<std::size_t>(surface.width), 0);
-    for (int x = 0; x < pattern; ++x) {
-      auto const turn = static_cast<std::size_t>(y % pattern * pattern + x);
-      for (Tap const& tap : close[turn]) add_row(surface, around, tap, {x, y}, near_by, sum);
-      for (Tap const& tap : wide[turn]) add_row(surface, around, tap, {x, y}, far_off, sum);
+    Pixels pixels = shown(surface, y);
+    for (int k = 0; k < pattern && pixels.first < pixels.last; ++k, ++pixels.first) {
+      auto const turn = static_cast<std::size_t>(y % pattern * pattern + pixels.first % pattern);
+      for (Tap const& tap : close[turn]) add_row(surface, around, tap, pixels, near_by, sum);
+      for (Tap const& tap : wide[turn]) add_row(surface, around, tap, pixels, far_off, sum);
     }
     constexpr float share = strength / (2 * directions);
     float* const row = &open[static_cast<std::size_t>(y) * sum.size()];
