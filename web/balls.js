@@ -86,7 +86,7 @@ uniform vec4 colour;
 uniform float lit, marks;
 out vec4 pixel;
 void main() {
-  float light = lit > 0.5 ? 0.5 + 0.5 * abs(dot(normalize(side), normalize(vec3(-0.35, 0.5, 0.8)))) : 1.0;
+  float light = lit > 0.5 ? 0.62 + 0.42 * abs(dot(normalize(side), normalize(vec3(-0.35, 0.5, 0.8)))) : 1.0;
   bool dark = marks > 0.5 && own.x * own.y * (marks > 1.5 ? 1.0 : own.z) < 0.0;
   pixel = vec4(colour.rgb * light * (dark ? 0.75 : 1.0), colour.a);
 }`;

@@ -58,6 +58,12 @@ function quantityText(value, unit, digits = 4) {
   return (numberText(value / shown.factor, digits) + " " + shown.unit).trim();
 }
 
+/** The largest of 1, 2, 5 times a power of ten that is not above a length. */
+function roundLength(most) {
+  const power = Math.pow(10, Math.floor(Math.log10(most)));
+  return [5, 2, 1].map((d) => d * power).find((length) => length <= most * (1 + 1e-9));
+}
+
 /** Round values between two ends, about `wanted` of them. */
 function roundValues(low, high, wanted) {
   const rough = (high - low) / Math.max(wanted, 1), power = Math.pow(10, Math.floor(Math.log10(rough)));

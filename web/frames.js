@@ -11,8 +11,22 @@ function bytesOf(text) {
 
 /** The bytes that were packed (deflate, zlib's format). */
 async function unpacked(bytes) {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  const stream = new DecompressionStream("deflate"), writer = stream.writable.getWriter();
+  const written = writer.write(bytes).then(() => writer.close());
+  const parts = [], reader = stream.readable.getReader();
+  let size = 0;
+  for (let part = await reader.read(); !part.done; part = await reader.read()) {
+    parts.push(part.value);
+    size += part.value.length;
+  }
+  await written;
+  const whole = new Uint8Array(size);
+  size = 0;
+  for (const part of parts) {
+    whole.set(part, size);
+    size += part.length;
+  }
+  return whole;
 }
 
 /** Numbers from their folded differences: `count` low bytes from `at`, then as many high bytes. */

@@ -5,7 +5,7 @@ const byId = (id) => document.getElementById(id);
 
 /** The text of a data element, which is freed. */
 function takeText(name) {
-  const element = byId(name), text = element ? element.textContent : "";
+  const element = byId("data-" + name), text = element ? element.textContent : "";
   if (element) element.remove();
   return text;
 }
@@ -170,10 +170,11 @@ class Page {
   }
 
   setCut() {
-    const axis = byId("cut").value, c = "xyz".indexOf(axis), { low, step, missing } = this.frames;
+    const axis = byId("cut").value, c = axis ? "xyz".indexOf(axis) : -1, { low, step, missing } = this.frames;
     const share = Number(byId("cut-place").value) / 1000;
     const place = c < 0 ? 0 : low[c] + share * step[c] * (missing - 1);
     this.scene.cut = c < 0 ? null : { axis, place, sign: byId("cut-side").checked ? -1 : 1 };
+    document.querySelectorAll(".cutting").forEach((part) => { part.hidden = c < 0; });
     byId("cut-text").textContent = c < 0 ? "" : axis + " = " + quantityText(place, "m");
     this.address.set({ cut: c < 0 ? null : axis, at: c < 0 ? null : share, side: byId("cut-side").checked ? 1 : null });
     this.draw();
@@ -243,7 +244,7 @@ function drawMarks(canvas, scene) {
     pen.fillText(name, 48 + 40 * at[0], height - 44 - 40 * at[1]);
   }
   if (camera.eye !== 0 || height < 10) return;
-  const metre = height / (2 * camera.halfHeight * scene.size), length = roundValues(0, 120 / metre, 1).find((v) => v * metre > 40) || 120 / metre;
+  const metre = height / (2 * camera.halfHeight * scene.size), length = roundLength(120 / metre);
   pen.strokeStyle = pen.fillStyle = scene.dark ? "#e4e7eb" : "#1b1d21";
   pen.fillRect(width - 20 - length * metre, height - 22, length * metre, 2);
   pen.fillText(quantityText(length, "m"), width - 20 - (length * metre) / 2, height - 28);
@@ -415,11 +416,13 @@ async function start() {
     byId("scene").hidden = true;
     byId("no-view").hidden = false;
     byId("no-view").textContent = error.message;
-    fillTexts(about, true);
+    byId("left").append(...picturesOf(about));
+    fillTexts(about, []);
+    document.querySelectorAll(".cursor").forEach((cursor) => { cursor.hidden = true; });
     document.documentElement.dataset.ready = "without view";
     return;
   }
-  fillTexts(about, false);
+  fillTexts(about, picturesOf(about));
   page.moveCursors = moveCursors;
   fillControls(page);
   restore(page);

@@ -99,20 +99,23 @@ function fillPlots(about, moved) {
     holder.append(make("h3", "", plot.name), box);
   });
   if (about.plots.length === 0) holder.append(make("p", "", "There is no history yet."));
+  if (about.plots_left > 0)
+    holder.append(make("p", "hint", "history.csv has " + about.plots_left + " more columns; piola plot draws them."));
   return (time) => cursors.forEach((cursor) => cursor(time));
 }
 
-function fillTexts(about, withoutView) {
+function picturesOf(about) {
+  return about.pictures.map((picture) => {
+    const image = make("img", "picture");
+    image.src = "data:image/png;base64," + picture.png;
+    image.alt = picture.name;
+    return make("figure", "", image, make("figcaption", "", picture.name));
+  });
+}
+
+function fillTexts(about, pictures) {
   const holder = document.getElementById("texts");
-  if (about.pictures.length > 0) {
-    const pictures = about.pictures.map((picture) => {
-      const image = make("img", "picture");
-      image.src = "data:image/png;base64," + picture.png;
-      image.alt = picture.name;
-      return make("figure", "", image, make("figcaption", "", picture.name));
-    });
-    holder.append(foldedSection("Pictures", withoutView, ...pictures));
-  }
+  if (pictures.length > 0) holder.append(foldedSection("Pictures", false, ...pictures));
   if (about.case) holder.append(foldedSection("Case file", false, make("pre", "", about.case)));
   if (about.log) holder.append(foldedSection("Log", false, make("pre", "", about.log)));
 }

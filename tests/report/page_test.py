@@ -83,7 +83,7 @@ class Elements(html.parser.HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.tags.append((tag, dict(attrs)))
-        self._at = dict(attrs).get("id") if tag == "script" else tag
+        self._at = dict(attrs).get("id", "").replace("data-", "", 1) if tag == "script" else tag
 
     def handle_endtag(self, tag):
         self._at = None

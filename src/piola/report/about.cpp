@@ -157,20 +157,18 @@ Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan) 
   return frames;
 }
 
-Json about_plots(RunFolder const& run, std::size_t most, std::string& note) {
+Json about_plots(RunFolder const& run, std::size_t most, std::size_t& left) {
   Json plots = Json::array();
   HistoryTable const table = read_history(run.path / "history.csv");
   if (table.columns.empty() || table.rows.empty()) return plots;
   if (auto plot = one_plot(run, {})) plots.push_back(std::move(*plot));
   auto const columns = worthy_columns(run, table);
-  std::size_t left = 0;
   for (std::string const& column : columns) {
     if (plots.size() >= most)
       ++left;
     else if (auto plot = one_plot(run, {column}))
       plots.push_back(std::move(*plot));
   }
-  if (left > 0) note = fmt::format("history.csv has {} more columns; 'piola plot' draws them", left);
   return plots;
 }
 

@@ -22,8 +22,8 @@ Json about_run(RunFolder const& run);
 Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan);
 
 /// Plots of the history: the energies as a ledger, what quantities look at, probes, other columns of parts; at most
-/// `most`. `note` says how many more columns there are. Empty if there is no history yet.
-Json about_plots(RunFolder const& run, std::size_t most, std::string& note);
+/// `most`; `left` counts the columns without one. Empty if there is no history yet.
+Json about_plots(RunFolder const& run, std::size_t most, std::size_t& left);
 
 /// The last pictures of the run, up to so many bytes.
 Json about_pictures(RunFolder const& run, std::uintmax_t most_bytes);

@@ -50,7 +50,7 @@ void PageFile::put(std::string_view text) {
 }
 
 void PageFile::data(std::string const& name, std::string_view text, bool json) {
-  put(json ? "<script type=\"application/json\" id=\"" : "<script type=\"application/octet-stream\" id=\"");
+  put(json ? "<script type=\"application/json\" id=\"data-" : "<script type=\"application/octet-stream\" id=\"data-");
   put(name + "\">");
   put(text);
   put("</script>\n");

@@ -39,9 +39,10 @@ Shown survey_of(RunFolder const& run, ReportOptions const& options) {
 /// All but the frames. Same files, same text.
 Json about_all(RunFolder const& run, ReportOptions const& options, std::vector<std::string>& notes) {
   Json about = about_run(run);
+  std::size_t left = 0;
+  about["plots"] = about_plots(run, most_plots, left);
+  about["plots_left"] = left;
   std::string note;
-  about["plots"] = about_plots(run, most_plots, note);
-  if (!note.empty()) notes.push_back(std::exchange(note, ""));
   about["pictures"] = about_pictures(run, most_picture_bytes);
   fs::path const own = run.path / "checks.toml";
   fs::path const checks = !options.checks.empty() ? options.checks : fs::exists(own) ? own : fs::path();
