@@ -74,7 +74,7 @@ void add_report(CLI::App& program, Action& action) {
       ->check(CLI::Range(8, 16))
       ->capture_default_str();
   command->add_option("--budget", options->megabytes, "Megabytes that the page may have")
-      ->check(CLI::Range(0.5, 2000.0))
+      ->check(CLI::Range(1.0, 2000.0))
       ->capture_default_str();
   command->add_option("--checks", options->what.checks,
                       "A checks.toml to judge the run by (default: that in the folder)");

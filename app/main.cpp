@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   app::add_study(program, action);
   app::add_plot(program, action);
   app::add_report(program, action);
+  app::add_watch(program, action);
   app::add_verify(program, action);
   app::add_describe(program, action);
   app::add_bench(program, action);

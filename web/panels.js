@@ -34,6 +34,7 @@ const outcomes = {
   completed: "The run completed.",
   failed: "The run failed: its numbers end before the time that was asked for.",
   stopped: "The run was stopped before its end; 'piola resume' continues it.",
+  "broken off": "The run broke off without a summary; 'piola resume' continues it.",
   running: "The run has not ended yet: this is what it wrote so far.",
 };
 
@@ -82,7 +83,9 @@ function fillPlots(about, moved) {
   const holder = document.getElementById("plots"), cursors = [];
   about.plots.forEach((plot) => {
     const image = make("img");
-    image.src = "data:image/svg+xml;base64," + plot.svg;
+    unpacked(bytesOf(plot.svg)).then((svg) => {
+      image.src = "data:image/svg+xml," + encodeURIComponent(new TextDecoder().decode(svg));
+    });
     image.alt = "Plot of " + plot.name + " over time";
     const cursor = make("div", "cursor"), box = make("div", "plot", image, cursor);
     cursor.style.top = (100 * plot.top) / plot.height + "%";

@@ -20,6 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr int table_size = 64;
 
+/// A log may be long; what matters stands at its end.
+std::string end_of(std::string const& log) {
+  constexpr std::size_t most = 200'000;
+  return log.size() <= most ? log : "...\n" + log.substr(log.find('\n', log.size() - most) + 1);
+}
+
 /// A table of colours from low to high, as in pictures.
 Json colours_between(double low, double high) {
   ColourMap const map(low, high);
@@ -111,8 +117,8 @@ std::optional<Json> one_plot(RunFolder const& run, std::vector<std::string> cons
   plot.height = 300;
   PlotText const text = plot_text(plot);
   std::vector<std::uint8_t> const bytes(text.svg.begin(), text.svg.end());
-  return Json{{"name", name},      {"svg", base64(bytes)}, {"width", plot.width}, {"height", plot.height},
-              {"left", text.left}, {"right", text.right},  {"top", text.top},     {"bottom", text.bottom},
+  return Json{{"name", name},      {"svg", packed_text(bytes)}, {"width", plot.width}, {"height", plot.height},
+              {"left", text.left}, {"right", text.right},       {"top", text.top},     {"bottom", text.bottom},
               {"low", text.low},   {"high", text.high}};
 } catch (InputError const&) {
   return std::nullopt;
@@ -129,7 +135,7 @@ Json about_run(RunFolder const& run) {
              {"up", std::string(up_words[static_cast<std::size_t>(run.spec ? upwards(*run.spec) : Up::y)])},
              {"view", run.spec ? run.spec->output.picture_view : std::array{30.0, 20.0}},
              {"case", run.case_text},
-             {"log", run.log}};
+             {"log", end_of(run.log)}};
   about["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary);
   return about;
 }

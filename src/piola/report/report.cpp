@@ -57,9 +57,14 @@ Json about_all(RunFolder const& run, ReportOptions const& options, std::vector<s
   return about;
 }
 
-/// Writes the page; its size.
-double write_page(fs::path const& page, RunFolder const& run, Json const& about, Shown const* shown) {
+/// Bytes of a page, and those of them that are frames.
+struct PageSize {
+  double all = 0, frames = 0;
+};
+
+PageSize write_page(fs::path const& page, RunFolder const& run, Json const& about, Shown const* shown) {
   PageFile file(page, run.title);
+  double before = 0, after = 0;
   file.data("about", script_text(about), true);
   if (shown != nullptr) {
     auto const& [survey, plan] = *shown;
@@ -69,14 +74,42 @@ double write_page(fs::path const& page, RunFolder const& run, Json const& about,
     file.data("bodies", packed_text(encode_numbers(body)));
     Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
     FrameCoder coder;
+    before = file.size();
     for (std::size_t k = 0; k < plan.frames.size(); ++k) {
       FrameReader const frame(run.frames[survey.frames[plan.frames[k]]].second);
       auto const codes = codes_of(frame, survey, lattice, plan.fields, plan.every);
       file.data(fmt::format("frame-{}", k), packed_text(coder.encode(codes, k % FrameCoder::key_every == 0)));
     }
+    after = file.size();
   }
   file.finish();
-  return file.size();
+  return {file.size(), after - before};
+}
+
+/// What a plan takes is known when it is written: then what was expected is put right, and less is written if need be.
+void write_within_budget(fs::path const& page, RunFolder const& run, ReportOptions const& options, Json& about,
+                         std::vector<std::string> const& notes, ReportResult& result) {
+  Shown shown = survey_of(run, options);
+  Plan const all = shown.plan;
+  constexpr double own_sources = 100'000;
+  double const rest = static_cast<double>(script_text(about).size()) + own_sources, least = 0.02 * options.budget;
+  PlanLimits limits{.bytes = std::max(options.budget - rest, least),
+                    .least_fields = options.fields.empty() ? least_fields : all.fields};
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    shown.plan = fitting_plan(run, shown.survey, all, limits);
+    result.notes = notes;
+    if (all.frames.size() < run.frames.size() && options.frames == 0)
+      result.notes.push_back(
+          fmt::format("{} of {} frames are shown; --frames chooses otherwise", all.frames.size(), run.frames.size()));
+    for (auto& note : plan_notes(shown.plan, all, shown.survey, options.budget)) result.notes.push_back(note);
+    about["notes"] = result.notes;
+    PageSize const size = write_page(page, run, about, &shown);
+    result.bytes = size.all;
+    result.frames = shown.plan.frames.size();
+    if (size.all <= options.budget) return;
+    limits.correction *= std::max(1.02 * size.frames / limits.bytes, 1.0);
+    limits.bytes = std::max(options.budget - (size.all - size.frames), least);
+  }
 }
 
 }  // namespace
@@ -89,29 +122,11 @@ ReportResult write_report(fs::path const& folder, fs::path const& page, ReportOp
   if (run.frames.empty()) {
     notes.push_back("the run has no frames to show; output.frames.every in the case writes some");
     about["notes"] = notes;
-    result.bytes = write_page(page, run, about, nullptr);
+    result.bytes = write_page(page, run, about, nullptr).all;
     result.notes = notes;
     return result;
   }
-  Shown shown = survey_of(run, options);
-  Plan const all = shown.plan;
-  double const rest = static_cast<double>(script_text(about).size()) + 200'000;  // the page's own sources, and a bit
-  PlanLimits limits{.bytes = std::max(options.budget - rest, 0.05 * options.budget),
-                    .least_fields = options.fields.empty() ? least_fields : all.fields};
-  for (int attempt = 0; attempt < 4; ++attempt) {
-    shown.plan = fitting_plan(run, shown.survey, all, limits);
-    auto own = notes;
-    if (all.frames.size() < run.frames.size() && options.frames == 0)
-      own.push_back(
-          fmt::format("{} of {} frames are shown; --frames chooses otherwise", all.frames.size(), run.frames.size()));
-    for (auto& note : plan_notes(shown.plan, all, shown.survey, options.budget)) own.push_back(note);
-    about["notes"] = own;
-    result.bytes = write_page(page, run, about, &shown);
-    result.frames = shown.plan.frames.size();
-    result.notes = std::move(own);
-    if (result.bytes <= options.budget) break;
-    limits.correction *= 1.02 * result.bytes / options.budget;
-  }
+  write_within_budget(page, run, options, about, notes, result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/folder_lock.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/simulation/scene.hpp"
 #include <fmt/format.h>
@@ -50,6 +51,15 @@ void read_summary(RunFolder& run) {
   if (!text("title").empty()) run.title = text("title");
 }
 
+/// Whether somebody holds the folder and has written since the summary, which may be that of a part before. A run that
+/// was killed leaves its lock and cannot be told from one that goes on.
+bool goes_on(RunFolder const& run) {
+  std::error_code error;
+  if (!fs::exists(run.path / lock_name, error)) return false;
+  auto const written = fs::last_write_time(run.path / "history.csv", error);
+  return run.summary.empty() || (!error && written > fs::last_write_time(run.path / "summary.json", error));
+}
+
 std::optional<CaseSpec> readable_case(fs::path const& file) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
@@ -66,6 +76,19 @@ std::vector<RigidShape> RunFolder::rigid_shapes(double time) const {
   return spec ? shapes_at(spec->rigids, time, rigids->at(time)) : std::vector<RigidShape>{};
 }
 
+void read_texts(RunFolder& run) {
+  std::error_code error;
+  run.log = text_if_there(run.path / "log.txt");
+  run.case_text = text_if_there(run.path / "case.toml");
+  run.summary = text_if_there(run.path / "summary.json");
+  run.title = title_in_log(run.log);
+  run.status = "broken off";
+  if (!run.summary.empty()) read_summary(run);
+  if (goes_on(run)) run.status = "running";
+  if (run.title.empty()) run.title = fs::weakly_canonical(run.path, error).filename().string();
+  run.failure = run.status == "failed" ? failure_in_log(run.log) : "";
+}
+
 RunFolder open_run(fs::path const& folder) {
   std::error_code error;
   bool const has_frames = fs::exists(folder / "frames.hdf.series", error);
@@ -74,14 +97,8 @@ RunFolder open_run(fs::path const& folder) {
         fmt::format("{}: holds no run (frames.hdf.series, history.csv or summary.json is needed) - give "
                     "the folder that 'piola run' wrote to",
                     folder.string()));
-  RunFolder run{.path = folder, .status = "running"};
-  run.log = text_if_there(folder / "log.txt");
-  run.case_text = text_if_there(folder / "case.toml");
-  run.summary = text_if_there(folder / "summary.json");
-  run.title = title_in_log(run.log);
-  if (!run.summary.empty()) read_summary(run);
-  if (run.title.empty()) run.title = fs::weakly_canonical(folder, error).filename().string();
-  if (run.status == "failed") run.failure = failure_in_log(run.log);
+  RunFolder run{.path = folder};
+  read_texts(run);
   if ((run.spec = readable_case(folder / "case.toml"))) run.rigids.emplace(folder / "history.csv", run.spec->rigids);
   if (has_frames) run.frames = list_frames(folder);
   return run;

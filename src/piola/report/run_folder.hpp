@@ -14,8 +14,8 @@ namespace piola::report {
 /// What the folder of a run holds, as far as it is there: a run that goes on has no summary yet.
 struct RunFolder {
   std::filesystem::path path;
-  std::string title = {};             ///< of the case; the name of the folder if it is not known
-  std::string status = {};            ///< "completed", "failed", "stopped" or "running"
+  std::string title = {};   ///< of the case; the name of the folder if it is not known
+  std::string status = {};  ///< "completed", "failed", "stopped", "running", or "broken off": no summary, nobody writes
   std::string summary = {};           ///< text of summary.json; empty: none, or damaged
   std::string log = {};               ///< text of log.txt
   std::string case_text = {};         ///< text of case.toml
@@ -30,6 +30,9 @@ struct RunFolder {
 
 /// Throws InputError if the folder holds no run, FileError if its files cannot be read.
 RunFolder open_run(std::filesystem::path const& folder);
+
+/// Reads title, status, summary, log, case and failure again, not the rest.
+void read_texts(RunFolder& run);
 
 /// The number of the particle that a failure names; -1 if it names none.
 long failed_particle(std::string const& failure);
