@@ -404,9 +404,14 @@ function follow(about) {
 
 async function start() {
   const about = JSON.parse(takeText("about")), address = new Address();
+  byId("made").textContent = "Written by Piola " + about.version + ".";
+  if (about.kind === "verification") {
+    fillVerification(about);
+    document.documentElement.dataset.ready = "yes";
+    return;
+  }
   fillHead(about);
   byId("tables").append(...summaryPanels(about));
-  byId("made").textContent = "Written by Piola " + about.version + ".";
   follow(about);
   let page = null;
   const moveCursors = fillPlots(about, (time) => page && page.showTime(time));
@@ -418,7 +423,7 @@ async function start() {
     byId("no-view").textContent = error.message;
     byId("left").append(...picturesOf(about));
     fillTexts(about, []);
-    document.querySelectorAll(".cursor").forEach((cursor) => { cursor.hidden = true; });
+    moveCursors(NaN);
     document.documentElement.dataset.ready = "without view";
     return;
   }

@@ -50,17 +50,20 @@ function fillHead(about) {
   if (about.failure) document.getElementById("failure").append(make("h2", "", "Why it failed"), make("pre", "", about.failure));
 }
 
+const rowHead = ["variant", "quantity", "published", "ours", "difference", "tolerance", "verdict", "evidence", "source",
+  "note"];
+
+/** The cells of a row of a verification. */
+function rowCells(row) {
+  const unit = row.unit === "1" ? "" : " " + row.unit, measured = row.measured === null ? "none" : numberText(row.measured, 5) + unit;
+  return [row.variant, row.quantity, numberText(row.reference, 5) + unit, measured, differenceText(row), row.tolerance,
+    row.verdict, row.evidence, row.source, row.note];
+}
+
 function summaryPanels(about) {
   const panels = [], summary = about.summary;
   if (about.rows.length > 0) {
-    const rows = about.rows.map((row) => {
-      const unit = row.unit === "1" ? "" : " " + row.unit;
-      return [row.variant, row.quantity, numberText(row.reference, 5) + unit,
-        row.measured === null ? "none" : numberText(row.measured, 5) + unit, differenceText(row), row.tolerance,
-        row.verdict, row.source, row.note];
-    });
-    const head = ["variant", "quantity", "published", "ours", "difference", "tolerance", "verdict", "source", "note"];
-    panels.push(make("h2", "", "Verification"), tableWith([head, ...rows]));
+    panels.push(make("h2", "", "Verification"), tableWith([rowHead, ...about.rows.map(rowCells)]));
   }
   if (!summary) return panels;
   const quantities = Object.entries(summary.quantities || {});
@@ -79,32 +82,35 @@ function differenceText(row) {
 }
 
 /** Plots with a cursor; `moved(time)` is called when one is clicked. Returns what moves all cursors to a time. */
-function fillPlots(about, moved) {
-  const holder = document.getElementById("plots"), cursors = [];
-  about.plots.forEach((plot) => {
-    const image = make("img");
+function placePlots(holder, plots, moved) {
+  const cursors = plots.map((plot) => {
+    const image = make("img"), cursor = make("div", "cursor"), box = make("div", "plot", image, cursor);
     unpacked(bytesOf(plot.svg)).then((svg) => {
       image.src = "data:image/svg+xml," + encodeURIComponent(new TextDecoder().decode(svg));
     });
     image.alt = "Plot of " + plot.name + " over time";
-    const cursor = make("div", "cursor"), box = make("div", "plot", image, cursor);
     cursor.style.top = (100 * plot.top) / plot.height + "%";
     cursor.style.height = (100 * (plot.bottom - plot.top)) / plot.height + "%";
     box.addEventListener("click", (event) => {
       const x = (event.offsetX / box.clientWidth) * plot.width;
       moved(plot.low + ((plot.high - plot.low) * (x - plot.left)) / (plot.right - plot.left));
     });
-    cursors.push((time) => {
+    holder.append(make("h3", "", plot.name), box);
+    return (time) => {
       const share = (time - plot.low) / (plot.high - plot.low);
       cursor.hidden = !(share >= -0.001 && share <= 1.001);
       cursor.style.left = (100 * (plot.left + share * (plot.right - plot.left))) / plot.width + "%";
-    });
-    holder.append(make("h3", "", plot.name), box);
+    };
   });
+  return (time) => cursors.forEach((cursor) => cursor(time));
+}
+
+function fillPlots(about, moved) {
+  const holder = document.getElementById("plots"), move = placePlots(holder, about.plots, moved);
   if (about.plots.length === 0) holder.append(make("p", "", "There is no history yet."));
   if (about.plots_left > 0)
     holder.append(make("p", "hint", "history.csv has " + about.plots_left + " more columns; piola plot draws them."));
-  return (time) => cursors.forEach((cursor) => cursor(time));
+  return move;
 }
 
 function picturesOf(about) {

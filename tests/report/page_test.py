@@ -60,7 +60,7 @@ set = ["run.cfl=0.5"]
 [[check]]
 variant = "standard"
 quantity = "sway"
-reference = "1 m"
+reference = "0.18 m"
 tolerance = "50 %"
 source = "a guess"
 evidence = "theory"
@@ -186,6 +186,20 @@ class Page(unittest.TestCase):
         data = Elements((folder / "report.html").read_text(encoding="utf-8")).data
         self.assertNotIn("frames", data)
         self.assertEqual(json.loads(data["about"])["status"], "completed")
+
+    def test_a_verification_has_a_section_for_each_run(self):
+        case = self.folder / "cases" / "bar"
+        case.mkdir(parents=True)
+        (case / "case.toml").write_text(CASE, encoding="utf-8")
+        (case / "checks.toml").write_text(CHECKS, encoding="utf-8")
+        program("verify", "--cases", case.parent, "--report", self.folder / "verify.html")
+        text = (self.folder / "verify.html").read_text(encoding="utf-8")
+        about = json.loads(Elements(text).data["about"])
+        self.assertEqual([(row["case"], row["variant"]) for row in about["rows"]], [("bar", "standard")])
+        self.assertEqual([(run["case"], run["variant"], run["title"]) for run in about["runs"]],
+                         [("bar", "standard", HOSTILE)])
+        self.assertEqual(about["runs"][0]["plots"][0]["name"], "energies")
+        self.assertNotIn("<img", text)
 
     def test_frames_are_packed_as_told(self):
         sizes = {len(zlib.decompress(base64.b64decode(text))) for name, text in self.page.data.items()
