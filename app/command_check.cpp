@@ -124,8 +124,10 @@ void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
     auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
     std::string const patch = support.patch ? " of patch " + face_text(support.shape, *support.patch) : "";
     std::string const where = support.where ? " where " + support.where->text() : "";
-    say("support of \"{}\": {} particles{}{}, {}{}\n", support.body, count_text(static_cast<std::int64_t>(count)),
-        patch, where, held_text(support, particles.dimension), until_text(support.until));
+    std::string_view const what = holds_surface(spec, support) ? "the surface along " : "";
+    say("support of \"{}\": {}{} particles{}{}, {}{}\n", support.body, what,
+        count_text(static_cast<std::int64_t>(count)), patch, where, held_text(support, particles.dimension),
+        until_text(support.until));
   }
 }
 

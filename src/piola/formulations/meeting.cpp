@@ -96,7 +96,8 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       }
     shares_.push_back(std::move(share));
   }
-  for (std::size_t s = 0; s < supports_.size(); ++s)
+  for (std::size_t s = 0; s < supports_.size(); ++s) {
+    if (supports_[s].on_surface()) continue;  // the formulation gives back what moves it
     for (auto const id : supports_[s].particles) {
       auto const found = std::lower_bound(ids.begin(), ids.end(), id);
       if (found == ids.end() || *found != id) continue;
@@ -109,6 +110,7 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
         here.push_back({s, d, supports_[s].until});
       }
     }
+  }
   mass_.resize(ids.size());
   x_.resize(ids.size());
   v_.resize(ids.size());

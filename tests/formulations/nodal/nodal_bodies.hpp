@@ -33,8 +33,8 @@ struct SetUpBody {
   explicit SetUpBody(Assembly const& a, double least_mass = 0.3)
       : set(a.particles),
         order(nodal::slot_order(set, set.bodies[0])),
-        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.materials[0].value[0], least_mass,
-                                         *nodal::find_machine(a.machine.c_str())})) {}
+        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.supports, a.materials[0].value[0],
+                                         least_mass, *nodal::find_machine(a.machine.c_str())})) {}
   ParticleSet set;
   SlotOrder order;
   nodal::Reference reference;
