@@ -57,21 +57,27 @@ TEST(HeldSurface, BearsTheTractionOfAUniformPullAndNothingMoves) {
   go(f, 0, 50);
   auto const d = f.diagnose();
   EXPECT_LT(d.kinetic_energy, 1e-6 * start);
-  EXPECT_NEAR(d.actions.at(0).force[0], -P(0, 0) * 0.68 * 0.72, 1e-3 * P(0, 0) * 0.68 * 0.72);
-  EXPECT_NEAR(d.actions.at(1).force[1], -P(1, 1) * 1.06 * 0.72, 1e-3 * P(1, 1) * 1.06 * 0.72);
+  EXPECT_NEAR(d.actions.at(0).force[0], -P(0, 0) * 0.68 * 0.72, 1e-4 * P(0, 0) * 0.68 * 0.72);
+  EXPECT_NEAR(d.actions.at(1).force[1], -P(1, 1) * 1.06 * 0.72, 1e-4 * P(1, 1) * 1.06 * 0.72);
 }
 
-TEST(HeldSurface, AtRestDoesNoWorkAndKeepsTheEnergy) {
+TEST(HeldSurface, AtRestDoesNoWorkAndKeepsTheEnergyToTheSquareOfTheStep) {
   for (std::string const hold :
        {"fix = \"xyz\"\n", "normal = [1, 0.3, 0.2]\nfix = \"normal\"\n", "normal = [1, 1, 0]\nfix = \"tangent\"\n"}) {
-    auto const simulation = body_with(stretching + "[[support]]\nbody = \"body\"\npatch = \"-x\"\n" + hold);
-    auto& f = *simulation.formulation;
-    auto const start = f.diagnose();
-    go(f, 0, 300);
-    auto const end = f.diagnose();
-    EXPECT_GT(end.strain_energy, 0.01 * start.kinetic_energy) << hold;
-    EXPECT_LT(std::fabs(end.external_work), 1e-12 * start.kinetic_energy) << hold;
-    EXPECT_NEAR(end.total_energy(), start.total_energy(), 1e-4 * start.total_energy()) << hold;
+    double error[2];
+    for (int const half : {0, 1}) {
+      auto const simulation = body_with(stretching + "[[support]]\nbody = \"body\"\npatch = \"-x\"\n" + hold);
+      auto& f = *simulation.formulation;
+      auto const start = f.diagnose();
+      double const dt = f.stable_time_step() / (half + 1);
+      advance(f, dt, 150 * (half + 1));
+      auto const end = f.diagnose();
+      EXPECT_GT(end.strain_energy, 0.01 * start.kinetic_energy) << hold;
+      EXPECT_LT(std::fabs(end.external_work), 1e-12 * start.kinetic_energy) << hold;
+      error[half] = std::fabs(end.total_energy() / start.total_energy() - 1);
+    }
+    EXPECT_LT(error[0], 2e-3) << hold;
+    EXPECT_LT(error[1], 0.3 * error[0]) << hold;
   }
 }
 
@@ -128,7 +134,7 @@ TEST(HeldSurface, CarriesABodyAlongWithoutStrain) {
   double const start = f.diagnose().kinetic_energy;
   go(f, 0, 50);
   auto const d = f.diagnose();
-  EXPECT_LT(d.strain_energy, 1e-20 * start);
+  EXPECT_LT(d.strain_energy, 1e-12 * start);
   EXPECT_LT(std::fabs(d.external_work), 1e-10 * start);
 }
 
@@ -163,11 +169,11 @@ TEST(HeldSurface, OfTwoSupportsThatShareItIsAsOfOne) {
 TEST(HeldSurface, StandsBesideParticlesThatAreHeld) {
   // The patch reaches the particles that the other support drives; both have their way.
   auto const simulation = body_with(stretching + support_on("-x", "xyz") +
-                                    "[[support]]\nbody = \"body\"\nwhere = \"Y < 0.2 and X > 0.2\"\nfix = \"y\"\n");
+                                    "[[support]]\nbody = \"body\"\nwhere = \"Y < 0.2 && X > 0.2\"\nfix = \"y\"\n");
   auto& f = *simulation.formulation;
   auto const n = simulation.particles.X.size();
   double const start = f.diagnose().kinetic_energy;
-  go(f, 0, 100);
+  advance(f, 0.25 * f.stable_time_step(), 400);
   auto const u = sample(f, "Displacement", n);
   for (std::size_t k = 0; k < n; ++k) {
     auto const& X = simulation.particles.X[k];
