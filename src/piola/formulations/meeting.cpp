@@ -96,8 +96,20 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       }
     shares_.push_back(std::move(share));
   }
+  find_held();
+  mass_.resize(ids.size());
+  x_.resize(ids.size());
+  v_.resize(ids.size());
+  std::size_t const n = names_.size();
+  pair_impulses_.resize(n * n);
+}
+
+/// The directions that supports hold of particles on surfaces. Those that hold the surface itself are the formulation's
+/// business, which gives back what moves it.
+void Meeting::find_held() {
+  auto const& ids = system_.ids();
   for (std::size_t s = 0; s < supports_.size(); ++s) {
-    if (supports_[s].on_surface()) continue;  // the formulation gives back what moves it
+    if (supports_[s].on_surface()) continue;
     for (auto const id : supports_[s].particles) {
       auto const found = std::lower_bound(ids.begin(), ids.end(), id);
       if (found == ids.end() || *found != id) continue;
@@ -111,11 +123,6 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       }
     }
   }
-  mass_.resize(ids.size());
-  x_.resize(ids.size());
-  v_.resize(ids.size());
-  std::size_t const n = names_.size();
-  pair_impulses_.resize(n * n);
 }
 
 void Meeting::read_state(Formulations const& formulations) {

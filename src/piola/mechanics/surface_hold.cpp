@@ -50,7 +50,7 @@ SurfaceHold::SurfaceHold(int dimension, std::vector<Support> const& supports, st
   place_coordinates_.resize(places_.size() * static_cast<std::size_t>(D_));
 }
 
-FieldRef SurfaceHold::places_at(FieldRef const& x) const {
+FieldRef SurfaceHold::places_at(FieldRef const& x) {
   FieldRef at{};
   at.data = place_coordinates_.data();
   at.component_stride = 1;

@@ -82,7 +82,7 @@ class SurfaceHold {
   std::vector<double> solved(FieldRef const& field, Of const& wanted) const;
   void add(std::vector<double> const& lambda, FieldRef const& to) const;
   double value(Row const& row, FieldRef const& field) const;
-  FieldRef places_at(FieldRef const& x) const;
+  FieldRef places_at(FieldRef const& x);
 
   int D_;
   BodyBoundary driven_;              ///< of the places, as if they were particles of unit mass
@@ -90,8 +90,8 @@ class SurfaceHold {
   std::vector<Weight> weights_;      ///< place by place, then the particles themselves
   std::vector<Place> places_;
   std::vector<Row> rows_;
-  EnvelopeCholesky matrix_{{}};                    ///< C M^-1 C^T
-  mutable std::vector<double> place_coordinates_;  ///< of the places, D each [m]
+  EnvelopeCholesky matrix_{{}};            ///< C M^-1 C^T
+  std::vector<double> place_coordinates_;  ///< of the places, D each [m]
 };
 
 }  // namespace piola
