@@ -128,10 +128,12 @@ void SurfaceHold::factorise() {
 
 double SurfaceHold::value(Row const& row, FieldRef const& field) const {
   double sum = 0;
-  for (std::size_t k = row.first; k < row.last; ++k)
-    for (int c = 0; c < D_; ++c)
-      sum += weights_[k].weight * row.direction[static_cast<std::size_t>(c)] *
-             value_at(field, particles_[weights_[k].particle].slot, c);
+  for (int c = 0; c < D_; ++c) {
+    double const part = row.direction[static_cast<std::size_t>(c)];
+    if (part == 0) continue;
+    for (std::size_t k = row.first; k < row.last; ++k)
+      sum += part * weights_[k].weight * value_at(field, particles_[weights_[k].particle].slot, c);
+  }
   return sum;
 }
 
@@ -150,10 +152,12 @@ std::vector<double> SurfaceHold::solved(FieldRef const& field, Of const& wanted)
 /// Adds M^-1 C^T lambda.
 void SurfaceHold::add(std::vector<double> const& lambda, FieldRef const& to) const {
   for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t k = rows_[r].first; k < rows_[r].last; ++k) {
-      Particle const& p = particles_[weights_[k].particle];
-      double const change = lambda[r] * weights_[k].weight / p.mass;
-      for (int c = 0; c < D_; ++c) value_at(to, p.slot, c) += change * rows_[r].direction[static_cast<std::size_t>(c)];
+    for (int c = 0; c < D_; ++c) {
+      double const part = lambda[r] * rows_[r].direction[static_cast<std::size_t>(c)];
+      for (std::size_t k = rows_[r].first; part != 0 && k < rows_[r].last; ++k) {
+        Particle const& p = particles_[weights_[k].particle];
+        value_at(to, p.slot, c) += part * weights_[k].weight / p.mass;
+      }
     }
 }
 
