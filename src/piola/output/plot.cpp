@@ -250,7 +250,7 @@ PlotText plot_text(Plot const& plot) {
   std::string svg;
   PlotText text;
   {
-    Surface const surface(cairo_svg_surface_create_for_stream(&append_to, &svg, plot.width, plot.height),
+    DrawingSurface const surface(cairo_svg_surface_create_for_stream(&append_to, &svg, plot.width, plot.height),
                           &cairo_surface_destroy);
     Context const context(cairo_create(surface.get()), &cairo_destroy);
     Paper paper(context.get(), plot);
