@@ -251,7 +251,7 @@ PlotText plot_text(Plot const& plot) {
   PlotText text;
   {
     DrawingSurface const surface(cairo_svg_surface_create_for_stream(&append_to, &svg, plot.width, plot.height),
-                          &cairo_surface_destroy);
+                                 &cairo_surface_destroy);
     Context const context(cairo_create(surface.get()), &cairo_destroy);
     Paper paper(context.get(), plot);
     try {
