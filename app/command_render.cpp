@@ -15,15 +15,36 @@ namespace piola::app {
 namespace {
 
 struct RenderArguments {
-  std::string folder, field = "Pressure", component, up = "auto", out;
-  std::vector<double> range, view{30, 20};
-  std::vector<int> size{1000, 800};
+  std::string folder, field = "Pressure", component, out;
+  std::vector<double> range, look_at;
+  std::vector<std::string> view;
+  std::vector<int> size;
+  bool no_labels = false;
+  FilmOptions film;
+  LookOptions look;
   std::vector<std::size_t> frames;
   bool last = false, shape = false, patches = false;
   std::size_t every = 1;
   CaseOptions with;
-  bool view_given = false, size_given = false;
 };
+
+/// From words to numbers.
+LookOptions look_of(RenderArguments const& options) {
+  LookOptions look = options.look;
+  if (options.view.size() == 1) look.named_view = options.view[0];
+  if (options.view.size() == 2) {
+    double azimuth = 0, elevation = 0;
+    if (!CLI::detail::lexical_cast(options.view[0], azimuth) || !CLI::detail::lexical_cast(options.view[1], elevation))
+      throw InputError(
+          fmt::format("--view: {} {} is no direction (allowed: two angles in degrees, or a name) - e.g. 30 20",
+                      options.view[0], options.view[1]));
+    look.view = std::array{azimuth, elevation};
+  }
+  if (!options.look_at.empty()) look.look_at = std::array{options.look_at[0], options.look_at[1], options.look_at[2]};
+  if (!options.size.empty()) look.size = std::array{options.size[0], options.size[1]};
+  if (options.no_labels) look.labels = false;
+  return look;
+}
 
 /// The bodies of a case instead of the frames of a run.
 int render_shape(RenderArguments const& options) {
@@ -35,9 +56,7 @@ int render_shape(RenderArguments const& options) {
   PackingLine line(false);
   CaseSpec const spec =
       read_case(case_file(options.folder), options.with.overrides(), {.packing = std::ref(line)}, &particles);
-  ShapePictureOptions what{.up = options.up, .patches = options.patches};
-  if (options.view_given) what.view = {options.view[0], options.view[1]};
-  if (options.size_given) what.size = {options.size[0], options.size[1]};
+  ShapePictureOptions const what{.look = look_of(options), .patches = options.patches};
   if (out.has_parent_path()) make_folder(out.parent_path());
   write_png(out, draw_shape(spec, particles, what));
   say("the bodies are drawn to {}\n", out.string());
@@ -48,26 +67,73 @@ int render(RenderArguments const& options) {
   if (options.shape) return render_shape(options);
   RenderOptions what{.field = options.field,
                      .range = {},
-                     .view = {options.view[0], options.view[1]},
-                     .width = options.size[0],
-                     .height = options.size[1],
+                     .look = look_of(options),
                      .component = options.component,
-                     .up = options.up,
                      .out = options.out,
                      .only = options.frames,
                      .last = options.last,
                      .every = options.every};
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
+  if (!options.film.file.empty()) {
+    if (options.film.file.has_parent_path()) make_folder(options.film.file.parent_path());
+    std::size_t const count = render_film(options.folder, what, options.film);
+    say("a film of {} pictures is drawn to {}\n", count, options.film.file.string());
+    return completed;
+  }
   auto const paths = render_frames(options.folder, what);
   say("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
       paths.empty() ? "none" : paths.back().string());
   return completed;
 }
 
+/// What is not given is as the case in the folder has it for its pictures.
+void add_look_options(CLI::App& command, RenderArguments& options) {
+  LookOptions& look = options.look;
+  command
+      .add_option("--view", options.view,
+                  "Azimuth and elevation in degrees, or x, y, z, -x, -y, -z, iso, iso2 (default: as the case has it)")
+      ->expected(1, 2);
+  command.add_option("--up", look.up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: as the case has it")
+      ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
+      ->capture_default_str();
+  command.add_option("--roll", look.roll, "Angle in degrees by which the picture is turned, anticlockwise")
+      ->check(CLI::Range(-360, 360));
+  command.add_option("--zoom", look.zoom, "2 shows all twice as large")->check(CLI::Range(0.01, 1000.0));
+  command.add_option("--look-at", options.look_at, "The point in the middle, in m")->expected(3);
+  command.add_option("--follow", look.follow, "Name of a body that stays in the middle and fills the picture");
+  command
+      .add_option("--map", look.map, "Colours: auto, viridis, cividis, magma, grey, blue_red, blue_brown, heat_on_grey")
+      ->check(CLI::IsMember(std::vector<std::string>(palette_words.begin(), palette_words.end())));
+  command.add_option("--theme", look.theme, "Background and letters: light, dark, transparent")
+      ->check(CLI::IsMember(std::vector<std::string>(theme_words.begin(), theme_words.end())));
+  command.add_flag("--no-labels", options.no_labels, "Only the bodies: no title, time, colour bar, axes, scale bar");
+  command
+      .add_option("--size", options.size,
+                  "Width and height in pixels (default: as the case has it, else as what is shown needs it)")
+      ->expected(2)
+      ->check(CLI::Range(200, 20000));
+}
+
+void add_film_options(CLI::App& command, RenderArguments& options) {
+  auto* const film = command.add_option(
+      "--film", options.film.file, "Draw a film in place of pictures: NAME.webp, or NAME.mp4 by the program ffmpeg");
+  command.add_option("--fps", options.film.pictures_per_second, "With --film: pictures per second (default: 20)")
+      ->check(CLI::Range(0.1, 120.0))
+      ->needs(film);
+  command.add_option("--seconds", options.film.seconds, "With --film: its length in seconds")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->needs(film);
+  command.add_option("--hold-end", options.film.hold_end, "With --film: how long the last picture stays, in seconds")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str()
+      ->needs(film);
+  film->excludes(command.get_option("--out"));
+}
+
 void add_shape_options(CLI::App& command, RenderArguments& options) {
   auto* const shape =
       command.add_flag("--shape", options.shape, "Draw the bodies of a case as they stand before anything runs");
-  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every"})
+  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every", "--film"})
     shape->excludes(command.get_option(of_frames));
   command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
   options.with.add_to(command, false);
@@ -89,11 +155,6 @@ void add_render(CLI::App& program, Action& action) {
   command
       ->add_option("--range", options->range, "Lowest and highest value of the colours, in SI (default: of all frames)")
       ->expected(2);
-  auto* const view = command->add_option("--view", options->view, "Azimuth and elevation in degrees");
-  view->expected(2)->capture_default_str();
-  command->add_option("--up", options->up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: as the case has it")
-      ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
-      ->capture_default_str();
   auto* const frames =
       command->add_option("--frame", options->frames, "Draw this frame only, counted from 0; also several");
   auto* const last = command->add_flag("--last", options->last, "Draw the last frame only")->excludes(frames);
@@ -103,14 +164,10 @@ void add_render(CLI::App& program, Action& action) {
       ->excludes(last);
   command->add_option("--out,-o", options->out,
                       "Folder of the pictures (default: pictures in the results folder); with --shape the picture");
-  auto* const size = command->add_option("--size", options->size, "Width and height in pixels");
-  size->expected(2)->check(CLI::Range(200, 20000))->capture_default_str();
+  add_look_options(*command, *options);
+  add_film_options(*command, *options);
   add_shape_options(*command, *options);
-  command->callback([options, view, size, &action] {
-    options->view_given = view->count() > 0;
-    options->size_given = size->count() > 0;
-    action = [options] { return render(*options); };
-  });
+  command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 
 }  // namespace piola::app

@@ -101,6 +101,7 @@ void keep_the_last_picture(OutputSpec& output, double end) {
   constexpr int width = 500;
   if (output.pictures_every <= 0) return;
   output.pictures_every = end;
+  output.picture_scale = 0.5;
   if (output.picture_width <= width) return;
   output.picture_height = std::max(16, output.picture_height * width / output.picture_width);
   output.picture_width = width;

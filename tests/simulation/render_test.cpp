@@ -15,8 +15,7 @@ TEST(Render, DrawsOnePictureForEachFrame) {
   Listener listener;
   std::atomic<int> const none{0};
   run_case(s, {.folder = folder / "r"}, listener, none);
-  auto const paths =
-      render_frames(folder / "r", {.field = "Velocity", .range = {}, .view = {}, .width = 300, .height = 250});
+  auto const paths = render_frames(folder / "r", {.field = "Velocity", .look = {.size = std::array{300, 250}}});
   ASSERT_EQ(paths.size(), 5U);
   EXPECT_EQ(paths[4].filename(), "Velocity-000004.png");
   Image const image = read_png(paths[4]);
@@ -27,7 +26,7 @@ TEST(Render, DrawsOnePictureForEachFrame) {
 
 struct Drawn {
   testing::TemporaryFolder folder;
-  RenderOptions options{.field = "Velocity", .width = 300, .height = 250};
+  RenderOptions options{.field = "Velocity", .look = {.size = std::array{300, 250}}};
   Drawn() {
     Simulation s = testing::make_springs();
     Listener listener;
@@ -87,7 +86,7 @@ TEST(Render, TurnsThePictureSoThatTheAxisAskedForPointsUp) {
   d.options.only = {0};
   d.names();
   Image const upright = read_png(d.folder / "r/pictures/Velocity-000000.png");
-  d.options.up = "-y";
+  d.options.look.up = "-y";
   d.names();
   EXPECT_NE(read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
 }

@@ -201,7 +201,15 @@ struct OutputSpec {
   std::string picture_up = "auto";                     ///< auto, x, y, z, -x, -y, -z
   std::optional<std::array<double, 2>> picture_range;  ///< SI; otherwise from the data
   std::array<double, 2> picture_view{30, 20};          ///< azimuth, elevation [deg]
-  int picture_width = 1000, picture_height = 800;
+  std::string picture_named_view = {};                 ///< x, -y, iso ...; empty: picture_view
+  double picture_roll = 0;                             ///< deg
+  double picture_zoom = 1;
+  std::optional<std::array<double, 3>> picture_look_at = {};  ///< m
+  std::string picture_follow = {};                            ///< name of a body
+  int picture_width = 0, picture_height = 0;                  ///< pixels; 0: as what is shown needs it
+  double picture_scale = 1;                                   ///< of that
+  std::string picture_theme = "light", picture_map = "auto";
+  bool picture_labels = true;
   bool compress = true;
 };
 

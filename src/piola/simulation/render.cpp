@@ -3,14 +3,15 @@
 #include "piola/base/problems.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/film.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/rigid_picture.hpp"
 #include "piola/simulation/rigid_history.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace piola {
@@ -38,12 +39,19 @@ std::optional<CaseSpec> case_of(fs::path const& folder) {
   }
 }
 
-View view_of(RenderOptions const& options, std::optional<CaseSpec> const& spec, int dimension) {
-  View view = options.view;
-  for (std::size_t k = 0; k < up_words.size(); ++k)
-    if (options.up == up_words[k]) view.upwards = static_cast<Up>(k);
-  if (options.up == "auto" && spec) view.upwards = upwards(*spec);
-  return view.in(dimension);
+/// The case with the field, the range and the look asked for; of a run without one, with those alone.
+CaseSpec as_asked(std::optional<CaseSpec> const& found, RenderOptions const& options) {
+  CaseSpec spec = found.value_or(CaseSpec{});
+  spec.output.picture_field = options.field;
+  spec.output.picture_range = options.range;
+  spec.output = with_look(spec.output, options.look);
+  return spec;
+}
+
+TimeFormat format_of(std::vector<std::pair<double, fs::path>> const& frames) {
+  double const last = frames.empty() ? 0 : frames.back().first;
+  return time_format(last,
+                     frames.size() < 2 ? last : (last - frames.front().first) / static_cast<double>(frames.size() - 1));
 }
 
 std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count) {
@@ -63,14 +71,28 @@ std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count)
 class Renderer {
  public:
   Renderer(fs::path const& folder, RenderOptions const& options)
-      : options_(options), title_(title_of(folder)), spec_(case_of(folder)), frames_(list_frames(folder)) {
+      : options_(options),
+        title_(title_of(folder)),
+        spec_(case_of(folder)),
+        asked_(as_asked(spec_, options)),
+        frames_(list_frames(folder)) {
     if (spec_) rigids_.emplace(folder / "history.csv", spec_->rigids);
     for (auto const& entry : frames_) survey(read(entry.second));
   }
   std::size_t count() const { return frames_.size(); }
 
+  double time(std::size_t number) const { return frames_[number].first; }
+
   fs::path draw(std::size_t number, fs::path const& folder) const {
     Frame const frame = read(frames_[number].second);
+    fs::path path = folder / picture_name(options_.field, frame.info.components, component_of(frame), number);
+    write_png(path, picture(frame));
+    return path;
+  }
+  Image picture(std::size_t number) const { return picture(read(frames_[number].second)); }
+
+ private:
+  Image picture(Frame const& frame) const {
     int const components = frame.info.components, component = component_of(frame);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
     auto const values = picture_values(frame.values, components, component);
@@ -85,15 +107,14 @@ class Renderer {
                            .dimension = frame.dimension,
                            .rigid_shapes = shapes,
                            .stage_low = stage_.low,
-                           .stage_high = stage_.high};
-    PictureStyle const style{options_.width, options_.height, view_of(options_, spec_, frame.dimension),
-                             options_.range ? *options_.range : range_};
-    fs::path path = folder / picture_name(options_.field, components, component, number);
-    write_png(path, draw_picture(data, style, window_));
-    return path;
+                           .stage_high = stage_.high,
+                           .spread = spread_,
+                           .time_format = format_of(frames_)};
+    Camera const camera = camera_for(frame);
+    PictureStyle const style = style_of(asked_.output, camera, window_);
+    Window const window = shown_window(window_, camera, subject_of(frame, radii));
+    return draw_picture(data, style, window);
   }
-
- private:
   Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
   std::vector<RigidShape> shapes_of(Frame const& frame) const {
     if (!spec_) return {};
@@ -108,33 +129,80 @@ class Renderer {
   }
   void survey(Frame const& frame) {
     if (!(stage_.size() > 0)) stage_ = Stage::around(frame.points);
-    View const view = view_of(options_, spec_, frame.dimension);
+    Camera const camera = camera_for(frame);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-    window_.include(view, frame.points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
-    show_shapes(window_, view, shapes_of(frame), stage_);
-    auto const range = typical_range(picture_values(frame.values, frame.info.components, component_of(frame)));
-    range_ = {std::min(range_[0], range[0]), std::max(range_[1], range[1])};
+    include(window_, camera, subject_of(frame, radii));
+    if (camera.follow < 0) show_shapes(window_, camera.view, shapes_of(frame), stage_);
+    spread_.include(picture_values(frame.values, frame.info.components, component_of(frame)));
+  }
+  Camera camera_for(Frame const& frame) const {
+    return camera_of(asked_.output, upwards(asked_), asked_.bodies, frame.dimension);
+  }
+  static Subject subject_of(Frame const& frame, std::vector<double> const& radii) {
+    double const margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
+    return {.points = frame.points, .volume = frame.volume, .body = frame.body, .margin = margin};
   }
 
   RenderOptions const& options_;
   std::string title_;
   std::optional<CaseSpec> spec_;
+  CaseSpec asked_;
   std::optional<RigidHistory> rigids_;  ///< where there is a case
   std::vector<std::pair<double, fs::path>> frames_;
   Window window_;
   Stage stage_;
-  std::array<double, 2> range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Spread spread_;
 };
+
+void expect_frames(fs::path const& folder) {
+  if (fs::exists(folder / "frames.hdf.series")) return;
+  throw InputError(
+      fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with --set output.frames.every=TIME",
+                  folder.string()));
+}
+
+/// `count` of the frames, those nearest to equal steps of time; a frame may be there several times.
+std::vector<std::size_t> at_equal_steps(Renderer const& renderer, std::vector<std::size_t> numbers, std::size_t count) {
+  std::sort(numbers.begin(), numbers.end());
+  double const first = renderer.time(numbers.front()), last = renderer.time(numbers.back());
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    double const time =
+        count < 2 ? last : first + (last - first) * static_cast<double>(k) / static_cast<double>(count - 1);
+    out.push_back(*std::min_element(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(renderer.time(a) - time) < std::abs(renderer.time(b) - time);
+    }));
+  }
+  return out;
+}
 
 }  // namespace
 
+std::size_t render_film(fs::path const& folder, RenderOptions const& options, FilmOptions const& film) {
+  expect_frames(folder);
+  Renderer const renderer(folder, options);
+  auto const numbers = chosen(options, renderer.count());
+  if (numbers.empty())
+    throw InputError(fmt::format("{}: has no frames to draw - let the run write some", folder.string()));
+  double const frames = static_cast<double>(numbers.size());
+  FilmPace pace{.hold_end = film.hold_end};
+  if (film.pictures_per_second) pace.pictures_per_second = *film.pictures_per_second;
+  if (film.seconds && !film.pictures_per_second) pace.pictures_per_second = frames / *film.seconds;
+  double const count = film.seconds ? std::max(1.0, std::round(*film.seconds * pace.pictures_per_second)) : frames;
+  auto const order = at_equal_steps(renderer, numbers, static_cast<std::size_t>(count));
+  Image picture = renderer.picture(order.front());
+  Film out(film.file, picture.width, picture.height, pace);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k > 0 && order[k] != order[k - 1]) picture = renderer.picture(order[k]);
+    out.add(picture);
+  }
+  out.finish();
+  return order.size();
+}
+
 std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const& options,
                                     std::function<void(fs::path const&)> const& drawn) {
-  if (!fs::exists(folder / "frames.hdf.series")) {
-    throw InputError(fmt::format(
-        "{}: has no frames to draw (no frames.hdf.series) - run the case with --set output.frames.every=TIME",
-        folder.string()));
-  }
+  expect_frames(folder);
   Renderer const renderer(folder, options);
   fs::path const out = options.out.empty() ? folder / "pictures" : options.out;
   auto const numbers = chosen(options, renderer.count());

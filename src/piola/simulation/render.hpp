@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/picture.hpp"
+#include "piola/simulation/look.hpp"
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -13,10 +13,8 @@ namespace piola {
 struct RenderOptions {
   std::string field = "Pressure";
   std::optional<std::array<double, 2>> range = {};  ///< SI; otherwise the range over all frames
-  View view = {};                                   ///< its `upwards` counts only if `up` is not "auto"
-  int width = 1000, height = 800;
+  LookOptions look = {};
   std::string component = {};          ///< see find_component
-  std::string up = "auto";             ///< auto: as the case in the folder has it
   std::filesystem::path out = {};      ///< folder of the pictures; empty: `pictures` in the folder of the run
   std::vector<std::size_t> only = {};  ///< numbers of the frames to draw; empty: all
   bool last = false;                   ///< draw the last one
@@ -29,5 +27,18 @@ struct RenderOptions {
 /// no such frame, field or component.
 std::vector<std::filesystem::path> render_frames(std::filesystem::path const& folder, RenderOptions const& options,
                                                  std::function<void(std::filesystem::path const&)> const& drawn = {});
+
+/// What a film of a run is like, see Film and FilmPace.
+struct FilmOptions {
+  std::filesystem::path file;                      ///< NAME.webp or NAME.mp4
+  std::optional<double> pictures_per_second = {};  ///< else 20, or as many as `seconds` ask for
+  std::optional<double> seconds = {};              ///< how long it is, without the end that is held
+  double hold_end = 1;                             ///< s
+};
+
+/// Draws the frames that the options choose to a film, at equal steps of simulated time: one picture per frame, unless
+/// both rate and length are given; then the nearest frame is shown at each step. Returns the number of pictures. Throws
+/// as render_frames and Film do.
+std::size_t render_film(std::filesystem::path const& folder, RenderOptions const& options, FilmOptions const& film);
 
 }  // namespace piola

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+/// From where bodies are seen, and which part of what is seen a picture shows.
+namespace piola {
+
+/// The direction that points upwards in a picture.
+enum class Up { y, z, x, minus_y, minus_z, minus_x };
+inline constexpr std::array<std::string_view, 6> up_words{"y", "z", "x", "-y", "-z", "-x"};
+
+/// Where one looks from: azimuth about the axis that points up and elevation above the plane across it [deg]. At (0, 0)
+/// with y upwards x points to the right, with z upwards x to the right and y away from the viewer, with x upwards -y to
+/// the right. Parallel projection. In two dimensions z cannot point upwards and counts as y.
+struct View {
+  double azimuth = 30, elevation = 20;
+  Up upwards = Up::y;
+  double roll = 0;  ///< by which the picture is turned anticlockwise [deg]
+  /// A plane is seen from z.
+  View in(int dimension) const;
+  std::array<double, 3> right() const;
+  std::array<double, 3> up() const;
+  std::array<double, 3> towards_viewer() const;
+};
+
+/// Names of views: from the positive or negative end of an axis, and from two sides so that all three axes are equally
+/// foreshortened.
+inline constexpr std::array<std::string_view, 8> view_words{"x", "y", "z", "-x", "-y", "-z", "iso", "iso2"};
+/// Azimuth and elevation of a named view [deg]; nothing for another name.
+std::optional<std::array<double, 2>> named_view(std::string_view word, Up upwards);
+
+/// The bodies at one moment, as far as a window is concerned; one entry per particle.
+struct Subject {
+  std::span<std::array<double, 3> const> points;  ///< m
+  std::span<double const> volume = {};            ///< m^dimension; empty: all count the same
+  std::span<int const> body = {};
+  double margin = 0;  ///< by which a particle reaches beyond its point [m]
+};
+
+/// The part of the projected plane that is shown [m]. It starts from the first points and only grows, in generous
+/// steps, so that pictures of one run have the same scale almost always.
+struct Window {
+  bool set = false;
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  void include(View const& view, std::span<std::array<double, 3> const> points, double margin);
+  /// Strays do not count: what lies further than a fifth of its size from the box that holds all but 0.2 % of the
+  /// volume at each of its sides.
+  void include(View const& view, Subject const& subject);
+  bool operator==(Window const&) const = default;
+};
+
+/// How a picture is framed, beyond the window of all that there is.
+struct Camera {
+  View view;
+  double zoom = 1;
+  std::optional<std::array<double, 3>> look_at = {};  ///< what stands in the middle [m]
+  int follow = -1;  ///< number of the body that stays in the middle and fills the window; -1: none
+};
+
+/// Grows a window by one moment of a run. With a body to follow its coordinates are relative to the body's centre.
+void include(Window& window, Camera const& camera, Subject const& subject);
+/// The window of one picture.
+Window shown_window(Window const& all, Camera const& camera, Subject const& now);
+
+/// Width and height [pixels] of a picture whose sides follow the window: about as many pixels as 1000 x 800; upright
+/// for a column, flat for a beam. Even numbers.
+std::array<int, 2> fitting_size(Window const& window);
+
+}  // namespace piola
