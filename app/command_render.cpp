@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/units.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/simulation/render.hpp"
@@ -6,6 +7,7 @@
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "streams.hpp"
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <functional>
@@ -15,7 +17,9 @@ namespace piola::app {
 namespace {
 
 struct RenderArguments {
-  std::string folder, field = "Pressure", component, out;
+  std::string folder, field = "Pressure", component, out, times;
+  std::vector<std::string> folders;
+  bool side_by_side = false;
   std::vector<double> range, look_at;
   std::vector<std::string> view;
   std::vector<int> size;
@@ -63,7 +67,35 @@ int render_shape(RenderArguments const& options) {
   return completed;
 }
 
-int render(RenderArguments const& options) {
+/// "10 ms, 20 ms" in seconds.
+std::vector<double> times_of(std::string const& text) {
+  std::vector<double> times;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    std::size_t const end = std::min(text.find(',', from), text.size());
+    std::string part = text.substr(from, end - from);
+    part.erase(0, part.find_first_not_of(' '));
+    Quantity const time = read_quantity(part, "s");
+    if (time.problem) throw InputError(fmt::format("--times: {} - e.g. \"10 ms, 20 ms\"", *time.problem));
+    times.push_back(time.value);
+    from = end + 1;
+  }
+  return times;
+}
+
+/// The first folder is the one that is drawn.
+void check_folders(RenderArguments const& options) {
+  if (options.side_by_side && options.folders.size() < 2)
+    throw InputError("--side-by-side: there is one folder only (allowed: two or more) - name the others, too");
+  if (!options.side_by_side && options.folders.size() > 1)
+    throw InputError(fmt::format("{} folders are given (allowed: one, or more with --side-by-side) - choose one",
+                                 options.folders.size()));
+}
+
+int render(RenderArguments const& given) {
+  check_folders(given);
+  RenderArguments options = given;
+  options.folder = given.folders.front();
   if (options.shape) return render_shape(options);
   RenderOptions what{.field = options.field,
                      .range = {},
@@ -72,12 +104,17 @@ int render(RenderArguments const& options) {
                      .out = options.out,
                      .only = options.frames,
                      .last = options.last,
-                     .every = options.every};
+                     .every = options.every,
+                     .beside = {options.folders.begin() + 1, options.folders.end()}};
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   if (!options.film.file.empty()) {
     if (options.film.file.has_parent_path()) make_folder(options.film.file.parent_path());
     std::size_t const count = render_film(options.folder, what, options.film);
     say("a film of {} pictures is drawn to {}\n", count, options.film.file.string());
+    return completed;
+  }
+  if (!options.times.empty()) {
+    say("the picture is drawn to {}\n", render_times(options.folder, what, times_of(options.times)).string());
     return completed;
   }
   auto const paths = render_frames(options.folder, what);
@@ -128,12 +165,23 @@ void add_film_options(CLI::App& command, RenderArguments& options) {
       ->capture_default_str()
       ->needs(film);
   film->excludes(command.get_option("--out"));
+  auto* const beside =
+      command.add_flag("--side-by-side", options.side_by_side, "Draw several runs beside each other, at equal times");
+  command
+      .add_option("--times", options.times,
+                  "Draw the frames nearest to these times into one picture, e.g. \"10 ms, 20 ms, 40 ms\"")
+      ->excludes(film)
+      ->excludes(beside)
+      ->excludes(command.get_option("--frame"))
+      ->excludes(command.get_option("--last"))
+      ->excludes(command.get_option("--every"));
 }
 
 void add_shape_options(CLI::App& command, RenderArguments& options) {
   auto* const shape =
       command.add_flag("--shape", options.shape, "Draw the bodies of a case as they stand before anything runs");
-  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every", "--film"})
+  for (char const* const of_frames :
+       {"--field", "--component", "--range", "--frame", "--last", "--every", "--film", "--side-by-side", "--times"})
     shape->excludes(command.get_option(of_frames));
   command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
   options.with.add_to(command, false);
@@ -146,7 +194,7 @@ void add_render(CLI::App& program, Action& action) {
   auto const options = std::make_shared<RenderArguments>();
   CLI::App* command =
       program.add_subcommand("render", "Draw pictures from the frames of a run, or the bodies of a case");
-  command->add_option("folder", options->folder, "The results folder of the run; with --shape the case")->required();
+  command->add_option("folder", options->folders, "The results folder of the run; with --shape the case")->required();
   command
       ->add_option("--field", options->field, "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress")
       ->capture_default_str();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/colour_map.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -78,7 +79,8 @@ TEST(ColourMap, IsToldApartWithoutReceptorsForGreen) {
     auto const colours = palette_colours(static_cast<Palette>(p));
     for (std::size_t k = 1; k < 9; ++k) {
       auto const seen = [&](std::size_t step) {
-        return lab(without_green(linear(colours[static_cast<std::size_t>(std::lround(255.0 * step / 8.0))])));
+        return lab(
+            without_green(linear(colours[static_cast<std::size_t>(std::lround(255 * static_cast<double>(step) / 8))])));
       };
       EXPECT_GT(difference(seen(k), seen(k - 1)), 10) << palette_words[p] << " " << k;
     }
@@ -126,7 +128,7 @@ TEST(ColourMap, ShowsUnitsWithPrefix) {
   EXPECT_EQ(shown_unit(0.6, "m").text, "m");
   EXPECT_EQ(shown_unit(600, "m/s").text, "m/s");
   EXPECT_EQ(shown_unit(2, "1").text, "");
-  EXPECT_EQ(shown_unit(2e-7, "1").text, "10\u207b\u2076");
+  EXPECT_EQ(shown_unit(2e-6, "1").text, "10\u207b\u2076");
   EXPECT_EQ(shown_unit(7850, "kg/m^3").text, "kg/m\u00b3");
   EXPECT_EQ(shown_unit(3e9, "kg/m^3").text, "10\u2079 kg/m\u00b3");
   EXPECT_EQ(shown_unit(3, "Pa m^0.5").text, "Pa m^0.5");

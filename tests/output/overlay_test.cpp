@@ -175,7 +175,7 @@ TEST(Ticks, AreFewRoundAndApartForAnyRange) {
     double const low = std::min(a, b), high = std::max(a, b);
     if (high - low < 1e-3 * size) continue;
     auto const unit = shown_unit(std::max(std::abs(low), std::abs(high)), "Pa");
-    auto const ticks = linear_ticks(low / unit.factor, high / unit.factor, 6);
+    auto const ticks = linear_ticks(low / unit.factor, high / unit.factor);
     EXPECT_GE(ticks.size(), 2u) << low << " " << high;
     EXPECT_LE(ticks.size(), 9u) << low << " " << high;
     auto const decimals = [](std::string const& text) {

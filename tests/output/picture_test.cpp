@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/picture.hpp"
+#include "piola/output/files.hpp"
 #include "support/temporary_folder.hpp"
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,39 @@ TEST(Picture, HasTheBackgroundOfItsTheme) {
   Image const back = read_png(folder / "clear.png");
   EXPECT_EQ(back.alpha, clear.alpha);
   EXPECT_EQ(back.rgb, clear.rgb);
+}
+
+TEST(Picture, CarriesWhereItComesFrom) {
+  testing::TemporaryFolder const folder;
+  Scene const scene;
+  PictureData data = scene.data();
+  data.title = "\u03bd = 0.3";
+  data.case_text = "123456789";
+  PictureStyle const style{300, 200, {}, std::array{0.0, 5e6}};
+  Window window;
+  window.include(style.view, scene.points, 0.058);
+  write_png(folder / "a.png", draw_picture(data, style, window));
+  std::string const bytes = read_text_file(folder / "a.png");
+  auto const chunk = [&](std::string const& key, std::string const& text) {
+    return bytes.find("iTXt" + key + std::string(5, '\0') + text) != std::string::npos;
+  };
+  EXPECT_TRUE(chunk("Title", "\u03bd = 0.3"));
+  EXPECT_TRUE(chunk("Time", "0.5 s"));
+  EXPECT_TRUE(chunk("Field", "pressure"));
+  EXPECT_TRUE(chunk("Range", "0 to 5000000 Pa"));
+  EXPECT_TRUE(chunk("Software", "Piola "));
+  EXPECT_TRUE(chunk("Case", "CRC-32 cbf43926")) << "the check value of CRC-32";
+  EXPECT_EQ(read_png(folder / "a.png").width, 300) << "libpng checks the sums of chunks";
+}
+
+TEST(Picture, IsCutWhereLettersStand) {
+  Scene const scene;
+  PictureStyle const style{1000, 800, {0, 0}, {}};
+  Window const near{true, 0.4, 0.5, 0.4, 0.5};
+  Image const image = draw_picture(scene.data(), style, near);
+  EXPECT_NE(image.at(430, 400), (Colour{255, 255, 255}));
+  for (auto const& [x, y] : {std::array{860, 30}, {700, 10}, {995, 400}, {862, 400}, {500, 798}, {120, 760}})
+    EXPECT_EQ(image.at(x, y), (Colour{255, 255, 255})) << x << " " << y;
 }
 
 TEST(Picture, TakesWhatIsOddWithoutFailing) {

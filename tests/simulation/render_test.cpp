@@ -91,6 +91,76 @@ TEST(Render, TurnsThePictureSoThatTheAxisAskedForPointsUp) {
   EXPECT_NE(read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
 }
 
+TEST(Render, DrawsMomentsIntoOnePicture) {
+  Drawn d;
+  auto const path = render_times(d.folder / "r", d.options, {0.3, 0.6, 10});
+  EXPECT_EQ(path, d.folder / "r/pictures/Velocity-times.png");
+  Image const image = read_png(path);
+  EXPECT_EQ(image.width, 300);
+  EXPECT_EQ(image.height, 250);
+  Image const other = read_png(render_times(d.folder / "r", d.options, {0.25, 0.5, 1}));
+  EXPECT_EQ(other.rgb, image.rgb) << "the same frames are the nearest";
+  EXPECT_NE(read_png(render_times(d.folder / "r", d.options, {0, 0.5, 1})).rgb, image.rgb);
+}
+
+TEST(Render, DrawsRunsSideBySideAtEqualTimes) {
+  Drawn d;
+  std::filesystem::copy(d.folder / "r", d.folder / "twin", std::filesystem::copy_options::recursive);
+  d.options.out = d.folder / "both";
+  d.options.beside = {d.folder / "twin"};
+  d.options.look.labels = false;
+  EXPECT_EQ(d.names().size(), 5u);
+  Image const image = read_png(d.folder / "both/Velocity-000004.png");
+  ASSERT_EQ(image.width, 300);
+  d.options.only = {0};
+  d.names();
+  EXPECT_NE(read_png(d.folder / "both/Velocity-000000.png").rgb, image.rgb);
+  d.options.beside = {d.folder / "none"};
+  EXPECT_NE(d.refusal().find("none: has no frames to draw"), std::string::npos) << d.refusal();
+}
+
+TEST(Render, DrawsAFilmOfAllFrames) {
+  Drawn d;
+  EXPECT_EQ(render_film(d.folder / "r", d.options, {.file = d.folder / "a.webp"}), 5u);
+  EXPECT_GT(std::filesystem::file_size(d.folder / "a.webp"), 1000u);
+  EXPECT_EQ(
+      render_film(d.folder / "r", d.options, {.file = d.folder / "b.webp", .pictures_per_second = 4, .seconds = 3}),
+      12u);
+  d.options.every = 2;
+  EXPECT_EQ(render_film(d.folder / "r", d.options, {.file = d.folder / "c.webp", .seconds = 3}), 3u);
+  EXPECT_THROW(render_film(d.folder / "r", d.options, {.file = d.folder / "c.png"}), InputError);
+}
+
+TEST(Render, TakesTheLookAskedFor) {
+  Drawn d;
+  d.options.only = {4};
+  auto const picture = [&] {
+    d.names();
+    return read_png(d.folder / "r/pictures/Velocity-000004.png").rgb;
+  };
+  auto const before = picture();
+  LookOptions const plain = d.options.look;
+  std::vector<LookOptions> looks(7, plain);
+  looks[0].zoom = 2;
+  looks[1].look_at = {{0, 0, 0}};
+  looks[2].theme = "dark";
+  looks[3].map = "grey";
+  looks[4].labels = false;
+  looks[5].roll = 90;
+  looks[6].named_view = "-z";
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    d.options.look = looks[k];
+    EXPECT_NE(picture(), before) << k;
+  }
+  d.options.look = plain;
+  EXPECT_EQ(picture(), before);
+  d.options.look.named_view = "above";
+  EXPECT_NE(d.refusal().find("view: 'above' is not known (allowed: x, y, z, -x"), std::string::npos) << d.refusal();
+  d.options.look = plain;
+  d.options.look.follow = "nobody";
+  EXPECT_NE(d.refusal().find("follow: there is no body 'nobody'"), std::string::npos) << d.refusal();
+}
+
 TEST(Render, SaysWhenThereAreNoFrames) {
   testing::TemporaryFolder const folder;
   EXPECT_THROW(render_frames(folder.path(), {}), InputError);

@@ -24,7 +24,7 @@ std::string const plate = R"({ box = { min = [0, 0], max = [2, 1] }, spacing = 0
 Image drawn(std::string const& text, ShapePictureOptions options) {
   ParticleSet particles;
   CaseSpec const spec = read_case_text(text, "case.toml", {}, {}, &particles);
-  options.size = {400, 300};
+  options.look.size = {400, 300};
   return draw_shape(spec, particles, options);
 }
 

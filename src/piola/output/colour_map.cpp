@@ -33,7 +33,7 @@ constexpr std::array<Colour, 9> blue_to_brown{{{4, 30, 92},
                                                {150, 80, 35},
                                                {85, 25, 8}}};
 constexpr std::array<Colour, 6> grey_to_heat{
-    {{205, 207, 210}, {234, 186, 104}, {228, 140, 58}, {202, 78, 44}, {146, 28, 42}, {66, 8, 34}}};
+    {{208, 210, 213}, {236, 184, 96}, {224, 124, 44}, {192, 60, 40}, {132, 20, 42}, {50, 4, 30}}};
 
 Colour between(std::span<Colour const> points, double share) {
   double const at = std::clamp(share, 0.0, 1.0) * static_cast<double>(points.size() - 1);

@@ -2,6 +2,7 @@
 #include "piola/output/image.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -32,6 +33,26 @@ std::vector<std::uint8_t> with_alpha(Image const& image) {
     mixed.push_back(image.alpha[i]);
   }
   return mixed;
+}
+
+void append_number(std::vector<std::byte>& bytes, std::uint32_t number) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(number >> shift & 255u));
+}
+
+/// Puts an iTXt chunk for each note before the end of a PNG file: key, that the text is not compressed and in no
+/// particular language, text (PNG specification, 2nd edition, 11.3.4.5).
+void add_notes(std::vector<std::byte>& png, Image const& image) {
+  constexpr std::size_t end_chunk = 12;
+  std::vector<std::byte> chunks;
+  for (auto const& [key, text] : image.notes) {
+    std::string const content = "iTXt" + key + std::string(5, '\0') + text;
+    append_number(chunks, static_cast<std::uint32_t>(content.size() - 4));
+    for (char const c : content) chunks.push_back(static_cast<std::byte>(c));
+    CheckSum sum;
+    sum.add(content);
+    append_number(chunks, sum.value());
+  }
+  png.insert(png.end() - end_chunk, chunks.begin(), chunks.end());
 }
 
 void take_apart(std::vector<std::uint8_t> const& mixed, Image& image) {
@@ -101,7 +122,9 @@ void write_png(std::filesystem::path const& path, Image const& image) {
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr)) {
     throw FileError(fmt::format("{}: cannot be made, {} - choose a smaller picture", path.string(), header.message));
   }
-  write_whole_file(path, std::span<std::byte const>(bytes).first(size));
+  bytes.resize(size);
+  add_notes(bytes, image);
+  write_whole_file(path, bytes);
 }
 
 Image read_png(std::filesystem::path const& path) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -14,6 +16,9 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
   std::vector<std::uint8_t> alpha = {};  ///< one per pixel, 0 (nothing is there) to 255; empty: opaque
+
+  /// What is said about an image: keys (ASCII, at most 79 characters) and texts (UTF-8).
+  std::vector<std::pair<std::string, std::string>> notes = {};
 
   Image() = default;
   Image(int columns, int rows, Colour background);
@@ -27,9 +32,9 @@ Image reduce(Image const& fine, int factor);
 /// The image with opacity whose pictures on black and on white these two are.
 Image without_background(Image const& on_black, Image const& on_white);
 
-/// Writes a PNG file. Throws FileError.
+/// Writes a PNG file, with the notes as international text chunks. Throws FileError.
 void write_png(std::filesystem::path const& path, Image const& image);
-/// Reads a PNG file. Throws FileError.
+/// Reads a PNG file, without its notes. Throws FileError.
 Image read_png(std::filesystem::path const& path);
 
 }  // namespace piola

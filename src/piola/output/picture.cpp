@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/picture.hpp"
+#include "piola/base/version.hpp"
 #include "piola/output/colour_map.hpp"
 #include "piola/output/rigid_picture.hpp"
+#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -85,6 +87,29 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
   return out;
 }
 
+/// What flew out of the window, or lies beyond it where a picture is enlarged, must not lie under letters.
+void clear_for_letters(Image& image, Layout const& layout, Colour background) {
+  double const air = 8 * layout.unit;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (x > layout.right + air || y < layout.top - air || y > layout.bottom + air) image.set(x, y, background);
+}
+
+/// What tells where a picture comes from.
+void add_notes_to(Image& image, PictureData const& data, ColourMap const& map) {
+  image.notes.emplace_back("Title", data.title);
+  image.notes.emplace_back("Software", "Piola " + std::string(version()));
+  if (data.colours.empty()) {
+    image.notes.emplace_back("Time", fmt::format("{} s", data.time));
+    image.notes.emplace_back("Field", data.label);
+    image.notes.emplace_back("Range", fmt::format("{} to {} {}", map.low(), map.high(), data.unit));
+  }
+  if (data.case_text.empty()) return;
+  CheckSum sum;
+  sum.add(data.case_text);
+  image.notes.emplace_back("Case", fmt::format("CRC-32 {:08x}", sum.value()));
+}
+
 }  // namespace
 
 Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window) {
@@ -100,11 +125,28 @@ Image draw_picture(PictureData const& data, PictureStyle const& asked, Window co
   ColourMap const map(range[0], range[1], style.palette);
   Projection const project = make_projection(style.view, window, layout);
   ThemeColours const colours = colours_of(style.theme);
-  auto const draw_on = [&](Colour background) { return draw_scene(data, style, layout, project, map, background); };
+  auto const draw_on = [&](Colour background) {
+    Image scene = draw_scene(data, style, layout, project, map, background);
+    if (style.labels) clear_for_letters(scene, layout, background);
+    return scene;
+  };
   Image image = style.theme == Theme::transparent ? without_background(draw_on({0, 0, 0}), draw_on({255, 255, 255}))
                                                   : draw_on(colours.background);
   if (style.labels) draw_overlay(image, layout, overlay_of(data, style.view, project, map, spread), colours);
+  add_notes_to(image, data, map);
   return image;
+}
+
+void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
+                  Window const& window, std::string const& at_right) {
+  View const view = style.view.in(data.dimension);
+  Spread const spread = data.spread.value_or(Spread{});
+  auto const range = style.range ? *style.range : spread.typical;
+  ColourMap const map(range[0], range[1], style.palette);
+  Layout const area = layout_of(style.width, style.height, data.title, style.labels);
+  Overlay overlay = overlay_of(data, view, make_projection(view, window, area), map, spread);
+  overlay.at_right = at_right;
+  draw_overlay(image, layout, overlay, colours_of(style.theme));
 }
 
 void Spread::include(std::span<double const> values) {
@@ -118,6 +160,12 @@ void Spread::include(std::span<double const> values) {
   if (!any) return;
   auto const range = typical_range(values);
   typical = {std::min(typical[0], range[0]), std::max(typical[1], range[1])};
+}
+
+void Spread::include(Spread const& other) {
+  typical = {std::min(typical[0], other.typical[0]), std::max(typical[1], other.typical[1])};
+  extremes = {std::min(extremes[0], other.extremes[0]), std::max(extremes[1], other.extremes[1])};
+  not_a_number = not_a_number || other.not_a_number;
 }
 
 std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension) {

@@ -21,6 +21,7 @@ struct Spread {
   std::array<double, 2> extremes{infinite, -infinite};  ///< lowest and highest finite value
   bool not_a_number = false;                            ///< there are such values
   void include(std::span<double const> values);
+  void include(Spread const& other);
   bool operator==(Spread const&) const = default;
 
  private:
@@ -44,6 +45,7 @@ struct PictureData {
   std::span<Colour const> colours = {};
   std::span<LegendEntry const> legend = {};
   std::optional<Spread> spread = {};           ///< of all pictures of the run; else of these values
+  std::string_view case_text = {};             ///< the case as run: pictures carry its check sum
   std::optional<TimeFormat> time_format = {};  ///< of all times of the run; else one that fits this time
 };
 
@@ -58,7 +60,13 @@ struct PictureStyle {
 
 /// Particles as shaded balls, with title, time, colour bar, axes and scale bar. Throws FileError if there is no memory
 /// for so large a picture.
+/// The image has notes: title, time, field, range, version and the check sum of the case.
 Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window);
+
+/// The letters of a picture alone, over `image`: title, what stands at the right (the time, usually), the colour bar of
+/// the style's range, and the axes and the scale that a picture of the style's size without labels has.
+void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
+                  Window const& window, std::string const& at_right);
 
 /// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a
 /// little more, so that a body looks closed.

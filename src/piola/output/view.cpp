@@ -156,6 +156,15 @@ void Window::include(View const& view, Subject const& subject) {
   set = true;
 }
 
+void Window::cover(Window const& other) {
+  if (!other.set) return;
+  x0 = set ? std::min(x0, other.x0) : other.x0;
+  x1 = set ? std::max(x1, other.x1) : other.x1;
+  y0 = set ? std::min(y0, other.y0) : other.y0;
+  y1 = set ? std::max(y1, other.y1) : other.y1;
+  set = true;
+}
+
 void include(Window& window, Camera const& camera, Subject const& subject) {
   if (camera.follow < 0) return window.include(camera.view, subject);
   Point const centre = centre_of(subject, camera.follow);

@@ -49,6 +49,8 @@ struct Window {
   /// Strays do not count: what lies further than a fifth of its size from the box that holds all but 0.2 % of the
   /// volume at each of its sides.
   void include(View const& view, Subject const& subject);
+  /// Makes room for what another window shows: both then have one size where the other covers this one, too.
+  void cover(Window const& other);
   bool operator==(Window const&) const = default;
 };
 

@@ -101,6 +101,7 @@ void PictureObserver::draw(std::size_t number, Kept const& kept) {
                          .stage_low = stage_low_,
                          .stage_high = stage_high_,
                          .spread = spread_,
+                         .case_text = results_.spec.source,
                          .time_format = time_format(results_.spec.run.end, output.pictures_every)};
   PictureStyle const style = style_of(output, camera_, window_);
   write_png(path(number), draw_picture(data, style, shown_window(window_, camera_, subject(kept.points))));

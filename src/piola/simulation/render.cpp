@@ -5,6 +5,7 @@
 #include "piola/output/files.hpp"
 #include "piola/output/film.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/panels.hpp"
 #include "piola/output/rigid_picture.hpp"
 #include "piola/simulation/rigid_history.hpp"
 #include "piola/simulation/scene.hpp"
@@ -12,7 +13,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace piola {
 namespace {
@@ -67,6 +70,15 @@ std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count)
   return numbers;
 }
 
+/// A frame and what is drawn of it.
+struct Shot {
+  Frame frame;
+  std::vector<double> radii, values;
+  std::vector<RigidShape> shapes;
+  PictureData data = {};  ///< refers to the vectors above, which stay where they are when a shot is moved
+  Window window = {};
+};
+
 /// Everything that the pictures of one run have in common.
 class Renderer {
  public:
@@ -83,38 +95,59 @@ class Renderer {
 
   double time(std::size_t number) const { return frames_[number].first; }
 
-  fs::path draw(std::size_t number, fs::path const& folder) const {
-    Frame const frame = read(frames_[number].second);
-    fs::path path = folder / picture_name(options_.field, frame.info.components, component_of(frame), number);
-    write_png(path, picture(frame));
-    return path;
+  std::string const& title() const { return title_; }
+  Window const& window() const { return window_; }
+  TimeFormat time_format() const { return format_of(frames_); }
+  /// The number of the frame nearest in time; there must be one.
+  std::size_t nearest(double time) const {
+    auto const away = [&](auto const& entry) { return std::abs(entry.first - time); };
+    auto const found = std::min_element(frames_.begin(), frames_.end(),
+                                        [&](auto const& a, auto const& b) { return away(a) < away(b); });
+    return static_cast<std::size_t>(found - frames_.begin());
   }
-  Image picture(std::size_t number) const { return picture(read(frames_[number].second)); }
+  /// Two runs get one range and windows of one size.
+  void share_with(Renderer& other) {
+    for (auto const& [one, two] : {std::pair{this, &other}, std::pair{&other, this}}) {
+      one->spread_.include(two->spread_);
+      one->window_.cover(two->window_);
+    }
+  }
 
- private:
-  Image picture(Frame const& frame) const {
+  std::string name(std::size_t number) const { return picture_name(options_.field, components_, component_, number); }
+  Image picture(std::size_t number) const {
+    Shot const seen = shot(number);
+    return draw_picture(seen.data, style(seen.frame.dimension), seen.window);
+  }
+  bool size_is_given() const { return asked_.output.picture_width > 0 && asked_.output.picture_height > 0; }
+  PictureStyle style(int dimension) const { return style_of(asked_.output, camera_for(dimension), window_); }
+
+  Shot shot(std::size_t number) const {
+    Shot shot{.frame = read(frames_[number].second), .radii = {}, .values = {}, .shapes = {}};
+    Frame const& frame = shot.frame;
     int const components = frame.info.components, component = component_of(frame);
-    auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-    auto const values = picture_values(frame.values, components, component);
-    auto const shapes = shapes_of(frame);
+    shot.radii = ball_radii(frame.volume, frame.body, frame.dimension);
+    shot.values = picture_values(frame.values, components, component);
+    shot.shapes = shapes_of(frame);
     PictureData const data{.points = frame.points,
-                           .radius = radii,
-                           .values = values,
+                           .radius = shot.radii,
+                           .values = shot.values,
                            .label = picture_label(options_.field, components, component),
                            .unit = frame.info.unit,
                            .title = title_,
                            .time = frame.time,
                            .dimension = frame.dimension,
-                           .rigid_shapes = shapes,
+                           .rigid_shapes = shot.shapes,
                            .stage_low = stage_.low,
                            .stage_high = stage_.high,
                            .spread = spread_,
-                           .time_format = format_of(frames_)};
-    Camera const camera = camera_for(frame);
-    PictureStyle const style = style_of(asked_.output, camera, window_);
-    Window const window = shown_window(window_, camera, subject_of(frame, radii));
-    return draw_picture(data, style, window);
+                           .case_text = asked_.source,
+                           .time_format = time_format()};
+    shot.data = data;
+    shot.window = shown_window(window_, camera_for(frame.dimension), subject_of(frame, shot.radii));
+    return shot;
   }
+
+ private:
   Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
   std::vector<RigidShape> shapes_of(Frame const& frame) const {
     if (!spec_) return {};
@@ -128,16 +161,16 @@ class Renderer {
                                  known.empty() ? "it has none" : fmt::format("allowed: {}", fmt::join(known, ", "))));
   }
   void survey(Frame const& frame) {
+    components_ = frame.info.components;
+    component_ = component_of(frame);
     if (!(stage_.size() > 0)) stage_ = Stage::around(frame.points);
-    Camera const camera = camera_for(frame);
+    Camera const camera = camera_for(frame.dimension);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
     include(window_, camera, subject_of(frame, radii));
     if (camera.follow < 0) show_shapes(window_, camera.view, shapes_of(frame), stage_);
     spread_.include(picture_values(frame.values, frame.info.components, component_of(frame)));
   }
-  Camera camera_for(Frame const& frame) const {
-    return camera_of(asked_.output, upwards(asked_), asked_.bodies, frame.dimension);
-  }
+  Camera camera_for(int dimension) const { return camera_of(asked_.output, upwards(asked_), asked_.bodies, dimension); }
   static Subject subject_of(Frame const& frame, std::vector<double> const& radii) {
     double const margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
     return {.points = frame.points, .volume = frame.volume, .body = frame.body, .margin = margin};
@@ -152,6 +185,7 @@ class Renderer {
   Window window_;
   Stage stage_;
   Spread spread_;
+  int components_ = 1, component_ = whole_field;
 };
 
 void expect_frames(fs::path const& folder) {
@@ -161,8 +195,60 @@ void expect_frames(fs::path const& folder) {
                   folder.string()));
 }
 
+/// Pictures of one run, or of several beside each other, by the numbers of the frames of the first.
+class Pictures {
+ public:
+  Pictures(fs::path const& folder, RenderOptions const& options) {
+    std::vector<fs::path> folders{folder};
+    folders.insert(folders.end(), options.beside.begin(), options.beside.end());
+    for (fs::path const& one : folders) {
+      expect_frames(one);
+      runs_.push_back(std::make_unique<Renderer>(one, options));
+      names_.push_back(runs_.back()->title());
+      if (runs_.back()->count() == 0)
+        throw InputError(fmt::format("{}: has no frames to draw - let the run write some", one.string()));
+    }
+    for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);
+    for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // what came later, too
+    bool const all_differ = std::set<std::string>(names_.begin(), names_.end()).size() == names_.size();
+    for (std::size_t k = 0; !all_differ && k < names_.size(); ++k) names_[k] = name_of(folders[k]);
+  }
+  Renderer const& first() const { return *runs_[0]; }
+  std::size_t count() const { return first().count(); }
+  double time(std::size_t number) const { return first().time(number); }
+
+  Image picture(std::size_t number) const {
+    if (runs_.size() == 1) return first().picture(number);
+    std::vector<Shot> shots;
+    for (auto const& run : runs_) shots.push_back(run->shot(run->nearest(time(number))));
+    std::vector<Panel> panels;
+    for (std::size_t k = 0; k < shots.size(); ++k) panels.push_back({shots[k].data, shots[k].window, names_[k]});
+    return sheet(first(), panels, "", "t = " + first().time_format().text(time(number)));
+  }
+
+  /// Panels with the look of a run.
+  static Image sheet(Renderer const& run, std::vector<Panel> const& panels, std::string title, std::string at_right) {
+    PictureStyle style = run.style(panels[0].data.dimension);
+    int const columns = fitting_columns(run.window(), panels.size());
+    if (!run.size_is_given()) {
+      auto const size = fitting_size(run.window(), panels.size(), columns);
+      style.width = size[0];
+      style.height = size[1];
+    }
+    return draw_panels(panels, {std::move(title), std::move(at_right), columns}, style);
+  }
+
+ private:
+  static std::string name_of(fs::path const& folder) {
+    fs::path const whole = fs::absolute(folder).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  }
+  std::vector<std::unique_ptr<Renderer>> runs_;
+  std::vector<std::string> names_;
+};
+
 /// `count` of the frames, those nearest to equal steps of time; a frame may be there several times.
-std::vector<std::size_t> at_equal_steps(Renderer const& renderer, std::vector<std::size_t> numbers, std::size_t count) {
+std::vector<std::size_t> at_equal_steps(Pictures const& renderer, std::vector<std::size_t> numbers, std::size_t count) {
   std::sort(numbers.begin(), numbers.end());
   double const first = renderer.time(numbers.front()), last = renderer.time(numbers.back());
   std::vector<std::size_t> out;
@@ -179,11 +265,8 @@ std::vector<std::size_t> at_equal_steps(Renderer const& renderer, std::vector<st
 }  // namespace
 
 std::size_t render_film(fs::path const& folder, RenderOptions const& options, FilmOptions const& film) {
-  expect_frames(folder);
-  Renderer const renderer(folder, options);
+  Pictures const renderer(folder, options);
   auto const numbers = chosen(options, renderer.count());
-  if (numbers.empty())
-    throw InputError(fmt::format("{}: has no frames to draw - let the run write some", folder.string()));
   double const frames = static_cast<double>(numbers.size());
   FilmPace pace{.hold_end = film.hold_end};
   if (film.pictures_per_second) pace.pictures_per_second = *film.pictures_per_second;
@@ -200,16 +283,32 @@ std::size_t render_film(fs::path const& folder, RenderOptions const& options, Fi
   return order.size();
 }
 
+fs::path render_times(fs::path const& folder, RenderOptions const& options, std::vector<double> const& times) {
+  Pictures const pictures(folder, options);
+  Renderer const& run = pictures.first();
+  std::vector<Shot> shots;
+  std::vector<Panel> panels;
+  for (double const time : times) shots.push_back(run.shot(run.nearest(time)));
+  for (Shot const& shot : shots) panels.push_back({shot.data, shot.window, run.time_format().text(shot.frame.time)});
+  fs::path const out = options.out.empty() ? folder / "pictures" : options.out;
+  make_folder(out);
+  std::string name = run.name(0);
+  fs::path path = out / name.replace(name.rfind("000000"), 6, "times");
+  write_png(path, Pictures::sheet(run, panels, run.title(), ""));
+  return path;
+}
+
 std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const& options,
                                     std::function<void(fs::path const&)> const& drawn) {
-  expect_frames(folder);
-  Renderer const renderer(folder, options);
-  fs::path const out = options.out.empty() ? folder / "pictures" : options.out;
-  auto const numbers = chosen(options, renderer.count());
+  Pictures const pictures(folder, options);
+  fs::path const own = options.beside.empty() ? folder / "pictures" : fs::path("side-by-side");
+  fs::path const out = options.out.empty() ? own : options.out;
+  auto const numbers = chosen(options, pictures.count());
   make_folder(out);
   std::vector<fs::path> paths;
   for (std::size_t const k : numbers) {
-    paths.push_back(renderer.draw(k, out));
+    paths.push_back(out / pictures.first().name(k));
+    write_png(paths.back(), pictures.picture(k));
     if (drawn) drawn(paths.back());
   }
   return paths;

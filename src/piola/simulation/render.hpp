@@ -19,6 +19,8 @@ struct RenderOptions {
   std::vector<std::size_t> only = {};  ///< numbers of the frames to draw; empty: all
   bool last = false;                   ///< draw the last one
   std::size_t every = 1;               ///< each so many
+  /// Folders of other runs, whose frames nearest in time are drawn beside, with one range and one scale.
+  std::vector<std::filesystem::path> beside = {};
 };
 
 /// Draws frames of a run to FIELD-000000.png, or FIELD-x-000000.png of a component, with the number of the frame; with
@@ -27,6 +29,11 @@ struct RenderOptions {
 /// no such frame, field or component.
 std::vector<std::filesystem::path> render_frames(std::filesystem::path const& folder, RenderOptions const& options,
                                                  std::function<void(std::filesystem::path const&)> const& drawn = {});
+
+/// Draws the frames nearest to these times [s] into one picture, FIELD-times.png, with one bar. Returns its path.
+/// Throws as render_frames does.
+std::filesystem::path render_times(std::filesystem::path const& folder, RenderOptions const& options,
+                                   std::vector<double> const& times);
 
 /// What a film of a run is like, see Film and FilmPace.
 struct FilmOptions {
