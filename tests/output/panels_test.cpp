@@ -26,7 +26,9 @@ Window window_of(Row const& row) {
   return window;
 }
 
-PictureStyle style(bool labels) { return {.width = 640, .height = 300, .view = {}, .range = {{0, 40}}, .labels = labels}; }
+PictureStyle style(bool labels) {
+  return {.width = 640, .height = 300, .view = {}, .range = {{0, 40}}, .labels = labels};
+}
 
 TEST(Panels, AreThePicturesThatTheyAreAlone) {
   Row const first(0), second(15);
@@ -64,7 +66,8 @@ TEST(Panels, KeepTransparencyAndTakeNothing) {
   Row const row(0);
   PictureStyle clear = style(true);
   clear.theme = Theme::transparent;
-  std::vector<Panel> const panels{{row.data, window_of(row), "one"}, {row.data, window_of(row), "two"}, {row.data, window_of(row), "three"}};
+  std::vector<Panel> const panels{
+      {row.data, window_of(row), "one"}, {row.data, window_of(row), "two"}, {row.data, window_of(row), "three"}};
   Image const sheet = draw_panels(panels, {.title = "", .at_right = "", .columns = 2}, clear);
   EXPECT_EQ(sheet.alpha[0], 0);
   EXPECT_GT(std::count(sheet.alpha.begin(), sheet.alpha.end(), 255), 500);

@@ -125,7 +125,7 @@ TEST(Picture, CarriesWhereItComesFrom) {
 TEST(Picture, IsCutWhereLettersStand) {
   Scene const scene;
   PictureStyle const style{1000, 800, {0, 0}, {}};
-  Window const near{true, 0.4, 0.5, 0.4, 0.5};
+  Window const near{true, 0.45, 0.55, 0.45, 0.55};
   Image const image = draw_picture(scene.data(), style, near);
   EXPECT_NE(image.at(430, 400), (Colour{255, 255, 255}));
   for (auto const& [x, y] : {std::array{860, 30}, {700, 10}, {995, 400}, {862, 400}, {500, 798}, {120, 760}})

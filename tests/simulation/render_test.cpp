@@ -140,14 +140,13 @@ TEST(Render, TakesTheLookAskedFor) {
   };
   auto const before = picture();
   LookOptions const plain = d.options.look;
-  std::vector<LookOptions> looks(7, plain);
+  std::vector<LookOptions> looks(6, plain);
   looks[0].zoom = 2;
   looks[1].look_at = {{0, 0, 0}};
   looks[2].theme = "dark";
   looks[3].map = "grey";
   looks[4].labels = false;
   looks[5].roll = 90;
-  looks[6].named_view = "-z";
   for (std::size_t k = 0; k < looks.size(); ++k) {
     d.options.look = looks[k];
     EXPECT_NE(picture(), before) << k;

@@ -3,7 +3,7 @@
 #include "piola/base/problems.hpp"
 #include <algorithm>
 #include <cairo/cairo.h>
-#include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <numbers>
 #include <string>
@@ -61,18 +61,21 @@ std::uint32_t premultiplied(Colour const& colour, unsigned alpha) {
 struct Canvas::Drawing {
   int width, height;
   bool transparent;
-  std::vector<std::uint32_t> pixels;
-  cairo_surface_t* surface = nullptr;
-  cairo_t* context = nullptr;
+  cairo_surface_t* surface;
+  cairo_t* context;
 
   explicit Drawing(Image const& below)
-      : width(below.width), height(below.height), transparent(!below.alpha.empty()), pixels(below.rgb.size() / 3) {
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      Colour const colour{below.rgb[3 * i], below.rgb[3 * i + 1], below.rgb[3 * i + 2]};
-      pixels[i] = premultiplied(colour, transparent ? below.alpha[i] : 255u);
-    }
-    surface = cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_ARGB32,
-                                                  width, height, 4 * width);
+      : width(below.width),
+        height(below.height),
+        transparent(!below.alpha.empty()),
+        surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height)) {
+    for (int y = 0; y < height && row_of(y); ++y)
+      for (int x = 0; x < width; ++x) {
+        auto const at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        std::uint32_t const pixel = premultiplied(below.at(x, y), transparent ? below.alpha[at] : 255u);
+        std::memcpy(row_of(y) + 4 * x, &pixel, sizeof pixel);
+      }
+    cairo_surface_mark_dirty(surface);
     context = cairo_create(surface);
     // Letters then have the same shapes and places at any size and on any screen.
     cairo_font_options_t* const options = cairo_font_options_create();
@@ -91,6 +94,11 @@ struct Canvas::Drawing {
   Drawing(Drawing const&) = delete;
   Drawing& operator=(Drawing const&) = delete;
 
+  /// The first byte of a row; none if there was no memory for the surface.
+  unsigned char* row_of(int y) const {
+    unsigned char* const data = cairo_image_surface_get_data(surface);
+    return data ? data + static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface) : nullptr;
+  }
   void paint_with(Colour const& c) const { cairo_set_source_rgb(context, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0); }
   void path(std::span<std::array<double, 2> const> points) const {
     cairo_new_path(context);
@@ -149,9 +157,12 @@ Image Canvas::image() const {
     throw FileError(fmt::format("the letters of a picture cannot be drawn ({}) - choose a smaller picture",
                                 cairo_status_to_string(status)));
   Image out(d.width, d.height, {0, 0, 0});
-  if (d.transparent) out.alpha.resize(d.pixels.size());
-  for (std::size_t i = 0; i < d.pixels.size(); ++i) {
-    std::uint32_t const pixel = d.pixels[i], alpha = pixel >> 24;
+  if (d.transparent) out.alpha.resize(out.rgb.size() / 3);
+  for (std::size_t i = 0; i < out.rgb.size() / 3; ++i) {
+    auto const columns = static_cast<std::size_t>(d.width);
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, d.row_of(static_cast<int>(i / columns)) + 4 * (i % columns), sizeof pixel);
+    std::uint32_t const alpha = pixel >> 24;
     for (std::uint32_t c = 0; c < 3; ++c) {
       std::uint32_t const part = pixel >> (16 - 8 * c) & 255u;
       out.rgb[3 * i + c] =

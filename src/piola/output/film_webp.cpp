@@ -2,8 +2,8 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/film_makers.hpp"
-#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <span>
 #include <webp/encode.h>
@@ -67,7 +67,7 @@ class WebpMaker : public Film::Maker {
       fail();
     }
     std::vector<std::byte> bytes(data.size);
-    std::copy_n(reinterpret_cast<std::byte const*>(data.bytes), data.size, bytes.begin());
+    if (data.size > 0) std::memcpy(bytes.data(), data.bytes, data.size);
     WebPDataClear(&data);
     write_whole_file(path_, bytes);
   }
