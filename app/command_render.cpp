@@ -136,6 +136,8 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
   command.add_option("--roll", look.roll, "Angle in degrees by which the picture is turned, anticlockwise")
       ->check(CLI::Range(-360, 360));
   command.add_option("--zoom", look.zoom, "2 shows all twice as large")->check(CLI::Range(0.01, 1000.0));
+  command.add_option("--perspective", look.perspective, "Angle of view in degrees; 0: parallel lines stay parallel")
+      ->check(CLI::Range(0.0, 120.0));
   command.add_option("--look-at", options.look_at, "The point in the middle, in m")->expected(3);
   command.add_option("--follow", look.follow, "Name of a body that stays in the middle and fills the picture");
   command

@@ -99,6 +99,44 @@ TEST(Picture, HasTheBackgroundOfItsTheme) {
   EXPECT_EQ(back.rgb, clear.rgb);
 }
 
+TEST(Picture, ShowsNearThingsLargerInPerspective) {
+  std::vector<std::array<double, 3>> const points{{-1, 0, -1}, {1, 0, 1}};
+  std::vector<double> const radius{0.4, 0.4}, values{0, 1};
+  PictureData data{points, radius, values, "", "1", "", 0, 3};
+  data.stage_low = {-1, 0, -1};
+  data.stage_high = {1, 0, 1};
+  PictureStyle style{600, 500, {0, 0}, {}};
+  style.labels = false;
+  Window const window{true, -2, 2, -2, 2};
+  auto const sizes = [&] {
+    Image const image = draw_picture(data, style, window);
+    std::array<int, 2> count{};
+    for (int y = 0; y < 500; ++y)
+      for (int x = 0; x < 600; ++x) count[x < 300 ? 0 : 1] += image.at(x, y) != Colour{255, 255, 255};
+    return count;
+  };
+  auto const parallel = sizes();
+  EXPECT_NEAR(parallel[0], parallel[1], 0.02 * parallel[0]);
+  style.perspective = 40;
+  auto const seen = sizes();
+  // The eye is 2 m / tan 20 degree away; areas go with the square of the distances.
+  double const eye = 2 / std::tan(20 * std::acos(-1.0) / 180), ratio = (eye + 1) / (eye - 1);
+  EXPECT_NEAR(seen[1] / static_cast<double>(seen[0]), ratio * ratio, 0.05 * ratio * ratio);
+
+  data.points = std::span(points).first(1);  // a rigid ball in place of the near one has the same image
+  RigidShape ball;
+  ball.kind = RigidShape::Kind::sphere;
+  ball.centre = points[1];
+  ball.radius = 0.4;
+  data.rigid_shapes = std::span(&ball, 1);
+  auto const rigid = sizes();
+  EXPECT_EQ(rigid[0], seen[0]);
+  EXPECT_NEAR(rigid[1], seen[1], 0.1 * seen[1]) << "a true ball in perspective is a little long";
+  data.points = {};
+  ball.centre = {0, 0, 100};  // behind the eye
+  EXPECT_EQ(sizes()[1], 0);
+}
+
 TEST(Picture, CarriesWhereItComesFrom) {
   testing::TemporaryFolder const folder;
   Scene const scene;

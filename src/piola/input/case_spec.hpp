@@ -204,6 +204,7 @@ struct OutputSpec {
   std::string picture_named_view = {};                 ///< x, -y, iso ...; empty: picture_view
   double picture_roll = 0;                             ///< deg
   double picture_zoom = 1;
+  double picture_perspective = 0;                             ///< deg
   std::optional<std::array<double, 3>> picture_look_at = {};  ///< m
   std::string picture_follow = {};                            ///< name of a body
   int picture_width = 0, picture_height = 0;                  ///< pixels; 0: as what is shown needs it

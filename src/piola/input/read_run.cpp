@@ -145,6 +145,7 @@ void read_view(Section const& section, OutputSpec& output) {
 
 void read_frame_of_picture(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
   section.read("zoom", output.picture_zoom);
+  section.read("perspective", output.picture_perspective);
   if (auto const point = section.point("look_at")) {
     output.picture_look_at = std::array{0.0, 0.0, 0.0};
     std::copy(point->begin(), point->end(), output.picture_look_at->begin());

@@ -56,6 +56,8 @@ struct PictureStyle {
   Theme theme = Theme::light;
   bool labels = true;  ///< title, time, colour bar, axes, scale bar
   Palette palette = Palette::automatic;
+  double perspective = 0;                           ///< angle of view over the height of the window [deg]; 0: none
+  std::optional<std::array<double, 3>> focus = {};  ///< what keeps its size then [m]; else the middle of the stage
 };
 
 /// Particles as shaded balls, with title, time, colour bar, axes and scale bar. Throws FileError if there is no memory

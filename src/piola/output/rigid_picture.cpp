@@ -140,8 +140,13 @@ double Stage::size() const {
 void RigidCanvas::draw(DepthImage& image, std::span<RigidShape const> shapes) const {
   for (RigidShape const& shape : shapes) {
     Solid const solid = solid_of(shape, stage);
-    auto const centre = project(solid.centre);
-    double const reach = solid.reach() * project.scale;
+    auto const centre = project(project.seen(solid.centre));
+    // Of what reaches near the eye nobody knows where its image ends.
+    Point const front = plus(solid.centre, solid.reach(), project.towards);
+    double const larger = project.magnification(front);
+    double const reach = std::isnan(larger)
+                             ? image.colour.width + image.colour.height
+                             : (solid.reach() * larger + project.shift(solid.centre, larger)) * project.scale;
     if (!std::isfinite(centre[0]) || !std::isfinite(centre[1]) || !std::isfinite(reach)) continue;
     auto const bound = [&](double value, int low, int high) {
       return static_cast<int>(std::clamp(value * fine, static_cast<double>(low), static_cast<double>(high)));
@@ -149,14 +154,17 @@ void RigidCanvas::draw(DepthImage& image, std::span<RigidShape const> shapes) co
     int const x1 = bound(centre[0] + reach + 1, 0, width), y1 = bound(centre[1] + reach + 1, 0, image.colour.height);
     for (int y = bound(centre[1] - reach - 1, top, image.colour.height); y < y1; ++y) {
       for (int x = bound(centre[0] - reach - 1, 0, width); x < x1; ++x) {
-        Part const part = solid.seen(project.point((x + 0.5) / fine, (y + 0.5) / fine), project.towards);
+        Sight const line = project.sight((x + 0.5) / fine, (y + 0.5) / fine);
+        Part const part = solid.seen(line.from, line.towards);
         if (part.empty() || !std::isfinite(part.to)) continue;
+        double const depth = project.depth(line, part.to);
+        if (!std::isfinite(depth)) continue;  // at the eye or behind it
         Point const& n = part.normal;
         bool const flat = dimension < 3;
         constexpr double behind_all = -1e30;  // finite in single precision
-        Point const at = plus(project.point((x + 0.5) / fine, (y + 0.5) / fine), part.to, project.towards);
+        Point const at = plus(line.from, part.to, line.towards);
         Colour const colour = solid.marked && is_dark(shape, at, dimension) ? dark_grey : rigid_grey;
-        image.put(x, y, flat ? behind_all : part.to * project.scale * fine, colour,
+        image.put(x, y, flat ? behind_all : depth * project.scale * fine, colour,
                   flat ? 1 : light(dot(n, project.right), -dot(n, project.up), dot(n, project.towards)));
       }
     }

@@ -59,7 +59,8 @@ struct Camera {
   View view;
   double zoom = 1;
   std::optional<std::array<double, 3>> look_at = {};  ///< what stands in the middle [m]
-  int follow = -1;  ///< number of the body that stays in the middle and fills the window; -1: none
+  double perspective = 0;  ///< angle of view over the height of the window [deg]; 0: parallel lines stay parallel
+  int follow = -1;         ///< number of the body that stays in the middle and fills the window; -1: none
 };
 
 /// Grows a window by one moment of a run. With a body to follow its coordinates are relative to the body's centre.

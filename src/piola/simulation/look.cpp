@@ -34,6 +34,7 @@ OutputSpec with_look(OutputSpec output, LookOptions const& look) {
   if (look.up != "auto") output.picture_up = look.up;
   take(output.picture_roll, look.roll);
   take(output.picture_zoom, look.zoom);
+  take(output.picture_perspective, look.perspective);
   take(output.picture_labels, look.labels);
   if (look.look_at) output.picture_look_at = look.look_at;
   take_word(output.picture_follow, look.follow);
@@ -51,7 +52,8 @@ OutputSpec with_look(OutputSpec output, LookOptions const& look) {
 Camera camera_of(OutputSpec const& output, Up up, std::span<BodySpec const> bodies, int dimension) {
   Camera camera{.view = {output.picture_view[0], output.picture_view[1], up, output.picture_roll},
                 .zoom = output.picture_zoom,
-                .look_at = output.picture_look_at};
+                .look_at = output.picture_look_at,
+                .perspective = output.picture_perspective};
   if (auto const named = named_view(output.picture_named_view, up)) {
     camera.view.azimuth = (*named)[0];
     camera.view.elevation = (*named)[1];
@@ -83,7 +85,9 @@ PictureStyle style_of(OutputSpec const& output, Camera const& camera, Window con
           .theme = static_cast<Theme>(number_of(output.picture_theme, theme_words, "theme")),
           .labels = output.picture_labels,
           .palette = palette_for(output.picture_field,
-                                 static_cast<Palette>(number_of(output.picture_map, palette_words, "map")))};
+                                 static_cast<Palette>(number_of(output.picture_map, palette_words, "map"))),
+          .perspective = camera.perspective,
+          .focus = camera.look_at};
 }
 
 }  // namespace piola

@@ -12,8 +12,8 @@ struct LookOptions {
   std::optional<std::array<double, 2>> view = {};  ///< azimuth and elevation [deg]
   std::string named_view = {};                     ///< one of view_words
   std::string up = "auto";
-  std::optional<double> roll = {};  ///< deg
-  std::optional<double> zoom = {};
+  std::optional<double> roll = {};                    ///< deg
+  std::optional<double> zoom = {}, perspective = {};  ///< perspective: deg
   std::optional<std::array<double, 3>> look_at = {};  ///< m
   std::string follow = {};                            ///< name of a body
   std::optional<std::array<int, 2>> size = {};        ///< pixels
