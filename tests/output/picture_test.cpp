@@ -103,8 +103,6 @@ TEST(Picture, ShowsNearThingsLargerInPerspective) {
   std::vector<std::array<double, 3>> const points{{-1, 0, -1}, {1, 0, 1}};
   std::vector<double> const radius{0.4, 0.4}, values{0, 1};
   PictureData data{points, radius, values, "", "1", "", 0, 3};
-  data.stage_low = {-1, 0, -1};
-  data.stage_high = {1, 0, 1};
   PictureStyle style{600, 500, {0, 0}, {}};
   style.labels = false;
   Window const window{true, -2, 2, -2, 2};
@@ -117,10 +115,10 @@ TEST(Picture, ShowsNearThingsLargerInPerspective) {
   };
   auto const parallel = sizes();
   EXPECT_NEAR(parallel[0], parallel[1], 0.02 * parallel[0]);
-  style.perspective = 40;
+  data.eye = eye_before({.view = style.view}, 40, {-1, 0, -1}, {1, 0, 1});
   auto const seen = sizes();
-  // The eye is 2 m / tan 20 degree away; areas go with the square of the distances.
-  double const eye = 2 / std::tan(20 * std::acos(-1.0) / 180), ratio = (eye + 1) / (eye - 1);
+  // The eye is sqrt(2) m / tan 20 degree away; areas go with the square of the distances.
+  double const eye = std::sqrt(2.0) / std::tan(20 * std::acos(-1.0) / 180), ratio = (eye + 1) / (eye - 1);
   EXPECT_NEAR(seen[1] / static_cast<double>(seen[0]), ratio * ratio, 0.05 * ratio * ratio);
 
   data.points = std::span(points).first(1);  // a rigid ball in place of the near one has the same image

@@ -126,6 +126,26 @@ TEST(Camera, FollowsABody) {
   EXPECT_NEAR(second.x0 - first.x0, 7, 1e-9);
 }
 
+TEST(Camera, MakesRoomForWhatIsNearInPerspective) {
+  Camera camera{.view = {20, 30}};
+  Points const points = cube(8);
+  Window parallel, near;
+  include(parallel, camera, {.points = points});
+  camera.eye = eye_before(camera, 60, {0, 0, 0}, {1, 1, 1});
+  EXPECT_NEAR(camera.eye.distance, std::sqrt(3.0) / 2 / std::tan(std::acos(-1.0) / 6), 1e-12);
+  include(near, camera, {.points = points});
+  EXPECT_GT(near.y1 - near.y0, 1.1 * (parallel.y1 - parallel.y0));
+  for (auto const& p : points) {
+    auto const seen = camera.eye.seen(p);
+    double y = 0;
+    for (std::size_t c = 0; c < 3; ++c) y += seen[c] * camera.view.up()[c];
+    EXPECT_TRUE(y > near.y0 && y < near.y1);
+  }
+  auto const middle = camera.eye.seen({0.5, 0.5, 0.5});
+  for (double const c : middle) EXPECT_NEAR(c, 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(camera.eye.magnification({100, 100, 100}))) << "behind the eye";
+}
+
 TEST(FittingSize, FollowsWhatIsShown) {
   auto const column = fitting_size({true, 0, 1, 0, 5}), beam = fitting_size({true, 0, 5, 0, 1}),
              square = fitting_size({true, 0, 1, 0, 1});

@@ -8,6 +8,7 @@ namespace {
 using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 7> up_words{"auto", "x", "y", "z", "-x", "-y", "-z"};
+constexpr Interval turn{-360, 360, false, false};  // degree
 constexpr std::array<std::string_view, 8> map_words{"auto", "viridis",  "cividis",    "magma",
                                                     "grey", "blue_red", "blue_brown", "heat_on_grey"};
 constexpr std::array<std::string_view, 3> theme_words{"light", "dark", "transparent"};
@@ -298,43 +299,22 @@ constexpr std::array observer_keys{
             "view",
             list,
             "degree",
-            {-360, 360, false, false},
+            turn,
             "[30, 20]",
-            "direction of view: azimuth and elevation, or one of \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\" (from "
-            "that end of "
-            "an axis), \"iso\", \"iso2\"",
+            "azimuth and elevation, or one of \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\" (from that end of an "
+            "axis), \"iso\", \"iso2\"",
             {}},
-    KeyInfo{"output.pictures",
-            "azimuth",
-            quantity,
-            "degree",
-            {-360, 360, false, false},
-            "30",
-            "angle about the axis that points upwards, in place of that of view",
-            {}},
-    KeyInfo{"output.pictures",
-            "elevation",
-            quantity,
-            "degree",
-            {-360, 360, false, false},
-            "20",
-            "angle above the plane across that axis, in place of that of view",
-            {}},
-    KeyInfo{"output.pictures",
-            "roll",
-            quantity,
-            "degree",
-            {-360, 360, false, false},
-            "0",
-            "angle by which the picture is turned, anticlockwise",
-            {}},
+    KeyInfo{"output.pictures", "azimuth", quantity, "degree", turn, "30", "about what points up, as in view", {}},
+    KeyInfo{
+        "output.pictures", "elevation", quantity, "degree", turn, "20", "above the plane across it, as in view", {}},
+    KeyInfo{"output.pictures", "roll", quantity, "degree", turn, "0", "turns the picture anticlockwise", {}},
     KeyInfo{"output.pictures",
             "perspective",
             quantity,
             "degree",
             {0, 120, false, false},
             "0",
-            "angle of view over the height of what is shown; 0: parallel lines stay parallel",
+            "angle under which the bodies are seen at the start; 0: parallel lines stay parallel",
             {}},
     KeyInfo{
         "output.pictures", "zoom", quantity, "1", {0.01, 1000, false, false}, "1", "2 shows all twice as large", {}},

@@ -21,45 +21,22 @@ struct Sight {
 };
 
 /// Parallel projection: pixels = shift + scale * metres, y downwards; depth grows towards the viewer. A picture in
-/// perspective is the parallel projection of bodies that `seen` has moved: lines stay lines, and what hides what.
+/// perspective is the parallel projection of bodies that Eye::seen has moved.
 struct Projection {
   std::array<double, 3> right, up, towards;
   double scale = 1, x_shift = 0, y_shift = 0;
-  double eye = 0;                   ///< distance of the eye from `axis` [m]; 0: parallel
-  std::array<double, 3> axis = {};  ///< the point in the middle of the picture that keeps its size
+  Eye eye = {};
 
-  double height(std::array<double, 3> const& p) const {
-    return (p[0] - axis[0]) * towards[0] + (p[1] - axis[1]) * towards[1] + (p[2] - axis[2]) * towards[2];
-  }
-  /// How much larger something at this point looks; not a number near the eye and behind it.
-  double magnification(std::array<double, 3> const& p) const {
-    if (!(eye > 0)) return 1;
-    constexpr double nearest = 0.95;  // of the way to the eye
-    double const h = height(p);
-    return h < nearest * eye ? eye / (eye - h) : std::numeric_limits<double>::quiet_NaN();
-  }
-  /// How far a point at `p` would move in the picture [m] if it were magnified by another factor.
-  double shift(std::array<double, 3> const& p, double other) const {
-    double const h = height(p);
-    double square = -h * h;
-    for (std::size_t c = 0; c < 3; ++c) square += (p[c] - axis[c]) * (p[c] - axis[c]);
-    return eye > 0 ? std::sqrt(std::max(square, 0.0)) * std::abs(other - magnification(p)) : 0;
-  }
-  std::array<double, 3> seen(std::array<double, 3> const& p) const {
-    double const m = magnification(p);
-    if (!(eye > 0)) return p;
-    return {axis[0] + m * (p[0] - axis[0]), axis[1] + m * (p[1] - axis[1]), axis[2] + m * (p[2] - axis[2])};
-  }
   /// The line that is seen in a pixel, before anything was moved.
   Sight sight(double x, double y) const {
     std::array<double, 3> from = point(x, y);
-    if (!(eye > 0)) return {from, towards};
-    double const h = height(from);
+    if (!eye.near()) return {from, towards};
+    double const h = eye.height(from);
     std::array<double, 3> line{};
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       from[c] -= h * towards[c];
-      line[c] = axis[c] + eye * towards[c] - from[c];
+      line[c] = eye.axis[c] + eye.distance * towards[c] - from[c];
       square += line[c] * line[c];
     }
     for (double& c : line) c /= std::sqrt(square);
@@ -67,10 +44,10 @@ struct Projection {
   }
   /// Depth [m] of a point at this distance along a line of sight.
   double depth(Sight const& line, double along) const {
-    if (!(eye > 0)) return along;
+    if (!eye.near()) return along;
     std::array<double, 3> p{};
     for (std::size_t c = 0; c < 3; ++c) p[c] = line.from[c] + along * line.towards[c];
-    p = seen(p);
+    p = eye.seen(p);
     return p[0] * towards[0] + p[1] * towards[1] + p[2] * towards[2];
   }
   std::array<double, 2> operator()(std::array<double, 3> const& p) const {

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace piola {
 namespace {
@@ -30,32 +29,14 @@ Projection make_projection(View const& view, Window const& w, Layout const& area
   return p;
 }
 
-/// Puts the eye so far away that the window has the angle asked for, and the window nearer, so that what stands in
-/// front has room.
-void put_eye(Projection& project, PictureStyle const& style, PictureData const& data, Window const& w) {
-  if (!(style.perspective > 0) || data.dimension < 3) return;
-  Stage const stage{data.stage_low, data.stage_high};
-  Point const focus = style.focus.value_or(stage.middle());
-  double const x = (w.x0 + w.x1) / 2, y = (w.y0 + w.y1) / 2, z = dot(focus, project.towards);
-  for (std::size_t c = 0; c < 3; ++c)
-    project.axis[c] = x * project.right[c] + y * project.up[c] + z * project.towards[c];
-  double const high = std::max(w.y1 - w.y0, 1e-300);
-  project.eye = high / 2 / std::tan(style.perspective / 2 * std::numbers::pi / 180);
-  double const pixel_x = project(project.axis)[0], pixel_y = project(project.axis)[1];
-  double const room = 1 + 0.5 * std::min(1.0, 0.5 * stage.size() / project.eye);
-  project.scale /= room;
-  project.x_shift = pixel_x - project.scale * x;
-  project.y_shift = pixel_y + project.scale * y;
-}
-
 /// The particles as perspective shows them: nearer ones are larger.
 struct Moved {
   std::vector<Point> points;
   std::vector<double> radius;
   Moved(PictureData const& data, Projection const& project) {
     for (std::size_t i = 0; i < data.points.size(); ++i) {
-      points.push_back(project.seen(data.points[i]));
-      radius.push_back(data.radius[i] * project.magnification(data.points[i]));
+      points.push_back(project.eye.seen(data.points[i]));
+      radius.push_back(data.radius[i] * project.eye.magnification(data.points[i]));
     }
   }
 };
@@ -114,7 +95,7 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
                   spread.extremes[1] > map.high() + rounding ? spread.extremes[1] : map.high()};
   out.not_a_number = spread.not_a_number;
   out.legend = data.legend;
-  out.pixels_per_metre = project.eye > 0 ? 0 : project.scale;  // sizes differ with the distance
+  out.pixels_per_metre = project.eye.near() ? 0 : project.scale;  // sizes differ with the distance
   return out;
 }
 
@@ -155,10 +136,10 @@ Image draw_picture(PictureData const& data, PictureStyle const& asked, Window co
   auto const range = style.range ? *style.range : spread.typical;
   ColourMap const map(range[0], range[1], style.palette);
   Projection project = make_projection(style.view, window, layout);
-  put_eye(project, style, data, window);
+  project.eye = data.eye;
   PictureData moved_data = data;
   std::optional<Moved> moved;
-  if (project.eye > 0) {
+  if (project.eye.near()) {
     moved.emplace(data, project);
     moved_data.points = moved->points;
     moved_data.radius = moved->radius;
@@ -184,7 +165,7 @@ void draw_letters(Image& image, Layout const& layout, PictureData const& data, P
   ColourMap const map(range[0], range[1], style.palette);
   Layout const area = layout_of(style.width, style.height, data.title, style.labels);
   Projection project = make_projection(view, window, area);
-  put_eye(project, style, data, window);
+  project.eye = data.eye;
   Overlay overlay = overlay_of(data, view, project, map, spread);
   overlay.at_right = at_right;
   draw_overlay(image, layout, overlay, colours_of(style.theme));

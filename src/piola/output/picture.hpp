@@ -46,6 +46,7 @@ struct PictureData {
   std::span<LegendEntry const> legend = {};
   std::optional<Spread> spread = {};           ///< of all pictures of the run; else of these values
   std::string_view case_text = {};             ///< the case as run: pictures carry its check sum
+  Eye eye = {};                                ///< in three dimensions
   std::optional<TimeFormat> time_format = {};  ///< of all times of the run; else one that fits this time
 };
 
@@ -56,8 +57,6 @@ struct PictureStyle {
   Theme theme = Theme::light;
   bool labels = true;  ///< title, time, colour bar, axes, scale bar
   Palette palette = Palette::automatic;
-  double perspective = 0;                           ///< angle of view over the height of the window [deg]; 0: none
-  std::optional<std::array<double, 3>> focus = {};  ///< what keeps its size then [m]; else the middle of the stage
 };
 
 /// Particles as shaded balls, with title, time, colour bar, axes and scale bar. Throws FileError if there is no memory

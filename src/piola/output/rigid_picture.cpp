@@ -140,13 +140,13 @@ double Stage::size() const {
 void RigidCanvas::draw(DepthImage& image, std::span<RigidShape const> shapes) const {
   for (RigidShape const& shape : shapes) {
     Solid const solid = solid_of(shape, stage);
-    auto const centre = project(project.seen(solid.centre));
+    auto const centre = project(project.eye.seen(solid.centre));
     // Of what reaches near the eye nobody knows where its image ends.
     Point const front = plus(solid.centre, solid.reach(), project.towards);
-    double const larger = project.magnification(front);
+    double const larger = project.eye.magnification(front);
     double const reach = std::isnan(larger)
                              ? image.colour.width + image.colour.height
-                             : (solid.reach() * larger + project.shift(solid.centre, larger)) * project.scale;
+                             : (solid.reach() * larger + project.eye.shift(solid.centre, larger)) * project.scale;
     if (!std::isfinite(centre[0]) || !std::isfinite(centre[1]) || !std::isfinite(reach)) continue;
     auto const bound = [&](double value, int low, int high) {
       return static_cast<int>(std::clamp(value * fine, static_cast<double>(low), static_cast<double>(high)));

@@ -165,14 +165,46 @@ void Window::cover(Window const& other) {
   set = true;
 }
 
+double Eye::height(Point const& p) const { return along(mixed(1, p, -1, axis), towards); }
+
+double Eye::magnification(Point const& p) const {
+  constexpr double nearest = 0.95;  // of the way to the eye
+  if (!near()) return 1;
+  double const h = height(p);
+  return h < nearest * distance ? distance / (distance - h) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Point Eye::seen(Point const& p) const { return near() ? mixed(1, axis, magnification(p), mixed(1, p, -1, axis)) : p; }
+
+double Eye::shift(Point const& p, double other) const {
+  if (!near()) return 0;
+  Point const from_axis = mixed(1, p, -1, axis), across = mixed(1, from_axis, -height(p), towards);
+  return std::sqrt(along(across, across)) * std::abs(other - magnification(p));
+}
+
+Eye eye_before(Camera const& camera, double angle, Point const& low, Point const& high) {
+  Point const diagonal = mixed(1, high, -1, low);
+  double const half = std::sqrt(along(diagonal, diagonal)) / 2;
+  if (!(angle > 0) || !(half > 0)) return {};
+  return {half / std::tan(radians(angle / 2)), camera.look_at.value_or(mixed(0.5, low, 0.5, high)),
+          camera.view.towards_viewer()};
+}
+
+Eye eye_at(Camera const& camera, Subject const& now) {
+  Eye eye = camera.eye;
+  if (eye.near() && camera.follow >= 0) eye.axis = centre_of(now, camera.follow);
+  return eye;
+}
+
 void include(Window& window, Camera const& camera, Subject const& subject) {
-  if (camera.follow < 0) return window.include(camera.view, subject);
-  Point const centre = centre_of(subject, camera.follow);
+  if (camera.follow < 0 && !camera.eye.near()) return window.include(camera.view, subject);
+  Eye const eye = eye_at(camera, subject);
+  Point const centre = camera.follow < 0 ? Point{} : centre_of(subject, camera.follow);
   std::vector<Point> points;
   std::vector<double> volume;
   for (std::size_t i = 0; i < subject.points.size(); ++i) {
-    if (subject.body[i] != camera.follow) continue;
-    points.push_back(mixed(1, subject.points[i], -1, centre));
+    if (camera.follow >= 0 && subject.body[i] != camera.follow) continue;
+    points.push_back(mixed(1, eye.seen(subject.points[i]), -1, centre));
     volume.push_back(subject.volume.empty() ? 1 : subject.volume[i]);
   }
   window.include(camera.view, {.points = points, .volume = volume, .margin = subject.margin});

@@ -32,6 +32,23 @@ inline constexpr std::array<std::string_view, 8> view_words{"x", "y", "z", "-x",
 /// Azimuth and elevation of a named view [deg]; nothing for another name.
 std::optional<std::array<double, 2>> named_view(std::string_view word, Up upwards);
 
+/// An eye at a finite distance. A picture in perspective is the parallel projection of what `seen` has moved: lines
+/// stay lines, and what hides what stays, too.
+struct Eye {
+  double distance = 0;                 ///< from `axis` [m]; 0: endless
+  std::array<double, 3> axis = {};     ///< the point that stays where it is
+  std::array<double, 3> towards = {};  ///< the viewer, of length 1
+
+  bool near() const { return distance > 0; }
+  /// How much nearer than the axis a point is [m].
+  double height(std::array<double, 3> const& p) const;
+  /// How much larger something at this point looks; not a number near the eye and behind it.
+  double magnification(std::array<double, 3> const& p) const;
+  std::array<double, 3> seen(std::array<double, 3> const& p) const;
+  /// How far a point at `p` would move in the picture [m] if it were magnified by another factor.
+  double shift(std::array<double, 3> const& p, double other) const;
+};
+
 /// The bodies at one moment, as far as a window is concerned; one entry per particle.
 struct Subject {
   std::span<std::array<double, 3> const> points;  ///< m
@@ -59,9 +76,15 @@ struct Camera {
   View view;
   double zoom = 1;
   std::optional<std::array<double, 3>> look_at = {};  ///< what stands in the middle [m]
-  double perspective = 0;  ///< angle of view over the height of the window [deg]; 0: parallel lines stay parallel
-  int follow = -1;         ///< number of the body that stays in the middle and fills the window; -1: none
+  Eye eye = {};
+  int follow = -1;  ///< number of the body that stays in the middle and fills the window; -1: none
 };
+
+/// The eye that sees a box, that of the bodies at the start, under an angle [deg] over its diagonal; 0: endless. Its
+/// axis is what the camera looks at, else the middle of the box.
+Eye eye_before(Camera const& camera, double angle, std::array<double, 3> const& low, std::array<double, 3> const& high);
+/// The eye at one moment: with a body to follow its axis is the body's centre.
+Eye eye_at(Camera const& camera, Subject const& now);
 
 /// Grows a window by one moment of a run. With a body to follow its coordinates are relative to the body's centre.
 void include(Window& window, Camera const& camera, Subject const& subject);

@@ -52,8 +52,7 @@ OutputSpec with_look(OutputSpec output, LookOptions const& look) {
 Camera camera_of(OutputSpec const& output, Up up, std::span<BodySpec const> bodies, int dimension) {
   Camera camera{.view = {output.picture_view[0], output.picture_view[1], up, output.picture_roll},
                 .zoom = output.picture_zoom,
-                .look_at = output.picture_look_at,
-                .perspective = output.picture_perspective};
+                .look_at = output.picture_look_at};
   if (auto const named = named_view(output.picture_named_view, up)) {
     camera.view.azimuth = (*named)[0];
     camera.view.elevation = (*named)[1];
@@ -85,9 +84,7 @@ PictureStyle style_of(OutputSpec const& output, Camera const& camera, Window con
           .theme = static_cast<Theme>(number_of(output.picture_theme, theme_words, "theme")),
           .labels = output.picture_labels,
           .palette = palette_for(output.picture_field,
-                                 static_cast<Palette>(number_of(output.picture_map, palette_words, "map"))),
-          .perspective = camera.perspective,
-          .focus = camera.look_at};
+                                 static_cast<Palette>(number_of(output.picture_map, palette_words, "map")))};
 }
 
 }  // namespace piola

@@ -28,6 +28,7 @@ PictureObserver::PictureObserver(Results results)
   Stage const stage = Stage::around(particles.X);
   stage_low_ = stage.low;
   stage_high_ = stage.high;
+  if (particles.dimension == 3) camera_.eye = eye_before(camera_, output.picture_perspective, stage_low_, stage_high_);
 }
 
 /// Those whose places a kept picture holds.
@@ -102,6 +103,7 @@ void PictureObserver::draw(std::size_t number, Kept const& kept) {
                          .stage_high = stage_high_,
                          .spread = spread_,
                          .case_text = results_.spec.source,
+                         .eye = eye_at(camera_, subject(kept.points)),
                          .time_format = time_format(results_.spec.run.end, output.pictures_every)};
   PictureStyle const style = style_of(output, camera_, window_);
   write_png(path(number), draw_picture(data, style, shown_window(window_, camera_, subject(kept.points))));

@@ -143,6 +143,7 @@ class Renderer {
                            .case_text = asked_.source,
                            .time_format = time_format()};
     shot.data = data;
+    shot.data.eye = eye_at(camera_for(frame.dimension), subject_of(frame, shot.radii));
     shot.window = shown_window(window_, camera_for(frame.dimension), subject_of(frame, shot.radii));
     return shot;
   }
@@ -170,7 +171,11 @@ class Renderer {
     if (camera.follow < 0) show_shapes(window_, camera.view, shapes_of(frame), stage_);
     spread_.include(picture_values(frame.values, frame.info.components, component_of(frame)));
   }
-  Camera camera_for(int dimension) const { return camera_of(asked_.output, upwards(asked_), asked_.bodies, dimension); }
+  Camera camera_for(int dimension) const {
+    Camera camera = camera_of(asked_.output, upwards(asked_), asked_.bodies, dimension);
+    if (dimension == 3) camera.eye = eye_before(camera, asked_.output.picture_perspective, stage_.low, stage_.high);
+    return camera;
+  }
   static Subject subject_of(Frame const& frame, std::vector<double> const& radii) {
     double const margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
     return {.points = frame.points, .volume = frame.volume, .body = frame.body, .margin = margin};

@@ -81,11 +81,13 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
   Stage const stage = Stage::around(points);
   CaseSpec asked = spec;
   asked.output = with_look(spec.output, options.look);
-  Camera const camera = camera_of(asked.output, upwards(asked), spec.bodies, particles.dimension);
+  Camera camera = camera_of(asked.output, upwards(asked), spec.bodies, particles.dimension);
   Subject const subject{.points = points,
                         .volume = particles.volume,
                         .body = particles.body,
                         .margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end())};
+  if (particles.dimension == 3)
+    camera.eye = eye_before(camera, asked.output.picture_perspective, stage.low, stage.high);
   Window window;
   include(window, camera, subject);
   if (camera.follow < 0) show_shapes(window, camera.view, shapes, stage);
@@ -100,7 +102,8 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
                          .stage_low = stage.low,
                          .stage_high = stage.high,
                          .colours = paint.colours,
-                         .legend = paint.legend};
+                         .legend = paint.legend,
+                         .eye = eye_at(camera, subject)};
   return draw_picture(data, style_of(asked.output, camera, window), shown_window(window, camera, subject));
 }
 
