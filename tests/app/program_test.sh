@@ -22,6 +22,15 @@ expect 2 "holds the results of another case" "$program" run bar.toml --set 'titl
 expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 240
 expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
 expect 2 "no frames" "$program" render .
+expect 0 "a film of 5 pictures is drawn to film/a.webp" "$program" render bar-results --film film/a.webp --size 300 240
+expect 2 "is not the name of a film" "$program" render bar-results --film a.gif --size 300 240
+expect 0 "Pressure-times.png" "$program" render bar-results --times "0 s, 1 ms" --view=-x --theme dark --out look
+expect 2 "is not a time" "$program" render bar-results --times "0 m"
+expect 0 "side-by-side/Pressure-0" "$program" render bar-results bar-results --side-by-side --last --size 300 240
+expect 2 "2 folders are given" "$program" render bar-results bar-results
+expect 2 "there is one folder only" "$program" render bar-results --side-by-side
+expect 2 "'above' is not known" "$program" render bar-results --view above
+expect 2 "is no direction" "$program" render bar-results --view 3 x
 printf 'case = "bar.toml"\n[parameters]\n"run.cfl" = [0.4, 0.5]\n"run.end" = ["1 ms", "2 ms"]\n' >study.toml
 expect 0 "4 of 4 completed" "$program" study study.toml
 expect 0 "completed before" "$program" study study.toml --jobs 1
