@@ -143,14 +143,21 @@ std::string held_text(SupportSpec const& support, int dimension) {
   return "held " + text;
 }
 
+/// What a support holds: particles, or the surface that they stand for.
+std::string object_text(CaseSpec const& spec, SupportSpec const& support, ParticleSet const& particles) {
+  auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
+  std::string const some = count_text(static_cast<std::int64_t>(count)) + " particles";
+  std::string const where = support.where ? " where " + support.where->text() : "";
+  if (!support.patch) return some + where;
+  std::string const patch = face_text(support.shape, *support.patch) + where;
+  if (holds_surface(spec, support)) return "the surface of patch " + patch + ", in parts of " + some;
+  return some + " along patch " + patch + ", which they lie half a spacing inside";
+}
+
 void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
-  for (SupportSpec const& support : spec.supports) {
-    auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
-    std::string const patch = support.patch ? " of patch " + face_text(support.shape, *support.patch) : "";
-    std::string const where = support.where ? " where " + support.where->text() : "";
-    say("support of \"{}\": {} particles{}{}, {}{}\n", support.body, count_text(static_cast<std::int64_t>(count)),
-        patch, where, held_text(support, particles.dimension), until_text(support.until));
-  }
+  for (SupportSpec const& support : spec.supports)
+    say("support of \"{}\": {}, {}{}\n", support.body, object_text(spec, support, particles),
+        held_text(support, particles.dimension), until_text(support.until));
 }
 
 void print_loads(CaseSpec const& spec, ParticleSet const& particles) {

@@ -51,10 +51,16 @@ void take_supports(Assembly const& whole, EnsemblePart& part) {
   for (std::size_t k = 0; k < whole.supports.size(); ++k) {
     Support support = whole.supports[k];
     std::vector<std::int64_t> ids;
-    for (auto const id : support.particles)
-      if (auto const here = part.id_in_part(id)) ids.push_back(*here);
+    std::vector<std::array<double, 3>> normals;
+    for (std::size_t i = 0; i < support.particles.size(); ++i) {
+      auto const here = part.id_in_part(support.particles[i]);
+      if (!here) continue;
+      ids.push_back(*here);
+      if (support.on_surface()) normals.push_back(support.normals[i]);
+    }
     if (ids.empty()) continue;
     support.particles = std::move(ids);
+    support.normals = std::move(normals);
     part.assembly.supports.push_back(std::move(support));
     part.supports.push_back(k);
   }

@@ -73,6 +73,8 @@ struct SupportSpec {
   std::optional<Expression> where;  ///< both given: those of the patch that it selects
   std::optional<Face> patch;        ///< of a solid
   ShapeSpec shape;                  ///< of the body, if there is a patch
+  enum class Hold { surface, particles };
+  std::optional<Hold> hold;  ///< of a patch: itself, or the particles along it; nothing: what the formulation can do
   Support::Frame frame = Support::Frame::axes;
   std::array<bool, 3> fix{};                               ///< frame axes
   std::array<double, 3> normal{};                          ///< frames normal, tangent: unit vector

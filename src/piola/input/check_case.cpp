@@ -128,10 +128,16 @@ std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body
                                               SupportSpec const& support) {
   if (!support.patch) return select_particles(particles, body, support.where ? &*support.where : nullptr);
   std::vector<std::int64_t> ids;
-  for (FaceShare const& share : face_shares(support.shape, particles, body, *support.patch))
-    if (!support.where || (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) != 0)
-      ids.push_back(share.particle);
+  for (FaceShare const& share : supported_shares(particles, body, support)) ids.push_back(share.particle);
   return ids;
+}
+
+std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const& body, SupportSpec const& support) {
+  auto shares = face_shares(support.shape, particles, body, *support.patch);
+  std::erase_if(shares, [&](FaceShare const& share) {
+    return support.where && (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
+  });
+  return shares;
 }
 
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load) {

@@ -78,17 +78,27 @@ std::array<double, 3> middle_of(std::vector<std::int64_t> const& ids, ParticleSe
   return sum;
 }
 
-Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
+Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet const& particles) {
   Body const& body = particles.bodies[index_of_body(spec.body, particles)];
   auto const ids = supported_particles(particles, body, spec);
-  return {.particles = ids,
-          .fix = spec.fix,
-          .frame = spec.frame,
-          .normal = spec.normal,
-          .velocity = spec.velocity,
-          .until = spec.until,
-          .name = spec.name,
-          .about = middle_of(ids, particles)};
+  Support support{.particles = ids,
+                  .fix = spec.fix,
+                  .frame = spec.frame,
+                  .normal = spec.normal,
+                  .velocity = spec.velocity,
+                  .until = spec.until,
+                  .name = spec.name,
+                  .about = middle_of(ids, particles)};
+  if (!holds_surface(from, spec)) return support;
+  double area = 0;
+  support.about = {};
+  for (FaceShare const& share : supported_shares(particles, body, spec)) {
+    support.normals.push_back(share.normal);
+    area += share.area;
+    for (std::size_t c = 0; c < 3; ++c) support.about[c] += share.area * share.middle[c];
+  }
+  for (double& c : support.about) c /= area;
+  return support;
 }
 
 double density_of(MaterialParameters const& material) {
@@ -242,7 +252,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
     a.formulations.push_back(spec.bodies[b].formulation);
     set_initial_state(spec.bodies[b], a.particles.bodies[b], a);
   }
-  for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, a.particles));
+  for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, spec, a.particles));
   for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
   for (MirrorSpec const& mirror : spec.mirrors)
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});

@@ -33,11 +33,13 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "initial_deformation_gradient",
         body_.name));
   set_materials(materials_of(assembly, body));
-  reference_ = make_reference({set, body_, order_, assembly.loads, densities(), options_.least_mass, machine});
+  reference_ = make_reference(
+      {set, body_, order_, assembly.loads, assembly.supports, densities(), options_.least_mass, machine});
   allocate();
   fill_reference();
   fill_initial(assembly);
-  boundary_.emplace(assembly, body, Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid});
+  boundary_.emplace(assembly, body,
+                    Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid, reference_.held});
   boundary_->attach(state_);
   machine.step(state_, 0);  // the accelerations of the start
 }
@@ -231,7 +233,7 @@ std::size_t NodalBody::bytes() const {
                       (r.V.size() + r.mass.size() + r.X.size() + r.centroid.size() + partial_.size()) * 8;
   // The smoothing of observers, whose weights are one per pair.
   if (smoothing_) total += r.neighbour.size() * 8 + r.V.size() * 8;
-  return total + fields_.bytes();
+  return total + fields_.bytes() + boundary_->bytes();
 }
 
 }  // namespace piola::nodal

@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/nodal/closure.hpp"
 #include "piola/formulations/nodal/face_parts.hpp"
+#include "piola/formulations/nodal/held_faces.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include <algorithm>
 #include <chrono>
@@ -250,6 +251,7 @@ Reference make(SetUp const& from) {
   Closure const closure = divergence.solve(closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr);
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
+  r.held = held_faces<D>(from, fits, scaled.patches, scaled.h);
   r.costs.closure = since(clock);
   auto const mass =
       exact_masses<D>(scaled.X, heavy_cells(from, scaled.cells), from.least_mass, shape, !has_lattice_cells(from.body));

@@ -77,6 +77,7 @@ class Solver final : public Formulation {
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     push_all(bodies_, set_.dimension, slots_, ids, change);
+    for (auto const& body : bodies_) body->boundary().withstand(body->state());
   }
   double kinetic_energy() const override {
     return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
@@ -216,6 +217,8 @@ void Solver::load(StateReader& reader) {
   reader.get("time", clock);
   time_ = clock[0];
   repeated_ = clock[1];
+  // Bodies may be pushed before the next step: what is held then.
+  for (auto const& body : bodies_) body->boundary().begin_step(body->state(), time_, 0);
 }
 
 }  // namespace

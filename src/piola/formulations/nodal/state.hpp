@@ -7,6 +7,10 @@
 #include "piola/mechanics/held.hpp"
 #include "piola/neighbours/tables.hpp"
 
+namespace piola {
+class SurfaceHold;
+}
+
 /// One body of a nodal run as its loops see it: plain data that crosses between machines.
 namespace piola::nodal {
 
@@ -64,9 +68,11 @@ struct BodyState {
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
-  bool follows = false;                     ///< whether some load turns with the deformed face
-  bool marks = false;                       ///< forces at x also leave F^T F there in C_measured
-  double* partial = nullptr;                ///< room for the partial results of blocks
+  SurfaceHold* surface = nullptr;           ///< what supports hold of the surface; nullptr: nothing
+  void (*kick_surface)(SurfaceHold& surface, BodyState& body, bool first, double dt) = nullptr;
+  bool follows = false;       ///< whether some load turns with the deformed face
+  bool marks = false;         ///< forces at x also leave F^T F there in C_measured
+  double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
 };
 

@@ -24,8 +24,7 @@ class Step {
     exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
     exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.a), write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
-    if (dt > 0)
-      exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.v)});
+    if (dt > 0) arrive(dt);
   }
 
   /// a of the internal forces at x: -dPi/dx over the masses, and of viscous ones if `dt` [s] is what has passed since
@@ -105,6 +104,11 @@ class Step {
 
   void drive(double dt) {
     exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.a)});
+    if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, true, dt);
+  }
+  void arrive(double dt) {
+    exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.v)});
+    if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, false, dt);
   }
 
   template <bool Observed>
