@@ -17,8 +17,8 @@ namespace piola::app {
 namespace {
 
 struct RenderArguments {
-  std::string folder, field = "Pressure", component, out, times;
-  std::vector<std::string> folders;
+  std::string folder, component, out, times;
+  std::vector<std::string> folders, fields{"Pressure"};
   bool side_by_side = false;
   std::vector<double> range, look_at;
   std::vector<std::string> view;
@@ -83,6 +83,15 @@ std::vector<double> times_of(std::string const& text) {
   return times;
 }
 
+/// What is said of one field.
+void check_fields(RenderArguments const& options) {
+  bool const more = options.fields.size() > 1;
+  if (more && (!options.component.empty() || !options.range.empty() || !options.times.empty() || options.side_by_side))
+    throw InputError(
+        "--field: there are several (allowed with --component, --range, --times, --side-by-side: one) - "
+        "choose one");
+}
+
 /// The first folder is the one that is drawn.
 void check_folders(RenderArguments const& options) {
   if (options.side_by_side && options.folders.size() < 2)
@@ -94,10 +103,11 @@ void check_folders(RenderArguments const& options) {
 
 int render(RenderArguments const& given) {
   check_folders(given);
+  check_fields(given);
   RenderArguments options = given;
   options.folder = given.folders.front();
   if (options.shape) return render_shape(options);
-  RenderOptions what{.field = options.field,
+  RenderOptions what{.field = options.fields.front(),
                      .range = {},
                      .look = look_of(options),
                      .component = options.component,
@@ -105,6 +115,7 @@ int render(RenderArguments const& given) {
                      .only = options.frames,
                      .last = options.last,
                      .every = options.every,
+                     .more_fields = {options.fields.begin() + 1, options.fields.end()},
                      .beside = {options.folders.begin() + 1, options.folders.end()}};
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   if (!options.film.file.empty()) {
@@ -198,7 +209,10 @@ void add_render(CLI::App& program, Action& action) {
       program.add_subcommand("render", "Draw pictures from the frames of a run, or the bodies of a case");
   command->add_option("folder", options->folders, "The results folder of the run; with --shape the case")->required();
   command
-      ->add_option("--field", options->field, "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress")
+      ->add_option("--field", options->fields,
+                   "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress; given several times, "
+                   "the pictures stand beside each other")
+      ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--component", options->component,
                       "Component of a vector (x, y, z) or tensor (xx, xy, ...); default: length, von Mises stress");

@@ -27,6 +27,8 @@ expect 2 "is not the name of a film" "$program" render bar-results --film a.gif 
 expect 0 "Pressure-times.png" "$program" render bar-results --times "0 s, 1 ms" --view=-x --theme dark --out look
 expect 2 "is not a time" "$program" render bar-results --times "0 m"
 expect 0 "side-by-side/Pressure-0" "$program" render bar-results bar-results --side-by-side --last --size 300 240
+expect 0 "Velocity-Pressure-000004.png" "$program" render --field Velocity --field Pressure bar-results --last
+expect 2 "there are several" "$program" render bar-results --field Velocity --field Pressure --component x
 expect 2 "2 folders are given" "$program" render bar-results bar-results
 expect 2 "there is one folder only" "$program" render bar-results --side-by-side
 expect 2 "'above' is not known" "$program" render bar-results --view above

@@ -119,6 +119,26 @@ TEST(Render, DrawsRunsSideBySideAtEqualTimes) {
   EXPECT_NE(d.refusal().find("none: has no frames to draw"), std::string::npos) << d.refusal();
 }
 
+TEST(Render, DrawsSeveralFieldsBesideEachOther) {
+  Drawn d;
+  d.options.only = {3};
+  EXPECT_EQ(d.names(), std::vector<std::string>{"Velocity-000003.png"});
+  Image const alone = read_png(d.folder / "r/pictures/Velocity-000003.png");
+  d.options.more_fields = {"Displacement"};
+  EXPECT_EQ(d.names(), std::vector<std::string>{"Velocity-Displacement-000003.png"});
+  Image const both = read_png(d.folder / "r/pictures/Velocity-Displacement-000003.png");
+  EXPECT_EQ(both.width * both.height, 2 * alone.width * alone.height);
+  int other = 0;
+  for (int y = 0; y < 250; ++y)
+    for (int x = 0; x < 300; ++x) {
+      ASSERT_EQ(both.at(x, y), alone.at(x, y));
+      other += both.at(both.width - 300 + x, both.height - 250 + y) != alone.at(x, y);
+    }
+  EXPECT_GT(other, 100) << "another field";
+  d.options.more_fields = {"Colour"};
+  EXPECT_NE(d.refusal().find("has no field 'Colour'"), std::string::npos) << d.refusal();
+}
+
 TEST(Render, DrawsAFilmOfAllFrames) {
   Drawn d;
   EXPECT_EQ(render_film(d.folder / "r", d.options, {.file = d.folder / "a.webp"}), 5u);

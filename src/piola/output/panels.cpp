@@ -75,6 +75,19 @@ Image draw_panels(std::span<Panel const> panels, Sheet const& sheet, PictureStyl
   return out;
 }
 
+Image tiled(std::span<Image const> images, int columns) {
+  if (images.empty()) return {};
+  Image const& first = images.front();
+  auto const across = static_cast<std::size_t>(std::max(1, columns));
+  auto const down = static_cast<int>((images.size() + across - 1) / across);
+  Image out(first.width * static_cast<int>(across), first.height * down, first.at(0, 0));
+  if (!first.alpha.empty()) out.alpha.assign(out.rgb.size() / 3, 0);
+  out.notes = first.notes;
+  for (std::size_t k = 0; k < images.size(); ++k)
+    paste(out, images[k], first.width * static_cast<int>(k % across), first.height * static_cast<int>(k / across));
+  return out;
+}
+
 int fitting_columns(Window const& window, std::size_t panels) {
   constexpr double agreeable = 1.5;  // width over height
   auto const one = fitting_size(window);

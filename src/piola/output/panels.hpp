@@ -21,6 +21,9 @@ struct Sheet {
 /// range, colours and the size of the whole picture. Without a range it is that of the first panel's data.
 Image draw_panels(std::span<Panel const> panels, Sheet const& sheet, PictureStyle const& style);
 
+/// Images of one size beside each other, row by row; what is left over has the colour of the first one's corner.
+Image tiled(std::span<Image const> images, int columns);
+
 /// Width and height [pixels] of a whole picture of so many panels with this window, at most 2400 wide and high.
 std::array<int, 2> fitting_size(Window const& window, std::size_t panels, int columns);
 

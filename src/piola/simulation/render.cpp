@@ -213,6 +213,12 @@ class Pictures {
       if (runs_.back()->count() == 0)
         throw InputError(fmt::format("{}: has no frames to draw - let the run write some", one.string()));
     }
+    for (std::string const& field : options.more_fields) {
+      fields_.push_back(std::make_unique<RenderOptions>(options));
+      fields_.back()->field = field;
+      fields_.back()->component.clear();
+      of_fields_.push_back(std::make_unique<Renderer>(folder, *fields_.back()));
+    }
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // what came later, too
     bool const all_differ = std::set<std::string>(names_.begin(), names_.end()).size() == names_.size();
@@ -222,7 +228,17 @@ class Pictures {
   std::size_t count() const { return first().count(); }
   double time(std::size_t number) const { return first().time(number); }
 
+  std::string name(std::size_t number) const {
+    std::string name = first().name(number);
+    for (auto const& one : fields_) name.insert(name.rfind('-'), "-" + one->field);
+    return name;
+  }
   Image picture(std::size_t number) const {
+    if (!of_fields_.empty()) {
+      std::vector<Image> images{first().picture(number)};
+      for (auto const& one : of_fields_) images.push_back(one->picture(number));
+      return tiled(images, fitting_columns(first().window(), images.size()));
+    }
     if (runs_.size() == 1) return first().picture(number);
     std::vector<Shot> shots;
     for (auto const& run : runs_) shots.push_back(run->shot(run->nearest(time(number))));
@@ -250,6 +266,8 @@ class Pictures {
   }
   std::vector<std::unique_ptr<Renderer>> runs_;
   std::vector<std::string> names_;
+  std::vector<std::unique_ptr<RenderOptions>> fields_;  ///< renderers refer to them
+  std::vector<std::unique_ptr<Renderer>> of_fields_;
 };
 
 /// `count` of the frames, those nearest to equal steps of time; a frame may be there several times.
@@ -312,7 +330,7 @@ std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const&
   make_folder(out);
   std::vector<fs::path> paths;
   for (std::size_t const k : numbers) {
-    paths.push_back(out / pictures.first().name(k));
+    paths.push_back(out / pictures.name(k));
     write_png(paths.back(), pictures.picture(k));
     if (drawn) drawn(paths.back());
   }

@@ -14,11 +14,12 @@ struct RenderOptions {
   std::string field = "Pressure";
   std::optional<std::array<double, 2>> range = {};  ///< SI; otherwise the range over all frames
   LookOptions look = {};
-  std::string component = {};          ///< see find_component
-  std::filesystem::path out = {};      ///< folder of the pictures; empty: `pictures` in the folder of the run
-  std::vector<std::size_t> only = {};  ///< numbers of the frames to draw; empty: all
-  bool last = false;                   ///< draw the last one
-  std::size_t every = 1;               ///< each so many
+  std::string component = {};                 ///< see find_component
+  std::filesystem::path out = {};             ///< folder of the pictures; empty: `pictures` in the folder of the run
+  std::vector<std::size_t> only = {};         ///< numbers of the frames to draw; empty: all
+  bool last = false;                          ///< draw the last one
+  std::size_t every = 1;                      ///< each so many
+  std::vector<std::string> more_fields = {};  ///< drawn beside the first one, each with its own colours
   /// Folders of other runs, whose frames nearest in time are drawn beside, with one range and one scale.
   std::vector<std::filesystem::path> beside = {};
 };
