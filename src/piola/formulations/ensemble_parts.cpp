@@ -28,6 +28,7 @@ ParticleSet particles_of(ParticleSet const& whole, EnsemblePart const& part) {
   set.lattice_index = gathered(whole.lattice_index.seen(), blocks);
   set.volume = gathered(whole.volume.seen(), blocks);
   set.kernel_volume = gathered(whole.kernel_volume.seen(), blocks);
+  set.part = gathered(whole.part.seen(), blocks);
   set.crack_side = gathered(whole.crack_side.seen(), blocks);
   for (auto const& block : blocks) {
     Body body = whole.bodies[block.body];
@@ -95,6 +96,7 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
   a.initial_deformation_gradient = gathered(whole.initial_deformation_gradient, part.blocks);
   for (auto const& block : part.blocks) {
     a.materials.push_back(whole.materials[block.body]);
+    if (!whole.parts.empty()) a.parts.push_back(whole.parts[block.body]);
     a.formulations.push_back(whole.formulations[block.body]);
   }
   take_supports(whole, part);

@@ -40,6 +40,7 @@ struct FormulationInfo {
   bool outline = false;           ///< whether it must know where bodies end: no points from files
   bool contact = false;           ///< whether it keeps bodies apart: contact rules and rigid shapes
   bool pushable = false;          ///< whether surface contact may push its bodies between steps
+  bool parts = false;             ///< whether bodies may consist of parts of several materials
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their cells
   bool surface_supports = false;  ///< whether supports can hold a patch itself, where particles lie inside
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
@@ -48,7 +49,7 @@ struct FormulationInfo {
 std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
 
-/// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors",
+/// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors", "parts",
 /// "rings", "packed clouds", "contact" or "rigid shapes".
 std::string refusal(FormulationInfo const& info, std::string_view what);
 

@@ -77,6 +77,7 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems) {
     fill(body.shape, body.name, particles);
     open_cracks(spec, particles, problems);
   }
+  mark_parts(spec, particles);
   return particles;
 }
 
@@ -157,6 +158,7 @@ std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& b
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);
+  check_parts(spec, particles, problems);
   check_boundaries(spec, particles, problems);
   check_rigid(spec, particles, problems);
   check_free_rigids(spec, particles.dimension, problems);

@@ -27,9 +27,9 @@ struct SetUp {
   SlotOrder const& order;
   std::vector<Load> const& loads;
   std::vector<Support> const& supports;
-  double rho0;             ///< [kg/m^3]
-  double least_mass;       ///< of a particle over that of its cell
-  Machine const& machine;  ///< whose loops solve for the divergence theorem
+  std::vector<double> const& rho0;  ///< of the body and of its parts [kg/m^3]
+  double least_mass;                ///< of a particle over that of its cell
+  Machine const& machine;           ///< whose loops solve for the divergence theorem
 };
 
 /// What a particle answers for of a loaded face.

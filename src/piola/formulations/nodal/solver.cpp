@@ -24,8 +24,9 @@ class Solver final : public Formulation {
         machine_(choose_machine(assembly.machine.c_str())),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options =
-          read_options(assembly.formulations[k], assembly.materials[k], set_.dimension, assembly.cfl);
+      Options options;
+      for (MaterialParameters const& material : materials_of(assembly, k))
+        options = read_options(assembly.formulations[k], material, set_.dimension, assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }

@@ -24,6 +24,13 @@ struct Constants {
   double least_share;  ///< of its volume ratio at the step's start that a point of a cell must keep
 };
 
+/// The particles of a body that have one material: slots [first, last).
+struct MaterialRange {
+  MaterialParameters material;
+  Constants constants;
+  Index first, last;
+};
+
 /// What viscous stresses multiply rates by, see Viscosity.
 struct ViscousConstants {
   double fluctuation;                    ///< [Pa s]
@@ -35,7 +42,9 @@ struct BodyState {
   Range slots;
   Constants constants{};
   ViscousConstants viscosity{};
-  MaterialParameters material;
+  MaterialRange const* materials = nullptr;  ///< in the order of slots; together all particles
+  Index material_count = 0;
+  Index particles = 0;  ///< the slots after them are empty
   ListTable list;
   LatticeTable lattice;  ///< takes the place of lists where particles fill a lattice
 
