@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Types docs/user/first-hour.md from top to bottom: writes its files, runs its commands and its script in an empty folder,
-and looks for what the page shows of the answers. Programs other than piola and touch are left out."""
+"""Types docs/user/first-hour.md from top to bottom: writes its files, runs its commands and its script in an empty
+folder, and looks for what the page shows of the answers. Programs other than piola and touch are left out."""
 import csv
 import os
 import re
@@ -36,9 +36,16 @@ def steps(text):
         k += 1
 
 
-def pattern_of(line):
-    """A pattern for a line of the page, whatever its blanks."""
-    return re.sub(r"\\ +", r"\\s+", re.escape(line.strip()))
+NUMBER = r"(?<![\w.])-?\d[\d,]*(?:\.\d+)?(?!\w)"
+
+
+def shown_in(line, said):
+    """Whether a line of the page is in an answer: the same words, and numbers that are what is shown once rounded."""
+    pattern = "".join(f"({NUMBER})" if k % 2 else re.sub(r"(\\ )+", r"\\s+", re.escape(part))
+                      for k, part in enumerate(re.split(f"({NUMBER})", line)))
+    wanted = [number.replace(",", "") for number in re.findall(NUMBER, line)]
+    return any(all(abs(float(a) - float(b.replace(",", ""))) <= 0.51 * 10.0 ** -len(a.partition(".")[2])
+                   for a, b in zip(wanted, found.groups())) for found in re.finditer(pattern, said))
 
 
 class Reader:
@@ -62,7 +69,7 @@ class Reader:
             self.run([PROGRAM if word == "piola" else word, *shlex.split(line)[1:]], line)
         elif word in ("tools/quickstart", "alias", "ffmpeg"):
             return  # the quick start builds the program; the others are not Piola's
-        elif not MACHINE.match(line) and not re.search(pattern_of(line.removeprefix("piola: ")), self.said):
+        elif not MACHINE.match(line) and not shown_in(line.removeprefix("piola: "), self.said):
             self.wrong.append(f"the page shows '{line}', the program said: {self.said[-900:]}")
 
     def follow(self, text):
@@ -89,6 +96,11 @@ def main():
         reader = Reader(Path(name))
         reader.follow(PAGE.read_text())
         reader.wrong += [f"{file} is missing" for file in expected() if not (reader.folder / file).exists()]
+        told = float(re.search(r"the tip ([\d.]+) cm down", PAGE.read_text())[1])
+        with open(reader.folder / "beam-rest/history.csv", encoding="utf-8") as table:
+            fell = -100 * float(list(csv.DictReader(table))[-1]["tip.displacement_z"])
+        if abs(fell - told) > 0.051:
+            reader.wrong.append(f"the beam rests {fell:.3f} cm down, the page says {told} cm")
         with open(reader.folder / "stiffness-study/study.csv", encoding="utf-8") as table:
             rows = list(csv.DictReader(table))
         if len(rows) != 3 or {row["status"] for row in rows} != {"completed"}:
