@@ -5,6 +5,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "piola/report/verification_page.hpp"
 #include "piola/simulation/verification_report.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 struct VerifyArguments {
   CaseOptions with;
   std::vector<std::string> names;
-  std::string cases, out, markdown;
+  std::string cases, out, markdown, report;
   bool short_only = false, json = false;
 };
 
@@ -125,7 +126,7 @@ int run_verify(VerifyArguments const& options) {
   auto const prepare = [&](fs::path const& file, std::vector<std::string> const& variant) {
     CaseSpec spec = read_case(file, with_own(variant));
     if (scratch) spec.output.frames_every = 0;
-    if (scratch && options.markdown.empty()) spec.output.pictures_every = 0;
+    if (scratch && options.markdown.empty() && options.report.empty()) spec.output.pictures_every = 0;
     if (scratch) keep_the_last_picture(spec.output, spec.run.end);
     return build(std::move(spec));
   };
@@ -137,6 +138,7 @@ int run_verify(VerifyArguments const& options) {
   }
   write_out(options.json ? verification_json(cases) : verification_table(cases));
   if (!options.markdown.empty()) write_verification_page(options.markdown, cases);
+  if (!options.report.empty()) report::write_verification_report(options.report, cases, what.out);
   if (stop_signal != 0) return stopped_by_signal;
   return with_output(all_accepted(cases) ? completed : internal_error);
 }
@@ -151,6 +153,7 @@ void add_verify(CLI::App& program, Action& action) {
   command->add_flag("--short", options->short_only, "Only the variants that take seconds");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_option("--markdown", options->markdown, "Also write the page DIR/README.md, with pictures");
+  command->add_option("--report", options->report, "Also write one HTML page, with plots and pictures of each run");
   command->add_option("--cases", options->cases, "Folder of the cases (default: those that came with the program)");
   command->add_option("--out,-o", options->out,
                       "Keep the results in this folder (default: a temporary one, without frames and pictures)");

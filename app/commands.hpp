@@ -21,6 +21,8 @@ void add_describe(CLI::App& program, Action& action);
 void add_verify(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
+void add_watch(CLI::App& program, Action& action);
+void add_report(CLI::App& program, Action& action);
 void add_study(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 

@@ -65,6 +65,8 @@ int main(int argc, char** argv) {
   app::add_render(program, action);
   app::add_study(program, action);
   app::add_plot(program, action);
+  app::add_report(program, action);
+  app::add_watch(program, action);
   app::add_verify(program, action);
   app::add_describe(program, action);
   app::add_bench(program, action);

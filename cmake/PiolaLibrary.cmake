@@ -3,7 +3,7 @@
 # so that they do too: they take longest.
 
 set(PIOLA_ROOMS base math exec kernels materials particles geometry neighbours parallel mechanics formulations setup
-                input output simulation)
+                input output simulation report)
 set(_patterns "")
 foreach(room IN LISTS PIOLA_ROOMS)
   list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${room}/*.cpp")
@@ -12,6 +12,8 @@ foreach(room IN ITEMS materials mechanics formulations)
   list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${room}/*/*.cpp")
 endforeach()
 file(GLOB _sources CONFIGURE_DEPENDS ${_patterns})
+include(PiolaWeb)
+list(APPEND _sources "${PROJECT_BINARY_DIR}/web/web.cpp")
 list(FILTER _sources EXCLUDE REGEX "/machine\\.cpp$")
 if(PIOLA_MESH)
   list(FILTER _sources EXCLUDE REGEX "/geometry/mesh_absent\\.cpp$")

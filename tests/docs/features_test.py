@@ -132,6 +132,15 @@ def support(**given):
     return make
 
 
+def parts(formulation):
+    """A block whose right half is stiffer."""
+    made = plain(formulation)
+    other = made["body"][0]["material"] | {"youngs_modulus": 4e7}
+    made["region"] = [{"name": "right", "where": "X > 0.42"}]
+    made["body"][0]["part"] = [{"where": "right", "material": other}]
+    return made, plain(formulation)
+
+
 def compared(make, **without):
     """The same with something else in the support instead of what it had."""
     def both(formulation):
@@ -273,6 +282,7 @@ FEATURES = {
                                                  {"sphere": {"centre": [0.5, 0.3], "radius": 0.15}}], spacing=0.1),
     "irregular particles (`jitter`)": shape(**box([0, 0], [8, 5]), jitter=0.2),
     "particles at random places": shape(**box([0, 0], [8, 5]), placement="random"),
+    "several materials in one body": parts,
     "initial velocity": with_body(initial_velocity=["3*Y", "0"]),
     "initial displacement": with_body(initial_displacement=["0.01*X", "0"]),
     "initial deformation gradient": with_body(initial_deformation_gradient=[["1.01", "0"], ["0", "1"]]),

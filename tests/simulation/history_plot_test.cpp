@@ -32,6 +32,13 @@ TEST(HistoryPlots, ShowTheLedgerOfWhatIsNotZero) {
   EXPECT_EQ(plot.curves[0].y, (std::vector<double>{5, 4}));
 }
 
+TEST(HistoryPlots, KnowEnergiesOfContactFromFieldsOfTheSameName) {
+  EXPECT_EQ(unit_of_column("friction_heat"), "J");  // the field FrictionHeat is in J/m^2
+  EXPECT_EQ(unit_of_column("contact_energy"), "J");
+  EXPECT_EQ(unit_of_column("tie_failed"), "1");
+  EXPECT_EQ(unit_of_column("place.friction_heat"), "J/m^2");
+}
+
 TEST(HistoryPlots, CompareRunsAndKnowUnits) {
   TemporaryFolder folder;
   put_history(folder / "a");

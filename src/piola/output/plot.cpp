@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <new>
 
 namespace piola {
 namespace {
@@ -98,6 +99,11 @@ class Paper {
     frame();
     for (Curve const& curve : plot_.curves) line(curve);
     labels();
+  }
+  /// After drawing.
+  PlotText place() const {
+    return {
+        .svg = {}, .left = x_.from, .right = x_.to, .top = y_.to, .bottom = y_.from, .low = x_.low, .high = x_.high};
   }
 
  private:
@@ -233,7 +239,34 @@ Surface surface_for(std::filesystem::path const& path, Plot const& plot) {
       fmt::format("{}: cannot be drawn (allowed: names that end in .svg, .png or .pdf) - choose one", path.string()));
 }
 
+cairo_status_t append_to(void* text, unsigned char const* data, unsigned int length) {
+  static_cast<std::string*>(text)->append(data, data + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
 }  // namespace
+
+PlotText plot_text(Plot const& plot) {
+  std::string svg;
+  PlotText text;
+  {
+    Surface const surface(cairo_svg_surface_create_for_stream(&append_to, &svg, plot.width, plot.height),
+                          &cairo_surface_destroy);
+    Context const context(cairo_create(surface.get()), &cairo_destroy);
+    Paper paper(context.get(), plot);
+    try {
+      paper.draw();
+    } catch (...) {
+      cairo_surface_finish(surface.get());  // while there is a text to write to
+      throw;
+    }
+    text = paper.place();
+    cairo_surface_finish(surface.get());
+    if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
+  }
+  text.svg = std::move(svg);
+  return text;
+}
 
 void write_plot(std::filesystem::path const& path, Plot const& plot) {
   std::filesystem::path part = path.parent_path() / (".part-" + path.filename().string());

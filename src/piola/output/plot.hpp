@@ -31,4 +31,12 @@ struct Plot {
 /// is nothing to draw (no finite value, none above zero on a logarithmic axis); FileError if it cannot be written.
 void write_plot(std::filesystem::path const& path, Plot const& plot);
 
+/// The same picture as the text of an SVG, and where its horizontal axis lies: for a cursor that moves over it.
+struct PlotText {
+  std::string svg = {};
+  double left = 0, right = 0, top = 0, bottom = 0;  ///< of the frame, in pixels from the top left
+  double low = 0, high = 0;                         ///< values at `left` and `right`
+};
+PlotText plot_text(Plot const& plot);
+
 }  // namespace piola

@@ -8,11 +8,21 @@
 #include "piola/output/files.hpp"
 #include "piola/output/history.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace piola {
 namespace {
+
+/// Columns of runs whose bodies meet or are tied, of any formulation. A field may have the same name, and another unit.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> meeting_columns{{{"contact_energy", "J"},
+                                                                                        {"contact_overlap", "1"},
+                                                                                        {"contact_points", "1"},
+                                                                                        {"friction_heat", "J"},
+                                                                                        {"tie_energy", "J"},
+                                                                                        {"tie_heat", "J"},
+                                                                                        {"tie_failed", "1"}}};
 
 HistoryTable history_of(std::filesystem::path const& folder) {
   HistoryTable table = read_history(folder / "history.csv");
@@ -95,6 +105,8 @@ std::string unit_of_column(std::string const& name) {
   for (FormulationInfo const& info : formulations())
     for (DiagnosticInfo const& known : info.diagnostics)
       if (known.name == name) return std::string(known.unit);
+  for (auto const& [known, unit] : meeting_columns)
+    if (known == name) return std::string(unit);
   std::string const word = name.substr(name.rfind('.') + 1);
   if (auto const quantity = find_quantity(word)) return quantity->unit;
   for (auto const& parts : {action_quantities(), rigid_quantities(), body_quantities()})

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/output/files.hpp"
+#include "piola/report/report.hpp"
+#include "commands.hpp"
+#include "signals.hpp"
+#include "streams.hpp"
+#include <chrono>
+#include <memory>
+#include <thread>
+
+namespace piola::app {
+namespace {
+
+struct ReportArguments {
+  std::string folder, out;
+  report::ReportOptions what;
+  double megabytes = 30;
+  bool follow = false;
+};
+
+constexpr int follow_seconds = 10;
+
+report::ReportResult write_one(ReportArguments const& options, std::filesystem::path const& out) {
+  auto const result = report::write_report(options.folder, out, options.what);
+  say("{} frame{} in {}, {}\n", result.frames, result.frames == 1 ? "" : "s", out.string(), size_text(result.bytes));
+  return result;
+}
+
+void tell_notes(report::ReportResult const& result) {
+  for (std::string const& note : result.notes) tell("note: {}\n", note);
+}
+
+/// Anew every ten seconds, until the run has ended or a signal comes.
+int follow(ReportArguments const& options, std::filesystem::path const& out) {
+  catch_stop_signals();
+  for (;;) {
+    auto const result = write_one(options, out);
+    if (result.status != "running") {
+      tell_notes(result);
+      return completed;
+    }
+    for (int k = 0; k < 10 * follow_seconds; ++k) {
+      if (stop_signal != 0) return stopped_by_signal;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+}
+
+int write_page_of_run(ReportArguments options) {
+  std::filesystem::path const out =
+      options.out.empty() ? std::filesystem::path(options.folder) / "report.html" : std::filesystem::path(options.out);
+  if (out.has_parent_path()) make_folder(out.parent_path());
+  options.what.budget = options.megabytes * 1e6;
+  options.what.reload = options.follow ? follow_seconds : 0;
+  if (options.follow) return follow(options, out);
+  tell_notes(write_one(options, out));
+  return completed;
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, Action& action) {
+  auto const options = std::make_shared<ReportArguments>();
+  CLI::App* command = program.add_subcommand(
+      "report", "Write one HTML page about a run: particles in space over time, plots, tables; any browser shows it");
+  command->add_option("folder", options->folder, "The results folder of the run")->required();
+  command->add_option("--out,-o", options->out, "The page (default: report.html in the folder)");
+  command->add_option("--fields", options->what.fields, "Fields of the frames to show (default: those that say most)")
+      ->delimiter(',');
+  command->add_option("--frames", options->what.frames, "At most so many frames, evenly chosen (default: up to 200)")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--bits", options->what.bits, "Bits of a coordinate")
+      ->check(CLI::Range(8, 16))
+      ->capture_default_str();
+  command->add_option("--budget", options->megabytes, "Megabytes that the page may have")
+      ->check(CLI::Range(1.0, 2000.0))
+      ->capture_default_str();
+  command->add_option("--checks", options->what.checks,
+                      "A checks.toml to judge the run by (default: that in the folder)");
+  command->add_option("--variant", options->what.variant, "Its variant that the run is (default: found by the case)");
+  command->add_flag("--follow", options->follow, "Write the page anew every 10 s until the run has ended");
+  command->callback([options, &action] { action = [options] { return write_page_of_run(*options); }; });
+}
+
+}  // namespace piola::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/frame_reader.hpp"
+#include "piola/output/hdf5.hpp"
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+std::string data_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
+
+}  // namespace
+
+struct FrameReader::File {
+  hdf5::Reader reader;
+};
+
+FrameReader::FrameReader(std::filesystem::path const& path) : file_(new File{hdf5::Reader(path)}) {
+  auto const time = file_->reader.dataset<double>("/VTKHDF/FieldData/TimeValue");
+  if (time.size() != 1) file_->reader.fail("TimeValue", "is not a single time");
+  time_ = time.front();
+  std::int64_t const dimension = file_->reader.integer("/", "dimension");
+  if (dimension < 1 || dimension > 3) file_->reader.fail("dimension", "is not 1, 2 or 3");
+  dimension_ = static_cast<int>(dimension);
+}
+FrameReader::FrameReader(FrameReader&&) noexcept = default;
+FrameReader& FrameReader::operator=(FrameReader&&) noexcept = default;
+FrameReader::~FrameReader() = default;
+
+std::vector<float> FrameReader::points() const { return file_->reader.dataset<float>("/VTKHDF/Points", 3); }
+
+std::vector<std::string> FrameReader::fields() const { return file_->reader.names("/VTKHDF/PointData"); }
+
+FieldInfo FrameReader::info(std::string const& field) const {
+  std::uint64_t const columns = file_->reader.columns(data_of(field));
+  if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
+    file_->reader.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
+  bool const plain = field == "Volume";  // written without a unit
+  return {field, plain ? "" : file_->reader.text(data_of(field), "unit"), static_cast<int>(columns)};
+}
+
+std::vector<float> FrameReader::values(std::string const& field) const {
+  return file_->reader.dataset<float>(data_of(field), file_->reader.columns(data_of(field)));
+}
+
+}  // namespace piola

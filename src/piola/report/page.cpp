@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/report/page.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
+#include <cerrno>
+
+namespace piola::report {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (char const c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      case '\'': out += "&#39;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+PageFile::PageFile(std::filesystem::path path, std::string const& title)
+    : path_(std::move(path)), part_(path_.string() + ".part"), file_(std::fopen(part_.c_str(), "w"), &std::fclose) {
+  if (!file_) throw FileError(cannot_write(path_, errno));
+  put("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
+      "style-src 'unsafe-inline'; img-src data:\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
+  put(escaped(title));
+  put("</title>\n<style>\n");
+  put(web::style);
+  put("</style>\n</head>\n<body>\n");
+  put(web::body);
+}
+
+PageFile::~PageFile() {
+  if (!file_) return;
+  file_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void PageFile::fail() { throw FileError(cannot_write(path_, errno)); }
+
+void PageFile::put(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
+  size_ += static_cast<double>(text.size());
+}
+
+void PageFile::data(std::string const& name, std::string_view text, bool json) {
+  put(json ? "<script type=\"application/json\" id=\"data-" : "<script type=\"application/octet-stream\" id=\"data-");
+  put(name + "\">");
+  put(text);
+  put("</script>\n");
+}
+
+void PageFile::finish() {
+  put("<script>\n(function () {\n\"use strict\";\n");
+  put(web::script);
+  put("}());\n</script>\n</body>\n</html>\n");
+  if (std::fflush(file_.get()) != 0) fail();
+  if (std::fclose(file_.release()) != 0) fail();
+  std::error_code error;
+  std::filesystem::rename(part_, path_, error);
+  if (error) throw FileError(cannot_write(path_, error.value()));
+}
+
+}  // namespace piola::report

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/report/about.hpp"
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace piola::report {
+
+/// The page's own sources, compiled into the program (web/, cmake/PiolaWeb.cmake).
+namespace web {
+extern std::string_view const style, body, script;
+}  // namespace web
+
+/// A page that is written piece by piece to "PATH.part" and gets its name when it is whole. It needs nothing from
+/// outside and may fetch nothing (Content-Security-Policy); texts of a case stand in JSON only, or are escaped. All
+/// throws FileError; what was there before stays then.
+class PageFile {
+ public:
+  PageFile(std::filesystem::path path, std::string const& title);
+  PageFile(PageFile const&) = delete;
+  PageFile& operator=(PageFile const&) = delete;
+  ~PageFile();
+  /// A script element that is data: `name` by which the page's script finds it.
+  void data(std::string const& name, std::string_view text, bool json = false);
+  /// Everything that is left; the file gets its name.
+  void finish();
+  double size() const { return size_; }  ///< bytes so far
+
+ private:
+  void put(std::string_view text);
+  [[noreturn]] void fail();
+  std::filesystem::path path_, part_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  double size_ = 0;
+};
+
+/// &, <, > and quotes as what HTML shows so.
+std::string escaped(std::string_view text);
+
+}  // namespace piola::report

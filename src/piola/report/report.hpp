@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/simulation/verify.hpp"
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace piola::report {
+
+struct ReportOptions {
+  std::vector<std::string> fields = {};    ///< none: those that say most
+  std::size_t frames = 0;                  ///< at most so many, evenly chosen; 0: as many as fit
+  int bits = 14;                           ///< of a coordinate
+  double budget = 30e6;                    ///< bytes of the page
+  std::filesystem::path checks = {};       ///< a checks.toml; empty: the one in the folder, if there is one
+  std::string variant = {};                ///< of it; empty: the one that the case in the folder is
+  int reload = 0;                          ///< s after which the page looks for a newer one, while the run goes on
+  std::vector<VerificationRow> rows = {};  ///< shown besides those of `checks`
+};
+
+struct ReportResult {
+  double bytes = 0;
+  std::size_t frames = 0;
+  std::string status = {};              ///< of the run: "running" as long as it goes on
+  std::vector<std::string> notes = {};  ///< what is left out, and why
+};
+
+/// Writes one HTML page that shows a run without any other file: particles in space over time, plots, tables (web/).
+/// Same files, same bytes. Throws InputError (no run, no such field, check or variant), FileError.
+ReportResult write_report(std::filesystem::path const& folder, std::filesystem::path const& page,
+                          ReportOptions const& options);
+
+}  // namespace piola::report

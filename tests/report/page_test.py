@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The page of piola report: whole, closed to the outside, and the same frames as in the files.
+
+The script that decodes frames in the browser (web/frames.js) runs in node, where there is one, and its positions are
+compared with those of the frames.
+"""
+import base64
+import html.parser
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("PIOLA_SOURCE_DIR", Path(__file__).resolve().parents[2]))
+PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
+HOSTILE = "</script><img src=x onerror=alert(1)> & \"quotes\" <!-- "
+CASE = """
+title = '</script><img src=x onerror=alert(1)> & "quotes" <!-- '
+[run]
+end = "20 ms"
+threads = 1
+[[body]]
+name = "bar"
+shape = { box = { min = [0, 0, 0], max = ["1 m", "1 m", "2 m"] }, particles = [5, 5, 9] }
+material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 }
+formulation = { name = "jst_sph" }
+initial_velocity = ["5*Z", "0", "0"]
+[[support]]
+body = "bar"
+where = "Z <= 0"
+fix = "xyz"
+[[probe]]
+name = "top"
+body = "bar"
+kind = "average"
+where = "Z >= 2"
+quantities = ["displacement_x"]
+[[quantity]]
+name = "sway"
+column = "top.displacement_x"
+take = "maximum"
+unit = "mm"
+[output.frames]
+every = "1 ms"
+"""
+CHECKS = """
+[[variant]]
+name = "standard"
+short = true
+[[variant]]
+name = "faster"
+set = ["run.cfl=0.5"]
+[[check]]
+variant = "standard"
+quantity = "sway"
+reference = "0.18 m"
+tolerance = "50 %"
+source = "a guess"
+evidence = "theory"
+"""
+
+
+def program(*arguments, code=0):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+class Elements(html.parser.HTMLParser):
+    """What a browser would make of a page: the tags, and the texts of data elements by their id."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.data, self.title, self._at = [], {}, "", None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        self._at = dict(attrs).get("id", "").replace("data-", "", 1) if tag == "script" else tag
+
+    def handle_endtag(self, tag):
+        self._at = None
+
+    def handle_data(self, text):
+        if self._at == "title":
+            self.title += text
+        elif self._at is not None:
+            self.data[self._at] = self.data.get(self._at, "") + text
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp())
+        cls.run_folder = cls.folder / "run"
+        (cls.folder / "case.toml").write_text(CASE, encoding="utf-8")
+        program("run", cls.folder / "case.toml", "--quiet", "--out", cls.run_folder)
+        program("report", cls.run_folder, "--checks", cls.write_checks(), "-o", cls.folder / "page.html")
+        cls.text = (cls.folder / "page.html").read_text(encoding="utf-8")
+        cls.page = Elements(cls.text)
+        cls.about, cls.frames = (json.loads(cls.page.data[name]) for name in ("about", "frames"))
+
+    @classmethod
+    def write_checks(cls):
+        path = cls.folder / "checks.toml"
+        path.write_text(CHECKS, encoding="utf-8")
+        return path
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_texts_of_a_case_stay_texts(self):
+        self.assertEqual(self.about["title"], HOSTILE)
+        self.assertEqual(self.page.title, HOSTILE)
+        self.assertFalse([tag for tag, _ in self.page.tags if tag in ("img", "iframe", "object", "link")])
+        self.assertNotIn("<img", self.text)
+
+    def test_nothing_is_fetched(self):
+        for _, attributes in self.page.tags:
+            self.assertFalse({"src", "href"} & set(attributes))
+        policy = [a["content"] for tag, a in self.page.tags if a.get("http-equiv") == "Content-Security-Policy"]
+        self.assertEqual(len(policy), 1)
+        self.assertIn("default-src 'none'", policy[0])
+        self.assertNotIn("http", policy[0])
+        self.assertNotRegex(self.text, r"\b(fetch|XMLHttpRequest|importScripts|innerHTML)\b")
+
+    def test_the_run_is_told(self):
+        self.assertEqual(self.about["status"], "completed")
+        self.assertIn("sway", self.about["summary"]["quantities"])
+        self.assertEqual([plot["name"] for plot in self.about["plots"]][:2], ["energies", "top.displacement x"])
+        plot = self.about["plots"][0]
+        self.assertIn(b"<svg", zlib.decompress(base64.b64decode(plot["svg"])))
+        self.assertAlmostEqual(plot["high"], 0.02)
+        self.assertLess(plot["left"], plot["right"])
+        self.assertEqual(len(self.frames["times"]), 21)
+        self.assertEqual([body["name"] for body in self.frames["bodies"]], ["bar"])
+
+    def test_checks_are_judged_for_the_variant_that_the_run_is(self):
+        rows = self.about["rows"]
+        self.assertEqual([(row["variant"], row["quantity"]) for row in rows], [("standard", "sway")])
+        self.assertIn(rows[0]["verdict"], ("passes", "falls short"))
+        other = program("report", self.run_folder, "--checks", self.folder / "checks.toml", "--variant", "fastr",
+                        "-o", self.folder / "other.html", code=2)
+        self.assertIn('did you mean "faster"', other)
+
+    def test_same_run_same_bytes(self):
+        program("report", self.run_folder, "--checks", self.folder / "checks.toml", "-o", self.folder / "again.html")
+        self.assertEqual((self.folder / "again.html").read_text(encoding="utf-8"), self.text)
+
+    def test_a_budget_is_kept_and_what_it_costs_is_said(self):
+        large = self.folder / "large"
+        settings = ["body.bar.shape.particles=[21,21,41]", "body.bar.shape.jitter=0.2", 'run.end="2 ms"',
+                    'output.frames.every="0.05 ms"']
+        program("run", self.folder / "case.toml", "--quiet", "--out", large,
+                *(word for setting in settings for word in ("--set", setting)))
+        said = program("report", large, "--budget", "1", "-o", self.folder / "small.html")
+        self.assertLessEqual((self.folder / "small.html").stat().st_size, 1_000_000)
+        self.assertIn("to stay within 1 MB", said)
+        self.assertIn(said.split("note: ")[1].split(";")[0], (self.folder / "small.html").read_text(encoding="utf-8"))
+        program("report", self.run_folder, "--frames", "3", "--fields", "Pressure", "--bits", "12",
+                "-o", self.folder / "few.html")
+        few = json.loads(Elements((self.folder / "few.html").read_text(encoding="utf-8")).data["frames"])
+        self.assertEqual(few["numbers"], [0, 10, 20])
+        self.assertEqual([field["name"] for field in few["fields"]], ["Pressure"])
+        self.assertEqual(few["missing"], 4095)
+
+    def test_bad_wishes_are_refused(self):
+        self.assertIn('did you mean "Pressure"', program("report", self.run_folder, "--fields", "Presure", code=2))
+        self.assertIn("holds no run", program("report", self.folder, code=2))
+        self.assertIn("--bits", program("report", self.run_folder, "--bits", "40", code=2))
+
+    def test_a_run_without_frames_has_a_page(self):
+        folder = self.folder / "bare"
+        shutil.copytree(self.run_folder, folder)
+        shutil.rmtree(folder / "frames")
+        (folder / "frames.hdf.series").unlink()
+        self.assertIn("no frames", program("report", folder))
+        data = Elements((folder / "report.html").read_text(encoding="utf-8")).data
+        self.assertNotIn("frames", data)
+        self.assertEqual(json.loads(data["about"])["status"], "completed")
+
+    def test_a_verification_has_a_section_for_each_run(self):
+        case = self.folder / "cases" / "bar"
+        case.mkdir(parents=True)
+        (case / "case.toml").write_text(CASE, encoding="utf-8")
+        (case / "checks.toml").write_text(CHECKS, encoding="utf-8")
+        program("verify", "--cases", case.parent, "--report", self.folder / "verify.html")
+        text = (self.folder / "verify.html").read_text(encoding="utf-8")
+        about = json.loads(Elements(text).data["about"])
+        self.assertEqual([(row["case"], row["variant"]) for row in about["rows"]], [("bar", "standard")])
+        self.assertEqual([(run["case"], run["variant"], run["title"]) for run in about["runs"]],
+                         [("bar", "standard", HOSTILE)])
+        self.assertEqual(about["runs"][0]["plots"][0]["name"], "energies")
+        self.assertNotIn("<img", text)
+
+    def test_frames_are_packed_as_told(self):
+        sizes = {len(zlib.decompress(base64.b64decode(text))) for name, text in self.page.data.items()
+                 if re.fullmatch(r"frame-\d+", name)}
+        self.assertEqual(sizes, {self.frames["particles"] * (6 + len(self.frames["fields"]))})
+
+    def test_the_browser_decodes_what_is_in_the_files(self):
+        node = shutil.which("node")
+        if node is None:
+            self.skipTest("there is no node")
+        import h5py
+        import numpy as np
+        script = (SOURCE / "web" / "frames.js").read_text(encoding="utf-8") + """
+const data = JSON.parse(require("fs").readFileSync(0, "utf8"));
+(async () => {
+  const store = new FrameStore(JSON.parse(data.frames), (name) => {
+    const text = data[name];
+    delete data[name];
+    return text;
+  });
+  const out = {};
+  for (const k of [20, 3, 0, 10, 11, 19, 3]) {
+    const frame = await store.get(k);
+    out[k] = [frame.x, frame.fields].map((list) => list.map((values) => [...values]));
+  }
+  console.log(JSON.stringify(out));
+})();
+"""
+        done = subprocess.run([node, "-e", script], input=json.dumps(self.page.data), capture_output=True, text=True,
+                              check=True)
+        frames, low, step = json.loads(done.stdout), self.frames["low"], self.frames["step"]
+        extent = np.array(step) * (self.frames["missing"] - 1)
+        for number, (x, fields) in frames.items():
+            with h5py.File(self.run_folder / "frames" / f"{int(number):06d}.hdf") as file:
+                points = file["VTKHDF/Points"][:]
+                pressure = file["VTKHDF/PointData/Pressure"][:]
+            for axis in range(3):
+                error = np.abs(low[axis] + np.array(x[axis]) * step[axis] - points[:, axis])
+                self.assertLessEqual(error.max(), extent[axis] / 2**14 + 1e-7)
+            at = [field["name"] for field in self.frames["fields"]].index("Pressure")
+            scale, codes = self.frames["fields"][at], np.array(fields[at])
+            values = scale["low"] + (codes - 1) * (scale["high"] - scale["low"]) / 254
+            error = np.abs(values - np.clip(pressure, scale["low"], scale["high"]))
+            self.assertLessEqual(error.max(), 0.51 * (scale["high"] - scale["low"]) / 254)
+
+
+if __name__ == "__main__":
+    if not os.access(PROGRAM, os.X_OK):
+        print("skipped: the program is not built")
+        sys.exit(77)
+    unittest.main()

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawing with WebGL 2: particles as shaded balls with true depth, rigid shapes as triangles, lines.
+
+// From metres beside the middle of the scene to the screen. `eye` is the distance of the eye from the target, 0 for a
+// parallel projection; `deep` the depth of the scene to both sides.
+const projection = `
+uniform mat3 turn;
+uniform vec3 target;
+uniform float halfHeight, aspect, deep, eye;
+vec4 project(vec3 p) {
+  if (eye == 0.0) return vec4(p.x / (halfHeight * aspect), p.y / halfHeight, -p.z / deep, 1.0);
+  float near = max(eye - deep, 0.02 * eye), far = eye + deep, z = p.z - eye;
+  return vec4(p.x * eye / (halfHeight * aspect), p.y * eye / halfHeight,
+              -((far + near) * z + 2.0 * far * near) / (far - near), -z);
+}`;
+
+const ballVertex = `#version 300 es
+precision highp float;
+precision highp int;
+${projection}
+in vec2 corner;
+in float qx, qy, qz, value;
+in float body;
+uniform vec3 low, cell;
+uniform float missing;
+uniform highp sampler2D bodies, colours;
+uniform vec4 cut;
+uniform int marked;
+out vec2 place;
+out vec3 middle;
+out vec3 colour;
+out float radius;
+void main() {
+  vec4 kind = texelFetch(bodies, ivec2(int(body), 0), 0);
+  vec3 q = vec3(qx, qy, qz), x = low + q * cell;
+  bool gone = kind.g < 0.5 || qx == missing || qy == missing || qz == missing || dot(cut.xyz, x) > cut.w;
+  colour = texelFetch(colours, ivec2(int(value), 0), 0).rgb;
+  radius = kind.r;
+  if (gl_InstanceID == marked) {
+    radius *= 1.6;
+    colour = vec3(1.0, 0.1, 0.7);
+  }
+  place = corner;
+  middle = turn * (x - target);
+  gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : project(middle + vec3(corner * radius, 0.0));
+}`;
+
+const ballFragment = `#version 300 es
+precision highp float;
+${projection}
+in vec2 place;
+in vec3 middle;
+in vec3 colour;
+in float radius;
+uniform float flatness;
+out vec4 pixel;
+void main() {
+  float rest = 1.0 - dot(place, place);
+  if (rest < 0.0) discard;
+  float z = sqrt(rest);
+  vec4 at = project(middle + vec3(place, z) * radius);
+  gl_FragDepth = 0.5 + 0.5 * at.z / at.w;
+  float light = max(dot(vec3(place, z), normalize(vec3(-0.35, 0.5, 0.8))), 0.0);
+  pixel = vec4(colour * mix(0.38 + 0.66 * light, 1.0, flatness), 1.0);
+}`;
+
+const shapeVertex = `#version 300 es
+precision highp float;
+${projection}
+in vec3 point, normal;
+uniform mat3 edges;
+uniform vec3 centre;
+out vec3 side;
+out vec3 own;
+void main() {
+  side = turn * (edges * normal);
+  own = point;
+  gl_Position = project(turn * (centre + edges * point - target));
+}`;
+
+const shapeFragment = `#version 300 es
+precision highp float;
+in vec3 side;
+in vec3 own;
+uniform vec4 colour;
+uniform float lit, marks;
+out vec4 pixel;
+void main() {
+  float light = lit > 0.5 ? 0.62 + 0.42 * abs(dot(normalize(side), normalize(vec3(-0.35, 0.5, 0.8)))) : 1.0;
+  bool dark = marks > 0.5 && own.x * own.y * (marks > 1.5 ? 1.0 : own.z) < 0.0;
+  pixel = vec4(colour.rgb * light * (dark ? 0.75 : 1.0), colour.a);
+}`;
+
+function programOf(gl, vertex, fragment) {
+  const program = gl.createProgram();
+  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+  const places = {};
+  const count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS);
+  for (let k = 0; k < count; ++k) {
+    const name = gl.getActiveUniform(program, k).name;
+    places[name] = gl.getUniformLocation(program, name);
+  }
+  return { program, places };
+}
+
+/** A table of colours or numbers, one row, read by number. */
+function tableTexture(gl) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
+  for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
+  return texture;
+}
+
+class Balls {
+  constructor(gl, bodies) {
+    this.gl = gl;
+    this.count = bodies.length;
+    Object.assign(this, programOf(gl, ballVertex, ballFragment));
+    this.array = gl.createVertexArray();
+    gl.bindVertexArray(this.array);
+    this.buffers = {};
+    this.attribute("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), 2, gl.FLOAT, 0);
+    this.attribute("body", bodies, 1, gl.UNSIGNED_SHORT, 1);
+    this.kinds = tableTexture(gl);
+    this.colours = tableTexture(gl);
+  }
+
+  attribute(name, values, size, type, divisor) {
+    const gl = this.gl, place = gl.getAttribLocation(this.program, name);
+    this.buffers[name] = this.buffers[name] || gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name]);
+    gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
+    if (place < 0) return;
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, size, type, false, 0, 0);
+    gl.vertexAttribDivisor(place, divisor);
+  }
+
+  setFrame(frame, field) {
+    const gl = this.gl;
+    gl.bindVertexArray(this.array);
+    ["qx", "qy", "qz"].forEach((name, c) => this.attribute(name, frame.x[c], 1, gl.UNSIGNED_SHORT, 1));
+    this.setField(frame, field);
+  }
+
+  setField(frame, field) {
+    this.gl.bindVertexArray(this.array);
+    this.attribute("value", frame.fields[field] || new Uint8Array(this.count), 1, this.gl.UNSIGNED_BYTE, 1);
+  }
+
+  /** `radii`: of each body, in units of the scene; `shown`: whether it is drawn. */
+  setBodies(radii, shown) {
+    const gl = this.gl, values = new Float32Array(4 * radii.length);
+    radii.forEach((radius, b) => values.set([radius, shown[b] ? 1 : 0, 0, 0], 4 * b));
+    gl.bindTexture(gl.TEXTURE_2D, this.kinds);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, radii.length, 1, 0, gl.RGBA, gl.FLOAT, values);
+  }
+
+  setColours(colours) {
+    const gl = this.gl;
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
+  }
+
+  draw(camera, what) {
+    const gl = this.gl, at = this.places;
+    gl.useProgram(this.program);
+    setCamera(gl, at, camera);
+    gl.uniform3fv(at.low, what.low);
+    gl.uniform3fv(at.cell, what.cell);
+    gl.uniform1f(at.missing, what.missing);
+    gl.uniform4fv(at.cut, what.cut);
+    gl.uniform1i(at.marked, what.marked);
+    gl.uniform1f(at.flatness, what.flat ? 1 : 0);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, this.kinds);
+    gl.uniform1i(at.bodies, 0);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    gl.uniform1i(at.colours, 1);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindVertexArray(this.array);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+  }
+}
+
+function setCamera(gl, at, camera) {
+  const { right, up, towards } = camera.axes;
+  gl.uniformMatrix3fv(at.turn, false, [0, 1, 2].flatMap((c) => [right[c], up[c], towards[c]]));
+  gl.uniform3fv(at.target, camera.target);
+  gl.uniform1f(at.halfHeight, camera.halfHeight);
+  gl.uniform1f(at.aspect, camera.aspect);
+  gl.uniform1f(at.deep, camera.deep);
+  gl.uniform1f(at.eye, camera.eye);
+}
+
+/** Triangles (point, normal: six numbers each) or lines of a shape about its centre. */
+class Shape {
+  constructor(gl, tools, numbers, lines) {
+    this.gl = gl;
+    this.tools = tools;
+    this.mode = lines ? gl.LINES : gl.TRIANGLES;
+    this.count = numbers.length / 6;
+    this.array = gl.createVertexArray();
+    gl.bindVertexArray(this.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.STATIC_DRAW);
+    [["point", 0], ["normal", 12]].forEach(([name, offset]) => {
+      const place = gl.getAttribLocation(tools.program, name);
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 24, offset);
+    });
+  }
+
+  draw(camera, pose, colour, marks) {
+    const gl = this.gl, at = this.tools.places;
+    gl.useProgram(this.tools.program);
+    setCamera(gl, at, camera);
+    gl.uniformMatrix3fv(at.edges, false, pose.edges);
+    gl.uniform3fv(at.centre, pose.centre);
+    gl.uniform4fv(at.colour, colour);
+    gl.uniform1f(at.lit, this.mode === gl.LINES ? 0 : 1);
+    gl.uniform1f(at.marks, marks);
+    gl.bindVertexArray(this.array);
+    gl.drawArrays(this.mode, 0, this.count);
+  }
+}
+
+/** A box about its centre, by half its edges. */
+function boxTriangles(half) {
+  const numbers = [];
+  for (let axis = 0; axis < 3; ++axis)
+    for (const sign of [-1, 1]) {
+      const u = (axis + 1) % 3, v = (axis + 2) % 3, normal = [0, 0, 0];
+      normal[axis] = sign;
+      for (const [s, t] of [[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]]) {
+        const p = [0, 0, 0];
+        p[axis] = sign * half[axis];
+        p[u] = s * half[u];
+        p[v] = t * half[v];
+        numbers.push(...p, ...normal);
+      }
+    }
+  return numbers;
+}
+
+/** The edges of a box, as lines. */
+function boxLines(low, high) {
+  const numbers = [];
+  for (let axis = 0; axis < 3; ++axis)
+    for (const s of [0, 1])
+      for (const t of [0, 1])
+        for (const end of [low, high]) {
+          const p = [0, 0, 0];
+          p[axis] = end[axis];
+          p[(axis + 1) % 3] = (s ? high : low)[(axis + 1) % 3];
+          p[(axis + 2) % 3] = (t ? high : low)[(axis + 2) % 3];
+          numbers.push(...p, 0, 0, 1);
+        }
+  return numbers;
+}
+
+function sphereTriangles(radius) {
+  const across = 48, along = 24, numbers = [];
+  const at = (i, j) => {
+    const a = (2 * Math.PI * i) / across, b = (Math.PI * j) / along;
+    const n = [Math.sin(b) * Math.cos(a), Math.sin(b) * Math.sin(a), Math.cos(b)];
+    return [...n.map((x) => radius * x), ...n];
+  };
+  for (let i = 0; i < across; ++i)
+    for (let j = 0; j < along; ++j)
+      numbers.push(...at(i, j), ...at(i, j + 1), ...at(i + 1, j + 1), ...at(i, j), ...at(i + 1, j + 1), ...at(i + 1, j));
+  return numbers;
+}
+
+/** A cylinder about its first axis. */
+function cylinderTriangles(radius, half) {
+  const across = 64, numbers = [];
+  for (let i = 0; i < across; ++i) {
+    const ring = [i, i + 1].map((k) => [Math.cos((2 * Math.PI * k) / across), Math.sin((2 * Math.PI * k) / across)]);
+    const side = (k, x) => [x, radius * ring[k][0], radius * ring[k][1], 0, ...ring[k]];
+    numbers.push(...side(0, -half), ...side(1, -half), ...side(1, half), ...side(0, -half), ...side(1, half), ...side(0, half));
+    for (const x of [-half, half]) {
+      const cap = (k) => [x, radius * ring[k][0], radius * ring[k][1], Math.sign(x), 0, 0];
+      numbers.push(x, 0, 0, Math.sign(x), 0, 0, ...cap(0), ...cap(1));
+    }
+  }
+  return numbers;
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene: the frames of the run, rigid shapes and the box of the start, seen through a View.
+
+class Scene {
+  /** `about`: the page's element "frames"; bodies: the body of each particle. Throws if there is no WebGL 2. */
+  constructor(canvas, about, bodies, view) {
+    const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+    if (!gl) throw new Error("no WebGL 2");
+    Object.assign(this, { canvas, about, gl, view, bodies });
+    this.flat = about.dimension < 3;
+    this.middle = about.low.map((x, c) => x + (about.step[c] * (about.missing - 1)) / 2);
+    const edges = about.low.map((x, c) => 2 * (this.middle[c] - x));
+    const largest = Math.max(...about.bodies.map((body) => body.radius), 0);
+    this.size = Math.hypot(...edges) + 2 * largest || 1;
+    this.balls = new Balls(gl, bodies);
+    this.shown = about.bodies.map(() => true);
+    this.tools = programOf(gl, shapeVertex, shapeFragment);
+    this.stage = about.stage.map((p) => this.inScene(p));
+    this.shapes = about.shapes.map((shape) => new Shape(gl, this.tools, this.trianglesOf(shape), false));
+    this.outline = new Shape(gl, this.tools, boxLines(...this.stage), true);
+    this.showOutline = false;
+    this.showShapes = true;
+    this.cut = null;  // {axis, place in m, sign}
+    this.marked = -1;
+    this.dark = false;
+    this.setBodies();
+  }
+
+  /** Floats near zero are exact enough: the scene counts from the middle, in units of its size. */
+  inScene(p) {
+    return p.map((x, c) => (x - this.middle[c]) / this.size);
+  }
+
+  trianglesOf(shape) {
+    const by = (x) => x / this.size, diagonal = Math.hypot(...this.stage[1].map((x, c) => x - this.stage[0][c]));
+    if (shape.kind === "sphere") return sphereTriangles(by(shape.radius));
+    if (shape.kind === "cylinder") return cylinderTriangles(by(shape.radius), by(shape.half[0]));
+    if (shape.kind === "box") return boxTriangles(shape.half.map(by));
+    return boxTriangles([0.01 * diagonal, 0.7 * diagonal, 0.7 * diagonal]);  // a plane: a plate behind its face
+  }
+
+  /** Where a shape stands in a frame: columns of its edges, and its centre. */
+  poseOf(k, number) {
+    const numbers = this.about.poses[k].slice(12 * number, 12 * number + 12), shape = this.about.shapes[number];
+    const centre = this.inScene(numbers.slice(0, 3));
+    if (shape.kind === "sphere" || shape.kind === "box") return { centre, edges: numbers.slice(3) };
+    const n = shape.axis, other = Math.abs(n[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0], side = cross(other, n);
+    const a = side.map((x) => x / Math.hypot(...side)), edges = [...n, ...a, ...cross(n, a)];
+    if (shape.kind === "cylinder") return { centre, edges };
+    const middle = this.stage[0].map((x, c) => (x + this.stage[1][c]) / 2);
+    const away = dot(n, middle.map((x, c) => x - centre[c]));
+    const thick = 0.01 * Math.hypot(...this.stage[1].map((x, c) => x - this.stage[0][c]));
+    return { centre: middle.map((x, c) => x - (away + thick) * n[c]), edges };
+  }
+
+  setBodies() {
+    this.balls.setBodies(this.about.bodies.map((body) => body.radius / this.size), this.shown);
+  }
+
+  setFrame(k, frame, field) {
+    this.number = k;
+    this.frame = frame;
+    this.balls.setFrame(frame, field);
+  }
+
+  camera() {
+    const { width, height } = this.canvas, aspect = width / Math.max(height, 1);
+    const halfHeight = (0.55 * Math.max(1, 1 / aspect)) / this.view.zoom;
+    return {
+      axes: this.view.axes(), target: this.view.target.map((x) => x / this.size), halfHeight, aspect,
+      deep: 3 + Math.hypot(...this.view.target) / this.size, eye: this.view.perspective ? 2.5 * halfHeight : 0,
+    };
+  }
+
+  draw() {
+    const gl = this.gl, camera = this.camera();
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.clearColor(...(this.dark ? [0.09, 0.1, 0.12, 1] : [1, 1, 1, 1]));
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthMask(true);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    if (this.flat) gl.disable(gl.DEPTH_TEST);  // in a plane shapes lie behind all particles
+    if (this.showShapes) this.drawShapes(camera);
+    gl.enable(gl.DEPTH_TEST);
+    if (this.flat) gl.clear(gl.DEPTH_BUFFER_BIT);
+    if (this.frame) this.balls.draw(camera, this.ballsNow());
+    const none = { centre: [0, 0, 0], edges: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
+    if (this.showOutline) this.outline.draw(camera, none, this.dark ? [0.7, 0.7, 0.7, 1] : [0.3, 0.3, 0.3, 1], 0);
+  }
+
+  drawShapes(camera) {
+    this.shapes.forEach((shape, k) => {
+      const { kind, turns } = this.about.shapes[k], marks = kind === "sphere" && turns ? (this.flat ? 2 : 1) : 0;
+      shape.draw(camera, this.poseOf(this.number || 0, k), [0.69, 0.71, 0.74, 1], marks);
+    });
+  }
+
+  ballsNow() {
+    const { low, step, missing } = this.about;
+    return {
+      low: this.inScene(low), cell: step.map((s) => s / this.size), missing, flat: this.flat, cut: this.cutPlane(),
+      marked: this.marked,
+    };
+  }
+
+  cutPlane() {
+    if (!this.cut) return [0, 0, 0, 1];
+    const plane = [0, 0, 0, 0], c = "xyz".indexOf(this.cut.axis);
+    plane[c] = this.cut.sign;
+    plane[3] = this.cut.sign * ((this.cut.place - this.middle[c]) / this.size);
+    return plane;
+  }
+
+  /** The particle seen at a place of the screen (-1 to 1, upwards), or -1. */
+  particleAt(sx, sy) {
+    if (!this.frame) return -1;
+    const camera = this.camera(), { right, up, towards } = camera.axes, { low, cell, missing, cut } = this.ballsNow();
+    const radii = this.about.bodies.map((body) => body.radius / this.size), [x, y, z] = this.frame.x;
+    let found = -1, nearest = -Infinity;
+    for (let i = 0; i < x.length; ++i) {
+      if (x[i] === missing || y[i] === missing || z[i] === missing || !this.shown[this.bodies[i]]) continue;
+      const at = [low[0] + x[i] * cell[0], low[1] + y[i] * cell[1], low[2] + z[i] * cell[2]];
+      if (dot(cut, at) > cut[3]) continue;
+      const p = at.map((v, c) => v - camera.target[c]), depth = dot(p, towards);
+      const scale = camera.eye ? camera.eye / Math.max(camera.eye - depth, 1e-9) : 1;
+      const dx = sx * camera.halfHeight * camera.aspect - dot(p, right) * scale;
+      const dy = sy * camera.halfHeight - dot(p, up) * scale, r = radii[this.bodies[i]] * scale;
+      const rest = r * r - dx * dx - dy * dy;
+      if (rest >= 0 && depth + Math.sqrt(rest) > nearest) {
+        nearest = depth + Math.sqrt(rest);
+        found = i;
+      }
+    }
+    return found;
+  }
+
+  /** Where a particle is [m]. */
+  placeOf(i) {
+    const { low, step, missing } = this.about;
+    return this.frame.x.map((x, c) => (x[i] === missing ? NaN : low[c] + x[i] * step[c]));
+  }
+}
