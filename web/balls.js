@@ -278,7 +278,8 @@ function sphereTriangles(radius) {
   };
   for (let i = 0; i < across; ++i)
     for (let j = 0; j < along; ++j)
-      numbers.push(...at(i, j), ...at(i, j + 1), ...at(i + 1, j + 1), ...at(i, j), ...at(i + 1, j + 1), ...at(i + 1, j));
+      numbers.push(...at(i, j), ...at(i, j + 1), ...at(i + 1, j + 1),
+        ...at(i, j), ...at(i + 1, j + 1), ...at(i + 1, j));
   return numbers;
 }
 
@@ -288,7 +289,8 @@ function cylinderTriangles(radius, half) {
   for (let i = 0; i < across; ++i) {
     const ring = [i, i + 1].map((k) => [Math.cos((2 * Math.PI * k) / across), Math.sin((2 * Math.PI * k) / across)]);
     const side = (k, x) => [x, radius * ring[k][0], radius * ring[k][1], 0, ...ring[k]];
-    numbers.push(...side(0, -half), ...side(1, -half), ...side(1, half), ...side(0, -half), ...side(1, half), ...side(0, half));
+    numbers.push(...side(0, -half), ...side(1, -half), ...side(1, half),
+      ...side(0, -half), ...side(1, half), ...side(0, half));
     for (const x of [-half, half]) {
       const cap = (k) => [x, radius * ring[k][0], radius * ring[k][1], Math.sign(x), 0, 0];
       numbers.push(x, 0, 0, Math.sign(x), 0, 0, ...cap(0), ...cap(1));

@@ -134,9 +134,16 @@ class Scene {
     return found;
   }
 
+  /** Where a particle is, in digits that the coding holds. */
+  placeText(frame, i) {
+    const digits = this.about.step.map((s) => Math.min(Math.max(Math.ceil(-Math.log10(s)), 0), 12));
+    const texts = this.placeOf(i, frame).map((x, c) => numberText(Number(x.toFixed(digits[c] || 0)), 7));
+    return "(" + texts.join(", ") + ") m";
+  }
+
   /** Where a particle is [m]. */
-  placeOf(i) {
+  placeOf(i, frame = this.frame) {
     const { low, step, missing } = this.about;
-    return this.frame.x.map((x, c) => (x[i] === missing ? NaN : low[c] + x[i] * step[c]));
+    return frame.x.map((x, c) => (x[i] === missing ? NaN : low[c] + x[i] * step[c]));
   }
 }

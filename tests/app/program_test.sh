@@ -32,6 +32,15 @@ expect 0 "1 curve drawn to dt.pdf" "$program" plot bar-results dt --log y -o dt.
 expect 2 'did you mean "total_energy"' "$program" plot bar-results total_energie
 expect 2 "no history.csv" "$program" plot .
 expect 2 "end in .svg, .png or .pdf" "$program" plot bar-results -o dt.gif
+expect 0 "5 frames in bar-results/report.html" "$program" report bar-results
+check test -s bar-results/report.html
+expect 0 "5 frames in page/bar.html" "$program" report bar-results --follow -o page/bar.html # the run has ended
+expect 2 'did you mean "Pressure"' "$program" report bar-results --fields Presure
+expect 2 "holds no run" "$program" report page
+expect 0 "completed, t = 20 ms" "$program" watch bar-results
+expect 0 "top.displacement x from" "$program" watch bar-results top.displacement_x --once
+expect 2 'did you mean "top.displacement_x"' "$program" watch bar-results top.displacement_y
+expect 2 "holds no run" "$program" watch page
 expect 0 "piola plot" "$program" describe man-page
 expect 0 "complete -F _piola piola" "$program" describe completion
 expect 0 "drawn to look/shape.png" "$program" render --shape bar.toml -o look/shape.png --size 300 240
@@ -100,6 +109,8 @@ expect 3 "docs/user/when-it-stops.md" "$program" run bar.toml --out broken \
   --set 'body.bar.initial_velocity=["0","0","-20000*Z"]'
 check grep -q '"status": "failed"' broken/summary.json
 check test -s broken/checkpoints/failed.h5
+expect 0 "in broken/report.html" "$program" report broken
+check grep -q '"failed_particle":[0-9]' broken/report.html
 
 # The case itself is never replaced by results, whatever is forced.
 mkdir here && cp bar.toml here/case.toml
