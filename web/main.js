@@ -295,7 +295,7 @@ function bindControls(page) {
   on("outline", "change", () => { scene.showOutline = byId("outline").checked; page.draw(); });
   on("shapes", "change", () => { scene.showShapes = byId("shapes").checked; page.draw(); });
   on("reset", "click", () => {
-    Object.assign(view, { ...page.home, target: [0, 0, 0], zoom: 1 });
+    Object.assign(view, { ...page.home, target: [0, 0, 0] });
     page.mark(-1);
     page.keepView();
   });
@@ -394,10 +394,11 @@ function fillControls(page) {
 /** What the address says about view, colours and cut. */
 function restore(page) {
   const { address, scene } = page, { view } = scene;
-  page.home = { azimuth: view.azimuth, elevation: view.elevation };
+  page.resize();
+  page.home = { azimuth: view.azimuth, elevation: view.elevation, zoom: scene.fittingZoom() };
   view.azimuth = address.number("a", view.azimuth);
   view.elevation = address.number("e", view.elevation);
-  view.zoom = Math.min(Math.max(address.number("zoom", 1), 0.05), 500);
+  view.zoom = Math.min(Math.max(address.number("zoom", page.home.zoom), 0.05), 500);
   const target = address.get("to", "").split("_").map(Number);
   if (target.length === 3 && target.every(Number.isFinite)) view.target = target;
   byId("perspective").checked = view.perspective = address.get("persp") === "1";

@@ -53,6 +53,16 @@ class Scene {
     return { centre: middle.map((x, c) => x - (away + thick) * n[c]), edges };
   }
 
+  /** The zoom with which the box of all frames fills the view as it is turned now. */
+  fittingZoom() {
+    const { axes } = this.camera(), { width, height } = this.canvas, aspect = width / Math.max(height, 1);
+    const radius = Math.max(...this.about.bodies.map((body) => body.radius), 0);
+    const half = this.inScene(this.about.low).map(Math.abs);
+    const reach = (axis) => half.reduce((sum, h, c) => sum + h * Math.abs(axis[c]), radius / this.size);
+    const needed = Math.max(reach(axes.up), reach(axes.right) / aspect);
+    return needed > 0 ? (0.55 * Math.max(1, 1 / aspect)) / (1.12 * needed) : 1;
+  }
+
   setBodies() {
     this.balls.setBodies(this.about.bodies.map((body) => body.radius / this.size), this.shown);
   }
@@ -67,7 +77,8 @@ class Scene {
     const { width, height } = this.canvas, aspect = width / Math.max(height, 1);
     const halfHeight = (0.55 * Math.max(1, 1 / aspect)) / this.view.zoom;
     return {
-      axes: this.view.axes(), target: this.view.target.map((x) => x / this.size), halfHeight, aspect,
+      axes: this.view.axes(), pixels: height / (2 * halfHeight), halfHeight, aspect,
+      target: this.view.target.map((x) => x / this.size),
       deep: 3 + Math.hypot(...this.view.target) / this.size, eye: this.view.perspective ? 2.5 * halfHeight : 0,
     };
   }
