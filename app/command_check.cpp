@@ -58,25 +58,48 @@ std::string arrangement_text(ShapeSpec const& shape, BodyFacts const& facts) {
   return shape.inner_radius > 0 ? times(facts.lattice, 2) + " polar grid" : "on circles";
 }
 
-std::string material_text(BodySpec const& body) {
-  LawInfo const law = *find_law(body.law);
+std::string material_text(std::string const& name, MaterialParameters const& material) {
+  LawInfo const law = *find_law(name);
   std::vector<std::string> values;
   for (std::size_t i = 0; i < law.choices.size(); ++i) {
-    auto const word = law.choices[i].allowed[static_cast<std::size_t>(body.material.word[i])];
+    auto const word = law.choices[i].allowed[static_cast<std::size_t>(material.word[i])];
     values.push_back(std::string(law.choices[i].name) + " = " + std::string(word));
   }
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     Parameter const& parameter = law.parameters[i];
-    double const value = body.material.value[i];
+    double const value = material.value[i];
     bool const in_words = !parameter.standard.empty() && value == parameter.default_value;
-    if (in_words || !applies(law, parameter, body.material)) continue;
+    if (in_words || !applies(law, parameter, material)) continue;
     values.push_back(std::string(parameter.name) + " = " + quantity_text(value, parameter.unit));
   }
-  return body.law + ": " + joined(values);
+  return name + ": " + joined(values);
 }
 
 Body const& body_named(ParticleSet const& particles, std::string const& name) {
   return *std::find_if(particles.bodies.begin(), particles.bodies.end(), [&](Body const& b) { return b.name == name; });
+}
+
+void say_parts(BodySpec const& body, ParticleSet const& particles) {
+  Body const& of = body_named(particles, body.name);
+  for (std::size_t k = 0; k < body.parts.size(); ++k) {
+    std::int64_t count = 0;
+    for (auto id = of.first; id < of.last; ++id)
+      count += part_of(particles, static_cast<std::size_t>(id)) == k + 1 ? 1 : 0;
+    say("  part \"{}\": {} particles of {}\n", body.parts[k].name, count_text(count),
+        material_text(body.parts[k].law, body.parts[k].material));
+  }
+}
+
+/// How much of the bodies a region holds.
+void say_region(RegionSpec const& region, ParticleSet const& particles) {
+  std::vector<std::string> held;
+  for (Body const& body : particles.bodies) {
+    std::int64_t count = 0;
+    for (auto id = body.first; id < body.last; ++id)
+      count += region.holds(particles.X[static_cast<std::size_t>(id)]) != 0 ? 1 : 0;
+    if (count > 0) held.push_back(fmt::format("{} particles of \"{}\"", count_text(count), body.name));
+  }
+  say("region \"{}\": {}\n", region.name, held.empty() ? "holds no particle" : joined(held));
 }
 
 void print_body(BodySpec const& body, BodyFacts const& facts, ParticleSet const& particles) {
@@ -88,7 +111,8 @@ void print_body(BodySpec const& body, BodyFacts const& facts, ParticleSet const&
       arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
   say_solid(body.shape, particles, body_named(particles, body.name));
   for (std::string const& note : body.shape.notes) say("  note: {}\n", note);
-  say("  {}\n", material_text(body));
+  say("  {}\n", material_text(body.law, body.material));
+  say_parts(body, particles);
   say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
   if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);
   say("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
@@ -119,14 +143,21 @@ std::string held_text(SupportSpec const& support, int dimension) {
   return "held " + text;
 }
 
+/// What a support holds: particles, or the surface that they stand for.
+std::string object_text(CaseSpec const& spec, SupportSpec const& support, ParticleSet const& particles) {
+  auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
+  std::string const some = count_text(static_cast<std::int64_t>(count)) + " particles";
+  std::string const where = support.where ? " where " + support.where->text() : "";
+  if (!support.patch) return some + where;
+  std::string const patch = face_text(support.shape, *support.patch) + where;
+  if (holds_surface(spec, support)) return "the surface of patch " + patch + ", in parts of " + some;
+  return some + " along patch " + patch + ", which they lie half a spacing inside";
+}
+
 void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
-  for (SupportSpec const& support : spec.supports) {
-    auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
-    std::string const patch = support.patch ? " of patch " + face_text(support.shape, *support.patch) : "";
-    std::string const where = support.where ? " where " + support.where->text() : "";
-    say("support of \"{}\": {} particles{}{}, {}{}\n", support.body, count_text(static_cast<std::int64_t>(count)),
-        patch, where, held_text(support, particles.dimension), until_text(support.until));
-  }
+  for (SupportSpec const& support : spec.supports)
+    say("support of \"{}\": {}, {}{}\n", support.body, object_text(spec, support, particles),
+        held_text(support, particles.dimension), until_text(support.until));
 }
 
 void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
@@ -317,6 +348,7 @@ int check(CaseOptions const& options) {
   say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
       quantity_text(spec.run.end, "s"));
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b], particles);
+  for (RegionSpec const& region : spec.regions) say_region(region, particles);
   print_supports(spec, particles);
   print_loads(spec, particles);
   print_cracks(particles);

@@ -98,13 +98,13 @@ std::string describe_law(LawInfo const& law, Layout layout) {
   std::vector<Row> rows;
   for (Choice const& choice : law.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : law.parameters) rows.push_back(row_of(parameter, false, layout));
-  return title(layout == Layout::markdown ? "law = \"" + std::string(law.name) + "\"" : std::string(law.name), 4,
+  return title(layout == Layout::markdown ? "law = \"" + std::string(law.name) + "\"" : std::string(law.name), 3,
                layout) +
          (layout == Layout::markdown ? "" : "  ") + std::string(law.about) + "\n" + table_text(rows, layout);
 }
 
 std::string describe_kernel(Kernel const& kernel, Layout layout) {
-  return title(std::string(kernel.name), 4, layout) + (layout == Layout::markdown ? "" : "  ") +
+  return title(std::string(kernel.name), 3, layout) + (layout == Layout::markdown ? "" : "  ") +
          std::string(kernel.about) + "\n";
 }
 
@@ -116,7 +116,7 @@ std::string describe_formulation(FormulationInfo const& info, Layout layout) {
   std::vector<std::string> columns;
   for (DiagnosticInfo const& column : info.diagnostics) columns.emplace_back(column.name);
   std::string const indent = layout == Layout::markdown ? "" : "  ";
-  return title(layout == Layout::markdown ? "name = \"" + std::string(info.name) + "\"" : std::string(info.name), 4,
+  return title(layout == Layout::markdown ? "name = \"" + std::string(info.name) + "\"" : std::string(info.name), 3,
                layout) +
          indent + std::string(info.about) + (layout == Layout::markdown ? ". " : "\n") + indent +
          "Laws that it can use: " + joined(info.laws) +
@@ -156,7 +156,7 @@ std::string describe_section(SectionInfo const& section, Layout layout) {
   bool const markdown = layout == Layout::markdown;
   std::string const shown = markdown && !section.name.empty() ? "`" + heading + "`" : heading;
   std::string text =
-      title(shown, 3, layout) + (markdown ? "" : "  ") + std::string(section.about) + "\n" + table_text(rows, layout);
+      title(shown, 2, layout) + (markdown ? "" : "  ") + std::string(section.about) + "\n" + table_text(rows, layout);
   if (markdown && section.name == "body.material") text += describe_materials("", layout);
   if (markdown && section.name == "body.formulation") text += describe_formulations("", layout);
   return text + (markdown ? "" : "\n");
@@ -195,7 +195,7 @@ std::string describe_materials(std::string const& name, Layout layout) {
     if (name == material.name) text += describe_set(material);
   }
   if (name.empty()) {
-    text += title("Materials of the library, for the key name", 4, layout) +
+    text += title("Materials of the library, for the key name", 3, layout) +
             (layout == Layout::markdown ? "Numbers, sources, ranges: [materials.md](materials.md).\n\n" : "") +
             library_table(layout);
   }

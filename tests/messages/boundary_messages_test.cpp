@@ -24,11 +24,10 @@ TEST(BoundaryMessages, SupportsSayWhatMayBeHeld) {
             "case.toml:18:10: support.normal is zero (allowed: any other length) - give a direction");
   EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"tangent\"\nnormal = [1, 0]")),
             "case.toml:18:10: support.normal has 2 components (allowed: 3, the dimension of the body)");
-  EXPECT_EQ(
-      message_of(sample_with("fix = \"xyz\"", "fix = \"xyz\"\nuntill = 1\nuntil = 0")),
-      "case.toml:18:1: \"untill\" is not a key of support (allowed: name, body, where, patch, fix, normal, velocity, "
-      "until) - did you mean \"until\"?\n"
-      "case.toml:19:9: support.until is 0 s (allowed: above 0)");
+  EXPECT_EQ(message_of(sample_with("fix = \"xyz\"", "fix = \"xyz\"\nuntill = 1\nuntil = 0")),
+            "case.toml:18:1: \"untill\" is not a key of support (allowed: name, body, where, patch, hold, fix, normal, "
+            "velocity, until) - did you mean \"until\"?\n"
+            "case.toml:19:9: support.until is 0 s (allowed: above 0)");
 }
 
 TEST(BoundaryMessages, VelocitiesMustBeFiniteAtTheStart) {

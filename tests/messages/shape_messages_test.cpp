@@ -103,6 +103,19 @@ TEST(ShapeMessages, PatchesAreNamed) {
   expect_told(ball, {"\"where\" or \"patch\""}, "[[support]]\nbody = \"part\"\nfix = \"xyz\"\n");
 }
 
+TEST(ShapeMessages, SurfacesAreHeldWhereTheFormulationCan) {
+  std::string const ball = "spacing = 0.3, arrangement = \"packed\", sphere = { centre = [0, 0, 0], radius = 1 }";
+  auto const support = [](std::string const& what) { return "[[support]]\nbody = \"part\"\nfix = \"xyz\"\n" + what; };
+  EXPECT_EQ(message_of(with_shape(ball, support("patch = \"outer\"\nhold = \"particles\""))), "");
+  expect_told(ball, {"used only by a support on a patch"}, support("where = \"X < 0\"\nhold = \"surface\""));
+  expect_told(ball, {"support.hold", "allowed: surface, particles"}, support("patch = \"outer\"\nhold = \"both\""));
+  std::string const surface = support("patch = \"outer\"\nhold = \"surface\"");
+  EXPECT_EQ(message_of(with_shape(ball, surface)), "");
+  EXPECT_EQ(message_of(test::replaced(with_shape(ball, surface), "\"nodal\"", "\"jst_sph\"")),
+            "case.toml:13:8: support.hold is \"surface\", which the formulation \"jst_sph\" cannot do (allowed: "
+            "\"particles\"; \"surface\" with nodal) - change hold or body.formulation");
+}
+
 TEST(ShapeMessages, FilesThatAreNotThere) {
   expect_told("spacing = 0.2, mesh = { file = \"nothing.stl\", unit = \"mm\" }", {"nothing.stl"});
   expect_told("spacing = 0.2, mesh = { file = \"nothing.stl\" }", {"unit"});

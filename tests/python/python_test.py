@@ -4,6 +4,7 @@
 
 Environment: PYTHONPATH finds piola; PIOLA_PROGRAM and PIOLA_SOURCE_DIR.
 """
+import ast
 import contextlib
 import gc
 import inspect
@@ -324,6 +325,26 @@ class Manual(InFolder):
             for name, member in inspect.getmembers(one):
                 if not name.startswith("_") and getattr(member, "__module__", "").startswith("piola"):
                     self.assertTrue(inspect.getdoc(member), f"{one}.{name}")
+
+    def test_types_of_the_compiled_module(self):
+        tree = ast.parse((Path(piola.__file__).parent / "_piola.pyi").read_text())
+        told = {}
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef):
+                told[node.name] = {one.name for one in node.body} - {"__init__"}
+            elif isinstance(node, (ast.FunctionDef, ast.AnnAssign)):
+                told[node.name if isinstance(node, ast.FunctionDef) else node.target.id] = None
+        there = {name: {one for one in vars(value) if not one.startswith("_")} if inspect.isclass(value) else None
+                 for name, value in vars(piola._piola).items() if not name.startswith("__")}
+        self.assertEqual(told, there)
+        # Arguments by name, as pybind11 writes them into the first line of the docstring.
+        functions = [(piola._piola, one) for one in tree.body if isinstance(one, ast.FunctionDef)]
+        functions += [(getattr(piola._piola, kind.name), one) for kind in tree.body if isinstance(kind, ast.ClassDef)
+                      for one in kind.body if isinstance(one, ast.FunctionDef) and not one.decorator_list]
+        for owner, function in functions:
+            line = getattr(owner, function.name).__doc__.splitlines()[0]
+            for argument in function.args.args:
+                self.assertRegex(line, rf"\b{argument.arg}: ", line)
 
     def test_names_of_the_page(self):
         text = (SOURCE / "docs/user/python.md").read_text()

@@ -36,7 +36,7 @@ expect() {  # expect STATUS TEXT STAGE...
 called() { grep -q -- "$1" "$work/calls" || { echo "not called: $1"; failures=$((failures + 1)); }; }
 
 expect 1 "tsan     never" --last
-expect 2 "unknown stage 'tsam' (allowed: clang asan tsan fuzz readers verify browser tidy, or --last)" tsam
+expect 2 "unknown stage 'tsam' (allowed: clang asan tsan fuzz readers verify browser tidy site, or --last)" tsam
 expect 0 "10 passed, 0 failed" asan           # packages, configure, build and seven tests
 expect 0 "11 passed, 0 failed" tsan
 called "setarch $(uname -m) -R ctest --preset tsan"

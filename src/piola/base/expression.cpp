@@ -121,6 +121,7 @@ std::vector<std::string> known_names(Names const& names) {
   known.insert(known.end(), names.variables.begin(), names.variables.end());
   for (auto const& [name, value] : names.constants) known.push_back(name);
   for (Definition const& definition : names.definitions) known.push_back(definition.name);
+  for (auto const& [name, value] : names.places) known.push_back(name);
   for (Function const& function : functions) known.emplace_back(function.name);
   return known;
 }
@@ -284,7 +285,8 @@ struct Expression::Compiled {
   Names names;
   Function function;  ///< instead of the formula, if there is one
   double X = 0, Y = 0, Z = 0, t = 0;
-  std::vector<double> values;  ///< of the variables in `names`; never resized once parsers point to them
+  std::vector<double> values;        ///< of the variables in `names`; never resized once parsers point to them
+  std::vector<double> place_values;  ///< of the numbers of places in `names`; never resized either
   bool needs_values = false;
   bool constant = true;
   double constant_value = 0;
@@ -306,7 +308,8 @@ struct Expression::Compiled {
     }
     compile(parser);
     auto const used = words_of(text);
-    constant = definitions.empty() && !needs_values && std::none_of(used.begin(), used.end(), [](Word const& word) {
+    constant = definitions.empty() && !needs_values && names.places.empty() &&
+               std::none_of(used.begin(), used.end(), [](Word const& word) {
                  return word.text == "X" || word.text == "Y" || word.text == "Z" || word.text == "t";
                });
     if (constant) constant_value = parser.Eval();
@@ -324,6 +327,10 @@ struct Expression::Compiled {
     for (auto const& [name, value] : known.constants) {
       if (needed.contains(name)) names.constants.emplace(name, value);
     }
+    for (auto const& [name, value] : known.places) {
+      if (needed.contains(name)) names.places.emplace(name, value);
+    }
+    place_values.resize(names.places.size());
     names.variables = known.variables;
     values.resize(known.variables.size());
     needs_values = std::any_of(known.variables.begin(), known.variables.end(),
@@ -349,6 +356,8 @@ struct Expression::Compiled {
     target.DefineVar("Z", &Z);
     target.DefineVar("t", &t);
     for (std::size_t i = 0; i < values.size(); ++i) target.DefineVar(names.variables[i], &values[i]);
+    auto value = place_values.begin();
+    for (auto const& [name, function] : names.places) target.DefineVar(name, &*value++);
     target.SetExpr(with_own_operators(formula));
   }
 
@@ -411,6 +420,8 @@ double Expression::operator()(std::array<double, 3> const& X, double t, std::spa
   c.Y = X[1];
   c.Z = X[2];
   c.t = t;
+  auto value = c.place_values.begin();
+  for (auto const& [name, function] : c.names.places) *value++ = function(X);
   for (auto const& part : c.definitions) part->value = part->parser.Eval();
   return c.parser.Eval();
 }

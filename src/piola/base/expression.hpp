@@ -19,9 +19,13 @@ struct Definition {
 
 /// What an expression may use besides X, Y, Z (reference position, m), t (time, s) and pi.
 struct Names {
+  /// A number that belongs to a reference position [m], such as its depth in a body. Each Expression has a copy, so
+  /// that one function is asked by one thread at a time.
+  using OfPlace = std::function<double(std::array<double, 3> const& X)>;
   std::map<std::string, double> constants;  ///< SI values
   std::vector<Definition> definitions;      ///< in order; each may use those before it
   std::vector<std::string> variables = {};  ///< further variables, whose values are given at each evaluation
+  std::map<std::string, OfPlace> places = {};
 };
 
 /// A formula in X, Y, Z, t, compiled once (muParser). Copies are independent and share nothing mutable; one object must

@@ -62,6 +62,7 @@ Pair const* find_pair(std::vector<Pair> const& pairs, std::string const& a, std:
 struct Assembly {
   ParticleSet particles;
   std::vector<MaterialParameters> materials;                ///< one per body
+  std::vector<std::vector<MaterialParameters>> parts;       ///< per body those of its parts; empty: no body has any
   std::vector<FormulationSpec> formulations;                ///< one per body
   std::vector<std::array<double, 3>> initial_velocity;      ///< m/s, one per particle, or empty: at rest
   std::vector<std::array<double, 3>> initial_displacement;  ///< m, one per particle, or empty: none
@@ -79,5 +80,12 @@ struct Assembly {
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
 };
+
+/// The materials of a body: its own, then those of its parts, as ParticleSet::part counts them.
+inline std::vector<MaterialParameters> materials_of(Assembly const& assembly, std::size_t body) {
+  std::vector<MaterialParameters> all{assembly.materials[body]};
+  if (!assembly.parts.empty()) all.insert(all.end(), assembly.parts[body].begin(), assembly.parts[body].end());
+  return all;
+}
 
 }  // namespace piola

@@ -28,6 +28,7 @@ ParticleSet particles_of(ParticleSet const& whole, EnsemblePart const& part) {
   set.lattice_index = gathered(whole.lattice_index.seen(), blocks);
   set.volume = gathered(whole.volume.seen(), blocks);
   set.kernel_volume = gathered(whole.kernel_volume.seen(), blocks);
+  set.part = gathered(whole.part.seen(), blocks);
   set.crack_side = gathered(whole.crack_side.seen(), blocks);
   for (auto const& block : blocks) {
     Body body = whole.bodies[block.body];
@@ -50,10 +51,16 @@ void take_supports(Assembly const& whole, EnsemblePart& part) {
   for (std::size_t k = 0; k < whole.supports.size(); ++k) {
     Support support = whole.supports[k];
     std::vector<std::int64_t> ids;
-    for (auto const id : support.particles)
-      if (auto const here = part.id_in_part(id)) ids.push_back(*here);
+    std::vector<std::array<double, 3>> normals;
+    for (std::size_t i = 0; i < support.particles.size(); ++i) {
+      auto const here = part.id_in_part(support.particles[i]);
+      if (!here) continue;
+      ids.push_back(*here);
+      if (support.on_surface()) normals.push_back(support.normals[i]);
+    }
     if (ids.empty()) continue;
     support.particles = std::move(ids);
+    support.normals = std::move(normals);
     part.assembly.supports.push_back(std::move(support));
     part.supports.push_back(k);
   }
@@ -89,6 +96,7 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
   a.initial_deformation_gradient = gathered(whole.initial_deformation_gradient, part.blocks);
   for (auto const& block : part.blocks) {
     a.materials.push_back(whole.materials[block.body]);
+    if (!whole.parts.empty()) a.parts.push_back(whole.parts[block.body]);
     a.formulations.push_back(whole.formulations[block.body]);
   }
   take_supports(whole, part);

@@ -96,7 +96,20 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
       }
     shares_.push_back(std::move(share));
   }
-  for (std::size_t s = 0; s < supports_.size(); ++s)
+  find_held();
+  mass_.resize(ids.size());
+  x_.resize(ids.size());
+  v_.resize(ids.size());
+  std::size_t const n = names_.size();
+  pair_impulses_.resize(n * n);
+}
+
+/// The directions that supports hold of particles on surfaces. Those that hold the surface itself are the formulation's
+/// business, which gives back what moves it.
+void Meeting::find_held() {
+  auto const& ids = system_.ids();
+  for (std::size_t s = 0; s < supports_.size(); ++s) {
+    if (supports_[s].on_surface()) continue;
     for (auto const id : supports_[s].particles) {
       auto const found = std::lower_bound(ids.begin(), ids.end(), id);
       if (found == ids.end() || *found != id) continue;
@@ -109,11 +122,7 @@ Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
         here.push_back({s, d, supports_[s].until});
       }
     }
-  mass_.resize(ids.size());
-  x_.resize(ids.size());
-  v_.resize(ids.size());
-  std::size_t const n = names_.size();
-  pair_impulses_.resize(n * n);
+  }
 }
 
 void Meeting::read_state(Formulations const& formulations) {

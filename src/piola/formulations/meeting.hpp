@@ -67,6 +67,7 @@ class Meeting {
   void push(Formulations const& formulations, double time, double half);
   void book(double half);
   double closing_step() const;
+  void find_held();
   void sum_forces();
 
   int dimension_;

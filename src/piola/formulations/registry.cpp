@@ -39,6 +39,7 @@ std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4
 bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;
   if (what == "mirrors") return info.mirrors;
+  if (what == "parts") return info.parts;
   if (what == "points from files") return info.scattered && !info.outline;
   return what == "rings" || what == "packed clouds" ? info.scattered : info.contact || info.pushable;
 }
@@ -52,6 +53,7 @@ void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   Problems problems;
   if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));
   if (!info.mirrors && !assembly.mirrors.empty()) problems.add({}, refusal(info, "mirrors"));
+  if (!info.parts && !assembly.parts.empty()) problems.add({}, refusal(info, "parts"));
   if (!info.scattered && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));
   if (!info.contact && !assembly.rigid_shapes.empty()) problems.add({}, refusal(info, "rigid shapes"));
   problems.raise_if_any();

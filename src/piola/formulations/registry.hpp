@@ -36,18 +36,20 @@ struct FormulationInfo {
   std::span<DiagnosticInfo const> diagnostics = {};  ///< all that it may put into Diagnostics::more
   bool cracks = false;                               ///< whether bodies may have cracks
   bool mirrors = true;                               ///< whether bodies may go on across a face as their mirror image
-  bool scattered = true;      ///< whether bodies may be packed or arranged in rings instead of a lattice
-  bool outline = false;       ///< whether it must know where bodies end: no points from files
-  bool contact = false;       ///< whether it keeps bodies apart: contact rules and rigid shapes
-  bool pushable = false;      ///< whether surface contact may push its bodies between steps
-  bool cell_volumes = false;  ///< whether jittered particles get the volumes of their cells
+  bool scattered = true;          ///< whether bodies may be packed or arranged in rings instead of a lattice
+  bool outline = false;           ///< whether it must know where bodies end: no points from files
+  bool contact = false;           ///< whether it keeps bodies apart: contact rules and rigid shapes
+  bool pushable = false;          ///< whether surface contact may push its bodies between steps
+  bool parts = false;             ///< whether bodies may consist of parts of several materials
+  bool cell_volumes = false;      ///< whether jittered particles get the volumes of their cells
+  bool surface_supports = false;  ///< whether supports can hold a patch itself, where particles lie inside
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
 };
 
 std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
 
-/// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors",
+/// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors", "parts",
 /// "rings", "packed clouds", "contact" or "rigid shapes".
 std::string refusal(FormulationInfo const& info, std::string_view what);
 

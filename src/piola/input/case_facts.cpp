@@ -10,9 +10,13 @@
 namespace piola {
 namespace {
 
-double volume_of(ParticleSet const& particles, Body const& body) {
-  double volume = 0;
-  for (std::int64_t id = body.first; id < body.last; ++id) volume += particles.volume[static_cast<std::size_t>(id)];
+/// Of what has the body's own material, and of each part [m^dimension].
+std::vector<double> volumes_of_parts(ParticleSet const& particles, Body const& body, std::size_t parts) {
+  std::vector<double> volume(parts + 1, 0);
+  for (std::int64_t id = body.first; id < body.last; ++id) {
+    auto const i = static_cast<std::size_t>(id);
+    volume[part_of(particles, i)] += particles.volume[i];
+  }
   return volume;
 }
 
@@ -144,12 +148,19 @@ std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& parti
     BodyFacts facts{
         .name = body.name, .particles = body.last - body.first, .spacing = body.spacing, .lattice = body.lattice};
     facts.largest_speed = largest_speed(spec.bodies[b], particles, body);
+    double volume = 0;
     auto const read = [&](auto const& law) {
-      facts.mass = volume_of(particles, body) * law.rho0;
-      facts.p_wave = law.p_wave_speed();
-      if constexpr (requires { law.s_wave_speed(); }) facts.s_wave = law.s_wave_speed();
+      facts.mass += volume * law.rho0;
+      facts.p_wave = std::max(facts.p_wave, law.p_wave_speed());
+      if constexpr (requires { law.s_wave_speed(); }) facts.s_wave = std::max(facts.s_wave, law.s_wave_speed());
     };
+    auto const volumes = volumes_of_parts(particles, body, spec.bodies[b].parts.size());
+    volume = volumes[0];
     with_any_law(spec.bodies[b].material, read);
+    for (std::size_t k = 0; k < spec.bodies[b].parts.size(); ++k) {
+      volume = volumes[k + 1];
+      with_any_law(spec.bodies[b].parts[k].material, read);
+    }
     all.push_back(facts);
   }
   return all;

@@ -37,6 +37,10 @@ constexpr std::array sections{
     SectionInfo{"body.shape.transform", "transform = { ... }", "scales, turns and moves a shape, in this order"},
     SectionInfo{"body.shape.rotate", "rotate = { ... }", "a turn about an axis through the origin"},
     SectionInfo{"body.material", "material = { ... }", "the law of the material and its parameters"},
+    SectionInfo{"body.part", "[[body.part]]", "a part of a body that consists of another material"},
+    SectionInfo{"region", "[[region]]",
+                "places with a name, for the formulas that say where: exactly one of where, shape, near"},
+    SectionInfo{"region.near", "near = { ... }", "places close to a surface of triangles, which need not be closed"},
     SectionInfo{"body.formulation", "formulation = { ... }", "the SPH formulation and its settings"},
     SectionInfo{"support", "[[support]]", "particles whose velocity is prescribed in some directions: zero, or driven"},
     SectionInfo{"load", "[[load]]", "a load: exactly one of traction, pressure, body_force, acceleration"},
@@ -60,8 +64,8 @@ constexpr std::array sections{
 
 std::vector<KeyInfo> joined_tables() {
   std::vector<KeyInfo> all;
-  for (auto const part :
-       {keys_of_run_and_bodies(), keys_of_solids(), keys_of_boundaries(), keys_of_ties(), keys_of_observers()})
+  for (auto const part : {keys_of_run_and_bodies(), keys_of_solids(), keys_of_regions(), keys_of_boundaries(),
+                          keys_of_ties(), keys_of_observers()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -32,12 +32,33 @@ struct RunSpec {
   Places places;
 };
 
+/// [[region]]: places that formulas of supports, loads, probes, ties and parts call by a name.
+struct RegionSpec {
+  std::string name;
+  Names::OfPlace holds;         ///< 1 or 0 at a reference position [m]; never empty
+  geometry::SolidPtr solid;     ///< where it is given by a shape
+  std::string text;             ///< as the case gives it
+  std::vector<CaseFile> files;  ///< that it was read from
+};
+
+/// [[body.part]]: the particles of a body that consist of another material.
+struct PartSpec {
+  std::string name;  ///< "part_1" if the case gives none to the first one
+  Expression where;
+  geometry::SolidPtr solid{};  ///< where `where` is a region with a shape and nothing else
+  std::string cut;             ///< that region as the case gives it
+  MaterialParameters material;
+  std::string law;
+  Places places;
+};
+
 /// [[body]]
 struct BodySpec {
   std::string name;
   ShapeSpec shape;
   MaterialParameters material;
   std::string law;
+  std::vector<PartSpec> parts;  ///< of other materials; the first that holds a particle counts
   FormulationSpec formulation;
   std::array<Expression, 3> initial_velocity;                             ///< m/s
   std::optional<std::array<Expression, 3>> initial_displacement;          ///< m
@@ -52,6 +73,8 @@ struct SupportSpec {
   std::optional<Expression> where;  ///< both given: those of the patch that it selects
   std::optional<Face> patch;        ///< of a solid
   ShapeSpec shape;                  ///< of the body, if there is a patch
+  enum class Hold { surface, particles };
+  std::optional<Hold> hold;  ///< of a patch: itself, or the particles along it; nothing: what the formulation can do
   Support::Frame frame = Support::Frame::axes;
   std::array<bool, 3> fix{};                               ///< frame axes
   std::array<double, 3> normal{};                          ///< frames normal, tangent: unit vector
@@ -210,6 +233,7 @@ struct CaseSpec {
   std::string title;
   std::string source;  ///< the case file as run: overrides applied, TOML
   RunSpec run;
+  std::vector<RegionSpec> regions;
   std::vector<BodySpec> bodies;
   std::vector<SupportSpec> supports;
   std::vector<LoadSpec> loads;

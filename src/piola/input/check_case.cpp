@@ -77,6 +77,7 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems) {
     fill(body.shape, body.name, particles);
     open_cracks(spec, particles, problems);
   }
+  mark_parts(spec, particles);
   return particles;
 }
 
@@ -127,10 +128,16 @@ std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body
                                               SupportSpec const& support) {
   if (!support.patch) return select_particles(particles, body, support.where ? &*support.where : nullptr);
   std::vector<std::int64_t> ids;
-  for (FaceShare const& share : face_shares(support.shape, particles, body, *support.patch))
-    if (!support.where || (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) != 0)
-      ids.push_back(share.particle);
+  for (FaceShare const& share : supported_shares(particles, body, support)) ids.push_back(share.particle);
   return ids;
+}
+
+std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const& body, SupportSpec const& support) {
+  auto shares = face_shares(support.shape, particles, body, *support.patch);
+  std::erase_if(shares, [&](FaceShare const& share) {
+    return support.where && (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
+  });
+  return shares;
 }
 
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
@@ -151,6 +158,7 @@ std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& b
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);
+  check_parts(spec, particles, problems);
   check_boundaries(spec, particles, problems);
   check_rigid(spec, particles, problems);
   check_free_rigids(spec, particles.dimension, problems);

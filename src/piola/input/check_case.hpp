@@ -28,6 +28,11 @@ std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body co
 std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body const& body,
                                               SupportSpec const& support);
 
+/// Of a support on a patch: with their parts of it.
+std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const& body, SupportSpec const& support);
+/// Whether a support holds a patch itself, where its formulation can, and not the particles along it.
+bool holds_surface(CaseSpec const& spec, SupportSpec const& support);
+
 /// The particle of a body whose reference position is nearest to a place [m]; of several, the first. The body has one
 /// or more.
 std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, std::array<double, 3> const& at);

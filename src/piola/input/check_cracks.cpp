@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
@@ -15,6 +16,12 @@ std::optional<FormulationInfo> formulation_of(CaseSpec const& spec, std::string 
 }
 
 }  // namespace
+
+bool holds_surface(CaseSpec const& spec, SupportSpec const& support) {
+  auto const info = formulation_of(spec, support.body);
+  if (!support.patch || !info || !info->surface_supports) return false;
+  return support.hold.value_or(SupportSpec::Hold::surface) == SupportSpec::Hold::surface;
+}
 
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems) {
   std::size_t const body = particles.bodies.size() - 1;
@@ -33,6 +40,14 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
   for (CrackSpec const& crack : spec.cracks) {
     auto const info = formulation_of(spec, crack.body);
     if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));
+  }
+  for (SupportSpec const& support : spec.supports) {
+    auto const info = formulation_of(spec, support.body);
+    if (info && support.hold == SupportSpec::Hold::surface && !holds_surface(spec, support))
+      problems.add(place_of(support.places, "hold"),
+                   "support.hold is \"surface\", which the formulation " + in_quotes(info->name) +
+                       " cannot do (allowed: \"particles\"; \"surface\" with nodal) - change hold or "
+                       "body.formulation");
   }
   for (BodySpec const& body : spec.bodies) {
     auto const info = find_formulation(body.formulation.name);

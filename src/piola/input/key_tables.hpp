@@ -14,6 +14,7 @@ inline constexpr Interval place_range{-1e15, 1e15, false, false};
 inline constexpr Interval length_range{1e-15, 1e15, false, false};
 
 std::span<KeyInfo const> keys_of_run_and_bodies();  ///< top of the file, run, body
+std::span<KeyInfo const> keys_of_regions();         ///< body.part, region
 std::span<KeyInfo const> keys_of_solids();          ///< shapes that are solids, their parts and placing
 std::span<KeyInfo const> keys_of_boundaries();      ///< support, load, mirror, crack, rigid, contact
 std::span<KeyInfo const> keys_of_ties();            ///< tie

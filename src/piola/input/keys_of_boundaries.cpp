@@ -8,6 +8,7 @@ namespace {
 using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 5> contact_words{"kernel", "linear", "printed", "surface", "none"};
+constexpr std::array<std::string_view, 2> hold_words{"surface", "particles"};
 constexpr std::array<std::string_view, 3> motion_words{"fixed", "driven", "free"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 8> surface_words{"-x", "+x", "-y", "+y", "-z", "+z", "outer", "inner"};
@@ -24,6 +25,15 @@ constexpr std::array boundary_keys{
     KeyInfo{"support", "body", name, "", {}, "", "name of the body", {}},
     KeyInfo{"support", "where", formula, "", {}, "by patch", "condition in X, Y, Z that selects particles", {}},
     KeyInfo{"support", "patch", text, "", {}, "by where", "the particles along a patch of a solid's surface", {}},
+    KeyInfo{"support",
+            "hold",
+            word,
+            "",
+            {},
+            "surface with nodal, else particles",
+            "patch: what is held; surface: the patch itself, second order; particles: those along it, half a spacing "
+            "inside, first order",
+            hold_words},
     KeyInfo{
         "support",
         "fix",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "piola/input/region_names.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <set>
@@ -59,6 +60,7 @@ std::string name_problem(std::string const& name, Names const& names) {
   if (!is_name(name)) return " is not a name";
   if (is_reserved_name(name)) return " already has a meaning in formulas";
   if (names.constants.contains(name)) return " is already a constant";
+  if (names.places.contains(name)) return " is already a region";
   return "";
 }
 
@@ -134,11 +136,13 @@ std::vector<Definition> read_definitions(Value const& value, Names const& names,
   return known.definitions;
 }
 
-BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names) {
+BodySpec read_body(Section const& section, Names const& common, BodyNames& names) {
   BodySpec body;
   section.read("name", body.name);
-  names.names.constants = constants;
+  names.names = common;
+  std::size_t const before = section.problems().count();
   if (auto const shape = section.table("shape")) body.shape = read_shape(*shape, names.names);
+  bool const usable = section.has("shape") && section.problems().count() == before;
   if (auto const material = section.table("material")) read_material(*material, body);
   names.name = body.name;
   names.dimension = body.shape.dimension;
@@ -146,6 +150,7 @@ BodySpec read_body(Section const& section, std::map<std::string, double> const& 
   if (auto const define = section.find("define")) {
     names.names.definitions = read_definitions(*define, names.names, section.problems());
   }
+  add_names_of_places(body.shape, usable, names.names);
   if (auto const formulation = section.table("formulation"))
     body.formulation = read_formulation(*formulation, names.names);
   check_law(section, body);

@@ -152,6 +152,10 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
     support.patch = read_patch(section, *body);
     support.shape = body->shape;
   }
+  if (section.has("hold")) {
+    if (!section.has("patch")) section.refuse("hold", "is used only by a support on a patch");
+    if (int const word = section.word_index("hold"); word >= 0) support.hold = static_cast<SupportSpec::Hold>(word);
+  }
   read_fix(section, dimension, support);
   if (body != nullptr) {
     if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;
@@ -159,7 +163,7 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   }
   section.read("until", support.until);
   section.refuse_unknown();
-  support.places = places_of(section, {"where", "patch", "body", "fix", "normal", "velocity"});
+  support.places = places_of(section, {"where", "patch", "hold", "body", "fix", "normal", "velocity"});
   return support;
 }
 

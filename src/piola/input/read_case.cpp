@@ -122,11 +122,37 @@ void check_size(std::vector<Section> const& sections, CaseSpec const& spec, Read
   }
 }
 
-void read_bodies(Section const& top, std::map<std::string, double> const& constants, CaseSpec& spec,
-                 std::vector<BodyNames>& names, ReadLimits const& limits) {
+/// Parts with a shape of their own cut a packed body along their surfaces.
+void cut_by_parts(BodySpec& body) {
+  SolidParticles* const particles = body.shape.solid_particles.get();
+  if (particles == nullptr) return;
+  for (PartSpec const& part : body.parts)
+    if (part.solid && part.solid->dimension() == body.shape.dimension) particles->parts.push_back(part.solid);
+  for (PartSpec const& part : body.parts) particles->key += part.solid ? "\ncut " + part.cut : "";
+}
+
+/// Constants, and the regions by their names.
+Names read_regions(Section const& top, std::map<std::string, double> const& constants, CaseSpec& spec) {
+  Names common{constants, {}};
+  std::vector<Section> const sections = tables_of(top, "region");
+  for (Section const& section : sections) {
+    spec.regions.push_back(read_region(section, common));
+    if (RegionSpec const& region = spec.regions.back(); !region.name.empty()) common.places[region.name] = region.holds;
+  }
+  refuse_twins(sections, spec.regions, "region");
+  return common;
+}
+
+void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::vector<BodyNames>& names,
+                 ReadLimits const& limits) {
   std::size_t const before = top.problems().count();
   std::vector<Section> const sections = tables_of(top, "body");
-  for (Section const& section : sections) spec.bodies.push_back(read_body(section, constants, names.emplace_back()));
+  for (Section const& section : sections) {
+    spec.bodies.push_back(read_body(section, common, names.emplace_back()));
+    BodySpec& body = spec.bodies.back();
+    body.parts = read_parts(section, names.back(), spec.regions);
+    if (body.shape.arrangement == ShapeSpec::Arrangement::packed) cut_by_parts(body);
+  }
   refuse_twins(sections, spec.bodies, "body");
   for (BodySpec const& body : spec.bodies)
     if (limits.packing && body.shape.solid_particles)
@@ -147,7 +173,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   std::vector<BodyNames> names;
   std::map<std::string, double> constants;
   if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
-  read_bodies(top, constants, spec, names, limits);
+  read_bodies(top, read_regions(top, constants, spec), spec, names, limits);
   std::vector<Section> const supports = tables_of(top, "support"), loads = tables_of(top, "load");
   for (Section const& section : supports) spec.supports.push_back(read_support(section, names));
   name_supports(spec.supports);

@@ -219,16 +219,26 @@ void measure(Section const& section, ShapeSpec& shape) {
                                                 "the spacing smaller");
 }
 
+}  // namespace
+
+std::string key_of(std::vector<CaseFile> const& files) {
+  std::string key;
+  for (CaseFile const& file : files) {
+    std::ifstream content(file.path, std::ios::binary);
+    std::string const bytes{std::istreambuf_iterator<char>(content), {}};
+    key += "\n" + file.given + " " + std::to_string(digest_of(bytes));
+  }
+  return key;
+}
+
+namespace {
+
 /// Where the packing may lie from before. Its key holds the text of the shape, the constants, and what is in its files.
 void set_cache(Section const& section, Names const& names, bool beside, ShapeSpec& shape) {
   SolidParticles& particles = *shape.solid_particles;
   particles.key = toml_value(section.node());
   for (auto const& [name, value] : names.constants) particles.key += "\n" + name + " = " + number_text(value, 17);
-  for (CaseFile const& file : shape.files) {
-    std::ifstream content(file.path, std::ios::binary);
-    std::string const bytes{std::istreambuf_iterator<char>(content), {}};
-    particles.key += "\n" + file.given + " " + std::to_string(digest_of(bytes));
-  }
+  particles.key += key_of(shape.files);
   std::filesystem::path const folder = std::filesystem::path(section.place().file).parent_path();
   particles.folders = {folder / kept_files, folder};
   if (beside) particles.cache = folder;
@@ -240,6 +250,11 @@ bool is_solid_section(Section const& section) {
   for (std::string_view const kind : solid_kinds)
     if (kind != "box" && kind != "sphere" && kind != "cylinder" && section.has(kind)) return true;
   return section.has("transform") || section.has("arrangement");
+}
+
+geometry::SolidPtr read_part_solid(Section const& section, Names const& names, ShapeSpec& shape) {
+  section.refuse_unknown();
+  return SolidReader(names, shape).read(section);
 }
 
 ShapeSpec read_solid_shape(Section const& section, Names const& names) {

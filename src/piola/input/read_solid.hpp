@@ -11,6 +11,13 @@ bool is_solid_section(Section const& section);
 /// Reads such a shape. `names`: constants for formulas.
 ShapeSpec read_solid_shape(Section const& section, Names const& names);
 
+/// Reads the solid alone of a shape, or a part of one, that has no particles of its own; null (and a problem) if
+/// something is wrong. Files that are read are added to those of `shape`.
+geometry::SolidPtr read_part_solid(Section const& section, Names const& names, ShapeSpec& shape);
+
+/// Names and digests of what is in files, for the key of a packing.
+std::string key_of(std::vector<CaseFile> const& files);
+
 /// Reads the shape `points`, a file of particles.
 ShapeSpec read_points_shape(Section const& section);
 /// The key `unit`: how many m one of them has.

@@ -72,6 +72,11 @@ void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& 
 /// Reports bodies that overlap at the start.
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
+/// Gives the particles of bodies with parts the number of theirs.
+void mark_parts(CaseSpec const& spec, ParticleSet& particles);
+/// Reports parts without particles, parts that take all of a body, and bodies that cannot have any.
+void check_parts(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+
 /// The parts of check_regions that look at supports, loads and mirrors.
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 

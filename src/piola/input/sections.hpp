@@ -39,7 +39,12 @@ std::map<std::string, double> read_constants(Value const& value, Problems& probl
 
 /// `names`: constants, for formulas.
 ShapeSpec read_shape(Section const& section, Names const& names);
-BodySpec read_body(Section const& section, std::map<std::string, double> const& constants, BodyNames& names);
+/// `names`: constants.
+RegionSpec read_region(Section const& section, Names const& names);
+/// `common`: constants and regions; `names` are the body's own in the end.
+BodySpec read_body(Section const& section, Names const& common, BodyNames& names);
+/// The key `part` of a body. `regions`: for parts that are a region's shape.
+std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions);
 void read_material(Section const& section, BodySpec& body);
 /// `names` may be used in its formulas.
 FormulationSpec read_formulation(Section const& section, Names const& names);

@@ -4,6 +4,20 @@
 #include <cmath>
 
 namespace piola {
+namespace {
+
+/// Of n numbers, in eight sums: several times as fast as in one, whose additions wait for each other.
+double product(double const* a, double const* b, std::size_t n) {
+  constexpr std::size_t parts = 8;
+  double sum[parts]{};
+  std::size_t k = 0;
+  for (; k + parts <= n; k += parts)
+    for (std::size_t l = 0; l < parts; ++l) sum[l] += a[k + l] * b[k + l];
+  for (; k < n; ++k) sum[0] += a[k] * b[k];
+  return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
+}  // namespace
 
 EnvelopeCholesky::EnvelopeCholesky(std::vector<std::size_t> first) : first_(std::move(first)) {
   std::size_t total = 0;
@@ -20,8 +34,8 @@ void EnvelopeCholesky::factorise(std::span<double const> scale) {
     double rest = entry(i, i);
     double const size = scale.empty() ? rest : scale[i];
     for (std::size_t j = first_[i]; j < i; ++j) {
-      double sum = entry(i, j);
-      for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k) sum -= entry(i, k) * entry(j, k);
+      std::size_t const from = std::max(first_[i], first_[j]);
+      double const sum = entry(i, j) - product(&at(i, from), &at(j, from), j - from);
       double const l = dependent_[j] ? 0 : sum / entry(j, j);
       at(i, j) = l;
       rest -= l * l;
@@ -33,8 +47,7 @@ void EnvelopeCholesky::factorise(std::span<double const> scale) {
 
 void EnvelopeCholesky::solve(std::span<double> b) const {
   for (std::size_t i = 0; i < size(); ++i) {
-    double sum = b[i];
-    for (std::size_t k = first_[i]; k < i; ++k) sum -= entry(i, k) * b[k];
+    double const sum = b[i] - product(values_.data() + begin_[i], &b[first_[i]], i - first_[i]);
     b[i] = dependent_[i] ? 0 : sum / entry(i, i);
   }
   for (std::size_t i = size(); i-- > 0;) {

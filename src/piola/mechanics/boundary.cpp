@@ -63,9 +63,10 @@ void BodyBoundary::add_supports(std::vector<Support> const& supports, std::funct
   std::map<std::int64_t, std::size_t> numbers;  // in the order of ids
   for (Support const& support : supports)
     for (auto const id : support.particles)
-      if (takes(id)) numbers.try_emplace(id, 0);
+      if (!support.on_surface() && takes(id)) numbers.try_emplace(id, 0);
   for (auto& [id, number] : numbers) number = add_particle(particle_of(id));
   for (std::size_t s = 0; s < supports.size(); ++s) {
+    if (supports[s].on_surface()) continue;
     auto const directions = directions_of(supports[s], D_);
     for (auto const id : supports[s].particles) {
       auto const found = numbers.find(id);
@@ -268,7 +269,7 @@ void BodyBoundary::take_out_ended(FieldRef const& rate) const {
 
 void BodyBoundary::hand_over(Actions& actions) {
   for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_supports_[k]);
-  for (std::size_t k = 0; k < actions.loads.size(); ++k) actions.loads[k].add(of_loads_[k]);
+  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(of_loads_[k]);
   of_supports_.assign(of_supports_.size(), {});
   of_loads_.assign(of_loads_.size(), {});
 }

@@ -40,7 +40,8 @@ class BodyBoundary {
   std::size_t add_particle(HeldParticle const& particle);
   /// A direction in which a support holds it. Where two ask for different velocities the one added last has its way.
   void add_row(std::size_t particle, std::size_t support, Direction const& direction);
-  /// Both for the particles of these supports that are taken; supports are those of the constructor.
+  /// Both for the particles of these supports that are taken; supports are those of the constructor. Those that hold
+  /// the surface hold no particle.
   void add_supports(std::vector<Support> const& supports, std::function<bool(std::int64_t id)> const& takes,
                     std::function<HeldParticle(std::int64_t id)> const& particle_of);
   void add_load(std::size_t load, LoadedPlace const& place);

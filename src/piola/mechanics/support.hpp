@@ -25,6 +25,10 @@ struct Support {
   double until = std::numeric_limits<double>::infinity();  ///< s: released then
   std::string name = {};
   std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
+  /// Outward normals of the face at the particles, if the face itself is held and not the particles along it.
+  std::vector<std::array<double, 3>> normals = {};
+
+  bool on_surface() const { return !normals.empty(); }
 };
 
 }  // namespace piola

@@ -49,6 +49,9 @@ struct ParticleSet {
   SharedVector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
   SharedVector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
   SharedVector<int> body;              ///< index into bodies
+  /// Number of the material within the particle's body: 0 for that of the body, k for its k-th part. Empty: no body has
+  /// parts.
+  SharedVector<int> part;
   std::vector<Crack> cracks;
   /// Of particles on the faces of cracks: +1 on the left of from -> to, -1 on the right; 0 elsewhere. Empty: no cracks.
   SharedVector<std::int8_t> crack_side;
@@ -57,9 +60,14 @@ struct ParticleSet {
   /// What the arrays take in memory, once for all copies.
   std::size_t bytes() const {
     return X.size() * (sizeof(std::array<double, 3>) + sizeof(std::array<int, 3>) + 2 * sizeof(double) + sizeof(int)) +
-           crack_side.size();
+           crack_side.size() + part.size() * sizeof(int);
   }
 };
+
+/// Which of its body's materials a particle has.
+inline std::size_t part_of(ParticleSet const& particles, std::size_t id) {
+  return particles.part.empty() ? 0 : static_cast<std::size_t>(particles.part[id]);
+}
 
 /// The body with this name; null if there is none.
 inline Body const* body_named(ParticleSet const& particles, std::string_view name) {

@@ -91,7 +91,7 @@ std::vector<FaceShare> shares_of_patch(ShapeSpec const& shape, ParticleSet const
     Vec3 normal = share.vector;
     // A flat patch looks along its axis exactly.
     for (double& c : normal) c = std::abs(c) < 1e-9 * share.area ? 0 : c / share.area;
-    shares.push_back({share.particle, share.area, normal});
+    shares.push_back({share.particle, share.area, normal, share.middle});
   }
   return shares;
 }

@@ -33,6 +33,7 @@ struct FaceShare {
   std::int64_t particle = 0;       ///< id
   double area = 0;                 ///< [m^(Dim-1); 1 in 1D]
   std::array<double, 3> normal{};  ///< outward unit normal of the exact surface; patch: vector area over area
+  std::array<double, 3> middle{};  ///< patch: of this part of it [m]
 };
 
 /// The particles of a face with their parts of it. The parts sum to the area of the exact face: 2 pi R L of a cylinder,

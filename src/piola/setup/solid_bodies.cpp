@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/solid_bodies.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/geometry/combined.hpp"
+#include "piola/geometry/measure.hpp"
 #include "piola/geometry/packing.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
 #include "piola/setup/cloud_file.hpp"
@@ -57,39 +59,58 @@ void cut_lattice(ShapeSpec const& shape, SolidParticles& to) {
     }
 }
 
-/// From the disk if it lies there, else made.
-geometry::Packing packing_of(ShapeSpec const& shape, SolidParticles const& to) {
-  for (auto const& folder : to.folders)
-    if (auto found = read_packing(folder / packing_name(to.key), to.key)) return std::move(*found);
-  geometry::PackingOptions options;
-  options.progress = [&](int sweep) {
-    if (to.progress) to.progress(static_cast<double>(sweep) / options.sweeps);
-    return true;
+/// What is packed by itself.
+struct Piece {
+  geometry::SolidPtr solid;
+  double volume = 0;
+  std::string key;
+};
+
+/// The parts of a solid and what they leave.
+std::vector<Piece> pieces_of(ShapeSpec const& shape, SolidParticles const& to) {
+  using geometry::Combination;
+  using geometry::combined;
+  if (to.parts.empty()) return {{shape.solid, shape.volume, to.key}};
+  std::vector<Piece> pieces;
+  geometry::SolidPtr rest = shape.solid;
+  double left = shape.volume;
+  double const least = 0.5 * std::pow(shape.spacing, shape.dimension);
+  auto const add = [&](geometry::SolidPtr solid, double volume) {
+    if (volume > least)
+      pieces.push_back({std::move(solid), volume, to.key + "\npart " + std::to_string(pieces.size())});
   };
-  return geometry::pack(*shape.solid, shape.volume, shape.spacing, options);
+  for (geometry::SolidPtr const& part : to.parts) {
+    auto const common = combined(Combination::common, {rest, part});
+    double const volume = std::min(left, geometry::volume_of(*common, shape.spacing));
+    add(common, volume);
+    rest = combined(Combination::cut, {rest, part});
+    left -= volume;
+  }
+  add(rest, left);
+  return pieces;
 }
 
-void take_packing(ShapeSpec const& shape, geometry::Packing const& packing, SolidParticles& to) {
-  to.volume = packing.volume;
-  to.spacing = packing.spacing;
-  to.sweeps = packing.sweeps;
-  geometry::Bounds const box = shape.solid->bounds();
-  to.lattice = cells_around(box, to.spacing, shape.dimension);
-  // Particles of a cell stand together: what is near in space is near in memory.
-  std::vector<std::pair<std::array<int, 3>, std::size_t>> order;
-  for (std::size_t a = 0; a < packing.X.size(); ++a) {
-    std::array<int, 3> cell{};
-    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) {
-      double const at = (packing.X[a][c] - box.min[static_cast<int>(c)]) / to.spacing;
-      cell[2 - c] = std::clamp(static_cast<int>(at), 0, to.lattice[c] - 1);
-    }
-    order.emplace_back(cell, a);
+/// From the disk if it lies there, else made. `done`: of all pieces, the shares before and after this one.
+geometry::Packing packing_of(Piece const& piece, double spacing, std::array<double, 2> const& done,
+                             SolidParticles const& to) {
+  for (auto const& folder : to.folders)
+    if (auto found = read_packing(folder / packing_name(piece.key), piece.key)) return std::move(*found);
+  geometry::PackingOptions options;
+  options.progress = [&](int sweep) {
+    if (to.progress) to.progress(done[0] + (done[1] - done[0]) * sweep / options.sweeps);
+    return true;
+  };
+  return geometry::pack(*piece.solid, piece.volume, spacing, options);
+}
+
+/// The cell of a spacing in which a place lies, z first.
+std::array<int, 3> cell_of(Point const& X, geometry::Bounds const& box, SolidParticles const& of, int dimension) {
+  std::array<int, 3> cell{};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) {
+    double const at = (X[c] - box.min[static_cast<int>(c)]) / of.spacing;
+    cell[2 - c] = std::clamp(static_cast<int>(at), 0, of.lattice[c] - 1);
   }
-  std::sort(order.begin(), order.end());
-  for (auto const& [cell, a] : order) {
-    to.X.push_back(packing.X[a]);
-    to.lattice_index.push_back({cell[2], cell[1], cell[0]});
-  }
+  return cell;
 }
 
 /// Particles counted from the body's first.
@@ -133,15 +154,47 @@ SolidParticles const& SolidParticles::of(ShapeSpec const& shape) {
 
 void SolidParticles::make(ShapeSpec const& shape) {
   if (shape.arrangement != ShapeSpec::Arrangement::packed) return cut_lattice(shape, *this);
-  packing_ = packing_of(shape, *this);
-  take_packing(shape, packing_, *this);
+  double done = 0;
+  for (Piece const& piece : pieces_of(shape, *this)) {
+    double const after = done + piece.volume / shape.volume;
+    packings_.push_back(packing_of(piece, shape.spacing, {done, after}, *this));
+    keys_.push_back(piece.key);
+    done = after;
+  }
+  take(shape);
   if (!cache.empty()) save(cache);
 }
 
+/// The particles of all packings, those of a cell together: what is near in space is near in memory.
+void SolidParticles::take(ShapeSpec const& shape) {
+  std::size_t count = 0;
+  for (geometry::Packing const& packing : packings_) {
+    count += packing.X.size();
+    sweeps = std::max(sweeps, packing.sweeps);
+  }
+  bool const whole = packings_.size() == 1;
+  volume = whole ? packings_[0].volume : shape.volume / static_cast<double>(count);
+  spacing = whole ? packings_[0].spacing : std::pow(volume, 1.0 / shape.dimension);
+  geometry::Bounds const box = shape.solid->bounds();
+  lattice = cells_around(box, spacing, shape.dimension);
+  std::vector<std::pair<std::array<int, 3>, std::array<std::size_t, 2>>> order;
+  for (std::size_t p = 0; p < packings_.size(); ++p)
+    for (std::size_t a = 0; a < packings_[p].X.size(); ++a)
+      order.push_back({cell_of(packings_[p].X[a], box, *this, shape.dimension), {p, a}});
+  std::sort(order.begin(), order.end());
+  for (auto const& [cell, at] : order) {
+    X.push_back(packings_[at[0]].X[at[1]]);
+    lattice_index.push_back({cell[2], cell[1], cell[0]});
+    if (!whole) volumes.push_back(packings_[at[0]].volume);
+  }
+}
+
 void SolidParticles::save(std::filesystem::path const& folder) const {
-  if (packing_.X.empty() || key.empty()) return;
-  auto const path = folder / packing_name(key);
-  if (!read_packing(path, key)) write_packing(path, key, packing_);
+  for (std::size_t k = 0; k < packings_.size() && !key.empty(); ++k) {
+    if (packings_[k].X.empty()) continue;
+    auto const path = folder / packing_name(keys_[k]);
+    if (!read_packing(path, keys_[k])) write_packing(path, keys_[k], packings_[k]);
+  }
 }
 
 void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
@@ -161,6 +214,8 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   auto const append = [](auto const& some, auto& to) { to.own().insert(to.own().end(), some.begin(), some.end()); };
   append(from.X, set.X);
   append(from.lattice_index, set.lattice_index);
+  append(from.volumes, set.volume);
+  append(from.volumes, set.kernel_volume);
   set.volume.resize(set.X.size(), from.volume);
   set.kernel_volume.resize(set.X.size(), from.volume);
   set.body.resize(set.X.size(), static_cast<int>(set.bodies.size()));

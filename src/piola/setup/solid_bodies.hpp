@@ -26,14 +26,18 @@ class SolidParticles {
   std::vector<std::array<double, 3>> X;           ///< [m]
   std::vector<std::array<int, 3>> lattice_index;  ///< packed: the cell of a spacing in which it lies
   std::array<int, 3> lattice{1, 1, 1};
-  double volume = 0;   ///< of each particle
-  double spacing = 0;  ///< [m]
-  int sweeps = 0;      ///< packed
+  double volume = 0;            ///< of each particle; of a solid in parts their mean
+  std::vector<double> volumes;  ///< of a solid in parts: of each particle
+  double spacing = 0;           ///< [m]
+  int sweeps = 0;               ///< packed
 
   /// Of a shape of the kind `solid`, which must be the one that it belongs to.
   static SolidParticles const& of(ShapeSpec const& shape);
 
   // Set before anybody asks.
+  /// Packed solids are cut along these, and each part, and the rest, is packed by itself: no particle's cell lies
+  /// across. What several of them hold belongs to the first.
+  std::vector<geometry::SolidPtr> parts = {};
   std::function<void(double)> progress = {};     ///< told the share that is done while a packing goes on
   std::string key = {};                          ///< all that the places depend on; empty: nothing is looked for
   std::vector<std::filesystem::path> folders{};  ///< where the packing may lie from an earlier run
@@ -49,7 +53,9 @@ class SolidParticles {
 
  private:
   void make(ShapeSpec const& shape);
-  geometry::Packing packing_ = {};
+  void take(ShapeSpec const& shape);
+  std::vector<geometry::Packing> packings_ = {};  ///< one, or of each part and the rest
+  std::vector<std::string> keys_ = {};            ///< of each
   std::once_flag once_, shared_, measured_;
   std::optional<geometry::Thinnest> thinnest_;
   std::vector<PatchShare> shares_;

@@ -72,7 +72,7 @@ void measure_set_up(NodalBenchReport& report, NodalBenchOptions const& options, 
   double const start = wall_seconds();
   for (int k = 0; k < options.repeats && wall_seconds() - start < enough; ++k) {
     auto const order = nodal::slot_order(set, set.bodies[0]);
-    auto const reference = nodal::make_reference({set, set.bodies[0], order, {}, 1100, 0.3, machine});
+    auto const reference = nodal::make_reference({set, set.bodies[0], order, {}, {}, {1100}, 0.3, machine});
     auto const least = [&](double& to, double seconds) { to = k == 0 ? seconds : std::min(to, seconds); };
     least(row.cells, reference.costs.cells);
     least(row.fits, reference.costs.fits);

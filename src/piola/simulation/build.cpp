@@ -78,17 +78,27 @@ std::array<double, 3> middle_of(std::vector<std::int64_t> const& ids, ParticleSe
   return sum;
 }
 
-Support support_of(SupportSpec const& spec, ParticleSet const& particles) {
+Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet const& particles) {
   Body const& body = particles.bodies[index_of_body(spec.body, particles)];
   auto const ids = supported_particles(particles, body, spec);
-  return {.particles = ids,
-          .fix = spec.fix,
-          .frame = spec.frame,
-          .normal = spec.normal,
-          .velocity = spec.velocity,
-          .until = spec.until,
-          .name = spec.name,
-          .about = middle_of(ids, particles)};
+  Support support{.particles = ids,
+                  .fix = spec.fix,
+                  .frame = spec.frame,
+                  .normal = spec.normal,
+                  .velocity = spec.velocity,
+                  .until = spec.until,
+                  .name = spec.name,
+                  .about = middle_of(ids, particles)};
+  if (!holds_surface(from, spec)) return support;
+  double area = 0;
+  support.about = {};
+  for (FaceShare const& share : supported_shares(particles, body, spec)) {
+    support.normals.push_back(share.normal);
+    area += share.area;
+    for (std::size_t c = 0; c < 3; ++c) support.about[c] += share.area * share.middle[c];
+  }
+  for (double& c : support.about) c /= area;
+  return support;
 }
 
 double density_of(MaterialParameters const& material) {
@@ -98,10 +108,18 @@ double density_of(MaterialParameters const& material) {
   return density == law.parameters.end() ? 0 : material.value[density - law.parameters.begin()];
 }
 
+/// Of a body and of its parts.
+std::vector<double> densities_of(BodySpec const& body) {
+  std::vector<double> densities{density_of(body.material)};
+  for (PartSpec const& part : body.parts) densities.push_back(density_of(part.material));
+  return densities;
+}
+
 /// What a load accelerates its particles with, per unit of its value.
 Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& particles) {
   std::size_t const b = index_of_body(spec.body, particles);
-  double const density = density_of(from.bodies[b].material);
+  std::vector<double> const densities = densities_of(from.bodies[b]);
+  auto const density = [&](std::int64_t id) { return densities[part_of(particles, static_cast<std::size_t>(id))]; };
   Load load{.particles = loaded_particles(particles, particles.bodies[b], spec),
             .factor = {},
             .value = spec.value,
@@ -111,12 +129,13 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
             .name = spec.name};
   load.about = middle_of(load.particles, particles);
   if (!spec.on_face()) {
-    load.factor.assign(load.particles.size(), spec.kind == LoadSpec::Kind::body_force ? 1 / density : 1);
+    bool const force = spec.kind == LoadSpec::Kind::body_force;
+    for (std::int64_t const id : load.particles) load.factor.push_back(force ? 1 / density(id) : 1);
     return load;
   }
   bool const flat = spec.face.part == Face::Part::flat;
   for (FaceShare const& share : loaded_shares(particles, particles.bodies[b], spec)) {
-    double const mass = density * particles.volume[static_cast<std::size_t>(share.particle)];
+    double const mass = density(share.particle) * particles.volume[static_cast<std::size_t>(share.particle)];
     load.factor.push_back(share.area / mass);
     if (flat)
       load.normal = share.normal;
@@ -126,10 +145,13 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
   return load;
 }
 
-double mass_of(MaterialParameters const& material, Body const& body, ParticleSet const& particles) {
-  double volume = 0;
-  for_each_id(body, [&](std::size_t i) { volume += particles.volume[i]; });
-  return volume * density_of(material);
+double mass_of(BodySpec const& spec, Body const& body, ParticleSet const& particles) {
+  std::vector<double> const densities = densities_of(spec);
+  std::vector<double> volume(densities.size(), 0);
+  for_each_id(body, [&](std::size_t i) { volume[part_of(particles, i)] += particles.volume[i]; });
+  double mass = 0;
+  for (std::size_t k = 0; k < volume.size(); ++k) mass += volume[k] * densities[k];
+  return mass;
 }
 
 std::string formulation_names(CaseSpec const& spec) {
@@ -184,6 +206,14 @@ void measure_volumes(CaseSpec const& spec, ParticleSet& particles) {
   }
 }
 
+/// Nothing, unless some body has parts.
+void take_parts(CaseSpec const& spec, std::size_t body, Assembly& a) {
+  auto const& bodies = spec.bodies;
+  if (std::all_of(bodies.begin(), bodies.end(), [](BodySpec const& b) { return b.parts.empty(); })) return;
+  a.parts.emplace_back();
+  for (PartSpec const& part : bodies[body].parts) a.parts.back().push_back(part.material);
+}
+
 /// Of the bodies that others can push; empty for the rest.
 std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
   std::vector<contact::Surface> surfaces(spec.bodies.size());
@@ -218,10 +248,11 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   a.initial_velocity.resize(a.particles.X.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     a.materials.push_back(spec.bodies[b].material);
+    take_parts(spec, b, a);
     a.formulations.push_back(spec.bodies[b].formulation);
     set_initial_state(spec.bodies[b], a.particles.bodies[b], a);
   }
-  for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, a.particles));
+  for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, spec, a.particles));
   for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
   for (MirrorSpec const& mirror : spec.mirrors)
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
@@ -239,7 +270,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   Simulation simulation;
   simulation.threads = exec_host::threads();
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    simulation.mass += mass_of(assembly.materials[b], assembly.particles.bodies[b], assembly.particles);
+    simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
   simulation.formulation = make_formulation(assembly);

@@ -63,31 +63,33 @@ std::string start_text(Simulation const& s) {
                      count_text(s.particles.size()), s.threads, s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
 }
 
-/// Copies of the files that the case names, without which it could not be resumed elsewhere.
-void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journal& journal) {
+void keep_file(CaseFile const& file, std::filesystem::path const& folder, Journal& journal) {
   constexpr std::uintmax_t most = 50'000'000;
   namespace fs = std::filesystem;
+  fs::path const to = folder / kept_files / kept_name(file.given);
+  std::error_code error;
+  if (fs::equivalent(file.path, to, error)) return;
+  if (fs::file_size(file.path, error) > most) {
+    journal.warn(fmt::format("{} is larger than 50 MB and is not copied to the results: a resumed run reads it from {}",
+                             file.given, file.path.string()));
+    return;
+  }
+  fs::create_directories(folder / kept_files, error);
+  if (!fs::copy_file(file.path, to, fs::copy_options::overwrite_existing, error))
+    journal.warn(fmt::format("{} could not be copied to {}: {}", file.given, to.string(), error.message()));
+}
+
+/// Copies of the files that the case names, without which it could not be resumed elsewhere.
+void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journal& journal) {
   for (BodySpec const& body : spec.bodies) {
     if (body.shape.solid && body.shape.arrangement == ShapeSpec::Arrangement::packed) {
       make_folder(folder / kept_files);
       SolidParticles::of(body.shape).save(folder / kept_files);
     }
-    for (CaseFile const& file : body.shape.files) {
-      fs::path const to = folder / kept_files / kept_name(file.given);
-      std::error_code error;
-      if (fs::equivalent(file.path, to, error)) continue;
-      if (fs::file_size(file.path, error) > most) {
-        journal.warn(
-            fmt::format("{} is larger than 50 MB and is not copied to the results: a resumed run reads it from "
-                        "{}",
-                        file.given, file.path.string()));
-        continue;
-      }
-      fs::create_directories(folder / kept_files, error);
-      if (!fs::copy_file(file.path, to, fs::copy_options::overwrite_existing, error))
-        journal.warn(fmt::format("{} could not be copied to {}: {}", file.given, to.string(), error.message()));
-    }
+    for (CaseFile const& file : body.shape.files) keep_file(file, folder, journal);
   }
+  for (RegionSpec const& region : spec.regions)
+    for (CaseFile const& file : region.files) keep_file(file, folder, journal);
 }
 
 /// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.

@@ -33,10 +33,17 @@ struct SetUpBody {
   explicit SetUpBody(Assembly const& a, double least_mass = 0.3)
       : set(a.particles),
         order(nodal::slot_order(set, set.bodies[0])),
-        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.materials[0].value[0], least_mass,
-                                         *nodal::find_machine(a.machine.c_str())})) {}
+        densities(densities_of(a)),
+        reference(nodal::make_reference(
+            {set, set.bodies[0], order, a.loads, a.supports, densities, least_mass, *nodal::find_machine(a.machine.c_str())})) {}
+  static Values densities_of(Assembly const& a) {
+    Values densities;
+    for (MaterialParameters const& m : materials_of(a, 0)) densities.push_back(m.value[0]);
+    return densities;
+  }
   ParticleSet set;
   SlotOrder order;
+  Values densities;
   nodal::Reference reference;
   Point X(Index slot) const { return set.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])]; }
 };

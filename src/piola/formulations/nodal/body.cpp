@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/body.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/materials/laws.hpp"
@@ -31,29 +32,54 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
         "initial_deformation_gradient",
         body_.name));
-  set_constants(assembly.materials[body]);
-  reference_ =
-      make_reference({set, body_, order_, assembly.loads, state_.constants.rho0, options_.least_mass, machine});
+  set_materials(materials_of(assembly, body));
+  reference_ = make_reference(
+      {set, body_, order_, assembly.loads, assembly.supports, densities(), options_.least_mass, machine});
   allocate();
   fill_reference();
   fill_initial(assembly);
-  boundary_.emplace(assembly, body, Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid});
+  boundary_.emplace(assembly, body,
+                    Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid, reference_.held});
   boundary_->attach(state_);
   machine.step(state_, 0);  // the accelerations of the start
 }
 
-void NodalBody::set_constants(MaterialParameters const& material) {
+void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) {
   state_.dimension = D_;
   state_.slots = {0, order_.slots()};
-  state_.material = material;
+  state_.particles = order_.particles;
+  double const spacing = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
+  Index first = 0;
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    Index last = first;
+    while (last < order_.particles && part_of(*set_, static_cast<std::size_t>(id(last))) == k) ++last;
+    with_law(materials[k], [&](auto const& law) {
+      Constants const constants{
+          law.rho0, law.kappa, law.mu, std::min(law.kappa, law.mu), spacing / law.p_wave_speed(), options_.stress_free,
+          0};
+      materials_.push_back({materials[k], constants, first, last});
+    });
+    first = last;
+  }
+  PIOLA_ENSURES(first == order_.particles);
+  state_.materials = materials_.data();
+  state_.material_count = static_cast<Index>(materials_.size());
+  state_.constants = materials_.front().constants;
+  for (MaterialRange const& range : materials_)
+    state_.constants.unit_step = std::min(state_.constants.unit_step, range.constants.unit_step);
+  set_viscosity(materials.front());
+  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots)) + 1);
+  state_.partial = partial_.data();
+  state_.failure = &failure_;
+}
+
+void NodalBody::set_viscosity(MaterialParameters const& material) {
+  if (fields_.with_viscosity && materials_.size() > 1)
+    throw InputError(fmt::format(
+        "body '{}': fluctuation_viscosity and shock_viscosity are those of one material (allowed: 0 for a body with "
+        "parts) - leave them out, or make the parts bodies and tie them",
+        body_.name));
   with_law(material, [&](auto const& law) {
-    state_.constants = {law.rho0,
-                        law.kappa,
-                        law.mu,
-                        std::min(law.kappa, law.mu),
-                        *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_) / law.p_wave_speed(),
-                        options_.stress_free,
-                        0};
     double h = 1;
     for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) h *= std::pow(body_.spacing[c], 1.0 / D_);
     double const speed = std::sqrt((state_.constants.kappa_local + 4 * law.mu / 3) / law.rho0);
@@ -61,9 +87,16 @@ void NodalBody::set_constants(MaterialParameters const& material) {
                         options_.shock_viscosity * 0.06 * law.rho0 * h * law.p_wave_speed(),
                         options_.shock_viscosity * 1.2 * law.rho0 * h * h};
   });
-  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots)) + 1);
-  state_.partial = partial_.data();
-  state_.failure = &failure_;
+}
+
+std::vector<double> NodalBody::densities() const {
+  std::vector<double> densities;
+  for (MaterialRange const& range : materials_) densities.push_back(range.constants.rho0);
+  return densities;
+}
+
+MaterialRange const& NodalBody::material(Index slot) const {
+  return *std::find_if(materials_.begin(), materials_.end(), [&](MaterialRange const& r) { return slot < r.last; });
 }
 
 void NodalBody::allocate() {
@@ -200,7 +233,7 @@ std::size_t NodalBody::bytes() const {
                       (r.V.size() + r.mass.size() + r.X.size() + r.centroid.size() + partial_.size()) * 8;
   // The smoothing of observers, whose weights are one per pair.
   if (smoothing_) total += r.neighbour.size() * 8 + r.V.size() * 8;
-  return total + fields_.bytes();
+  return total + fields_.bytes() + boundary_->bytes();
 }
 
 }  // namespace piola::nodal

@@ -54,13 +54,16 @@ class NodalBody {
   std::array<double, 3> x(Index slot) const { return point_at(state_.x, slot, D_, X(slot)); }
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
   Mat<3> F(Index slot) const;  ///< at the centroid of the cell; of missing directions the mean over its points
+  MaterialRange const& material(Index slot) const;
   double mass(Index slot) const { return value(state_.mass, slot); }
   double volume(Index slot) const { return value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
 
  private:
   int step(Machine const& machine, double time, double dt, int halvings);
-  void set_constants(MaterialParameters const& material);
+  void set_materials(std::vector<MaterialParameters> const& materials);
+  void set_viscosity(MaterialParameters const& material);
+  std::vector<double> densities() const;
   void allocate();
   void fill_reference();
   void fill_initial(Assembly const& assembly);
@@ -76,6 +79,7 @@ class NodalBody {
   Reference reference_;
   mutable std::optional<Smoothing> smoothing_;
   std::optional<Boundary> boundary_;
+  std::vector<MaterialRange> materials_;  ///< of the body and of its parts
   std::vector<double> partial_;
   double damping_loss_ = 0;
   FailureSlot failure_;

@@ -2,11 +2,22 @@
 #include "piola/formulations/nodal/boundary.hpp"
 
 namespace piola::nodal {
+namespace {
+
+std::vector<std::array<double, 3>> positions(Assembly const& assembly, SlotOrder const& order) {
+  std::vector<std::array<double, 3>> X(static_cast<std::size_t>(order.slots()));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(order.particles); ++i)
+    X[i] = assembly.particles.X[static_cast<std::size_t>(order.id[i])];
+  return X;
+}
+
+}  // namespace
 
 Boundary::Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_body)
     : body_(assembly.particles.bodies[body]),
       D_(assembly.particles.dimension),
-      driven_(D_, assembly.supports, assembly.loads, false) {
+      driven_(D_, assembly.supports, assembly.loads, false),
+      surface_(D_, assembly.supports, of_body.held, of_body.mass, positions(assembly, of_body.order)) {
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < of_body.order.particles; ++i)
     slot_of[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
@@ -57,10 +68,19 @@ void Boundary::take_loads(Assembly const& assembly, OfBody const& of_body, std::
 void Boundary::attach(BodyState& state) {
   begin_step(state, 0, 0);
   driven_.start(state.v);
+  surface_.set_velocity(state.v);
 }
 
 void Boundary::begin_step(BodyState& state, double time, double dt) {
-  driven_.begin_step(state.x, time, dt);
+  bool const changed = driven_.begin_step(state.x, time, dt);
+  surface_.begin_step(state.x, driven_.held(), changed, time, dt);
+  state.surface = surface_.empty() ? nullptr : &surface_;
+  state.kick_surface = [](SurfaceHold& surface, BodyState& body, bool first, double step) {
+    if (first)
+      surface.kick_first(body.v, body.a, step);
+    else
+      surface.kick_last(body.v);
+  };
   state.held = driven_.held().data();
   state.held_count = static_cast<Index>(driven_.held().size());
   state.loaded = driven_.loaded().data();
@@ -71,7 +91,29 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
 
 void Boundary::end_step(BodyState& state) {
   driven_.end_step(state.x, work_);
+  surface_.end_step(state.x, work_);
   driven_.take_out_ended(state.a);
+}
+
+void Boundary::hand_over(Actions& actions) {
+  driven_.hand_over(actions);
+  surface_.hand_over(actions);
+}
+
+void Boundary::damp(BodyState& state, double factor) const {
+  driven_.damp(state.v, state.slots.last, factor);
+  surface_.set_velocity(state.v);
+}
+
+double Boundary::square_of_held(BodyState const& state) const {
+  double sum = surface_.square_of_held(state.a);
+  for (Index n = 0; n < state.held_count; ++n) {
+    HeldDirection const& h = state.held[n];
+    double along = 0;
+    for (int c = 0; c < D_; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];
+    sum += h.mass * along * along;
+  }
+  return sum;
 }
 
 }  // namespace piola::nodal

@@ -4,22 +4,24 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/mechanics/boundary.hpp"
+#include "piola/mechanics/surface_hold.hpp"
 #include "piola/particles/ordering.hpp"
 #include <vector>
 
 namespace piola::nodal {
 
-/// Supports and loads of one body: a BodyBoundary with the masses of particles and their parts of faces. Theory:
-/// docs/theory/boundaries.md, docs/theory/nodal.md.
+/// Supports and loads of one body: a BodyBoundary with the masses of particles and their parts of faces, and places of
+/// the surface that supports hold. Theory: docs/theory/boundaries.md, docs/theory/nodal.md.
 class Boundary {
  public:
-  /// What a body says of itself: masses per slot [kg], for each load on a face the part of it per slot, and
-  /// centroids of cells.
+  /// What a body says of itself: masses per slot [kg], for each load on a face the part of it per slot, centroids of
+  /// cells, and the places of the surface that supports hold.
   struct OfBody {
     SlotOrder const& order;
     std::vector<double> const& mass;
     std::vector<std::vector<FacePart>> const& parts;
     std::vector<double> const& centroid;
+    std::vector<HeldPlace> const& held;
   };
   Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_body);
 
@@ -34,9 +36,14 @@ class Boundary {
   double next_release(double time) const { return driven_.next_release(time); }
 
   /// Adds what supports and loads gave since the last call.
-  void hand_over(Actions& actions) { driven_.hand_over(actions); }
+  void hand_over(Actions& actions);
   /// Multiplies the velocities that no support prescribes.
-  void damp(BodyState& state, double factor) const { driven_.damp(state.v, state.slots.last, factor); }
+  void damp(BodyState& state, double factor) const;
+  /// After something has pushed particles: supports give back what moves the surface that they hold.
+  void withstand(BodyState& state) { surface_.keep_velocity(state.x, state.v, work_); }
+  /// sum m a^2 of the part of accelerations that supports take away [N m/s2].
+  double square_of_held(BodyState const& state) const;
+  std::size_t bytes() const { return surface_.bytes(); }
 
   double external_work() const { return work_; }  ///< of loads and driven supports since the start [J]
   void set_external_work(double work) { work_ = work; }
@@ -49,6 +56,7 @@ class Boundary {
   Body body_;
   int D_;
   BodyBoundary driven_;
+  SurfaceHold surface_;
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to these [m]
   double work_ = 0;
 };

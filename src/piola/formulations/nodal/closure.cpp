@@ -15,12 +15,6 @@ constexpr int most_iterations = 2000;
 /// Fewer particles need no more iterations without the coarse levels of the preconditioner.
 constexpr std::size_t worth_levels = 300;
 
-/// Where the moments of a patch or a cell (XX YY ZZ YZ XZ XY) are for second derivative `at` of D dimensions.
-template <int D>
-constexpr std::size_t moment(int at) {
-  return D == 2 && at == 2 ? 5 : static_cast<std::size_t>(at);
-}
-
 /// Sums over particles, one per column.
 template <int D>
 using Columns = std::array<double, static_cast<std::size_t>(D)>;
@@ -130,17 +124,7 @@ std::vector<double> Divergence<D>::shares(std::function<double(SurfacePatch cons
   for (auto const& patch : patches_) {
     double const counts = weight(patch);
     if (counts == 0) continue;
-    auto const a = static_cast<std::size_t>(patch.particle);
-    share[a] += counts * patch.area;
-    for (std::size_t k = fits_.pairs().first(a); k < fits_.pairs().end(a); ++k) {
-      auto const e = fits_.derivatives(a, k);
-      double moved = 0;
-      for (int i = 0; i < D; ++i) moved += patch.first[static_cast<std::size_t>(i)] * e[static_cast<std::size_t>(i)];
-      for (int m = 0; m < Quadratic<D>::second; ++m) moved += patch.second[moment<D>(m)] * e[std::size_t{D} + m];
-      moved *= counts;
-      share[fits_.pairs().at(k)] += moved;
-      share[a] -= moved;
-    }
+    each_share<D>(fits_, patch, [&](std::size_t b, double part) { share[b] += counts * part; });
   }
   return share;
 }

@@ -23,6 +23,12 @@ struct Closure {
   int iterations = 0;
 };
 
+/// Where the moments of a patch or a cell (XX YY ZZ YZ XZ XY) are for second derivative `at` of D dimensions.
+template <int D>
+constexpr std::size_t moment_of_second(int at) {
+  return D == 2 && at == 2 ? 5 : static_cast<std::size_t>(at);
+}
+
 template <int D>
 class Divergence {
  public:
@@ -52,6 +58,24 @@ class Divergence {
 extern template class Divergence<1>;
 extern template class Divergence<2>;
 extern template class Divergence<3>;
+
+/// f(b, share) with the integral of a motion over a patch as the sum of shares of particles: an expansion about the
+/// nearest particle by its fit.
+template <int D, class F>
+void each_share(Fits<D> const& fits, SurfacePatch const& patch, F const& f) {
+  auto const a = static_cast<std::size_t>(patch.particle);
+  double own = patch.area;
+  for (std::size_t k = fits.pairs().first(a); k < fits.pairs().end(a); ++k) {
+    auto const e = fits.derivatives(a, k);
+    double moved = 0;
+    for (std::size_t i = 0; i < D; ++i) moved += patch.first[i] * e[i];
+    for (int m = 0; m < Quadratic<D>::second; ++m)
+      moved += patch.second[moment_of_second<D>(m)] * e[std::size_t{D} + m];
+    f(fits.pairs().at(k), moved);
+    own -= moved;
+  }
+  f(a, own);
+}
 
 /// First derivative along J at the centroid of the cell, from the derivatives at the particle: e_J + sum_K e_JK c_K.
 template <int D>

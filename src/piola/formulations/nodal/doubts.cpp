@@ -12,7 +12,9 @@ void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
   constexpr int few = 3;
   auto const& lattice = assembly.particles.bodies[body].lattice;
   int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
-  double const ratio = poissons_ratio_of(doubts.material());
+  double ratio = 0;
+  for (MaterialParameters const& material : materials_of(assembly, body))
+    ratio = std::max(ratio, poissons_ratio_of(material));
   if (across > few || !(ratio > nearly) || assembly.particles.dimension == 1) return;
   doubts.add(
       "material.poissons_ratio",

@@ -23,7 +23,7 @@ Mat<3> first_piola(NodalBody const& body, Index i) {
 /// Of the cell, positive in tension [Pa]: of its mean volume ratio where the law has a volumetric part.
 double cell_pressure(NodalBody const& body, Index i) {
   double p = 0;
-  with_law(body.state().material, [&](auto const& law) {
+  with_law(body.material(i).material, [&](auto const& law) {
     if (std::decay_t<decltype(law)>::volumetric_split && !body.state().constants.stress_free) {
       p = law.kappa * (cell(body, i, mean_J) - 1);
     } else {
@@ -121,7 +121,7 @@ void sample(NodalBody const& body, int body_number, std::string_view field, std:
     p.least_J = cell(body, i, least_J);
     p.pressure = smooth[static_cast<std::size_t>(i)];
     p.cell_pressure = cell_pressure(body, i);
-    p.inertia = body.state().constants.rho0;
+    p.inertia = body.material(i).constants.rho0;
     p.density = p.inertia / p.J;
     put(found, p, values);
   }

@@ -47,6 +47,8 @@ FormulationInfo info() {
       diagnostics};
   info.mirrors = false;
   info.pushable = true;
+  info.parts = true;
+  info.surface_supports = true;
   info.outline = true;  // cells end at the surface
   return info;
 }

@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/nodal/closure.hpp"
 #include "piola/formulations/nodal/face_parts.hpp"
+#include "piola/formulations/nodal/held_faces.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include <algorithm>
 #include <chrono>
@@ -119,7 +120,7 @@ class Tables {
     exec_host::for_each_in_set_up(static_cast<Index>(scaled_.cells.size()), [&](Index particle) {
       auto const a = static_cast<std::size_t>(particle);
       to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
-      to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0;
+      to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0.front();
       auto const L = cholesky<D>(scaled_.cells[a], scaled_.h);
       for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
       for (std::size_t c = 0; c < dimension; ++c) {
@@ -217,6 +218,14 @@ class Tables {
   std::size_t slots_;
 };
 
+/// The cells with volumes that stand for their masses, in units of the body's own density: what is handed over from
+/// cell to cell is mass, and its moments are those of all materials together.
+std::vector<ScaledCell> heavy_cells(SetUp const& from, std::vector<ScaledCell> cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    cells[i].volume *= from.rho0[part_of(from.set, static_cast<std::size_t>(from.order.id[i]))] / from.rho0.front();
+  return cells;
+}
+
 template <int D>
 Reference make(SetUp const& from) {
   Reference r;
@@ -242,8 +251,10 @@ Reference make(SetUp const& from) {
   Closure const closure = divergence.solve(closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr);
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
+  r.held = held_faces<D>(from, fits, scaled.patches, scaled.h);
   r.costs.closure = since(clock);
-  auto const mass = exact_masses<D>(scaled.X, scaled.cells, from.least_mass, shape, !has_lattice_cells(from.body));
+  auto const mass =
+      exact_masses<D>(scaled.X, heavy_cells(from, scaled.cells), from.least_mass, shape, !has_lattice_cells(from.body));
   r.costs.masses = since(clock);
   Tables<D>(from, scaled, fits, r).fill(closure, mass);
   Pairs pairs = fits.take_pairs();

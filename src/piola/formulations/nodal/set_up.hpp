@@ -3,6 +3,7 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
+#include "piola/mechanics/surface_hold.hpp"
 #include "piola/neighbours/tables.hpp"
 #include "piola/particles/ordering.hpp"
 #include <optional>
@@ -25,9 +26,10 @@ struct SetUp {
   Body const& body;
   SlotOrder const& order;
   std::vector<Load> const& loads;
-  double rho0;             ///< [kg/m^3]
-  double least_mass;       ///< of a particle over that of its cell
-  Machine const& machine;  ///< whose loops solve for the divergence theorem
+  std::vector<Support> const& supports;
+  std::vector<double> const& rho0;  ///< of the body and of its parts [kg/m^3]
+  double least_mass;                ///< of a particle over that of its cell
+  Machine const& machine;           ///< whose loops solve for the divergence theorem
 };
 
 /// What a particle answers for of a loaded face.
@@ -45,6 +47,7 @@ struct Reference {
   std::vector<double> X;                     ///< in spacings, D per slot
   std::vector<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
   std::vector<std::vector<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
+  std::vector<HeldPlace> held;               ///< parts of the surface that supports hold
   std::vector<std::int64_t> begin;           ///< lists, see ListTable
   std::vector<Index> neighbour;
   std::vector<double> weight;

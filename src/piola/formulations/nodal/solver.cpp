@@ -24,8 +24,9 @@ class Solver final : public Formulation {
         machine_(choose_machine(assembly.machine.c_str())),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options =
-          read_options(assembly.formulations[k], assembly.materials[k], set_.dimension, assembly.cfl);
+      Options options;
+      for (MaterialParameters const& material : materials_of(assembly, k))
+        options = read_options(assembly.formulations[k], material, set_.dimension, assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }
@@ -76,6 +77,7 @@ class Solver final : public Formulation {
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     push_all(bodies_, set_.dimension, slots_, ids, change);
+    for (auto const& body : bodies_) body->boundary().withstand(body->state());
   }
   double kinetic_energy() const override {
     return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
@@ -215,6 +217,8 @@ void Solver::load(StateReader& reader) {
   reader.get("time", clock);
   time_ = clock[0];
   repeated_ = clock[1];
+  // Bodies may be pushed before the next step: what is held then.
+  for (auto const& body : bodies_) body->boundary().begin_step(body->state(), time_, 0);
 }
 
 }  // namespace

@@ -138,13 +138,7 @@ double StabilityMonitor::square_of_accelerations() const {
   double sum = 0;
   for (Index i = 0; i < body_.particles(); ++i)
     for (int c = 0; c < D; ++c) sum += body_.mass(i) * value_at(state.a, i, c) * value_at(state.a, i, c);
-  for (Index n = 0; n < state.held_count; ++n) {
-    HeldDirection const& h = state.held[n];
-    double along = 0;
-    for (int c = 0; c < D; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];
-    sum -= h.mass * along * along;
-  }
-  return sum;
+  return sum - body_.boundary().square_of_held(state);
 }
 
 /// One cycle of Lanczos' method for -da/dx, which is symmetric in the product above, from the mode, which becomes the

@@ -7,6 +7,10 @@
 #include "piola/mechanics/held.hpp"
 #include "piola/neighbours/tables.hpp"
 
+namespace piola {
+class SurfaceHold;
+}
+
 /// One body of a nodal run as its loops see it: plain data that crosses between machines.
 namespace piola::nodal {
 
@@ -20,6 +24,13 @@ struct Constants {
   double least_share;  ///< of its volume ratio at the step's start that a point of a cell must keep
 };
 
+/// The particles of a body that have one material: slots [first, last).
+struct MaterialRange {
+  MaterialParameters material;
+  Constants constants;
+  Index first, last;
+};
+
 /// What viscous stresses multiply rates by, see Viscosity.
 struct ViscousConstants {
   double fluctuation;                    ///< [Pa s]
@@ -31,7 +42,9 @@ struct BodyState {
   Range slots;
   Constants constants{};
   ViscousConstants viscosity{};
-  MaterialParameters material;
+  MaterialRange const* materials = nullptr;  ///< in the order of slots; together all particles
+  Index material_count = 0;
+  Index particles = 0;  ///< the slots after them are empty
   ListTable list;
   LatticeTable lattice;  ///< takes the place of lists where particles fill a lattice
 
@@ -55,9 +68,11 @@ struct BodyState {
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
-  bool follows = false;                     ///< whether some load turns with the deformed face
-  bool marks = false;                       ///< forces at x also leave F^T F there in C_measured
-  double* partial = nullptr;                ///< room for the partial results of blocks
+  SurfaceHold* surface = nullptr;           ///< what supports hold of the surface; nullptr: nothing
+  void (*kick_surface)(SurfaceHold& surface, BodyState& body, bool first, double dt) = nullptr;
+  bool follows = false;       ///< whether some load turns with the deformed face
+  bool marks = false;         ///< forces at x also leave F^T F there in C_measured
+  double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/projection.hpp"
+#include "piola/formulations/nodal/shared_lanes.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 #include "piola/parallel/halo.hpp"
 
@@ -23,8 +24,7 @@ class Step {
     exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
     exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.a), write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
-    if (dt > 0)
-      exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.v)});
+    if (dt > 0) arrive(dt);
   }
 
   /// a of the internal forces at x: -dPi/dx over the masses, and of viscous ones if `dt` [s] is what has passed since
@@ -39,7 +39,7 @@ class Step {
     ProjectQuadratic<D> const pass{read(f.inverse),       read_reference(b_.V), read(f.weights), read(b_.x),
                                    write(f.coefficients), write(b_.second),     write(b_.a)};
     halo_.refresh(b_.x, b_.first);
-    fused(exec::erased(pass));
+    fused(b_.slots, exec::erased(pass));
     sum_forces();
   }
 
@@ -76,11 +76,11 @@ class Step {
   }
 
   /// The first sweep, block by block with the pass that uses its sums.
-  void fused(exec::PointPass const& then) {
+  void fused(Range slots, exec::PointPass const& then) {
     if (on_lattice())
-      exec::for_each_block(b_.slots, FusedBlock<SumLatticeMotion<D>>{{of_lattice()}, then});
+      exec::for_each_block(slots, FusedBlock<SumLatticeMotion<D>>{{of_lattice()}, then});
     else
-      exec::for_each_then(b_.slots, SumMotion<D>{of_motion()}, then);
+      exec::for_each_then(slots, SumMotion<D>{of_motion()}, then);
   }
 
   void sum_forces() {
@@ -104,6 +104,11 @@ class Step {
 
   void drive(double dt) {
     exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.a)});
+    if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, true, dt);
+  }
+  void arrive(double dt) {
+    exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.v)});
+    if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, false, dt);
   }
 
   template <bool Observed>
@@ -111,10 +116,23 @@ class Step {
     halo_.refresh(b_.x);
     if (on_lattice()) exec::for_each(b_.slots, MultiplyByCorrections<D>{read(b_.x), read(b_.mu), write(b_.first)});
     halo_.refresh(b_.first);
-    with_law(b_.material, [&](auto const& law) {
+    for (Index k = 0; k < b_.material_count; ++k) update_stress<Observed>(b_.materials[k], dt);
+  }
+
+  /// Of the particles of one material, in whole groups of lanes.
+  template <bool Observed>
+  void update_stress(MaterialRange const& range, double dt) {
+    Index const group = range.first - range.first % lane_count,
+                end = (range.last + lane_count - 1) / lane_count * lane_count;
+    Range const slots{group, range.last < b_.particles ? end : b_.slots.last};
+    if (range.first == range.last) return;
+    SharedLanes<D> const others(b_, group, range.first);
+    Constants constants = range.constants;
+    constants.least_share = b_.constants.least_share;
+    with_law(range.material, [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
       UpdateStress<D, Law, Observed> const update{law,
-                                                  b_.constants,
+                                                  constants,
                                                   read_reference(b_.V),
                                                   read_reference(b_.L),
                                                   read_reference(b_.g),
@@ -132,8 +150,9 @@ class Step {
                                                   write(b_.P),
                                                   write(b_.cell),
                                                   b_.failure};
-      fused(exec::erased(update));
+      fused(slots, exec::erased(update));
     });
+    others.put_back();
   }
 
   BodyState& b_;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/neighbours/cell_moments.hpp"
+
+namespace piola::nodal {
+
+/// The parts of the surface that supports hold, one for each particle along it: the mean over the part, with the motion
+/// expanded about the nearest particle by its fit. The weights are those by which a traction on the part is handed to
+/// particles, so that reactions can balance any uniform stress. Parts smaller than a quarter of a spacing's area are
+/// joined to the nearest one. `h`: spacings [m].
+template <int D>
+std::vector<HeldPlace> held_faces(SetUp const& from, Fits<D> const& fits, std::vector<SurfacePatch> const& patches,
+                                  std::array<double, 3> const& h);
+
+extern template std::vector<HeldPlace> held_faces<1>(SetUp const&, Fits<1> const&, std::vector<SurfacePatch> const&,
+                                                     std::array<double, 3> const&);
+extern template std::vector<HeldPlace> held_faces<2>(SetUp const&, Fits<2> const&, std::vector<SurfacePatch> const&,
+                                                     std::array<double, 3> const&);
+extern template std::vector<HeldPlace> held_faces<3>(SetUp const&, Fits<3> const&, std::vector<SurfacePatch> const&,
+                                                     std::array<double, 3> const&);
+
+}  // namespace piola::nodal

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/neighbours/cell_moments.hpp"
+#include <algorithm>
+#include <vector>
+
+namespace piola::nodal {
+
+/// The part of a body's surface that a load acts on, or a support holds, patch by patch.
+template <int D>
+class LoadedFace {
+ public:
+  LoadedFace(SetUp const& from, Fits<D> const& fits, std::vector<SurfacePatch> const& patches, Load const& load)
+      : load_(load),
+        body_(from.body),
+        fits_(fits),
+        place_(static_cast<std::size_t>(from.order.particles), none),
+        area_(place_.size(), 0) {
+    std::vector<std::size_t> of_id(static_cast<std::size_t>(body_.last - body_.first), none);
+    for (std::size_t k = 0; k < load.particles.size(); ++k)
+      if (load.particles[k] >= body_.first && load.particles[k] < body_.last)
+        of_id[static_cast<std::size_t>(load.particles[k] - body_.first)] = k;
+    for (std::size_t slot = 0; slot < place_.size(); ++slot)
+      place_[slot] = of_id[static_cast<std::size_t>(from.order.id[slot] - body_.first)];
+    for (std::size_t k = 0; k < load.particles.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) faces_[c] = faces_[c] || load.normal_of(k)[c] != 0;
+    for (auto const& patch : patches)
+      if (faces_[static_cast<std::size_t>(patch.axis)]) area_[static_cast<std::size_t>(patch.particle)] += patch.area;
+  }
+
+  /// Cosine between the patch and the exact surface there; zero where the load does not act.
+  double cosine(SurfacePatch const& patch) const { return std::max(0.0, facing(patch)); }
+
+  /// Which of the load's particles answers for it, where the cosine is not zero.
+  std::size_t owner(SurfacePatch const& patch) const { return place_of(static_cast<std::size_t>(patch.particle)); }
+
+  /// Whether it is part of that surface. Sides of blocks beside a pole may look away from it a little.
+  bool has(SurfacePatch const& patch) const { return facing(patch) > -0.5; }
+
+ private:
+  using Point = std::array<double, 3>;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  /// A patch may be nearest to a particle behind the loaded ones. It belongs to one of these if that is not farther
+  /// away than this [spacings]: where a curved surface cuts a corner off a cell, which then has less than `corner` of
+  /// the surface, or on irregular clouds.
+  static constexpr double beside = 1.01, corner = 0.5, behind = 0.75;
+
+  /// -1 where the load does not act.
+  double facing(SurfacePatch const& patch) const {
+    auto const axis = static_cast<std::size_t>(patch.axis);
+    if ((load_.normal && !patch.outermost) || !faces_[axis]) return -1;
+    std::size_t const k = place_of(static_cast<std::size_t>(patch.particle));
+    return k == none ? -1 : load_.normal_of(k)[axis] * (patch.upper ? 1 : -1);
+  }
+
+  /// Which of the load's particles answers for what is nearest to a.
+  std::size_t place_of(std::size_t a) const {
+    if (place_[a] != none) return place_[a];
+    std::size_t found = none;
+    double const reach = !load_.normal && area_[a] < corner ? beside : body_.regular ? 0 : behind;
+    double least = reach * reach;
+    auto const& X = fits_.X();
+    for (std::size_t n = fits_.pairs().first(a); n < fits_.pairs().end(a); ++n) {
+      std::size_t const b = fits_.pairs().at(n);
+      double square = 0;
+      for (std::size_t c = 0; c < 3; ++c) square += (X[b][c] - X[a][c]) * (X[b][c] - X[a][c]);
+      if (place_[b] == none || square >= least) continue;
+      least = square;
+      found = place_[b];
+    }
+    return found;
+  }
+
+  Load const& load_;
+  Body const& body_;
+  Fits<D> const& fits_;
+  std::array<bool, 3> faces_{};     ///< the surface faces along these axes
+  std::vector<std::size_t> place_;  ///< of a slot among the load's particles
+  std::vector<double> area_;        ///< of a slot's patches along these axes, in spacings
+};
+
+}  // namespace piola::nodal

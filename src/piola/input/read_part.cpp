@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/input/sections.hpp"
+#include <algorithm>
+
+namespace piola {
+namespace {
+
+/// The region that a condition is, if it is a region with a shape and nothing else.
+RegionSpec const* shape_region(std::string const& condition, std::vector<RegionSpec> const& regions) {
+  auto const words = expression_words(condition);
+  if (words.size() != 1 || condition.find_first_not_of(words[0] + " \t") != std::string::npos) return nullptr;
+  auto const found =
+      std::find_if(regions.begin(), regions.end(), [&](RegionSpec const& region) { return region.name == words[0]; });
+  return found == regions.end() || !found->solid ? nullptr : &*found;
+}
+
+PartSpec read_part(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions) {
+  PartSpec part;
+  section.read("name", part.name);
+  if (auto where = section.formula("where", body.names)) {
+    part.where = std::move(*where);
+    if (auto const* const region = shape_region(part.where.text(), regions)) {
+      part.solid = region->solid;
+      part.cut = region->text;
+    }
+    if (part.where.depends_on_time())
+      section.problems().add(section.place_of("where"),
+                             section.name_of("where") +
+                                 " depends on t (allowed: X, Y, Z, regions and constants) - a "
+                                 "part stays what it is");
+  }
+  if (auto const value = section.find("material")) {
+    if (value->node.is_table()) {
+      BodySpec of;
+      read_material(Section(value->node, "body.material", section.problems()), of);
+      part.material = of.material;
+      part.law = of.law;
+    } else {
+      section.problems().add(value->node.place, value->name + " is " + shown(value->node) +
+                                                    " (allowed: a table) - write material = { ... }");
+    }
+  }
+  section.refuse_unknown();
+  part.places = places_of(section, {"where", "material"});
+  return part;
+}
+
+}  // namespace
+
+std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body,
+                                 std::vector<RegionSpec> const& regions) {
+  std::vector<PartSpec> parts;
+  auto const value = section.find("part");
+  if (!value) return parts;
+  constexpr std::size_t most = 100;
+  auto const items = read_list(*value, 1, most, section.problems());
+  for (std::size_t k = 0; items && k < items->size(); ++k) {
+    Value const& item = (*items)[k];
+    if (!item.node.is_table()) {
+      section.problems().add(item.node.place,
+                             item.name + " is " + shown(item.node) + " (allowed: a table) - write [[body.part]]");
+      continue;
+    }
+    parts.push_back(read_part(Section(item.node, "body.part", section.problems()), body, regions));
+    if (parts.back().name.empty()) parts.back().name = "part_" + std::to_string(k + 1);
+  }
+  return parts;
+}
+
+}  // namespace piola

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/surface_hold.hpp"
+#include <algorithm>
+#include <tuple>
+
+namespace piola {
+namespace {
+
+/// The direction in which places extend farthest: rows in this order are next to those with which they share particles.
+std::size_t longest_extent(std::vector<HeldPlace> const& places) {
+  Direction low = places.front().X, high = low;
+  for (auto const& place : places)
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], place.X[c]);
+      high[c] = std::max(high[c], place.X[c]);
+    }
+  std::size_t longest = 0;
+  for (std::size_t c = 1; c < 3; ++c)
+    if (high[c] - low[c] > high[longest] - low[longest]) longest = c;
+  return longest;
+}
+
+}  // namespace
+
+SurfaceHold::SurfaceHold(int dimension, std::vector<Support> const& supports, std::vector<HeldPlace> const& places,
+                         std::vector<double> const& mass, std::vector<Point> const& X)
+    : D_(dimension), driven_(dimension, supports, {}, false) {
+  if (places.empty()) return;
+  std::vector<std::size_t> number(mass.size(), mass.size());
+  for (auto const& place : places)
+    for (auto const& w : place.weights) number[static_cast<std::size_t>(w.slot)] = 0;
+  for (std::size_t slot = 0; slot < mass.size(); ++slot) {
+    if (number[slot] != 0) continue;
+    number[slot] = particles_.size();
+    particles_.push_back({static_cast<Index>(slot), mass[slot], X[slot]});
+  }
+  std::vector<HeldPlace const*> order;
+  for (auto const& place : places) order.push_back(&place);
+  std::size_t const along = longest_extent(places);
+  std::stable_sort(order.begin(), order.end(), [along](auto a, auto b) { return a->X[along] < b->X[along]; });
+  for (HeldPlace const* const place : order) {
+    std::size_t const first = weights_.size();
+    for (auto const& w : place->weights) weights_.push_back({number[static_cast<std::size_t>(w.slot)], w.weight});
+    auto const at = driven_.add_particle({static_cast<Index>(places_.size()), place->X, 1, place->X});
+    places_.push_back({place->X, first, weights_.size()});
+    for (auto const s : place->supports)
+      for (auto const& d : directions_of(supports[s], D_)) driven_.add_row(at, s, d);
+  }
+  for (std::size_t a = 0; a < particles_.size(); ++a) weights_.push_back({a, 1});
+  place_coordinates_.resize(places_.size() * static_cast<std::size_t>(D_));
+}
+
+FieldRef SurfaceHold::places_at(FieldRef const& x) {
+  FieldRef at{};
+  at.data = place_coordinates_.data();
+  at.component_stride = 1;
+  at.particle_stride = D_;
+  for (std::size_t p = 0; p < places_.size(); ++p)
+    for (int c = 0; c < D_; ++c) {
+      double sum = 0;
+      for (std::size_t k = places_[p].first; k < places_[p].last; ++k)
+        sum += weights_[k].weight * value_at(x, particles_[weights_[k].particle].slot, c);
+      value_at(at, static_cast<Index>(p), c) = sum;
+    }
+  return at;
+}
+
+void SurfaceHold::begin_step(FieldRef const& x, std::span<HeldDirection> particles, bool changed, double time,
+                             double dt) {
+  if (empty()) return;
+  bool const others = driven_.begin_step(places_at(x), time, dt);
+  if (!others && !changed) return;
+  make_rows(particles);
+  factorise();
+}
+
+void SurfaceHold::make_rows(std::span<HeldDirection> particles) {
+  rows_.clear();
+  auto const direction_of = [](HeldDirection const& h) {
+    return Point{h.direction[0], h.direction[1], h.direction[2]};
+  };
+  for (auto& h : driven_.held()) {
+    Place const& place = places_[static_cast<std::size_t>(h.slot)];
+    rows_.push_back({place.X, direction_of(h), place.first, place.last, &h, true});
+  }
+  std::size_t const own = weights_.size() - particles_.size();
+  for (auto& h : particles) {
+    auto const at = std::lower_bound(particles_.begin(), particles_.end(), h.slot,
+                                     [](Particle const& p, Index slot) { return p.slot < slot; });
+    if (at == particles_.end() || at->slot != h.slot) continue;
+    std::size_t const k = own + static_cast<std::size_t>(at - particles_.begin());
+    rows_.push_back({at->X, direction_of(h), k, k + 1, &h, false});
+  }
+  if (rows_.empty()) return;
+  std::vector<HeldPlace> extent;
+  for (Row const& row : rows_) extent.push_back({row.X});
+  std::size_t const along = longest_extent(extent);
+  std::stable_sort(rows_.begin(), rows_.end(), [along](Row const& a, Row const& b) {
+    return std::tie(a.held->axis, a.X[along]) < std::tie(b.held->axis, b.X[along]);
+  });
+}
+
+void SurfaceHold::factorise() {
+  struct InRow {
+    std::size_t row;
+    double weight;
+  };
+  std::vector<std::vector<InRow>> of_particle(particles_.size());
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (std::size_t k = rows_[r].first; k < rows_[r].last; ++k)
+      of_particle[weights_[k].particle].push_back({r, weights_[k].weight});
+  auto const each_entry = [&](auto const& f) {
+    for (std::size_t a = 0; a < particles_.size(); ++a)
+      for (std::size_t i = 0; i < of_particle[a].size(); ++i)
+        for (std::size_t j = 0; j <= i; ++j) {
+          InRow const &lower = of_particle[a][i], &upper = of_particle[a][j];
+          double const along = dot(rows_[lower.row].direction, rows_[upper.row].direction);
+          if (along != 0) f(lower.row, upper.row, lower.weight * upper.weight * along / particles_[a].mass);
+        }
+  };
+  std::vector<std::size_t> first(rows_.size());
+  for (std::size_t r = 0; r < rows_.size(); ++r) first[r] = r;
+  each_entry([&](std::size_t i, std::size_t j, double) { first[i] = std::min(first[i], j); });
+  matrix_ = EnvelopeCholesky(std::move(first));
+  each_entry([&](std::size_t i, std::size_t j, double entry) { matrix_.at(i, j) += entry; });
+  matrix_.factorise();
+}
+
+double SurfaceHold::value(Row const& row, FieldRef const& field) const {
+  double sum = 0;
+  for (int c = 0; c < D_; ++c) {
+    double const part = row.direction[static_cast<std::size_t>(c)];
+    if (part == 0) continue;
+    for (std::size_t k = row.first; k < row.last; ++k)
+      sum += part * weights_[k].weight * value_at(field, particles_[weights_[k].particle].slot, c);
+  }
+  return sum;
+}
+
+/// lambda that gives the places their wanted(row) of a field; particles have theirs.
+template <class Of>
+std::vector<double> SurfaceHold::solved(FieldRef const& field, Of const& wanted) const {
+  std::vector<double> lambda(rows_.size(), 0);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    if (!rows_[r].of_place) continue;
+    lambda[r] = wanted(*rows_[r].held) - value(rows_[r], field);
+  }
+  matrix_.solve(lambda);
+  return lambda;
+}
+
+/// Adds M^-1 C^T lambda.
+void SurfaceHold::add(std::vector<double> const& lambda, FieldRef const& to) const {
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (int c = 0; c < D_; ++c) {
+      double const part = lambda[r] * rows_[r].direction[static_cast<std::size_t>(c)];
+      for (std::size_t k = rows_[r].first; part != 0 && k < rows_[r].last; ++k) {
+        Particle const& p = particles_[weights_[k].particle];
+        value_at(to, p.slot, c) += part * weights_[k].weight / p.mass;
+      }
+    }
+}
+
+void SurfaceHold::set_velocity(FieldRef const& v) const {
+  if (rows_.empty()) return;
+  add(solved(v, [](HeldDirection const& h) { return h.speed; }), v);
+}
+
+void SurfaceHold::kick_first(FieldRef const& v, FieldRef const& rate, double dt) {
+  if (rows_.empty()) return;
+  for (Row& row : rows_) {
+    if (!row.of_place) continue;
+    double const now = value(row, v);
+    row.held->mean_speed = 0.5 * (now + row.held->speed);
+    row.held->at_start = 2 * (row.held->mean_speed - now) / dt;  // the acceleration that is wanted, for now
+  }
+  auto const lambda = solved(rate, [](HeldDirection const& h) { return h.at_start; });
+  add(lambda, rate);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    HeldDirection& h = *rows_[r].held;
+    double const change = 0.5 * dt * lambda[r] / h.mass;
+    if (rows_[r].of_place) h.at_start = h.work = 0;
+    h.at_start += change;
+    h.work += h.mass * change * h.mean_speed;
+  }
+}
+
+void SurfaceHold::kick_last(FieldRef const& v) {
+  if (rows_.empty()) return;
+  auto const lambda = solved(v, [](HeldDirection const& h) { return h.speed; });
+  add(lambda, v);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    HeldDirection& h = *rows_[r].held;
+    double const change = lambda[r] / h.mass;
+    if (rows_[r].of_place) h.at_end = 0;
+    h.at_end += change;
+    h.work += h.mass * change * h.mean_speed;
+  }
+}
+
+void SurfaceHold::end_step(FieldRef const& x, double& work) {
+  if (!empty()) driven_.end_step(places_at(x), work);
+}
+
+void SurfaceHold::keep_velocity(FieldRef const& x, FieldRef const& v, double& work) {
+  if (rows_.empty()) return;
+  auto const lambda = solved(v, [](HeldDirection const& h) { return h.speed; });
+  add(lambda, v);
+  FieldRef const at = places_at(x);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    HeldDirection const& h = *rows_[r].held;
+    Point impulse = rows_[r].direction;
+    for (double& c : impulse) c *= lambda[r];
+    auto const support = static_cast<std::size_t>(h.support);
+    driven_.add_impulse(support, rows_[r].of_place ? point_at(at, h.slot, D_) : point_at(x, h.slot, D_), impulse);
+    work += lambda[r] * h.speed;
+  }
+}
+
+double SurfaceHold::square_of_held(FieldRef const& rate) const {
+  if (rows_.empty()) return 0;
+  std::vector<double> values, lambda;
+  for (Row const& row : rows_) values.push_back(value(row, rate));
+  lambda = values;
+  matrix_.solve(lambda);
+  double sum = 0;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    sum += lambda[r] * values[r];
+    if (!rows_[r].of_place) sum -= rows_[r].held->mass * values[r] * values[r];
+  }
+  return sum;
+}
+
+std::size_t SurfaceHold::bytes() const {
+  return matrix_.bytes() + weights_.size() * sizeof(Weight) + rows_.size() * sizeof(Row) +
+         particles_.size() * sizeof(Particle) + places_.size() * sizeof(Place) +
+         place_coordinates_.size() * sizeof(double);
+}
+
+}  // namespace piola

@@ -1,0 +1,407 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tries every cell of docs/user/features.md: a tiny case runs a few steps where a cell says "yes", and shows an effect;
+it is refused with exit status 2 and a message where the cell says "no".
+
+Usage: features_test.py            compares with the page
+       features_test.py --show     prints what happens, cell by cell
+"""
+import concurrent.futures
+import copy
+import hashlib
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(os.environ["PIOLA_SOURCE_DIR"])
+PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
+PAGE = ROOT / "docs/user/features.md"
+FORMULATIONS = ("nodal", "jst_sph", "taylor_sph", "adaptle")
+LAWS = {"nodal": "neo_hookean", "jst_sph": "neo_hookean", "taylor_sph": "linear_elastic", "adaptle": "elastic"}
+STEEL = {"density": 7800, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+YIELD = STEEL | {"yield_stress": 2e8}
+HARDENS = YIELD | {"hardening_coefficient": 2e8, "hardening_exponent": 0.5, "melting_temperature": 1800}
+
+SPALL = {"spall_pressure": 1e8, "spall": "hydrostatic"}
+
+
+# Small bodies. Sizes are in units of the spacing, 0.1 m.
+
+def box(low, high):
+    return {"box": {"min": [0.1 * x for x in low], "max": [0.1 * x for x in high]}, "spacing": 0.1}
+
+
+def body(formulation, shape=None, name="block", **more):
+    law = {"law": LAWS[formulation], "density": 1000, "youngs_modulus": 1e7, "poissons_ratio": 0.3}
+    return {"name": name, "shape": shape or box([0, 0], [8, 5]), "material": law,
+            "formulation": {"name": formulation}, "initial_velocity": ["Y", "0"]} | more
+
+
+def case(*bodies, **more):
+    """Steps are the same with and without an ability, so that a shorter step is not taken for an effect."""
+    return {"title": "tiny", "run": {"end": 8e-3, "max_step": 1e-4, "threads": 1}, "body": list(bodies)} | more
+
+
+def plain(formulation):
+    return case(body(formulation))
+
+
+def two(formulation, other=None, gap=0.1, speed=10):
+    """Two blocks, the right one on its way to the left one."""
+    cells = {"placement": "cell_centred"}
+    left = body(formulation, box([0, 0], [4, 4]) | cells, "left", initial_velocity=["0", "0"])
+    right = body(other or formulation, box([4 + gap, 0], [8 + gap, 4]) | cells, "right",
+                 initial_velocity=[f"{-speed}", "0"])
+    for one in (left, right):
+        if one["formulation"]["name"] == "adaptle":
+            one["formulation"]["description"] = "total_lagrangian"
+    return case(left, right)
+
+
+def falling(formulation):
+    """A block that comes down on a floor at y = 0."""
+    block = body(formulation, box([0, 0.5], [8, 5.5]), initial_velocity=["5", "-10"])
+    if formulation == "adaptle":
+        block["formulation"]["description"] = "total_lagrangian"
+    return case(block)
+
+
+# Each ability: from the name of a formulation to (the case with it, the case without it or None).
+
+def with_body(**more):
+    def make(formulation):
+        made = plain(formulation)
+        made["body"][0] |= more
+        return made, plain(formulation)
+    return make
+
+
+def with_case(**more):
+    return lambda formulation: (plain(formulation) | more, plain(formulation))
+
+
+def with_run(**more):
+    def make(formulation):
+        made = plain(formulation)
+        made["run"] |= more
+        return made, plain(formulation)
+    return make
+
+
+def material(*, without=None, **given):
+    """A metal or another law, whose waves are fast, as it is drawn out; the same material without some of it."""
+    def metal(formulation, words):
+        made = plain(formulation)
+        made["body"][0] |= {"material": words, "initial_velocity": ["500*X", "0"]}
+        made["run"] |= {"end": 1e-4, "max_step": 1e-6}
+        return made
+    return lambda formulation: (metal(formulation, given), without and metal(formulation, without))
+
+
+def metal(**given):
+    """A metal that yields; without: only that."""
+    return material(law="perfectly_plastic", **YIELD, **given, without={"law": "perfectly_plastic", **YIELD})
+
+
+def setting(**given):
+    def make(formulation):
+        made = plain(formulation)
+        made["body"][0]["formulation"] |= given
+        return made, None
+    return make
+
+
+def description(names):
+    """The setting that makes the description, where there is one: {formulation: settings}."""
+    def make(formulation):
+        return setting(**names.get(formulation, {"description": "none"}))(formulation)
+    return make
+
+
+def shape(**given):
+    return lambda formulation: (case(body(formulation, dict(given))), None)
+
+
+def support(**given):
+    def make(formulation):
+        held = {"body": "block", "where": "X <= 0.01", "fix": "xy"} | given
+        return plain(formulation) | {"support": [held]}, plain(formulation)
+    return make
+
+
+def parts(formulation):
+    """A block whose right half is stiffer."""
+    made = plain(formulation)
+    other = made["body"][0]["material"] | {"youngs_modulus": 4e7}
+    made["region"] = [{"name": "right", "where": "X > 0.42"}]
+    made["body"][0]["part"] = [{"where": "right", "material": other}]
+    return made, plain(formulation)
+
+
+def compared(make, **without):
+    """The same with something else in the support instead of what it had."""
+    def both(formulation):
+        made, _ = make(formulation)
+        other = copy.deepcopy(made)
+        for key, value in without.items():
+            other["support"][0].pop(key, None)
+            if value is not None:
+                other["support"][0][key] = value
+        return made, other
+    return both
+
+
+def multipliers(formulation):
+    made, _ = support()(formulation)
+    other = copy.deepcopy(made)
+    made["body"][0]["formulation"]["supports"] = "multipliers"
+    return made, other
+
+
+def load(**given):
+    return with_case(load=[{"body": "block"} | given])
+
+
+def contact(other=None, **table):
+    def make(formulation):
+        made = two(formulation, other)
+        if table:
+            made["contact"] = table
+        return made, two(formulation, other) | {"contact": {"law": "none"}}
+    return make
+
+
+def friction(formulation):
+    made = two(formulation)
+    for one, speed in zip(made["body"], ("0", "-10")):
+        one["initial_velocity"] = [speed, "5" if speed != "0" else "0"]
+    return made | {"contact": {"law": "surface", "friction": 0.5}}, made | {"contact": {"law": "surface"}}
+
+
+def own(formulation):
+    """A block with a slit that closes."""
+    slit = [{"box": {"min": low, "max": high}} for low, high in (([0, 0], [1, 1]), ([0.2, 0.45], [1.1, 0.55]))]
+    block = body(formulation, {"difference": slit, "spacing": 0.1}, initial_velocity=["0", "Y > 0.5 ? -20 : 20"])
+    if formulation == "adaptle":
+        block["formulation"]["description"] = "total_lagrangian"
+    if formulation == "taylor_sph":  # refuses the packed cloud, too
+        block["shape"] = box([0, 0], [8, 5])
+    return case(block) | {"contact": {"law": "surface", "self": True}}, case(block)
+
+
+def rigid(**given):
+    def make(formulation):
+        floor = {"name": "floor", "box": {"min": [-1, -0.5], "max": [2, 0]}} | given
+        return falling(formulation) | {"rigid": [floor]}, falling(formulation)
+    return make
+
+
+def rigid_friction(formulation):
+    made, _ = rigid()(formulation)
+    return made | {"contact": {"law": "surface", "friction": 0.5}}, made | {"contact": {"law": "surface"}}
+
+
+def tie(**given):
+    def make(formulation):
+        made = two(formulation, gap=0.0, speed=-1)
+        return made | {"tie": [{"between": ["left", "right"]} | given], "contact": {"law": "none"}}, \
+            made | {"contact": {"law": "none"}}
+    return make
+
+
+def crack(formulation):
+    made = plain(formulation) | {"load": [{"body": "block", "face": "+y", "traction": ["0", "1e5"]}]}
+    made["body"][0] |= {"shape": box([0, 0], [8, 6])}
+    return made | {"crack": [{"body": "block", "from": [0, 0.3], "to": [0.4, 0.3]}]}, made
+
+
+def follows(formulation):
+    made = plain(formulation) | {"load": [{"body": "block", "face": "+x", "pressure": "1e6", "follows": True}]}
+    made["body"][0]["initial_velocity"] = ["-30*Y", "30*X"]
+    other = copy.deepcopy(made)
+    other["load"][0]["follows"] = False
+    return made, other
+
+
+def bar(**settings):
+    def make(formulation):
+        made = case(body(formulation, box([0], [8]), initial_velocity=["X"]))
+        made["body"][0]["formulation"] |= settings
+        return made, None
+    return make
+
+
+def spinning_column(formulation):
+    return case(body(formulation, box([0, 0, 0], [4, 3, 3]), initial_velocity=["0", "-Z", "Y"])), None
+
+
+FEATURES = {
+    "one dimension": bar(),
+    "one dimension, uniaxial stress": bar(assumption="uniaxial_stress"),
+    "two dimensions, plane strain": lambda f: (plain(f), None),
+    "two dimensions, plane stress": setting(assumption="plane_stress"),
+    "three dimensions": spinning_column,
+    "total Lagrangian": description({"nodal": {}, "jst_sph": {}, "adaptle": {"description": "total_lagrangian"}}),
+    "updated Lagrangian or Eulerian": description({"taylor_sph": {"configuration": "updated"},
+                                                   "adaptle": {"description": "eulerian"}}),
+    "from one to the other where material is torn": description({"adaptle": {"description": "adaptive",
+                                                                             "convert_strain": 0.1}}),
+    "`linear_elastic`": material(law="linear_elastic", **STEEL),
+    "`neo_hookean`": material(law="neo_hookean", **STEEL),
+    "`mooney_rivlin`": material(law="mooney_rivlin", **STEEL),
+    "`saint_venant_kirchhoff`": material(law="saint_venant_kirchhoff", **STEEL),
+    "`compressible_neo_hookean`": material(law="compressible_neo_hookean", **STEEL),
+    "`elastic`": material(law="elastic", **STEEL),
+    "`perfectly_plastic`": material(law="perfectly_plastic", **YIELD),
+    "`isotropic_hardening`": material(name="copper_linear_hardening"),
+    "`johnson_cook`": material(name="copper_ofhc"),
+    "`zerilli_armstrong`": material(law="zerilli_armstrong", **STEEL, athermal_stress=2e8, thermal_softening=0.002,
+                                    thermal_rate=1e-4),
+    "`johnson_holmquist`, glass and ceramics": material(name="soda_lime_glass"),
+    "equations of state: `stiffened_gas`": metal(eos="stiffened_gas", adiabatic_exponent=4),
+    "equations of state: `mie_grueneisen`": metal(eos="mie_grueneisen", grueneisen_gamma=2, hugoniot_s1=1.5),
+    "equations of state: `polynomial`": metal(eos="polynomial", c2=1e12),
+    "explosives (`jwl`)": material(name="composition_b"),
+    "heating by plastic work": material(law="johnson_cook", **HARDENS, specific_heat=1,
+                                        without={"law": "johnson_cook", **HARDENS}),
+    "damage": metal(damage="johnson_cook", d1=0.001, melting_temperature=1800),
+    "tension cut off at a limit": metal(spall_pressure=1e8),
+    "spall that opens a gap": material(law="perfectly_plastic", **YIELD, **SPALL,
+                                       without={"law": "perfectly_plastic", **YIELD, "spall_pressure": 1e8}),
+    "scatter of what particles bear": material(law="perfectly_plastic", **YIELD, **SPALL, weibull_modulus=10,
+                                               without={"law": "perfectly_plastic", **YIELD, **SPALL}),
+    "box": lambda f: (plain(f), None),
+    "disc or ball": shape(sphere={"centre": [0, 0], "radius": 0.4}, spacing=0.1),
+    "hole": shape(sphere={"centre": [0, 0], "radius": 0.6, "inner_radius": 0.2}, spacing=0.1),
+    "disc of circles of particles": shape(sphere={"centre": [0, 0], "radius": 0.4, "arrangement": "rings"},
+                                          spacing=0.1),
+    "combined shapes, packed": shape(difference=[{"box": {"min": [0, 0], "max": [1, 0.6]}},
+                                                 {"sphere": {"centre": [0.5, 0.3], "radius": 0.15}}], spacing=0.1),
+    "irregular particles (`jitter`)": shape(**box([0, 0], [8, 5]), jitter=0.2),
+    "particles at random places": shape(**box([0, 0], [8, 5]), placement="random"),
+    "several materials in one body": parts,
+    "initial velocity": with_body(initial_velocity=["3*Y", "0"]),
+    "initial displacement": with_body(initial_displacement=["0.01*X", "0"]),
+    "initial deformation gradient": with_body(initial_deformation_gradient=[["1.01", "0"], ["0", "1"]]),
+    "supports that hold": support(),
+    "supports that drive": compared(support(velocity=["5", "0"]), velocity=None),
+    "supports that let go": compared(support(until=1e-3), until=None),
+    "rollers along the axes": compared(support(fix="y"), fix="xy"),
+    "rollers on oblique planes": support(normal=[1, 1], fix="normal"),
+    "exact boundary values by multipliers": multipliers,
+    "mirror planes": with_case(mirror=[{"body": "block", "face": "-x"}]),
+    "tractions": load(face="+x", traction=["1e5", "0"]),
+    "pressure": load(face="+x", pressure="1e5"),
+    "pressure that follows the deformed face": follows,
+    "body forces, gravity": load(acceleration=["0", "-9.81"]),
+    "damping": with_run(damping=100),
+    "relaxation to rest": with_run(relax=True),
+    "bodies that meet": contact(),
+    "bodies that meet one of another formulation": lambda f: contact(other="jst_sph" if f == "nodal" else "nodal")(f),
+    "friction between bodies": friction,
+    "a body that touches itself": own,
+    "rigid shapes": rigid(),
+    "friction on rigid shapes": rigid_friction,
+    "rigid shapes that are driven": rigid(velocity=["0", "10"]),
+    "free rigid bodies": rigid(motion="free", mass=100),
+    "ties": tie(),
+    "cohesive zones": tie(strength=1e5, toughness=1000),
+    "cracks": crack,
+}
+
+
+# Cases as text, and running them.
+
+def toml(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(one)}" for key, one in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(toml(one) for one in value) + "]"
+    return f'"{value}"' if isinstance(value, str) else repr(value)
+
+
+def text_of(tables):
+    return "".join(f"{key} = {toml(value)}\n" for key, value in tables.items())
+
+
+def run(folder, text):
+    """(exit status, message, history) of a case."""
+    place = Path(folder) / hashlib.sha1(text.encode()).hexdigest()
+    file = place.with_suffix(".toml")
+    file.write_text(text)
+    done = subprocess.run([PROGRAM, "run", file, "--quiet", "--force", "--out", place], capture_output=True,
+                          text=True, timeout=120, check=False)
+    history = place / "history.csv"
+    return done.returncode, done.stderr.strip(), history.read_text() if history.exists() else ""
+
+
+def energies(history):
+    """Rows of the columns that every run has."""
+    lines = [line.split(",") for line in history.splitlines()]
+    columns = [k for k, name in enumerate(lines[0]) if re.match(r"(kinetic|strain)_energy|linear_momentum", name)]
+    return [[line[k] for k in columns] for line in lines]
+
+
+class Happened:
+    """What a formulation makes of an ability: yes, no, ignored (it runs, without an effect) or fails."""
+
+    def __init__(self, made, without):
+        self.status, self.message, history = made
+        self.word = {0: "yes", 2: "no"}.get(self.status, "fails")
+        if self.word == "yes" and without is not None:
+            status, message, plainly = without
+            if status != 0:
+                self.word, self.message = "fails", f"without it: {message}"
+            elif energies(plainly) == energies(history):
+                self.word = "ignored"
+
+
+def try_all():
+    """{(ability, formulation): Happened}; each case runs once."""
+    pairs = {(ability, one): [made and text_of(made) for made in FEATURES[ability](one)]
+             for ability in FEATURES for one in FORMULATIONS}
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        runs = {text: pool.submit(run, folder, text) for pair in pairs.values() for text in pair if text}
+        return {key: Happened(*(text and runs[text].result() for text in pair)) for key, pair in pairs.items()}
+
+
+def told():
+    """{ability: {formulation: the cell's text}} of the page."""
+    cells = {}
+    for line in PAGE.read_text().splitlines():
+        row = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if line.startswith("|") and len(row) == 5 and row[0] and not row[0].startswith("--"):
+            cells[row[0]] = dict(zip(FORMULATIONS, row[1:]))
+    return cells
+
+
+def main(arguments):
+    if not os.access(PROGRAM, os.X_OK):
+        print("skipped: the program is not built")
+        return 77
+    happened = try_all()
+    if arguments == ["--show"]:
+        for (ability, one), what in happened.items():
+            print(f"{ability} | {one} | {what.word} | {' '.join(what.message.split())[:300]}")
+        return 0
+    cells, wrong = told(), 0
+    for ability in dict.fromkeys([*cells, *FEATURES]):
+        if ability not in cells or ability not in FEATURES:
+            print(f"{ability}: {'no row of the page' if ability not in cells else 'no case tries it'}")
+            wrong += 1
+            continue
+        for one in FORMULATIONS:
+            what, word = happened[ability, one], re.match(r"\**(\w+)", cells[ability][one])[1]
+            if what.word != word:
+                print(f"{ability}, {one}: the page says {word}, it is {what.word}: {what.message[:300]}")
+                wrong += 1
+    print(f"features_test: {len(happened)} cells tried, {wrong} wrong")
+    return 1 if wrong or not cells else 0
+
+
+sys.exit(main(sys.argv[1:]))
