@@ -37,6 +37,10 @@ check test -s bar-results/report.html
 expect 0 "5 frames in page/bar.html" "$program" report bar-results --follow -o page/bar.html # the run has ended
 expect 2 'did you mean "Pressure"' "$program" report bar-results --fields Presure
 expect 2 "holds no run" "$program" report page
+# A new run takes the page of the run before with it.
+cp -r bar-results anew
+expect 0 "" "$program" run bar.toml --quiet --out anew --set run.end='"1 ms"'
+check test ! -e anew/report.html
 expect 0 "completed, t = 20 ms" "$program" watch bar-results
 expect 0 "top.displacement x from" "$program" watch bar-results top.displacement_x --once
 expect 2 'did you mean "top.displacement_x"' "$program" watch bar-results top.displacement_y
