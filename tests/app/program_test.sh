@@ -37,6 +37,8 @@ check test -s bar-results/report.html
 expect 0 "5 frames in page/bar.html" "$program" report bar-results --follow -o page/bar.html # the run has ended
 expect 2 'did you mean "Pressure"' "$program" report bar-results --fields Presure
 expect 2 "holds no run" "$program" report page
+expect 2 "end in .html" "$program" report bar-results --out bar.toml
+expect 2 "end in .html" "$program" verify --report bar.toml
 # A new run takes the page of the run before with it.
 cp -r bar-results anew
 expect 0 "" "$program" run bar.toml --quiet --out anew --set run.end='"1 ms"'
