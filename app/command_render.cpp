@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/units.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/simulation/render.hpp"
@@ -6,6 +7,7 @@
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "streams.hpp"
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <functional>
@@ -15,15 +17,41 @@ namespace piola::app {
 namespace {
 
 struct RenderArguments {
-  std::string folder, field = "Pressure", component, up = "auto", out;
-  std::vector<double> range, view{30, 20};
-  std::vector<int> size{1000, 800};
+  std::string folder, component, out, times;
+  std::vector<std::string> folders, fields{"Pressure"};
+  bool side_by_side = false;
+  std::vector<double> range, look_at;
+  std::vector<std::string> view;
+  std::vector<int> size;
+  bool no_labels = false;
+  FilmOptions film;
+  LookOptions look;
   std::vector<std::size_t> frames;
   bool last = false, shape = false, patches = false;
   std::size_t every = 1;
   CaseOptions with;
-  bool view_given = false, size_given = false;
+  std::vector<std::string> as;
+  std::vector<double> cut;
+  bool ghost = false, no_outline = false;
 };
+
+/// From words to numbers.
+LookOptions look_of(RenderArguments const& options) {
+  LookOptions look = options.look;
+  if (options.view.size() == 1) look.named_view = options.view[0];
+  if (options.view.size() == 2) {
+    double azimuth = 0, elevation = 0;
+    if (!CLI::detail::lexical_cast(options.view[0], azimuth) || !CLI::detail::lexical_cast(options.view[1], elevation))
+      throw InputError(
+          fmt::format("--view: {} {} is no direction (allowed: two angles in degrees, or a name) - e.g. 30 20",
+                      options.view[0], options.view[1]));
+    look.view = std::array{azimuth, elevation};
+  }
+  if (!options.look_at.empty()) look.look_at = std::array{options.look_at[0], options.look_at[1], options.look_at[2]};
+  if (!options.size.empty()) look.size = std::array{options.size[0], options.size[1]};
+  if (options.no_labels) look.labels = false;
+  return look;
+}
 
 /// The bodies of a case instead of the frames of a run.
 int render_shape(RenderArguments const& options) {
@@ -35,39 +63,160 @@ int render_shape(RenderArguments const& options) {
   PackingLine line(false);
   CaseSpec const spec =
       read_case(case_file(options.folder), options.with.overrides(), {.packing = std::ref(line)}, &particles);
-  ShapePictureOptions what{.up = options.up, .patches = options.patches};
-  if (options.view_given) what.view = {options.view[0], options.view[1]};
-  if (options.size_given) what.size = {options.size[0], options.size[1]};
+  ShapePictureOptions const what{.look = look_of(options), .patches = options.patches};
   if (out.has_parent_path()) make_folder(out.parent_path());
   write_png(out, draw_shape(spec, particles, what));
   say("the bodies are drawn to {}\n", out.string());
   return completed;
 }
 
-int render(RenderArguments const& options) {
+/// "10 ms, 20 ms" in seconds.
+std::vector<double> times_of(std::string const& text) {
+  std::vector<double> times;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    std::size_t const end = std::min(text.find(',', from), text.size());
+    std::string part = text.substr(from, end - from);
+    part.erase(0, part.find_first_not_of(' '));
+    Quantity const time = read_quantity(part, "s");
+    if (time.problem) throw InputError(fmt::format("--times: {} - e.g. \"10 ms, 20 ms\"", *time.problem));
+    times.push_back(time.value);
+    from = end + 1;
+  }
+  return times;
+}
+
+/// What is said of one field.
+void check_fields(RenderArguments const& options) {
+  bool const more = options.fields.size() > 1;
+  if (more && (!options.component.empty() || !options.range.empty() || !options.times.empty() || options.side_by_side))
+    throw InputError(
+        "--field: there are several (allowed with --component, --range, --times, --side-by-side: one) - "
+        "choose one");
+}
+
+/// The first folder is the one that is drawn.
+void check_folders(RenderArguments const& options) {
+  if (options.side_by_side && options.folders.size() < 2)
+    throw InputError("--side-by-side: there is one folder only (allowed: two or more) - name the others, too");
+  if (!options.side_by_side && options.folders.size() > 1)
+    throw InputError(fmt::format("{} folders are given (allowed: one, or more with --side-by-side) - choose one",
+                                 options.folders.size()));
+}
+
+int render(RenderArguments const& given) {
+  check_folders(given);
+  check_fields(given);
+  RenderArguments options = given;
+  options.folder = given.folders.front();
   if (options.shape) return render_shape(options);
-  RenderOptions what{.field = options.field,
+  RenderOptions what{.field = options.fields.front(),
                      .range = {},
-                     .view = {options.view[0], options.view[1]},
-                     .width = options.size[0],
-                     .height = options.size[1],
+                     .look = look_of(options),
                      .component = options.component,
-                     .up = options.up,
                      .out = options.out,
                      .only = options.frames,
                      .last = options.last,
-                     .every = options.every};
+                     .every = options.every,
+                     .more_fields = {options.fields.begin() + 1, options.fields.end()},
+                     .beside = {options.folders.begin() + 1, options.folders.end()}};
+  what.as = options.as;
+  what.outline = !options.no_outline;
+  if (!options.cut.empty()) {
+    auto const& c = options.cut;
+    what.cut = CutPlane{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
+  }
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
+  if (!options.film.file.empty()) {
+    if (options.film.file.has_parent_path()) make_folder(options.film.file.parent_path());
+    std::size_t const count = render_film(options.folder, what, options.film);
+    say("a film of {} pictures is drawn to {}\n", count, options.film.file.string());
+    return completed;
+  }
+  if (!options.times.empty()) {
+    say("the picture is drawn to {}\n", render_times(options.folder, what, times_of(options.times)).string());
+    return completed;
+  }
   auto const paths = render_frames(options.folder, what);
   say("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
       paths.empty() ? "none" : paths.back().string());
   return completed;
 }
 
+/// What is not given is as the case in the folder has it for its pictures.
+void add_look_options(CLI::App& command, RenderArguments& options) {
+  LookOptions& look = options.look;
+  command
+      .add_option("--view", options.view,
+                  "Azimuth and elevation in degrees, or x, y, z, -x, -y, -z, iso, iso2 (default: as the case has it)")
+      ->expected(1, 2);
+  command.add_option("--up", look.up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: as the case has it")
+      ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
+      ->capture_default_str();
+  command.add_option("--roll", look.roll, "Angle in degrees by which the picture is turned, anticlockwise")
+      ->check(CLI::Range(-360, 360));
+  command.add_option("--zoom", look.zoom, "2 shows all twice as large")->check(CLI::Range(0.01, 1000.0));
+  command.add_option("--perspective", look.perspective, "Angle of view in degrees; 0: parallel lines stay parallel")
+      ->check(CLI::Range(0.0, 120.0));
+  command.add_option("--look-at", options.look_at, "The point in the middle, in m")->expected(3);
+  command.add_option("--follow", look.follow, "Name of a body that stays in the middle and fills the picture");
+  command
+      .add_option("--map", look.map, "Colours: auto, viridis, cividis, magma, grey, blue_red, blue_brown, heat_on_grey")
+      ->check(CLI::IsMember(std::vector<std::string>(palette_words.begin(), palette_words.end())));
+  command.add_option("--theme", look.theme, "Background and letters: light, dark, transparent")
+      ->check(CLI::IsMember(std::vector<std::string>(theme_words.begin(), theme_words.end())));
+  command.add_flag("--no-labels", options.no_labels, "Only the bodies: no title, time, colour bar, axes, scale bar");
+  command
+      .add_option("--size", options.size,
+                  "Width and height in pixels (default: as the case has it, else as what is shown needs it)")
+      ->expected(2)
+      ->check(CLI::Range(200, 20000));
+}
+
+void add_film_options(CLI::App& command, RenderArguments& options) {
+  auto* const film = command.add_option(
+      "--film", options.film.file, "Draw a film in place of pictures: NAME.webp, or NAME.mp4 by the program ffmpeg");
+  command.add_option("--fps", options.film.pictures_per_second, "With --film: pictures per second (default: 20)")
+      ->check(CLI::Range(0.1, 120.0))
+      ->needs(film);
+  command.add_option("--seconds", options.film.seconds, "With --film: its length in seconds")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->needs(film);
+  command.add_option("--hold-end", options.film.hold_end, "With --film: how long the last picture stays, in seconds")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str()
+      ->needs(film);
+  film->excludes(command.get_option("--out"));
+  auto* const beside =
+      command.add_flag("--side-by-side", options.side_by_side, "Draw several runs beside each other, at equal times");
+  command
+      .add_option("--times", options.times,
+                  "Draw the frames nearest to these times into one picture, e.g. \"10 ms, 20 ms, 40 ms\"")
+      ->excludes(film)
+      ->excludes(beside)
+      ->excludes(command.get_option("--frame"))
+      ->excludes(command.get_option("--last"))
+      ->excludes(command.get_option("--every"));
+}
+
+void add_appearance_options(CLI::App& command, RenderArguments& options) {
+  command
+      .add_option("--as", options.as,
+                  "How bodies are drawn: auto, skin, balls, points, none; BODY=skin for one body; also several")
+      ->allow_extra_args(false);
+  auto* const cut = command.add_option("--cut", options.cut,
+                                       "Cuts bodies open: a point of the plane [m] and its normal, six numbers; what "
+                                       "the normal points to is taken away");
+  cut->expected(6);
+  command.add_flag("--ghost", options.ghost, "With --cut: what is taken away stays as a shade")->needs(cut);
+  command.add_flag("--no-outline", options.no_outline, "No dashed lines where the edges of bodies were");
+}
+
 void add_shape_options(CLI::App& command, RenderArguments& options) {
   auto* const shape =
       command.add_flag("--shape", options.shape, "Draw the bodies of a case as they stand before anything runs");
-  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every"})
+  for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every", "--film",
+                                      "--side-by-side", "--times", "--as", "--cut", "--no-outline"})
     shape->excludes(command.get_option(of_frames));
   command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
   options.with.add_to(command, false);
@@ -80,20 +229,18 @@ void add_render(CLI::App& program, Action& action) {
   auto const options = std::make_shared<RenderArguments>();
   CLI::App* command =
       program.add_subcommand("render", "Draw pictures from the frames of a run, or the bodies of a case");
-  command->add_option("folder", options->folder, "The results folder of the run; with --shape the case")->required();
+  command->add_option("folder", options->folders, "The results folder of the run; with --shape the case")->required();
   command
-      ->add_option("--field", options->field, "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress")
+      ->add_option("--field", options->fields,
+                   "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress; given several times, "
+                   "the pictures stand beside each other")
+      ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--component", options->component,
                       "Component of a vector (x, y, z) or tensor (xx, xy, ...); default: length, von Mises stress");
   command
       ->add_option("--range", options->range, "Lowest and highest value of the colours, in SI (default: of all frames)")
       ->expected(2);
-  auto* const view = command->add_option("--view", options->view, "Azimuth and elevation in degrees");
-  view->expected(2)->capture_default_str();
-  command->add_option("--up", options->up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: as the case has it")
-      ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
-      ->capture_default_str();
   auto* const frames =
       command->add_option("--frame", options->frames, "Draw this frame only, counted from 0; also several");
   auto* const last = command->add_flag("--last", options->last, "Draw the last frame only")->excludes(frames);
@@ -103,14 +250,11 @@ void add_render(CLI::App& program, Action& action) {
       ->excludes(last);
   command->add_option("--out,-o", options->out,
                       "Folder of the pictures (default: pictures in the results folder); with --shape the picture");
-  auto* const size = command->add_option("--size", options->size, "Width and height in pixels");
-  size->expected(2)->check(CLI::Range(200, 20000))->capture_default_str();
+  add_look_options(*command, *options);
+  add_film_options(*command, *options);
+  add_appearance_options(*command, *options);
   add_shape_options(*command, *options);
-  command->callback([options, view, size, &action] {
-    options->view_given = view->count() > 0;
-    options->size_given = size->count() > 0;
-    action = [options] { return render(*options); };
-  });
+  command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 
 }  // namespace piola::app

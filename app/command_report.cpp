@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/output/files.hpp"
+#include "piola/report/page.hpp"
 #include "piola/report/report.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
@@ -50,6 +51,7 @@ int follow(ReportArguments const& options, std::filesystem::path const& out) {
 int write_page_of_run(ReportArguments options) {
   std::filesystem::path const out =
       options.out.empty() ? std::filesystem::path(options.folder) / "report.html" : std::filesystem::path(options.out);
+  report::require_page_name(out);
   if (out.has_parent_path()) make_folder(out.parent_path());
   options.what.budget = options.megabytes * 1e6;
   options.what.reload = options.follow ? follow_seconds : 0;

@@ -5,6 +5,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "piola/report/page.hpp"
 #include "piola/report/verification_page.hpp"
 #include "piola/simulation/verification_report.hpp"
 #include "commands.hpp"
@@ -102,12 +103,14 @@ void keep_the_last_picture(OutputSpec& output, double end) {
   constexpr int width = 500;
   if (output.pictures_every <= 0) return;
   output.pictures_every = end;
+  output.picture_scale = 0.5;
   if (output.picture_width <= width) return;
   output.picture_height = std::max(16, output.picture_height * width / output.picture_width);
   output.picture_width = width;
 }
 
 int run_verify(VerifyArguments const& options) {
+  if (!options.report.empty()) report::require_page_name(options.report);
   catch_stop_signals();
   std::unique_ptr<TemporaryFolder> scratch;
   if (options.out.empty()) scratch = std::make_unique<TemporaryFolder>();

@@ -87,7 +87,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libpiola-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # The static library needs the libraries that it stands on.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcairo2-dev, libhdf5-dev, libdeflate-dev, libfmt-dev, libmuparser-dev, \
-libpng-dev, libqhull-dev, libtomlplusplus-dev, libudunits2-dev, nlohmann-json3-dev")
+libpng-dev, libqhull-dev, libtomlplusplus-dev, libudunits2-dev, libwebp-dev, nlohmann-json3-dev")
 if(PIOLA_MESH)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libassimp-dev, libembree-dev")
 endif()

@@ -24,8 +24,8 @@ set(_input_sources ${_sources})
 list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")
 list(FILTER _sources EXCLUDE REGEX "/src/piola/input/")
 
-set(_outside Piola::cairo Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull Piola::udunits2 muparser::muparser
-             nlohmann_json::nlohmann_json)
+set(_outside Piola::cairo Piola::webpmux Piola::webp Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull
+             Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)
 if(PIOLA_MESH)
   list(APPEND _outside Piola::assimp Piola::embree)
 endif()

@@ -3,6 +3,7 @@
 
 include(GoogleTest)
 find_package(GTest REQUIRED)
+find_library(PIOLA_WEBPDEMUX_LIBRARY webpdemux REQUIRED)  # films are read back; comes with libwebp-dev
 find_package(rapidcheck REQUIRED)
 
 file(GLOB_RECURSE _sources CONFIGURE_DEPENDS
@@ -17,7 +18,7 @@ if(_sources)
     PIOLA_VERSION="${PROJECT_VERSION}" PIOLA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     $<$<TARGET_EXISTS:piola_app>:PIOLA_PROGRAM="$<TARGET_FILE:piola_app>">)
   target_link_libraries(piola_tests PRIVATE
-    piola piola_warnings piola_host GTest::gtest GTest::gtest_main rapidcheck
+    piola piola_warnings piola_host GTest::gtest GTest::gtest_main rapidcheck ${PIOLA_WEBPDEMUX_LIBRARY}
     Piola::hdf5 PNG::PNG nlohmann_json::nlohmann_json)
   if(TARGET piola_app)
     add_dependencies(piola_tests piola_app)

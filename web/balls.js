@@ -25,7 +25,8 @@ uniform vec3 low, cell;
 uniform float missing;
 uniform highp sampler2D bodies, colours;
 uniform vec4 cut;
-uniform int marked;
+uniform int marked, asPoints;
+uniform float pixels;
 out vec2 place;
 out vec3 middle;
 out vec3 colour;
@@ -35,14 +36,16 @@ void main() {
   vec3 q = vec3(qx, qy, qz), x = low + q * cell;
   bool gone = kind.g < 0.5 || qx == missing || qy == missing || qz == missing || dot(cut.xyz, x) > cut.w;
   colour = texelFetch(colours, ivec2(int(value), 0), 0).rgb;
-  radius = kind.r;
-  if (gl_InstanceID == marked) {
+  radius = max(kind.r, 0.75 / pixels);
+  if ((asPoints == 1 ? gl_VertexID : gl_InstanceID) == marked) {
     radius *= 1.6;
     colour = vec3(1.0, 0.1, 0.7);
   }
   place = corner;
   middle = turn * (x - target);
-  gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : project(middle + vec3(corner * radius, 0.0));
+  vec2 aside = asPoints == 1 ? vec2(0.0) : corner * radius;
+  gl_PointSize = 2.0 * radius * pixels * (eye == 0.0 ? 1.0 : eye / max(eye - middle.z, 0.02 * eye));
+  gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : project(middle + vec3(aside, 0.0));
 }`;
 
 const ballFragment = `#version 300 es
@@ -53,14 +56,16 @@ in vec3 middle;
 in vec3 colour;
 in float radius;
 uniform float flatness;
+uniform highp int asPoints;
 out vec4 pixel;
 void main() {
-  float rest = 1.0 - dot(place, place);
+  vec2 p = asPoints == 1 ? vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0) : place;
+  float rest = 1.0 - dot(p, p);
   if (rest < 0.0) discard;
   float z = sqrt(rest);
-  vec4 at = project(middle + vec3(place, z) * radius);
+  vec4 at = project(middle + vec3(p, z) * radius);
   gl_FragDepth = 0.5 + 0.5 * at.z / at.w;
-  float light = max(dot(vec3(place, z), normalize(vec3(-0.35, 0.5, 0.8))), 0.0);
+  float light = max(dot(vec3(p, z), normalize(vec3(-0.35, 0.5, 0.8))), 0.0);
   pixel = vec4(colour * mix(0.38 + 0.66 * light, 1.0, flatness), 1.0);
 }`;
 
@@ -120,45 +125,52 @@ function tableTexture(gl) {
   return texture;
 }
 
+/** Small balls are points, one vertex each; large ones, for which points have no size, are instances of a square. */
 class Balls {
   constructor(gl, bodies) {
     this.gl = gl;
     this.count = bodies.length;
+    this.largestPoint = Math.min(gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1], 48);
     Object.assign(this, programOf(gl, ballVertex, ballFragment));
-    this.array = gl.createVertexArray();
-    gl.bindVertexArray(this.array);
     this.buffers = {};
-    this.attribute("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), 2, gl.FLOAT, 0);
-    this.attribute("body", bodies, 1, gl.UNSIGNED_SHORT, 1);
+    for (const name of ["corner", "body", "qx", "qy", "qz", "value"]) this.buffers[name] = gl.createBuffer();
+    this.squares = this.arrayWith(1);
+    this.points = this.arrayWith(0);
+    this.fill("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
+    this.fill("body", bodies);
     this.kinds = tableTexture(gl);
     this.colours = tableTexture(gl);
   }
 
-  attribute(name, values, size, type, divisor) {
-    const gl = this.gl, place = gl.getAttribLocation(this.program, name);
-    this.buffers[name] = this.buffers[name] || gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name]);
-    gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
-    if (place < 0) return;
-    gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, size, type, false, 0, 0);
-    gl.vertexAttribDivisor(place, divisor);
+  /** Where the numbers of a particle lie; they belong to `divisor` instances, 0: to a vertex. */
+  arrayWith(divisor) {
+    const gl = this.gl, array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    for (const [name, buffer] of Object.entries(this.buffers)) {
+      const place = gl.getAttribLocation(this.program, name), corner = name === "corner";
+      if (place < 0 || (corner && divisor === 0)) continue;
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.enableVertexAttribArray(place);
+      const type = corner ? gl.FLOAT : name === "value" ? gl.UNSIGNED_BYTE : gl.UNSIGNED_SHORT;
+      gl.vertexAttribPointer(place, corner ? 2 : 1, type, false, 0, 0);
+      gl.vertexAttribDivisor(place, corner ? 0 : divisor);
+    }
+    return array;
+  }
+
+  fill(name, values) {
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffers[name]);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, values, this.gl.DYNAMIC_DRAW);
   }
 
   setFrame(frame, field) {
-    const gl = this.gl;
-    gl.bindVertexArray(this.array);
-    ["qx", "qy", "qz"].forEach((name, c) => this.attribute(name, frame.x[c], 1, gl.UNSIGNED_SHORT, 1));
-    this.setField(frame, field);
-  }
-
-  setField(frame, field) {
-    this.gl.bindVertexArray(this.array);
-    this.attribute("value", frame.fields[field] || new Uint8Array(this.count), 1, this.gl.UNSIGNED_BYTE, 1);
+    ["qx", "qy", "qz"].forEach((name, c) => this.fill(name, frame.x[c]));
+    this.fill("value", frame.fields[field] || new Uint8Array(this.count));
   }
 
   /** `radii`: of each body, in units of the scene; `shown`: whether it is drawn. */
   setBodies(radii, shown) {
+    this.largest = Math.max(...radii, 0);
     const gl = this.gl, values = new Float32Array(4 * radii.length);
     radii.forEach((radius, b) => values.set([radius, shown[b] ? 1 : 0, 0, 0], 4 * b));
     gl.bindTexture(gl.TEXTURE_2D, this.kinds);
@@ -188,8 +200,13 @@ class Balls {
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     gl.uniform1i(at.colours, 1);
     gl.activeTexture(gl.TEXTURE0);
-    gl.bindVertexArray(this.array);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+    const pixels = camera.pixels, near = camera.eye ? camera.eye / Math.max(camera.eye - 1, 0.05) : 1;
+    const asPoints = 2 * 1.6 * this.largest * pixels * near < this.largestPoint;
+    gl.uniform1f(at.pixels, pixels);
+    gl.uniform1i(at.asPoints, asPoints ? 1 : 0);
+    gl.bindVertexArray(asPoints ? this.points : this.squares);
+    if (asPoints) gl.drawArrays(gl.POINTS, 0, this.count);
+    else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
   }
 }
 
@@ -278,7 +295,8 @@ function sphereTriangles(radius) {
   };
   for (let i = 0; i < across; ++i)
     for (let j = 0; j < along; ++j)
-      numbers.push(...at(i, j), ...at(i, j + 1), ...at(i + 1, j + 1), ...at(i, j), ...at(i + 1, j + 1), ...at(i + 1, j));
+      numbers.push(...at(i, j), ...at(i, j + 1), ...at(i + 1, j + 1),
+        ...at(i, j), ...at(i + 1, j + 1), ...at(i + 1, j));
   return numbers;
 }
 
@@ -288,7 +306,8 @@ function cylinderTriangles(radius, half) {
   for (let i = 0; i < across; ++i) {
     const ring = [i, i + 1].map((k) => [Math.cos((2 * Math.PI * k) / across), Math.sin((2 * Math.PI * k) / across)]);
     const side = (k, x) => [x, radius * ring[k][0], radius * ring[k][1], 0, ...ring[k]];
-    numbers.push(...side(0, -half), ...side(1, -half), ...side(1, half), ...side(0, -half), ...side(1, half), ...side(0, half));
+    numbers.push(...side(0, -half), ...side(1, -half), ...side(1, half),
+      ...side(0, -half), ...side(1, half), ...side(0, half));
     for (const x of [-half, half]) {
       const cap = (k) => [x, radius * ring[k][0], radius * ring[k][1], Math.sign(x), 0, 0];
       numbers.push(x, 0, 0, Math.sign(x), 0, 0, ...cap(0), ...cap(1));

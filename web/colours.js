@@ -69,6 +69,7 @@ function roundValues(low, high, wanted) {
   const rough = (high - low) / Math.max(wanted, 1), power = Math.pow(10, Math.floor(Math.log10(rough)));
   const step = [1, 2, 5, 10].map((d) => d * power).find((s) => s >= rough * (1 - 1e-9));
   const values = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step && values.length < 50; ++k) values.push(k * step);
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step && values.length < 50; ++k)
+    values.push(k * step);
   return values;
 }

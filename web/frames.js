@@ -42,8 +42,8 @@ function sumOf(bytes, at, count) {
 }
 
 /**
- * One frame: x, three arrays of codes, and fields, arrays of bytes. `last` and `before` are the two frames before it, as
- * far as there are any since the key frame (then null).
+ * One frame: x, three arrays of codes, and fields, arrays of bytes. `last` and `before` are the two frames before it,
+ * null where there are none since the key frame.
  */
 function decodeFrame(bytes, particles, fieldCount, last, before) {
   const frame = { x: [], fields: [] };
@@ -60,13 +60,14 @@ function decodeFrame(bytes, particles, fieldCount, last, before) {
   }
   for (let f = 0; f < fieldCount; ++f) {
     const at = (6 + f) * particles, values = new Uint8Array(particles);
-    for (let i = 0; i < particles; ++i) values[i] = bytes[at + i] + (last ? last.fields[f][i] : i > 0 ? values[i - 1] : 0);
+    for (let i = 0; i < particles; ++i)
+      values[i] = bytes[at + i] + (last ? last.fields[f][i] : i > 0 ? values[i - 1] : 0);
     frame.fields.push(values);
   }
   return frame;
 }
 
-/** The frames of a page: unpacked when they are first wanted; the oldest are forgotten where memory would grow too much. */
+/** The frames of a page: unpacked when first wanted; the oldest are forgotten where memory would grow too much. */
 class FrameStore {
   /** `about`: the page's element "frames"; `take(name)`: the text of an element, which may be freed afterwards. */
   constructor(about, take) {
@@ -91,14 +92,15 @@ class FrameStore {
   }
 
   async decodeTo(k) {
-    const key = k - (k % this.about.key_every);
+    const key = k - (k % this.about.key_every), { particles, fields } = this.about;
+    const follows = (j) => this.known.has(j - 1) && (j - 1 === key || this.known.has(j - 2));
     let from = k;
-    while (from > key && !(this.known.has(from) || (this.known.has(from - 1) && (from - 1 === key || this.known.has(from - 2)))))
-      --from;
+    while (from > key && !this.known.has(from) && !follows(from)) --from;
     for (let j = from; j <= k; ++j) {
       if (this.known.has(j)) continue;
       const last = j > key ? this.known.get(j - 1) : null, before = j > key + 1 ? this.known.get(j - 2) : null;
-      this.keep(j, decodeFrame(await unpacked(this.bytes(j)), this.about.particles, this.about.fields.length, last, before));
+      const bytes = await unpacked(this.bytes(j));
+      this.keep(j, decodeFrame(bytes, particles, fields.length, last, before));
     }
     return this.known.get(k);
   }

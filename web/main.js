@@ -31,6 +31,12 @@ class Address {
   }
 }
 
+/** Whether values of a field lie below and above a range in any frame. */
+function beyondOf(field, low, high) {
+  const all = field.extremes.filter((ends) => ends[0] !== null);
+  return [all.some((ends) => ends[0] < low), all.some((ends) => ends[1] > high)];
+}
+
 class Page {
   constructor(about, frames, scene, store, address) {
     Object.assign(this, { about, frames, scene, store, address });
@@ -79,7 +85,8 @@ class Page {
     if (kind === "frame" && field.extremes[this.wanted] && field.extremes[this.wanted][0] !== null)
       [low, high] = field.extremes[this.wanted];
     if (kind === "typed") {
-      const typed = ["low", "high"].map((id) => Number(byId(id).value.replace("\u2212", "-").replace(",", ".")) * this.typedUnit.factor);
+      const number = (id) => Number(byId(id).value.replace("\u2212", "-").replace(",", ".")) * this.typedUnit.factor;
+      const typed = [number("low"), number("high")];
       if (typed.every(Number.isFinite) && typed[0] < typed[1]) [low, high] = typed;
     }
     const chosen = byId("map").value, around = low < 0 && high > 0 && Math.min(-low, high) > 0.1 * Math.max(-low, high);
@@ -122,16 +129,14 @@ class Page {
   resize() {
     const box = byId("box"), scale = Math.min(window.devicePixelRatio || 1, 2);
     for (const id of ["view", "marks"]) {
-      const canvas = byId(id), width = Math.round(box.clientWidth * scale), height = Math.round(box.clientHeight * scale);
+      const canvas = byId(id), [width, height] = [box.clientWidth, box.clientHeight].map((x) => Math.round(x * scale));
       if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     }
   }
 
   drawLegend() {
     const field = this.fieldNow, [low, high] = this.range;
-    const all = field.extremes.filter((ends) => ends[0] !== null);
-    const beyond = [all.some((ends) => ends[0] < low), all.some((ends) => ends[1] > high)];
-    drawBar(byId("bar"), { field, low, high, table: this.table, beyond });
+    drawBar(byId("bar"), { field, low, high, table: this.table, beyond: beyondOf(field, low, high) });
   }
 
   play() {
@@ -150,8 +155,9 @@ class Page {
     byId("play").textContent = "\u25b6";
   }
 
-  mark(particle) {
+  async mark(particle) {
     this.scene.marked = particle;
+    if (particle >= 0 && !this.first && this.frames.times[0] === 0) this.first = await this.store.get(0);
     this.tellParticle();
     this.draw();
   }
@@ -160,10 +166,13 @@ class Page {
     const box = byId("particle"), i = this.scene.marked;
     box.hidden = i < 0 || !this.scene.frame;
     if (box.hidden) return;
-    const place = this.scene.placeOf(i).map((x) => numberText(x, 5)).join(", ");
-    const lines = ["particle " + i * this.frames.every + " of " + this.frames.bodies[this.scene.bodies[i]].name, "x = (" + place + ") m"];
+    const body = this.frames.bodies[this.scene.bodies[i]].name;
+    const lines = ["particle " + i * this.frames.every + " of " + body,
+      "x = " + this.scene.placeText(this.scene.frame, i)];
+    if (this.first) lines.splice(1, 0, "at the start " + this.scene.placeText(this.first, i));
     this.frames.fields.forEach((field, f) => {
-      const code = this.scene.frame.fields[f][i], sign = code === 1 ? "\u2264 " : code === 255 ? "\u2265 " : "";
+      const code = this.scene.frame.fields[f][i], [under, over] = beyondOf(field, field.low, field.high);
+      const sign = code === 1 && under ? "\u2264 " : code === 255 && over ? "\u2265 " : "";
       lines.push(field.label + ": " + sign + quantityText(valueOf(field, code), field.unit, 3));
     });
     box.replaceChildren(...lines.map((line) => make("div", "", line)));
@@ -232,8 +241,10 @@ function drawMarks(canvas, scene) {
   pen.font = "13px DejaVu Sans, sans-serif";
   pen.textAlign = "center";
   pen.lineWidth = 2;
-  const axes = ["x", "y", "z"].map((name, c) => ({ name, at: [right[c], up[c], towards[c]] })).sort((a, b) => a.at[2] - b.at[2]);
-  const colours = scene.dark ? { x: "#ff8a80", y: "#8fd694", z: "#82b1ff" } : { x: "#c62828", y: "#2e7d32", z: "#1f4fb5" };
+  const axes = ["x", "y", "z"].map((name, c) => ({ name, at: [right[c], up[c], towards[c]] }));
+  axes.sort((a, b) => a.at[2] - b.at[2]);
+  const colours = scene.dark ? { x: "#ff8a80", y: "#8fd694", z: "#82b1ff" }
+    : { x: "#c62828", y: "#2e7d32", z: "#1f4fb5" };
   for (const { name, at } of axes) {
     if (scene.flat && name === "z") continue;
     pen.strokeStyle = pen.fillStyle = colours[name];
@@ -255,25 +266,39 @@ function bindControls(page) {
   const on = (id, event, action) => byId(id).addEventListener(event, action);
   on("time", "input", () => { page.stop(); page.show(Number(byId("time").value)); });
   on("play", "click", () => page.play());
-  on("field", "change", () => { page.chooseField(byId("field").selectedIndex); address.set({ field: page.fieldNow.name }); page.recolour(); page.tellParticle(); });
+  on("field", "change", () => {
+    page.chooseField(byId("field").selectedIndex);
+    address.set({ field: page.fieldNow.name });
+    page.recolour();
+  });
   on("map", "change", () => { address.set({ map: byId("map").value }); page.recolour(); });
   const ranged = () => {
     const typed = byId("range").value === "typed";
     document.querySelectorAll(".typed").forEach((label) => { label.hidden = !typed; });
-    address.set({ range: byId("range").value, low: typed ? byId("low").value : null, high: typed ? byId("high").value : null });
+    const end = (id) => (typed ? byId(id).value : null);
+    address.set({ range: byId("range").value, low: end("low"), high: end("high") });
     page.recolour();
   };
   on("range", "change", () => {
     if (byId("range").value === "typed" && !byId("low").value)
-      ["low", "high"].forEach((id, k) => { byId(id).value = Number((page.range[k] / page.typedUnit.factor).toPrecision(4)); });
+      ["low", "high"].forEach((id, k) => {
+        byId(id).value = Number((page.range[k] / page.typedUnit.factor).toPrecision(4));
+      });
     ranged();
   });
   ["low", "high"].forEach((id) => on(id, "change", ranged));
-  document.querySelectorAll("[data-look]").forEach((button) => button.addEventListener("click", () => { view.lookFrom(button.dataset.look); page.keepView(); }));
+  document.querySelectorAll("[data-look]").forEach((button) => button.addEventListener("click", () => {
+    view.lookFrom(button.dataset.look);
+    page.keepView();
+  }));
   on("perspective", "change", () => { view.perspective = byId("perspective").checked; page.keepView(); });
   on("outline", "change", () => { scene.showOutline = byId("outline").checked; page.draw(); });
   on("shapes", "change", () => { scene.showShapes = byId("shapes").checked; page.draw(); });
-  on("reset", "click", () => { Object.assign(view, { ...page.home, target: [0, 0, 0], zoom: 1 }); page.mark(-1); page.keepView(); });
+  on("reset", "click", () => {
+    Object.assign(view, { ...page.home, target: [0, 0, 0] });
+    page.mark(-1);
+    page.keepView();
+  });
   for (const id of ["cut", "cut-side"]) on(id, "change", () => page.setCut());
   on("cut-place", "input", () => page.setCut());
   new ResizeObserver(() => { page.draw(); if (page.table) page.drawLegend(); }).observe(byId("box"));
@@ -287,9 +312,14 @@ function bindControls(page) {
 function bindPointer(page) {
   const canvas = byId("view"), { scene } = page, { view } = scene, held = new Map();
   const metres = () => (2 * scene.camera().halfHeight * scene.size) / Math.max(canvas.clientHeight, 1);
-  const placeOn = (event) => [(2 * event.offsetX) / canvas.clientWidth - 1, 1 - (2 * event.offsetY) / canvas.clientHeight];
+  const placeOn = ({ offsetX, offsetY }) =>
+    [(2 * offsetX) / canvas.clientWidth - 1, 1 - (2 * offsetY) / canvas.clientHeight];
   let travelled = 0;
-  canvas.addEventListener("pointerdown", (event) => { held.set(event.pointerId, event); travelled = 0; canvas.setPointerCapture(event.pointerId); });
+  canvas.addEventListener("pointerdown", (event) => {
+    held.set(event.pointerId, event);
+    travelled = 0;
+    canvas.setPointerCapture(event.pointerId);
+  });
   canvas.addEventListener("pointermove", (event) => {
     const before = held.get(event.pointerId);
     if (!before) return;
@@ -327,11 +357,12 @@ function bindPointer(page) {
   document.addEventListener("keydown", (event) => {
     if (/^(INPUT|SELECT|TEXTAREA|BUTTON|SUMMARY)$/.test(event.target.tagName)) return;
     const step = { ArrowRight: 1, ArrowLeft: -1, PageDown: 10, PageUp: -10 }[event.key];
-    if (step) { page.stop(); page.show(page.wanted + step); }
+    const closer = { "+": 1.2, "-": 1 / 1.2 }[event.key];
+    if (step) page.stop(), page.show(page.wanted + step);
+    else if (closer) (view.zoom *= closer), page.keepView();
     else if (event.key === "Home") page.show(0);
     else if (event.key === "End") page.show(page.store.count - 1);
     else if (event.key === " ") page.play();
-    else if (event.key === "+" || event.key === "-") { view.zoom *= event.key === "+" ? 1.2 : 1 / 1.2; page.keepView(); }
     else if (event.key === "Escape") page.mark(-1);
     else return;
     event.preventDefault();
@@ -363,10 +394,11 @@ function fillControls(page) {
 /** What the address says about view, colours and cut. */
 function restore(page) {
   const { address, scene } = page, { view } = scene;
-  page.home = { azimuth: view.azimuth, elevation: view.elevation };
+  page.resize();
+  page.home = { azimuth: view.azimuth, elevation: view.elevation, zoom: scene.fittingZoom() };
   view.azimuth = address.number("a", view.azimuth);
   view.elevation = address.number("e", view.elevation);
-  view.zoom = Math.min(Math.max(address.number("zoom", 1), 0.05), 500);
+  view.zoom = Math.min(Math.max(address.number("zoom", page.home.zoom), 0.05), 500);
   const target = address.get("to", "").split("_").map(Number);
   if (target.length === 3 && target.every(Number.isFinite)) view.target = target;
   byId("perspective").checked = view.perspective = address.get("persp") === "1";

@@ -17,16 +17,19 @@ function foldedSection(title, open, ...children) {
 
 /** Rows of cells; the first row is the head. */
 function tableWith(rows) {
-  const cells = (row, tag) => make("tr", "", ...row.map((cell) => make(tag, typeof cell === "number" ? "number" : "", shown(cell))));
+  const cells = (row, tag) => make("tr", "", ...row.map((cell) =>
+    make(tag, typeof cell === "number" ? "number" : "", shown(cell))));
   const shown = (cell) => (typeof cell === "number" ? numberText(cell, 5) : cell === null ? "none" : String(cell));
   const head = rows[0] ? make("thead", "", cells(rows[0], "th")) : "";
-  return make("div", "wide", make("table", "", head, make("tbody", "", ...rows.slice(1).map((row) => cells(row, "td")))));
+  const body = make("tbody", "", ...rows.slice(1).map((row) => cells(row, "td")));
+  return make("div", "wide", make("table", "", head, body));
 }
 
 /** {a: {b: 1}} as rows ["a b", "1"]. */
 function flatRows(value, name) {
   if (value !== null && typeof value === "object" && !Array.isArray(value))
-    return Object.entries(value).flatMap(([key, inner]) => flatRows(inner, (name ? name + " " : "") + key.replace(/_/g, " ")));
+    return Object.entries(value).flatMap(([key, inner]) =>
+      flatRows(inner, (name ? name + " " : "") + key.replace(/_/g, " ")));
   return [[name, Array.isArray(value) ? value.join("; ") : value]];
 }
 
@@ -47,7 +50,8 @@ function fillHead(about) {
   const warnings = (about.summary && about.summary.warnings) || [];
   warnings.forEach((text) => list.append(make("li", "", "Warning: " + text)));
   (about.notes || []).forEach((text) => list.append(make("li", "note", text)));
-  if (about.failure) document.getElementById("failure").append(make("h2", "", "Why it failed"), make("pre", "", about.failure));
+  if (about.failure)
+    document.getElementById("failure").append(make("h2", "", "Why it failed"), make("pre", "", about.failure));
 }
 
 const rowHead = ["variant", "quantity", "published", "ours", "difference", "tolerance", "verdict", "evidence", "source",
@@ -55,7 +59,8 @@ const rowHead = ["variant", "quantity", "published", "ours", "difference", "tole
 
 /** The cells of a row of a verification. */
 function rowCells(row) {
-  const unit = row.unit === "1" ? "" : " " + row.unit, measured = row.measured === null ? "none" : numberText(row.measured, 5) + unit;
+  const unit = row.unit === "1" ? "" : " " + row.unit;
+  const measured = row.measured === null ? "none" : numberText(row.measured, 5) + unit;
   return [row.variant, row.quantity, numberText(row.reference, 5) + unit, measured, differenceText(row), row.tolerance,
     row.verdict, row.evidence, row.source, row.note];
 }
@@ -78,7 +83,8 @@ function summaryPanels(about) {
 function differenceText(row) {
   if (row.measured === null) return "";
   const difference = row.measured - row.reference;
-  return row.reference === 0 ? numberText(difference, 3) : numberText((100 * difference) / Math.abs(row.reference), 3) + " %";
+  if (row.reference === 0) return numberText(difference, 3);
+  return numberText((100 * difference) / Math.abs(row.reference), 3) + " %";
 }
 
 /** Plots with a cursor; `moved(time)` is called when one is clicked. Returns what moves all cursors to a time. */

@@ -53,6 +53,36 @@ class Scene {
     return { centre: middle.map((x, c) => x - (away + thick) * n[c]), edges };
   }
 
+  /** The rigid shapes that have an end, where they stand in the first and the last frame: {centre, radius}. */
+  endedShapes() {
+    const { shapes, poses } = this.about;
+    return shapes.flatMap((shape, k) => {
+      if (shape.kind === "plane") return [];
+      const half = { sphere: [shape.radius], cylinder: [shape.radius, shape.half[0]], box: shape.half }[shape.kind];
+      const radius = Math.hypot(...half) / this.size;
+      return [poses[0], poses[poses.length - 1]].map((all) =>
+        ({ centre: this.inScene(all.slice(12 * k, 12 * k + 3)), radius }));
+    });
+  }
+
+  /**
+   * The zoom with which the box of all frames fills the view as it is turned now, and with it rigid shapes, as far as
+   * that leaves the particles half of the view.
+   */
+  fittingZoom() {
+    const { axes } = this.camera(), { width, height } = this.canvas, aspect = width / Math.max(height, 1);
+    const radius = Math.max(...this.about.bodies.map((body) => body.radius), 0);
+    const half = this.inScene(this.about.low).map(Math.abs);
+    const ends = this.endedShapes();
+    const reach = (axis) => {
+      const own = half.reduce((sum, h, c) => sum + h * Math.abs(axis[c]), radius / this.size);
+      const others = ends.map((shape) => Math.abs(dot(shape.centre, axis)) + shape.radius);
+      return Math.max(own, ...others.map((r) => Math.min(r, 2 * own)));
+    };
+    const needed = Math.max(reach(axes.up), reach(axes.right) / aspect);
+    return needed > 0 ? (0.55 * Math.max(1, 1 / aspect)) / (1.12 * needed) : 1;
+  }
+
   setBodies() {
     this.balls.setBodies(this.about.bodies.map((body) => body.radius / this.size), this.shown);
   }
@@ -67,7 +97,8 @@ class Scene {
     const { width, height } = this.canvas, aspect = width / Math.max(height, 1);
     const halfHeight = (0.55 * Math.max(1, 1 / aspect)) / this.view.zoom;
     return {
-      axes: this.view.axes(), target: this.view.target.map((x) => x / this.size), halfHeight, aspect,
+      axes: this.view.axes(), pixels: height / (2 * halfHeight), halfHeight, aspect,
+      target: this.view.target.map((x) => x / this.size),
       deep: 3 + Math.hypot(...this.view.target) / this.size, eye: this.view.perspective ? 2.5 * halfHeight : 0,
     };
   }
@@ -134,9 +165,16 @@ class Scene {
     return found;
   }
 
+  /** Where a particle is, in digits that the coding holds. */
+  placeText(frame, i) {
+    const digits = this.about.step.map((s) => Math.min(Math.max(Math.ceil(-Math.log10(s)), 0), 12));
+    const texts = this.placeOf(i, frame).map((x, c) => numberText(Number(x.toFixed(digits[c] || 0)), 7));
+    return "(" + texts.join(", ") + ") m";
+  }
+
   /** Where a particle is [m]. */
-  placeOf(i) {
+  placeOf(i, frame = this.frame) {
     const { low, step, missing } = this.about;
-    return this.frame.x.map((x, c) => (x[i] === missing ? NaN : low[c] + x[i] * step[c]));
+    return frame.x.map((x, c) => (x[i] === missing ? NaN : low[c] + x[i] * step[c]));
   }
 }

@@ -22,8 +22,8 @@ function runSection(run) {
 function fillVerification(about) {
   document.title = byId("title").textContent = about.title;
   const short = about.rows.filter((row) => !row.accepted).length;
-  byId("outcome").textContent = short === 0 ? "All " + about.rows.length + " rows are as they should be. " + about.evidence
-    : short + " of " + about.rows.length + " rows are not as they should be. " + about.evidence;
+  byId("outcome").textContent = (short === 0 ? "All " + about.rows.length + " rows are"
+    : short + " of " + about.rows.length + " rows are not") + " as they should be. " + about.evidence;
   byId("outcome").className = short === 0 ? "completed" : "failed";
   byId("left").hidden = true;
   const sections = new Map(about.runs.map((run) => [sectionName(run), runSection(run)]));

@@ -22,6 +22,17 @@ expect 2 "holds the results of another case" "$program" run bar.toml --set 'titl
 expect 0 "5 pictures" "$program" render bar-results --field Velocity --size 300 240
 expect 2 "has no field 'Speed'" "$program" render bar-results --field Speed
 expect 2 "no frames" "$program" render .
+expect 0 "a film of 5 pictures is drawn to film/a.webp" "$program" render bar-results --film film/a.webp --size 300 240
+expect 2 "is not the name of a film" "$program" render bar-results --film a.gif --size 300 240
+expect 0 "Pressure-times.png" "$program" render bar-results --times "0 s, 1 ms" --view=-x --theme dark --out look
+expect 2 "is not a time" "$program" render bar-results --times "0 m"
+expect 0 "side-by-side/Pressure-0" "$program" render bar-results bar-results --side-by-side --last --size 300 240
+expect 0 "Velocity-Pressure-000004.png" "$program" render --field Velocity --field Pressure bar-results --last
+expect 2 "there are several" "$program" render bar-results --field Velocity --field Pressure --component x
+expect 2 "2 folders are given" "$program" render bar-results bar-results
+expect 2 "there is one folder only" "$program" render bar-results --side-by-side
+expect 2 "'above' is not known" "$program" render bar-results --view above
+expect 2 "is no direction" "$program" render bar-results --view 3 x
 printf 'case = "bar.toml"\n[parameters]\n"run.cfl" = [0.4, 0.5]\n"run.end" = ["1 ms", "2 ms"]\n' >study.toml
 expect 0 "4 of 4 completed" "$program" study study.toml
 expect 0 "completed before" "$program" study study.toml --jobs 1
@@ -32,6 +43,21 @@ expect 0 "1 curve drawn to dt.pdf" "$program" plot bar-results dt --log y -o dt.
 expect 2 'did you mean "total_energy"' "$program" plot bar-results total_energie
 expect 2 "no history.csv" "$program" plot .
 expect 2 "end in .svg, .png or .pdf" "$program" plot bar-results -o dt.gif
+expect 0 "5 frames in bar-results/report.html" "$program" report bar-results
+check test -s bar-results/report.html
+expect 0 "5 frames in page/bar.html" "$program" report bar-results --follow -o page/bar.html # the run has ended
+expect 2 'did you mean "Pressure"' "$program" report bar-results --fields Presure
+expect 2 "holds no run" "$program" report page
+expect 2 "end in .html" "$program" report bar-results --out bar.toml
+expect 2 "end in .html" "$program" verify --report bar.toml
+# A new run takes the page of the run before with it.
+cp -r bar-results anew
+expect 0 "" "$program" run bar.toml --quiet --out anew --set run.end='"1 ms"'
+check test ! -e anew/report.html
+expect 0 "completed, t = 20 ms" "$program" watch bar-results
+expect 0 "top.displacement x from" "$program" watch bar-results top.displacement_x --once
+expect 2 'did you mean "top.displacement_x"' "$program" watch bar-results top.displacement_y
+expect 2 "holds no run" "$program" watch page
 expect 0 "piola plot" "$program" describe man-page
 expect 0 "complete -F _piola piola" "$program" describe completion
 expect 0 "drawn to look/shape.png" "$program" render --shape bar.toml -o look/shape.png --size 300 240
@@ -100,6 +126,8 @@ expect 3 "docs/user/when-it-stops.md" "$program" run bar.toml --out broken \
   --set 'body.bar.initial_velocity=["0","0","-20000*Z"]'
 check grep -q '"status": "failed"' broken/summary.json
 check test -s broken/checkpoints/failed.h5
+expect 0 "in broken/report.html" "$program" report broken
+check grep -q '"failed_particle":[0-9]' broken/report.html
 
 # The case itself is never replaced by results, whatever is forced.
 mkdir here && cp bar.toml here/case.toml

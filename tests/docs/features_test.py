@@ -132,6 +132,14 @@ def support(**given):
     return make
 
 
+def held_surface(formulation):
+    """A packed block held on its face, and by the particles along it."""
+    def held(what):
+        block = body(formulation, box([0, 0], [8, 5]) | {"arrangement": "packed"})
+        return case(block, support=[{"body": "block", "patch": "-x", "fix": "xy", "hold": what}])
+    return held("surface"), held("particles")
+
+
 def parts(formulation):
     """A block whose right half is stiffer."""
     made = plain(formulation)
@@ -291,6 +299,7 @@ FEATURES = {
     "supports that let go": compared(support(until=1e-3), until=None),
     "rollers along the axes": compared(support(fix="y"), fix="xy"),
     "rollers on oblique planes": support(normal=[1, 1], fix="normal"),
+    "supports on patches hold the surface itself": held_surface,
     "exact boundary values by multipliers": multipliers,
     "mirror planes": with_case(mirror=[{"body": "block", "face": "-x"}]),
     "tractions": load(face="+x", traction=["1e5", "0"]),

@@ -156,6 +156,32 @@ every = "0.1 s"
   EXPECT_DOUBLE_EQ(spec.output.checkpoints_every, 0.1);
 }
 
+TEST(ReadCase, TheLookOfPicturesIsRead) {
+  CaseSpec const spec = read(sample_case() + R"(
+[output.pictures]
+every = "0.05 s"
+view = "-x"
+roll = "0.1 rad"
+zoom = 1.5
+look_at = ["1 mm", 2]
+follow = "column"
+map = "magma"
+theme = "dark"
+labels = false
+)");
+  EXPECT_EQ(spec.output.picture_named_view, "-x");
+  EXPECT_NEAR(spec.output.picture_roll, 5.729578, 1e-6);
+  EXPECT_EQ(spec.output.picture_zoom, 1.5);
+  EXPECT_EQ(*spec.output.picture_look_at, (std::array<double, 3>{0.001, 2, 0}));
+  EXPECT_EQ(spec.output.picture_follow, "column");
+  EXPECT_EQ(spec.output.picture_map, "magma");
+  EXPECT_EQ(spec.output.picture_theme, "dark");
+  EXPECT_FALSE(spec.output.picture_labels);
+  EXPECT_EQ(spec.output.picture_width, 0) << "as what is shown needs it";
+  CaseSpec const angles = read(sample_case() + "[output.pictures]\nevery = 1\nazimuth = -20\nelevation = 80\n");
+  EXPECT_EQ(angles.output.picture_view, (std::array<double, 2>{-20, 80}));
+}
+
 TEST(ReadCase, RunSettingsAreRead) {
   CaseSpec const spec = read(sample_with("end = \"0.5 s\"",
                                          "end = \"0.5 s\"\ncfl = 0.3\nmax_step = \"10 us\"\nmin_step = \"1 ns\"\n"

@@ -204,5 +204,23 @@ TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
             "ends excluded)");
 }
 
+TEST(CaseMessages, TheLookOfPicturesHasNamesAndBounds) {
+  std::string const told = message_of(sample_case() + R"([output.pictures]
+every = 1
+view = "top"
+azimuth = 3
+zoom = 0
+follow = "colunm"
+map = "jet"
+)");
+  for (char const* const part :
+       {"output.pictures.view is \"top\" (allowed: x, y, z, -x, -y, -z, iso, iso2)",
+        "output.pictures.azimuth is given by the name of the view - remove it", "output.pictures.zoom is 0",
+        "output.pictures.follow is \"colunm\" (allowed: column) - did you mean \"column\"?",
+        "output.pictures.map is \"jet\" (allowed: auto, viridis, cividis, magma, grey, blue_red, blue_brown, "
+        "heat_on_grey)"})
+    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+}
+
 }  // namespace
 }  // namespace piola

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/rigid_picture.hpp"
+#include "piola/output/projection.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <tuple>
@@ -24,26 +26,23 @@ RigidShape shape(Kind kind, Point const& centre, double radius = 0, Point const&
   return s;
 }
 
-DepthImage drawn(RigidShape const& s, View const& view = {0, 0}, int dimension = 3) {
+SurfaceBuffers drawn(RigidShape const& s, View const& view = {0, 0}, int dimension = 3) {
   Projection const project{view.right(), view.up(), view.towards_viewer(), scale, width / 2.0, height / 2.0};
   Stage const stage{{-1, -1, -1}, {1, 1, 1}};
-  DepthImage image(width, height, {255, 255, 255});
+  SurfaceBuffers image(width, height);
   RigidCanvas{project, stage, dimension, 1, 0, width}.draw(image, std::span(&s, 1));
   return image;
 }
 
-/// Pixels that are not white.
-int area(DepthImage const& image) {
-  int count = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) count += image.colour.at(x, y) != Colour{255, 255, 255};
-  return count;
+/// Samples that show something.
+int area(SurfaceBuffers const& image) {
+  return static_cast<int>(
+      std::count_if(image.owner.begin(), image.owner.end(), [](Owner owner) { return owner != nobody; }));
 }
 
-double depth_at(DepthImage const& image, double x, double y) {
-  auto const column = static_cast<std::size_t>(width / 2 + x * scale),
-             row = static_cast<std::size_t>(height / 2 - y * scale);
-  return image.depth[row * width + column] / scale;
+double depth_at(SurfaceBuffers const& image, double x, double y) {
+  return image.depth[image.at(static_cast<int>(width / 2 + x * scale), static_cast<int>(height / 2 - y * scale))] /
+         scale;
 }
 
 // Areas in square metres times 400; pixels at the edge are right to one ring of them.
@@ -64,20 +63,19 @@ TEST(RigidPicture, ShowsTheSurfaceThatIsNearestToTheViewer) {
 }
 
 TEST(RigidPicture, LiesBehindTheParticlesInTwoDimensions) {
-  DepthImage const image = drawn(shape(Kind::sphere, {}, 1), {0, 0}, 2);
+  SurfaceBuffers const image = drawn(shape(Kind::sphere, {}, 1), {0, 0}, 2);
   EXPECT_LT(depth_at(image, 0, 0), -1e20);
-  EXPECT_EQ(image.colour.at(width / 2, height / 2), image.colour.at(width / 2 + 15, height / 2)) << "flat";
+  EXPECT_EQ(image.normal[image.at(width / 2 + 15, height / 2)], (SurfaceBuffers::Normal{0, 0})) << "flat";
 }
 
 TEST(RigidPicture, ShowsAPlaneAsAPlateBehindItsFace) {
   // The face at y = -1.2, the plate below, as thick as 2 % of the stage: 0.02 * sqrt(12) m, 1.4 pixels.
-  DepthImage const image = drawn(shape(Kind::plane, {5, -1.2, 7}, 0, {}, {0, 1, 0}), {0, 0}, 2);
+  SurfaceBuffers const image = drawn(shape(Kind::plane, {5, -1.2, 7}, 0, {}, {0, 1, 0}), {0, 0}, 2);
   int const face = height / 2 + 24;
-  EXPECT_EQ(image.colour.at(width / 2, face - 1), (Colour{255, 255, 255}));
-  EXPECT_NE(image.colour.at(width / 2, face), (Colour{255, 255, 255}));
-  EXPECT_EQ(image.colour.at(width / 2, face + 3), (Colour{255, 255, 255}));
-  EXPECT_NE(image.colour.at(width / 2 - 40, face), (Colour{255, 255, 255}))
-      << "opposite the bodies, wherever its point";
+  EXPECT_EQ(image.owner[image.at(width / 2, face - 1)], nobody);
+  EXPECT_NE(image.owner[image.at(width / 2, face)], nobody);
+  EXPECT_EQ(image.owner[image.at(width / 2, face + 3)], nobody);
+  EXPECT_NE(image.owner[image.at(width / 2 - 40, face)], nobody) << "opposite the bodies, wherever its point";
   // From above it is a plate in perspective, from whichever side.
   EXPECT_GT(area(drawn(shape(Kind::plane, {0, -1.2, 0}, 0, {}, {0, 1, 0}), {30, 20})), 30 * area(image) / 10);
 }
@@ -85,7 +83,7 @@ TEST(RigidPicture, ShowsAPlaneAsAPlateBehindItsFace) {
 TEST(RigidPicture, KeepsOutOfTheLetters) {
   RigidShape const s = shape(Kind::sphere, {}, 100);
   Projection const project{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, scale, width / 2.0, height / 2.0};
-  DepthImage image(width, height, {255, 255, 255});
+  SurfaceBuffers image(width, height);
   RigidCanvas{project, Stage{}, 3, 1, 30, 150}.draw(image, std::span(&s, 1));
   EXPECT_EQ(area(image), 150 * (height - 30));
 }

@@ -115,6 +115,16 @@ TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
     EXPECT_NE(notes[0].find(part), std::string::npos) << part << " in " << notes[0];
 }
 
+TEST(Plan, LetsBallsGrowWhereSomeAreLeftOut) {
+  Results const results;
+  RunFolder const run = open_run(results.run());
+  Survey const survey = survey_frames(run, {0, 4}, {});
+  auto const about = about_frames(run, survey, {.frames = {0, 1}, .every = 4});
+  EXPECT_EQ(about["particles"], 4);
+  EXPECT_DOUBLE_EQ(about["bodies"][0]["radius"].get<double>(), 2 * survey.radius[0]);  // a plate: two dimensions
+  EXPECT_EQ(about["bodies"][0]["name"], "body 0");                                     // its case cannot be read
+}
+
 TEST(Report, KeepsItsBudget) {
   Results const results(100);
   auto const page = results.folder / "page.html";

@@ -56,6 +56,26 @@ TEST(Upwards, IsTheNormalOfARestingPlane) {
   EXPECT_EQ(upwards(spec), Up::y) << "it is no plane";
 }
 
+TEST(Appearance, IsThatOfEachBody) {
+  CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
+  spec.bodies.push_back(spec.bodies.front());
+  spec.bodies[1].name = "other";
+  spec.output.appearance.as = "balls";
+  spec.output.appearance.of_body = {{"other", "none", {}}};
+  spec.output.appearance.cut = AppearanceSpec::Cut{{1, 2, 3}, {0, 0, 1}, true, false};
+  Appearance const appearance = appearance_of(spec);
+  EXPECT_EQ(appearance.as, (std::vector{Representation::balls, Representation::none}));
+  EXPECT_EQ(appearance.cut->point, (Place3{1, 2, 3}));
+  EXPECT_TRUE(appearance.cut->ghost);
+}
+
+TEST(LooseParticles, AreDamagedThroughOrEulerian) {
+  std::vector<double> const damage{0, 0.99, 1, 0}, kernel_type{0, 0, 0, 1};
+  EXPECT_EQ(loose_particles(damage, kernel_type, 4), (std::vector<std::uint8_t>{0, 0, 1, 1}));
+  EXPECT_EQ(loose_particles({}, kernel_type, 4), (std::vector<std::uint8_t>{0, 0, 0, 1}));
+  EXPECT_EQ(loose_particles({}, {}, 2), (std::vector<std::uint8_t>{0, 0}));
+}
+
 TEST(Shapes, StandWhereTheirVelocityHasTakenThem) {
   CaseSpec spec = with_plane({0, 1, 0}, "3");
   spec.rigids[0].centre = {1, 2, 3};

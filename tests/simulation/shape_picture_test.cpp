@@ -24,7 +24,7 @@ std::string const plate = R"({ box = { min = [0, 0], max = [2, 1] }, spacing = 0
 Image drawn(std::string const& text, ShapePictureOptions options) {
   ParticleSet particles;
   CaseSpec const spec = read_case_text(text, "case.toml", {}, {}, &particles);
-  options.size = {400, 300};
+  options.look.size = {400, 300};
   return draw_shape(spec, particles, options);
 }
 
@@ -61,7 +61,8 @@ TEST(ShapePicture, AViewThatIsGivenCounts) {
   std::string const text =
       two_bodies(R"({ torus = { centre = [0, 0, 0], radius = 2, tube_radius = 1 }, spacing = 0.4 })",
                  R"({ cone = { centre = [8, 0, 0], radius = 2, length = 3 }, spacing = 0.4 })");
-  Image const own = drawn(text, {}), above = drawn(text, {.view = {{30, 80}}}), other = drawn(text, {.up = "z"});
+  Image const own = drawn(text, {}), above = drawn(text, {.look = {.view = {{30, 80}}}}),
+              other = drawn(text, {.look = {.up = "z"}});
   EXPECT_NE(own.rgb, above.rgb);
   EXPECT_NE(own.rgb, other.rgb);
   EXPECT_GT(pixels_like(above, first_colour), 2000);

@@ -59,13 +59,14 @@ constexpr std::array sections{
     SectionInfo{"output.frames", "[output.frames]", "files for ParaView with a field of values per particle"},
     SectionInfo{"output.history", "[output.history]", "the table history.csv"},
     SectionInfo{"output.pictures", "[output.pictures]", "PNG pictures coloured by a field"},
+    SectionInfo{"output.pictures.cut", "cut = { ... }", "a plane that cuts bodies open"},
     SectionInfo{"output.checkpoints", "[output.checkpoints]", "files to resume from; one is always written at the end"},
 };
 
 std::vector<KeyInfo> joined_tables() {
   std::vector<KeyInfo> all;
   for (auto const part : {keys_of_run_and_bodies(), keys_of_solids(), keys_of_regions(), keys_of_boundaries(),
-                          keys_of_ties(), keys_of_observers()})
+                          keys_of_ties(), keys_of_observers(), keys_of_output()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -212,6 +212,22 @@ struct QuantitySpec {
   double until = std::numeric_limits<double>::infinity();  ///< and up to this one; change: end [s]
 };
 
+/// How bodies are drawn in pictures: the words of output/appearance.hpp.
+struct AppearanceSpec {
+  struct OfBody {
+    std::string body, as;
+    Place place;
+  };
+  struct Cut {
+    std::array<double, 3> point{}, normal{1, 0, 0};  ///< [m]; what lies on the side of the normal is taken away
+    bool ghost = false, in_reference = false;
+  };
+  std::string as = "auto";
+  std::vector<OfBody> of_body = {};
+  bool outline = true;  ///< of the reference shape
+  std::optional<Cut> cut = {};
+};
+
 /// [output]; times in s, 0 = never. Output falls on the first step at or after each multiple.
 struct OutputSpec {
   double frames_every = 0;
@@ -224,7 +240,17 @@ struct OutputSpec {
   std::string picture_up = "auto";                     ///< auto, x, y, z, -x, -y, -z
   std::optional<std::array<double, 2>> picture_range;  ///< SI; otherwise from the data
   std::array<double, 2> picture_view{30, 20};          ///< azimuth, elevation [deg]
-  int picture_width = 1000, picture_height = 800;
+  std::string picture_named_view = {};                 ///< x, -y, iso ...; empty: picture_view
+  double picture_roll = 0;                             ///< deg
+  double picture_zoom = 1;
+  double picture_perspective = 0;                             ///< deg
+  std::optional<std::array<double, 3>> picture_look_at = {};  ///< m
+  std::string picture_follow = {};                            ///< name of a body
+  int picture_width = 0, picture_height = 0;                  ///< pixels; 0: as what is shown needs it
+  double picture_scale = 1;                                   ///< of that
+  std::string picture_theme = "light", picture_map = "auto";
+  bool picture_labels = true;
+  AppearanceSpec appearance;
   bool compress = true;
 };
 

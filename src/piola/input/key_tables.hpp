@@ -18,6 +18,7 @@ std::span<KeyInfo const> keys_of_regions();         ///< body.part, region
 std::span<KeyInfo const> keys_of_solids();          ///< shapes that are solids, their parts and placing
 std::span<KeyInfo const> keys_of_boundaries();      ///< support, load, mirror, crack, rigid, contact
 std::span<KeyInfo const> keys_of_ties();            ///< tie
-std::span<KeyInfo const> keys_of_observers();       ///< probe, quantity, output
+std::span<KeyInfo const> keys_of_observers();       ///< probe, quantity
+std::span<KeyInfo const> keys_of_output();          ///< output and its parts
 
 }  // namespace piola

@@ -199,7 +199,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   std::vector<Section> const quantities = tables_of(top, "quantity");
   for (Section const& section : quantities) spec.quantities.push_back(read_quantity_section(section, spec, constants));
   refuse_twins(quantities, spec.quantities, "quantity");
-  if (auto const output = top.table("output")) read_output(*output, spec.output);
+  if (auto const output = top.table("output")) read_output(*output, spec.output, spec.bodies);
   top.refuse_unknown();
   return spec;
 }

@@ -6,6 +6,7 @@
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace piola {
 namespace {
@@ -121,6 +122,42 @@ void read_size(Section const& section, OutputSpec& output) {
   if (height) output.picture_height = static_cast<int>(*height);
 }
 
+// Plain numbers are in degrees here, unlike SI, because nobody thinks of a view in radians.
+void read_view(Section const& section, OutputSpec& output) {
+  auto const view = section.find("view");
+  if (view && view->node.kind == Node::Kind::text) {
+    static std::vector<std::string> const words{"x", "y", "z", "-x", "-y", "-z", "iso", "iso2"};
+    if (auto const word = read_word(*view, words, section.problems())) output.picture_named_view = *word;
+    for (char const* const key : {"azimuth", "elevation"}) section.refuse(key, "is given by the name of the view");
+  } else if (view) {
+    auto const items = read_list(*view, 2, 2, section.problems());
+    Interval const allowed = key_info("output.pictures", "view").allowed;
+    for (std::size_t i = 0; items && i < 2; ++i) {
+      if (auto const angle = read_number((*items)[i], "degree", allowed, section.problems()))
+        output.picture_view[i] = *angle;
+    }
+    for (char const* const key : {"azimuth", "elevation"}) section.refuse(key, "is given by view");
+  }
+  section.read("azimuth", output.picture_view[0]);
+  section.read("elevation", output.picture_view[1]);
+  section.read("roll", output.picture_roll);
+}
+
+void read_frame_of_picture(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
+  section.read("zoom", output.picture_zoom);
+  section.read("perspective", output.picture_perspective);
+  if (auto const point = section.point("look_at")) {
+    output.picture_look_at = std::array{0.0, 0.0, 0.0};
+    std::copy(point->begin(), point->end(), output.picture_look_at->begin());
+  }
+  std::vector<std::string> known;
+  for (BodySpec const& body : bodies)
+    if (!body.name.empty()) known.push_back(body.name);
+  if (auto const body = section.find("follow"))
+    if (auto const word = read_word(*body, known, section.problems())) output.picture_follow = *word;
+  read_size(section, output);
+}
+
 void check_component(Section const& section, OutputSpec const& output) {
   for (FieldName const& field : field_names()) {
     if (field.name != output.picture_field || find_component(output.picture_component, field.components)) continue;
@@ -136,7 +173,7 @@ void check_component(Section const& section, OutputSpec const& output) {
   }
 }
 
-void read_pictures(Section const& section, OutputSpec& output) {
+void read_pictures(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
   section.read("every", output.pictures_every);
   if (auto const field = section.find("field")) {
     if (auto const word = read_word(*field, known_fields(), section.problems())) output.picture_field = *word;
@@ -149,16 +186,12 @@ void read_pictures(Section const& section, OutputSpec& output) {
     section.problems().add(section.place_of("range"),
                            "output.pictures.range is empty (allowed: the lower value first)");
   }
-  if (auto const view = section.find("view")) {
-    auto const items = read_list(*view, 2, 2, section.problems());
-    Interval const allowed = key_info("output.pictures", "view").allowed;
-    for (std::size_t i = 0; items && i < 2; ++i) {
-      // A plain number is in degrees here, unlike SI, because nobody thinks of a view in radians.
-      if (auto const angle = read_number((*items)[i], "degree", allowed, section.problems()))
-        output.picture_view[i] = *angle;
-    }
-  }
-  read_size(section, output);
+  read_view(section, output);
+  read_frame_of_picture(section, output, bodies);
+  section.read("map", output.picture_map);
+  section.read("theme", output.picture_theme);
+  section.read("labels", output.picture_labels);
+  read_appearance(section, bodies, output.appearance);
   section.refuse_unknown();
 }
 
@@ -184,13 +217,13 @@ void read_run(Section const& section, RunSpec& run) {
   run.places = places_of(section, {"end", "cfl", "max_step"});
 }
 
-void read_output(Section const& section, OutputSpec& output) {
+void read_output(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
   if (auto const frames = section.table("frames")) read_frames(*frames, output);
   if (auto const history = section.table("history")) {
     history->read("every", output.history_every);
     history->refuse_unknown();
   }
-  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output);
+  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output, bodies);
   if (auto const checkpoints = section.table("checkpoints")) {
     checkpoints->read("every", output.checkpoints_every);
     checkpoints->refuse_unknown();

@@ -4,6 +4,7 @@
 #include "piola/input/section.hpp"
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ std::optional<std::array<double, 3>> read_direction(Section const& section, std:
 Places places_of(Section const& section, std::initializer_list<char const*> keys);
 
 void read_run(Section const& section, RunSpec& run);
-void read_output(Section const& section, OutputSpec& output);
+void read_output(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies);
+/// The part of read_output that reads how bodies are drawn.
+void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, AppearanceSpec& appearance);
 std::map<std::string, double> read_constants(Value const& value, Problems& problems);
 
 /// `names`: constants, for formulas.

@@ -74,6 +74,13 @@ void SurfaceHold::begin_step(FieldRef const& x, std::span<HeldDirection> particl
   factorise();
 }
 
+std::size_t SurfaceHold::particle_in(Index slot) const {
+  auto const at = std::lower_bound(particles_.begin(), particles_.end(), slot,
+                                   [](Particle const& p, Index wanted) { return p.slot < wanted; });
+  bool const found = at != particles_.end() && at->slot == slot;
+  return found ? static_cast<std::size_t>(at - particles_.begin()) : particles_.size();
+}
+
 void SurfaceHold::make_rows(std::span<HeldDirection> particles) {
   rows_.clear();
   auto const direction_of = [](HeldDirection const& h) {
@@ -85,11 +92,9 @@ void SurfaceHold::make_rows(std::span<HeldDirection> particles) {
   }
   std::size_t const own = weights_.size() - particles_.size();
   for (auto& h : particles) {
-    auto const at = std::lower_bound(particles_.begin(), particles_.end(), h.slot,
-                                     [](Particle const& p, Index slot) { return p.slot < slot; });
-    if (at == particles_.end() || at->slot != h.slot) continue;
-    std::size_t const k = own + static_cast<std::size_t>(at - particles_.begin());
-    rows_.push_back({at->X, direction_of(h), k, k + 1, &h, false});
+    std::size_t const a = particle_in(h.slot);
+    if (a == particles_.size()) continue;
+    rows_.push_back({particles_[a].X, direction_of(h), own + a, own + a + 1, &h, false});
   }
   if (rows_.empty()) return;
   std::vector<HeldPlace> extent;

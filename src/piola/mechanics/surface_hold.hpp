@@ -35,6 +35,8 @@ class SurfaceHold {
               std::vector<double> const& mass, std::vector<Point> const& X);
 
   bool empty() const { return places_.empty(); }
+  /// Whether the motion of a place depends on the particle.
+  bool reaches(Index slot) const { return particle_in(slot) < particles_.size(); }
   /// Before a step from `time` to time + dt, after supports have chosen which `particles` they hold: those within the
   /// reach of a place keep what is prescribed of them. `changed`: others than before.
   void begin_step(FieldRef const& x, std::span<HeldDirection> particles, bool changed, double time, double dt);
@@ -76,6 +78,8 @@ class SurfaceHold {
     HeldDirection* held;
     bool of_place;
   };
+  /// Its number in particles_, or their count.
+  std::size_t particle_in(Index slot) const;
   void make_rows(std::span<HeldDirection> particles);
   void factorise();
   template <class Of>

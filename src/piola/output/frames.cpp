@@ -126,6 +126,15 @@ void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame
   if (frame.values.size() != frame.points.size() * columns) file.fail(data, "has not one value per point");
 }
 
+/// A field of one component if the frame has it.
+std::vector<double> read_if_there(hdf5::Reader const& file, Frame const& frame, std::string const& field) {
+  auto const& names = frame.field_names;
+  if (std::find(names.begin(), names.end(), field) == names.end()) return {};
+  auto values = file.dataset<double>("/VTKHDF/PointData/" + field);
+  if (values.size() != frame.points.size()) file.fail(field, "has not one value per point");
+  return values;
+}
+
 }  // namespace
 
 Frame read_frame(std::filesystem::path const& path, std::string const& field) {
@@ -145,6 +154,8 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   read_field(file, field, frame);
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
   frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
+  frame.damage = read_if_there(file, frame, "Damage");
+  frame.kernel_type = read_if_there(file, frame, "KernelType");
   if (frame.volume.size() != frame.points.size()) file.fail("Volume", "has not one value per point");
   if (frame.body.size() != frame.points.size()) file.fail("Body", "has not one value per point");
   std::int64_t const dimension = file.integer("/", "dimension");

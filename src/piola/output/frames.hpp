@@ -45,6 +45,7 @@ struct Frame {
   std::vector<double> values;  ///< values[i * components + c]
   std::vector<double> volume;  ///< tributary volume, m^Dim
   std::vector<int> body;
+  std::vector<double> damage, kernel_type;  ///< empty if the frame has none
   int dimension = 3;
 };
 

@@ -2,6 +2,7 @@
 #include "piola/output/image.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -14,13 +15,6 @@ std::size_t offset(Image const& image, int x, int y) {
   return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
 }
 
-double distance_to_segment(double x, double y, std::array<double, 2> a, std::array<double, 2> b) {
-  double const dx = b[0] - a[0], dy = b[1] - a[1];
-  double const length2 = dx * dx + dy * dy;
-  double const share = length2 > 0 ? std::clamp(((x - a[0]) * dx + (y - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(x - a[0] - share * dx, y - a[1] - share * dy);
-}
-
 png_image png_header(int width, int height) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -28,6 +22,45 @@ png_image png_header(int width, int height) {
   header.height = static_cast<png_uint_32>(height);
   header.format = PNG_FORMAT_RGB;
   return header;
+}
+
+/// Red, green, blue, opacity of each pixel.
+std::vector<std::uint8_t> with_alpha(Image const& image) {
+  std::vector<std::uint8_t> mixed;
+  mixed.reserve(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) mixed.push_back(image.rgb[3 * i + c]);
+    mixed.push_back(image.alpha[i]);
+  }
+  return mixed;
+}
+
+void append_number(std::vector<std::byte>& bytes, std::uint32_t number) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(number >> shift & 255u));
+}
+
+/// Puts an iTXt chunk for each note before the end of a PNG file: key, that the text is not compressed and in no
+/// particular language, text (PNG specification, 2nd edition, 11.3.4.5).
+void add_notes(std::vector<std::byte>& png, Image const& image) {
+  constexpr std::size_t end_chunk = 12;
+  std::vector<std::byte> chunks;
+  for (auto const& [key, text] : image.notes) {
+    std::string const content = "iTXt" + key + std::string(5, '\0') + text;
+    append_number(chunks, static_cast<std::uint32_t>(content.size() - 4));
+    for (char const c : content) chunks.push_back(static_cast<std::byte>(c));
+    CheckSum sum;
+    sum.add(content);
+    append_number(chunks, sum.value());
+  }
+  png.insert(png.end() - end_chunk, chunks.begin(), chunks.end());
+}
+
+void take_apart(std::vector<std::uint8_t> const& mixed, Image& image) {
+  image.alpha.resize(mixed.size() / 4);
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * i + c] = mixed[4 * i + c];
+    image.alpha[i] = mixed[4 * i + 3];
+  }
 }
 
 }  // namespace
@@ -43,13 +76,6 @@ Colour Image::at(int x, int y) const {
 }
 
 void Image::set(int x, int y, Colour colour) { std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]); }
-
-void Image::blend(int x, int y, Colour colour, double coverage) {
-  if (x < 0 || y < 0 || x >= width || y >= height || coverage <= 0) return;
-  double const share = std::min(coverage, 1.0);
-  auto* p = &rgb[offset(*this, x, y)];
-  for (std::size_t c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(std::lround(p[c] + share * (colour[c] - p[c])));
-}
 
 Image reduce(Image const& fine, int factor) {
   Image out(fine.width / factor, fine.height / factor, {0, 0, 0});
@@ -69,26 +95,36 @@ Image reduce(Image const& fine, int factor) {
   return out;
 }
 
-void draw_line(Image& image, std::array<double, 2> from, std::array<double, 2> to, double width, Colour colour) {
-  double const reach = width / 2 + 1;
-  int const x0 = static_cast<int>(std::floor(std::min(from[0], to[0]) - reach)),
-            x1 = static_cast<int>(std::ceil(std::max(from[0], to[0]) + reach));
-  int const y0 = static_cast<int>(std::floor(std::min(from[1], to[1]) - reach)),
-            y1 = static_cast<int>(std::ceil(std::max(from[1], to[1]) + reach));
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x)
-      image.blend(x, y, colour, width / 2 + 0.5 - distance_to_segment(x + 0.5, y + 0.5, from, to));
+Image without_background(Image const& on_black, Image const& on_white) {
+  Image out = on_black;
+  out.alpha.resize(out.rgb.size() / 3);
+  for (std::size_t i = 0; i < out.alpha.size(); ++i) {
+    int seen_through = 0;  // by the channel that shows most of the background
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      seen_through = std::max(seen_through, on_white.rgb[c] - on_black.rgb[c]);
+    int const alpha = 255 - seen_through;
+    out.alpha[i] = static_cast<std::uint8_t>(alpha);
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      out.rgb[c] =
+          static_cast<std::uint8_t>(alpha == 0 ? 0 : std::min(255, (255 * on_black.rgb[c] + alpha / 2) / alpha));
   }
+  return out;
 }
 
 void write_png(std::filesystem::path const& path, Image const& image) {
+  bool const opaque = image.alpha.empty();
   png_image header = png_header(image.width, image.height);
+  if (!opaque) header.format = PNG_FORMAT_RGBA;
+  std::vector<std::uint8_t> const mixed = opaque ? std::vector<std::uint8_t>{} : with_alpha(image);
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::vector<std::byte> bytes(size);
-  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) {
+  void const* const pixels = opaque ? image.rgb.data() : mixed.data();
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr)) {
     throw FileError(fmt::format("{}: cannot be made, {} - choose a smaller picture", path.string(), header.message));
   }
-  write_whole_file(path, std::span<std::byte const>(bytes).first(size));
+  bytes.resize(size);
+  add_notes(bytes, image);
+  write_whole_file(path, bytes);
 }
 
 Image read_png(std::filesystem::path const& path) {
@@ -96,9 +132,12 @@ Image read_png(std::filesystem::path const& path) {
   bool good = png_image_begin_read_from_file(&header, path.c_str()) != 0;
   Image image;
   if (good) {
-    header.format = PNG_FORMAT_RGB;
+    bool const opaque = (header.format & PNG_FORMAT_FLAG_ALPHA) == 0;
+    header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
     image = Image(static_cast<int>(header.width), static_cast<int>(header.height), {0, 0, 0});
-    good = png_image_finish_read(&header, nullptr, image.rgb.data(), 0, nullptr) != 0;
+    std::vector<std::uint8_t> mixed(opaque ? 0 : image.rgb.size() / 3 * 4);
+    good = png_image_finish_read(&header, nullptr, opaque ? image.rgb.data() : mixed.data(), 0, nullptr) != 0;
+    if (!opaque) take_apart(mixed, image);
   }
   if (!good)
     throw FileError(fmt::format("{}: is not a PNG picture ({}) - check the file", path.string(), header.message));

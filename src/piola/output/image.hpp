@@ -3,34 +3,38 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace piola {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-/// Pixels row by row from the top, 8 bits for red, green and blue.
+/// Pixels row by row from the top, 8 bits for red, green and blue; and for opacity, where an image is not opaque.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> alpha = {};  ///< one per pixel, 0 (nothing is there) to 255; empty: opaque
+
+  /// What is said about an image: keys (ASCII, at most 79 characters) and texts (UTF-8).
+  std::vector<std::pair<std::string, std::string>> notes = {};
 
   Image() = default;
   Image(int columns, int rows, Colour background);
   Colour at(int x, int y) const;
   void set(int x, int y, Colour colour);
-  /// Mixes a colour in; coverage 0 leaves the pixel, 1 replaces it. Outside the image nothing happens.
-  void blend(int x, int y, Colour colour, double coverage);
 };
 
 /// The mean of factor x factor pixels for each pixel of the result.
 Image reduce(Image const& fine, int factor);
 
-/// A straight line with round ends, smooth at its edges. Coordinates in pixels, from the top left.
-void draw_line(Image& image, std::array<double, 2> from, std::array<double, 2> to, double width, Colour colour);
+/// The image with opacity whose pictures on black and on white these two are.
+Image without_background(Image const& on_black, Image const& on_white);
 
-/// Writes a PNG file. Throws FileError.
+/// Writes a PNG file, with the notes as international text chunks. Throws FileError.
 void write_png(std::filesystem::path const& path, Image const& image);
-/// Reads a PNG file. Throws FileError.
+/// Reads a PNG file, without its notes. Throws FileError.
 Image read_png(std::filesystem::path const& path);
 
 }  // namespace piola

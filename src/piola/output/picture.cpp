@@ -1,39 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/picture.hpp"
-#include "piola/base/text.hpp"
+#include "piola/base/version.hpp"
 #include "piola/output/colour_map.hpp"
-#include "piola/output/lettering.hpp"
-#include "piola/output/rigid_picture.hpp"
+#include "piola/output/draw_bodies.hpp"
+#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace piola {
 namespace {
 
 using Point = std::array<double, 3>;
 using Pixel = std::array<double, 2>;
-
-constexpr int fine = 2;  // pixels are the mean of fine x fine samples
-constexpr Colour background{255, 255, 255}, ink{40, 44, 52}, faint_ink{110, 116, 126};
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-/// All sizes follow the height of the picture, so that a large one is not one with tiny letters.
-struct Layout {
-  double unit, text, left, right, top, bottom;
-  explicit Layout(PictureStyle const& style)
-      : unit(std::min(style.height / 800.0, style.width / 900.0)),
-        text(13 * unit),
-        left(30 * unit),
-        right(style.width - 165 * unit),
-        top(70 * unit),
-        bottom(style.height - 40 * unit) {}
-};
 
 /// The window is centred in the free area.
 Projection make_projection(View const& view, Window const& w, Layout const& area) {
@@ -45,193 +27,116 @@ Projection make_projection(View const& view, Window const& w, Layout const& area
   return p;
 }
 
-void draw_ball(DepthImage& out, Pixel centre, double depth, double radius, Colour colour, bool flat) {
-  auto const inside_of = [](double pixel, int size) { return static_cast<int>(std::clamp(pixel, -1.0, size + 0.0)); };
-  int const x0 = std::max(0, inside_of(std::floor(centre[0] - radius), out.colour.width)),
-            x1 = std::min(out.colour.width - 1, inside_of(std::ceil(centre[0] + radius), out.colour.width));
-  int const y0 = std::max(0, inside_of(std::floor(centre[1] - radius), out.colour.height)),
-            y1 = std::min(out.colour.height - 1, inside_of(std::ceil(centre[1] + radius), out.colour.height));
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
-      double const nx = (x + 0.5 - centre[0]) / radius, ny = (y + 0.5 - centre[1]) / radius;
-      double const inside = 1 - nx * nx - ny * ny;
-      if (inside < 0) continue;
-      double const nz = std::sqrt(inside);
-      out.put(x, y, depth + radius * nz, colour, flat ? 0.9 + 0.1 * nz : light(nx, ny, nz));
-    }
-  }
-}
-
 Image draw_scene(PictureData const& data, PictureStyle const& style, Layout const& layout, Projection const& project,
-                 ColourMap const& map) {
-  DepthImage out(style.width * fine, style.height * fine, background);
-  Stage const stage{data.stage_low, data.stage_high};
-  RigidCanvas{project,
-              stage,
-              data.dimension,
-              fine,
-              static_cast<int>(0.8 * layout.top * fine),
-              static_cast<int>(layout.right * fine)}
-      .draw(out, data.rigid_shapes);
-  double const least = (data.dimension == 1 ? 5.0 : 1.2) * fine;  // a line of particles would be too thin to see
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    Pixel const p = project(data.points[i]);
-    double const radius = std::max(data.radius[i] * project.scale * fine, least);
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(radius)) continue;
-    double const depth = dot(data.points[i], project.towards) * project.scale * fine;
-    Colour const colour = data.colours.empty() ? map(data.values[i]) : data.colours[i];
-    draw_ball(out, {p[0] * fine, p[1] * fine}, depth, radius, colour, data.dimension < 3);
-  }
-  return reduce(out.colour, fine);
+                 ColourMap const& map, Colour background) {
+  double const top = style.labels ? 0.8 * layout.top : 0, right = style.labels ? layout.right : style.width;
+  SceneArea const area{style.width, style.height, static_cast<int>(top), static_cast<int>(right)};
+  return draw_bodies(data, style.appearance, project, area, map, background);
 }
 
-/// Tick numbers with as many decimals as their distance needs.
-std::string tick_text(double value, double step) {
-  double const size = std::max(std::abs(value), step);
-  if (size >= 1e5 || step < 1e-4) return fmt::format("{:.3g}", value);
-  int const decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-  return fmt::format("{:.{}f}", value, decimals);
+Overlay overlay_of(PictureData const& data, View const& view, Projection const& project, ColourMap const& map,
+                   Spread const& spread) {
+  Overlay out;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(data.dimension); ++k)
+    out.axes.push_back({view.right()[k], view.up()[k]});
+  bool const named = !data.colours.empty();
+  out.title = data.title;
+  TimeFormat const format = data.time_format ? *data.time_format : time_format(data.time, data.time);
+  out.at_right = named ? data.label : "t = " + format.text(data.time);
+  out.map = named ? nullptr : &map;
+  out.label = data.label;
+  out.unit = data.unit;
+  double const rounding = 1e-3 * (map.high() - map.low());  // what nobody sees on the bar
+  out.extremes = {spread.extremes[0] < map.low() - rounding ? spread.extremes[0] : map.low(),
+                  spread.extremes[1] > map.high() + rounding ? spread.extremes[1] : map.high()};
+  out.not_a_number = spread.not_a_number;
+  out.legend = data.legend;
+  out.pixels_per_metre = project.eye.near() ? 0 : project.scale;  // sizes differ with the distance
+  return out;
 }
 
-void draw_colour_bar(Image& image, PictureData const& data, ColourMap const& map, Layout const& layout) {
-  double const u = layout.unit;
-  int const x0 = static_cast<int>(image.width - 125 * u), x1 = static_cast<int>(image.width - 101 * u);
-  int const top = static_cast<int>(image.height * 0.2), bottom = static_cast<int>(image.height * 0.86);
-  auto const row = [&](double value) {
-    return bottom - (value - map.low()) / (map.high() - map.low()) * (bottom - top);
-  };
-  for (int y = top; y <= bottom; ++y) {
-    Colour const colour = map(map.low() + (map.high() - map.low()) * (bottom - y) / (bottom - top));
-    for (int x = x0; x <= x1; ++x) image.set(x, y, colour);
-  }
-  auto const unit = shown_unit(std::max(std::abs(map.low()), std::abs(map.high())), data.unit);
-  auto const ticks = map.ticks();
-  double const step = ticks.size() > 1 ? (ticks[1] - ticks[0]) / unit.factor : 1;
-  for (double const tick : ticks) {
-    double const y = row(tick);
-    draw_line(image, {x1 + 2.0, y + 0.5}, {x1 + 5 * u, y + 0.5}, std::max(1.2 * u, 1.0), ink);
-    draw_text(image, x1 + 15 * u, y + 0.5 * layout.text, tick_text(tick / unit.factor, step), layout.text, ink);
-  }
-  std::string const caption = unit.text.empty() ? data.label : fmt::format("{} [{}]", data.label, unit.text);
-  double const right_edge = image.width - 20 * u, wide = text_width(caption, layout.text);
-  bool const fits = x0 + wide <= right_edge;
-  draw_text(image, fits ? x0 : right_edge, top - 20 * u, caption, layout.text, ink, fits ? Align::left : Align::right);
+/// What flew out of the window, or lies beyond it where a picture is enlarged, must not lie under letters.
+void clear_for_letters(Image& image, Layout const& layout, Colour background) {
+  double const air = 8 * layout.unit;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (x > layout.right + air || y < layout.top - air || y > layout.bottom + air) image.set(x, y, background);
 }
 
-/// The part of a title that fits, with dots if some is left out.
-std::string shortened(std::string text, double height, double width) {
-  if (text_width(text, height) <= width) return text;
-  while (!text.empty() && text_width(text + "...", height) > width) text.pop_back();
-  return text + "...";
-}
-
-/// As many names as there is room for.
-void draw_legend(Image& image, std::span<LegendEntry const> legend, Layout const& layout) {
-  double const u = layout.unit, row = 1.9 * layout.text, side = 0.5 * layout.text, x = image.width - 155 * u;
-  auto const room = static_cast<std::size_t>(std::max(1.0, (layout.bottom - layout.top) / row));
-  std::size_t const shown = legend.size() <= room ? legend.size() : room - 1;
-  double const wide = image.width - 8 * u - x - 3.5 * side, first = layout.top + row;
-  for (std::size_t k = 0; k < shown; ++k) {
-    double const y = first + static_cast<double>(k) * row;
-    draw_line(image, {x + side, y - side}, {x + side + 0.1, y - side}, 2 * side, legend[k].colour);
-    draw_text(image, x + 3.5 * side, y, shortened(legend[k].name, layout.text, wide), layout.text, ink);
+/// What tells where a picture comes from.
+void add_notes_to(Image& image, PictureData const& data, ColourMap const& map) {
+  image.notes.emplace_back("Title", data.title);
+  image.notes.emplace_back("Software", "Piola " + std::string(version()));
+  if (data.colours.empty()) {
+    image.notes.emplace_back("Time", fmt::format("{} s", data.time));
+    image.notes.emplace_back("Field", data.label);
+    image.notes.emplace_back("Range", fmt::format("{} to {} {}", map.low(), map.high(), data.unit));
   }
-  if (shown < legend.size())
-    draw_text(image, x, first + static_cast<double>(shown) * row, fmt::format("and {} more", legend.size() - shown),
-              layout.text, ink);
-}
-
-void draw_axes(Image& image, View const& view, int dimension, Layout const& layout) {
-  double const length = 34 * layout.unit;
-  Pixel const origin{52 * layout.unit, image.height - 50 * layout.unit};
-  constexpr std::array<char const*, 3> names{"x", "y", "z"};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-    double const dx = view.right()[k] * length, dy = -view.up()[k] * length;
-    if (std::hypot(dx, dy) < 0.1 * length) continue;  // points at the viewer
-    draw_line(image, origin, {origin[0] + dx, origin[1] + dy}, 1.8 * layout.unit, faint_ink);
-    double const beyond = 1 + 11 * layout.unit / std::hypot(dx, dy);
-    draw_text(image, origin[0] + dx * beyond, origin[1] + dy * beyond + 4 * layout.unit, names[k], 11 * layout.unit,
-              faint_ink, Align::centre);
-  }
-}
-
-/// A direction given for y upwards, turned so that another axis points upwards.
-Point turned(Up up, Point const& d) {
-  switch (up) {
-    case Up::z: return {d[0], -d[2], d[1]};
-    case Up::x: return {d[1], -d[0], d[2]};
-    case Up::minus_y: return {-d[0], -d[1], d[2]};
-    case Up::minus_z: return {d[0], d[2], -d[1]};
-    case Up::minus_x: return {-d[1], d[0], d[2]};
-    default: return d;
-  }
+  if (data.case_text.empty()) return;
+  CheckSum sum;
+  sum.add(data.case_text);
+  image.notes.emplace_back("Case", fmt::format("CRC-32 {:08x}", sum.value()));
 }
 
 }  // namespace
 
-View View::in(int dimension) const {
-  if (dimension == 3) return *this;
-  return {0, 0, upwards == Up::z ? Up::y : upwards == Up::minus_z ? Up::minus_y : upwards};
-}
-
-std::array<double, 3> View::right() const {
-  double const a = radians(azimuth);
-  return turned(upwards, {std::cos(a), 0, -std::sin(a)});
-}
-
-std::array<double, 3> View::towards_viewer() const {
-  double const a = radians(azimuth), e = radians(elevation);
-  return turned(upwards, {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)});
-}
-
-std::array<double, 3> View::up() const {
-  double const a = radians(azimuth), e = radians(elevation);
-  return turned(upwards, {-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a)});
-}
-
-void Window::include(View const& view, std::span<Point const> points, double margin) {
-  double const infinity = std::numeric_limits<double>::infinity();
-  double low_x = infinity, high_x = -infinity, low_y = infinity, high_y = -infinity;
-  for (Point const& p : points) {
-    double const x = dot(p, view.right()), y = dot(p, view.up());
-    if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    low_x = std::min(low_x, x - margin);
-    high_x = std::max(high_x, x + margin);
-    low_y = std::min(low_y, y - margin);
-    high_y = std::max(high_y, y + margin);
-  }
-  if (!(low_x <= high_x)) return;
-  bool const inside = set && low_x >= x0 && high_x <= x1 && low_y >= y0 && high_y <= y1;
-  if (inside) return;
-  double const room = 0.06 * std::max(high_x - low_x, high_y - low_y);
-  auto const grow = [&](double& low, double& high, double new_low, double new_high) {
-    low = set && low <= new_low ? low : new_low - room;
-    high = set && high >= new_high ? high : new_high + room;
-  };
-  grow(x0, x1, low_x, high_x);
-  grow(y0, y1, low_y, high_y);
-  set = true;
-}
-
 Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window) {
   PictureStyle style = asked;
   style.view = style.view.in(data.dimension);
-  Layout const layout(style);
-  auto const range = style.range ? *style.range : typical_range(data.values);
-  ColourMap const map(range[0], range[1]);
-  Image image = draw_scene(data, style, layout, make_projection(style.view, window, layout), map);
-  bool const named = !data.colours.empty();
-  if (named)
-    draw_legend(image, data.legend, layout);
+  Layout const layout = layout_of(style.width, style.height, data.title, style.labels);
+  Spread spread;
+  if (data.spread)
+    spread = *data.spread;
   else
-    draw_colour_bar(image, data, map, layout);
-  draw_axes(image, style.view, data.dimension, layout);
-  std::string const time = named ? data.label : "t = " + quantity_text(data.time, "s");
-  double const right = style.width - 20 * layout.unit, baseline = 38 * layout.unit, large = 1.3 * layout.text;
-  draw_text(image, right, baseline, time, large, ink, Align::right);
-  double const room = right - text_width(time, large) - 60 * layout.unit;
-  draw_text(image, 30 * layout.unit, baseline, shortened(data.title, large, room), large, ink);
+    spread.include(data.values);
+  auto const range = style.range ? *style.range : spread.typical;
+  ColourMap const map(range[0], range[1], style.palette);
+  Projection project = make_projection(style.view, window, layout);
+  project.eye = data.eye;
+  ThemeColours const colours = colours_of(style.theme);
+  auto const draw_on = [&](Colour background) {
+    Image scene = draw_scene(data, style, layout, project, map, background);
+    if (style.labels) clear_for_letters(scene, layout, background);
+    return scene;
+  };
+  Image image = style.theme == Theme::transparent ? without_background(draw_on({0, 0, 0}), draw_on({255, 255, 255}))
+                                                  : draw_on(colours.background);
+  if (style.labels) draw_overlay(image, layout, overlay_of(data, style.view, project, map, spread), colours);
+  add_notes_to(image, data, map);
   return image;
+}
+
+void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
+                  Window const& window, std::string const& at_right) {
+  View const view = style.view.in(data.dimension);
+  Spread const spread = data.spread.value_or(Spread{});
+  auto const range = style.range ? *style.range : spread.typical;
+  ColourMap const map(range[0], range[1], style.palette);
+  Layout const area = layout_of(style.width, style.height, data.title, style.labels);
+  Projection project = make_projection(view, window, area);
+  project.eye = data.eye;
+  Overlay overlay = overlay_of(data, view, project, map, spread);
+  overlay.at_right = at_right;
+  draw_overlay(image, layout, overlay, colours_of(style.theme));
+}
+
+void Spread::include(std::span<double const> values) {
+  bool any = false;
+  for (double const v : values) {
+    not_a_number = not_a_number || std::isnan(v);
+    if (!std::isfinite(v)) continue;
+    any = true;
+    extremes = {std::min(extremes[0], v), std::max(extremes[1], v)};
+  }
+  if (!any) return;
+  auto const range = typical_range(values);
+  typical = {std::min(typical[0], range[0]), std::max(typical[1], range[1])};
+}
+
+void Spread::include(Spread const& other) {
+  typical = {std::min(typical[0], other.typical[0]), std::max(typical[1], other.typical[1])};
+  extremes = {std::min(extremes[0], other.extremes[0]), std::max(extremes[1], other.extremes[1])};
+  not_a_number = not_a_number || other.not_a_number;
 }
 
 std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension) {

@@ -2,8 +2,13 @@
 #pragma once
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/output/appearance.hpp"
 #include "piola/output/image.hpp"
+#include "piola/output/overlay.hpp"
+#include "piola/output/reference_mesh.hpp"
+#include "piola/output/view.hpp"
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,35 +17,17 @@
 
 namespace piola {
 
-/// The direction that points upwards in a picture.
-enum class Up { y, z, x, minus_y, minus_z, minus_x };
-inline constexpr std::array<std::string_view, 6> up_words{"y", "z", "x", "-y", "-z", "-x"};
+/// What the values in all pictures of a run have in common.
+struct Spread {
+  std::array<double, 2> typical{infinite, -infinite};   ///< of all typical ranges
+  std::array<double, 2> extremes{infinite, -infinite};  ///< lowest and highest finite value
+  bool not_a_number = false;                            ///< there are such values
+  void include(std::span<double const> values);
+  void include(Spread const& other);
+  bool operator==(Spread const&) const = default;
 
-/// Where one looks from: azimuth about the axis that points up and elevation above the plane across it [deg]. At (0, 0)
-/// with y upwards x points to the right, with z upwards x to the right and y away from the viewer, with x upwards -y to
-/// the right. Parallel projection. In two dimensions z cannot point upwards and counts as y.
-struct View {
-  double azimuth = 30, elevation = 20;
-  Up upwards = Up::y;
-  /// A plane is seen from z.
-  View in(int dimension) const;
-  std::array<double, 3> right() const;
-  std::array<double, 3> up() const;
-  std::array<double, 3> towards_viewer() const;
-};
-
-/// The part of the projected plane that is shown [m]. It starts from the first points and only grows, in generous
-/// steps, so that pictures of one run have the same scale almost always.
-struct Window {
-  bool set = false;
-  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-  void include(View const& view, std::span<std::array<double, 3> const> points, double margin);
-};
-
-/// What a colour stands for.
-struct LegendEntry {
-  std::string name;
-  Colour colour{};
+ private:
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// What one picture shows; one entry per particle.
@@ -59,16 +46,34 @@ struct PictureData {
   /// values and unit are not used.
   std::span<Colour const> colours = {};
   std::span<LegendEntry const> legend = {};
+  std::optional<Spread> spread = {};           ///< of all pictures of the run; else of these values
+  std::string_view case_text = {};             ///< the case as run: pictures carry its check sum
+  Eye eye = {};                                ///< in three dimensions
+  std::optional<TimeFormat> time_format = {};  ///< of all times of the run; else one that fits this time
+  std::span<int const> body = {};              ///< numbers, particles of a body one after the other; empty: one body
+  std::span<ReferenceMesh const> meshes = {};  ///< per body; none: particles are balls that do not stretch
+  std::span<std::uint8_t const> loose = {};    ///< not 0: has lost its neighbours for good; empty: none has
 };
 
 struct PictureStyle {
   int width = 1000, height = 800;
   View view;
-  std::optional<std::array<double, 2>> range;  ///< SI; otherwise typical_range of the values
+  std::optional<std::array<double, 2>> range;  ///< SI; otherwise the typical range of the spread
+  Theme theme = Theme::light;
+  bool labels = true;  ///< title, time, colour bar, axes, scale bar
+  Palette palette = Palette::automatic;
+  Appearance appearance = {};
 };
 
-/// Particles as shaded balls, with title, time, colour bar and axes.
+/// Bodies as surfaces or balls and rigid shapes, lit, with title, time, colour bar, axes and scale bar. Throws
+/// FileError if there is no memory for so large a picture. The image has notes: title, time, field, range, version and
+/// the check sum of the case.
 Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window);
+
+/// The letters of a picture alone, over `image`: title, what stands at the right (the time, usually), the colour bar of
+/// the style's range, and the axes and the scale that a picture of the style's size without labels has.
+void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
+                  Window const& window, std::string const& at_right);
 
 /// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a
 /// little more, so that a body looks closed.

@@ -24,7 +24,7 @@ constexpr std::array palette{Rgb{0, 0.447, 0.698},     Rgb{0.835, 0.369, 0}, Rgb
                              Rgb{0.800, 0.475, 0.655}, Rgb{0, 0, 0},         Rgb{0.902, 0.624, 0},
                              Rgb{0.337, 0.706, 0.914}};
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using DrawingSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 /// The range of one axis and its place on the paper.
@@ -224,12 +224,12 @@ class Paper {
   Scale x_, y_;
 };
 
-Surface surface_for(std::filesystem::path const& path, Plot const& plot) {
+DrawingSurface surface_for(std::filesystem::path const& path, Plot const& plot) {
   auto const extension = path.extension();
   if (extension == ".svg")
     return {cairo_svg_surface_create(path.c_str(), plot.width, plot.height), &cairo_surface_destroy};
   if (extension == ".pdf") {
-    Surface pdf(cairo_pdf_surface_create(path.c_str(), plot.width, plot.height), &cairo_surface_destroy);
+    DrawingSurface pdf(cairo_pdf_surface_create(path.c_str(), plot.width, plot.height), &cairo_surface_destroy);
     cairo_pdf_surface_set_metadata(pdf.get(), CAIRO_PDF_METADATA_TITLE, plot.title.c_str());
     return pdf;
   }
@@ -250,8 +250,8 @@ PlotText plot_text(Plot const& plot) {
   std::string svg;
   PlotText text;
   {
-    Surface const surface(cairo_svg_surface_create_for_stream(&append_to, &svg, plot.width, plot.height),
-                          &cairo_surface_destroy);
+    DrawingSurface const surface(cairo_svg_surface_create_for_stream(&append_to, &svg, plot.width, plot.height),
+                                 &cairo_surface_destroy);
     Context const context(cairo_create(surface.get()), &cairo_destroy);
     Paper paper(context.get(), plot);
     try {
@@ -276,7 +276,7 @@ void write_plot(std::filesystem::path const& path, Plot const& plot) {
     return FileError(fmt::format("{}: cannot be written ({}) - check the folder and the space", path.string(), why));
   };
   {
-    Surface const surface = surface_for(part, plot);
+    DrawingSurface const surface = surface_for(part, plot);
     Context const context(cairo_create(surface.get()), &cairo_destroy);
     bool const pixels = path.extension() == ".png";
     if (pixels) cairo_scale(context.get(), 2, 2);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/rigid_picture.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/output/projection.hpp"
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -9,11 +12,7 @@ namespace {
 using Point = std::array<double, 3>;
 using Kind = RigidShape::Kind;
 
-constexpr Colour rigid_grey{176, 180, 186}, dark_grey{138, 143, 151};
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Point minus(Point const& a, Point const& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point plus(Point const& a, double s, Point const& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
 
 /// The part of a ray inside a shape; `normal` is that of the surface where it leaves, towards the viewer.
 struct Part {
@@ -118,6 +117,33 @@ Solid solid_of(RigidShape const& shape, Stage const& stage) {
   return solid;
 }
 
+/// Puts what a ray through a sample meets of one shape.
+struct RigidSample {
+  RigidCanvas const& canvas;
+  SurfaceBuffers& buffers;
+  RigidShape const& shape;
+  Solid const& solid;
+
+  void draw(int x, int y) const {
+    Projection const& project = canvas.project;
+    double const fine = canvas.fine;
+    Sight const line = project.sight((x + 0.5) / fine, (y + 0.5) / fine);
+    Part const part = solid.seen(line.from, line.towards);
+    if (part.empty() || !std::isfinite(part.to)) return;
+    bool const flat = canvas.dimension < 3;
+    constexpr float behind_all = -1e30F;
+    // Not a number at the eye and behind it, which no comparison lets pass.
+    float const depth = flat ? behind_all : static_cast<float>(project.depth(line, part.to) * project.scale * fine);
+    std::size_t const at = buffers.at(x, y);
+    if (!(depth > buffers.depth[at])) return;
+    bool const dark = solid.marked && is_dark(shape, plus(line.from, part.to, line.towards), canvas.dimension);
+    Point const& n = part.normal;
+    buffers.put(at, depth,
+                flat ? SurfaceBuffers::Normal{} : SurfaceBuffers::packed(dot(n, project.right), -dot(n, project.up)), 0,
+                dark ? RigidCanvas::dark : RigidCanvas::bright);
+  }
+};
+
 }  // namespace
 
 Stage Stage::around(std::span<Point const> points) {
@@ -137,29 +163,27 @@ double Stage::size() const {
   return std::sqrt(dot(edges, edges));
 }
 
-void RigidCanvas::draw(DepthImage& image, std::span<RigidShape const> shapes) const {
+void RigidCanvas::draw(SurfaceBuffers& buffers, std::span<RigidShape const> shapes) const {
   for (RigidShape const& shape : shapes) {
     Solid const solid = solid_of(shape, stage);
-    auto const centre = project(solid.centre);
-    double const reach = solid.reach() * project.scale;
+    auto const centre = project(project.eye.seen(solid.centre));
+    // Of what reaches near the eye nobody knows where its image ends.
+    Point const front = plus(solid.centre, solid.reach(), project.towards);
+    double const larger = project.eye.magnification(front);
+    double const reach = std::isnan(larger)
+                             ? buffers.width + buffers.height
+                             : (solid.reach() * larger + project.eye.shift(solid.centre, larger)) * project.scale;
     if (!std::isfinite(centre[0]) || !std::isfinite(centre[1]) || !std::isfinite(reach)) continue;
     auto const bound = [&](double value, int low, int high) {
       return static_cast<int>(std::clamp(value * fine, static_cast<double>(low), static_cast<double>(high)));
     };
-    int const x1 = bound(centre[0] + reach + 1, 0, width), y1 = bound(centre[1] + reach + 1, 0, image.colour.height);
-    for (int y = bound(centre[1] - reach - 1, top, image.colour.height); y < y1; ++y) {
-      for (int x = bound(centre[0] - reach - 1, 0, width); x < x1; ++x) {
-        Part const part = solid.seen(project.point((x + 0.5) / fine, (y + 0.5) / fine), project.towards);
-        if (part.empty() || !std::isfinite(part.to)) continue;
-        Point const& n = part.normal;
-        bool const flat = dimension < 3;
-        constexpr double behind_all = -1e30;  // finite in single precision
-        Point const at = plus(project.point((x + 0.5) / fine, (y + 0.5) / fine), part.to, project.towards);
-        Colour const colour = solid.marked && is_dark(shape, at, dimension) ? dark_grey : rigid_grey;
-        image.put(x, y, flat ? behind_all : part.to * project.scale * fine, colour,
-                  flat ? 1 : light(dot(n, project.right), -dot(n, project.up), dot(n, project.towards)));
-      }
-    }
+    int const x0 = bound(centre[0] - reach - 1, 0, width), x1 = bound(centre[0] + reach + 1, 0, width);
+    int const y0 = bound(centre[1] - reach - 1, top, buffers.height),
+              y1 = bound(centre[1] + reach + 1, 0, buffers.height);
+    RigidSample const one{*this, buffers, shape, solid};
+    exec_host::for_each_part_in_set_up(std::max(y1 - y0, 0), std::max(x1 - x0, 0) * std::max(y1 - y0, 0), [&](Index k) {
+      for (int x = x0; x < x1; ++x) one.draw(x, y0 + k);
+    });
   }
 }
 

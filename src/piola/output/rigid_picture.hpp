@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/depth_image.hpp"
+#include "piola/output/picture.hpp"
+#include "piola/output/raster.hpp"
 #include <span>
 
 namespace piola {
+
+struct Projection;
 
 /// The box around the bodies at the start [m]: where a plane, which has no end, is shown.
 struct Stage {
@@ -13,14 +16,16 @@ struct Stage {
   double size() const;  ///< length of the diagonal [m]
 };
 
-/// Draws rigid shapes in grey. A plane is a thin plate behind its face, of the size of the stage, opposite its middle.
+/// Draws rigid shapes. A plane is a thin plate behind its face, of the size of the stage, opposite its middle.
 /// In two dimensions the shapes lie behind all particles. Nothing is drawn in columns from `width` on and in rows above
-/// `top`, where the letters stand. `fine`: pixels of the image per pixel of the projection.
+/// `top`, where the letters stand. `fine`: samples per pixel of the projection.
 struct RigidCanvas {
+  static constexpr Owner bright = 0, dark = 1;  ///< every other part of balls that turn is dark
+  static constexpr std::array<Colour, 2> colours{Colour{176, 180, 186}, Colour{138, 143, 151}};
   Projection const& project;
   Stage const& stage;
   int dimension = 3, fine = 1, top = 0, width = 0;
-  void draw(DepthImage& image, std::span<RigidShape const> shapes) const;
+  void draw(SurfaceBuffers& buffers, std::span<RigidShape const> shapes) const;
 };
 
 /// Lets the window show the shapes that have an end, unless they are more than twice as large as the stage.

@@ -46,9 +46,13 @@ std::vector<Tick> decade_ticks(double low, double high) {
   return ticks;
 }
 
-Prefix prefix_for(double largest, std::string_view unit) {
+bool takes_prefix(std::string_view unit) {
   constexpr std::array<std::string_view, 9> units{"m", "s", "N", "J", "Pa", "m/s", "N m", "W", "Hz"};
-  if (std::find(units.begin(), units.end(), unit) == units.end() || !(largest > 0)) return {"", 1};
+  return std::find(units.begin(), units.end(), unit) != units.end();
+}
+
+Prefix prefix_for(double largest, std::string_view unit) {
+  if (!takes_prefix(unit) || !(largest > 0)) return {"", 1};
   constexpr std::array prefixes{Prefix{"G", 1e9},  Prefix{"M", 1e6},       Prefix{"k", 1e3}, Prefix{"", 1},
                                 Prefix{"m", 1e-3}, Prefix{"\u00b5", 1e-6}, Prefix{"n", 1e-9}};
   // Seconds and metres above a thousand stay as they are; nobody says ks or Mm.

@@ -20,11 +20,12 @@ std::vector<Tick> linear_ticks(double low, double high, int about = 5);
 std::vector<Tick> decade_ticks(double low, double high);
 
 /// The SI prefix that makes numbers as large as `largest` easy to read, for units that take prefixes (m, s, N, J, Pa,
-/// m/s ... but not kg, 1 or units with powers).
+/// m/s ... but not kg, 1 or units with powers; see takes_prefix).
 struct Prefix {
   std::string_view word;  ///< "M", "" or "\u00b5", ...
   double factor = 1;      ///< of the unit with the prefix
 };
+bool takes_prefix(std::string_view unit);
 Prefix prefix_for(double largest, std::string_view unit);
 
 }  // namespace piola

@@ -76,12 +76,14 @@ Json fields_json(Survey const& survey, Plan const& plan) {
   return fields;
 }
 
-Json bodies_json(RunFolder const& run, Survey const& survey) {
+/// Where only some particles are shown, their balls fill the space of the others.
+Json bodies_json(RunFolder const& run, Survey const& survey, Plan const& plan) {
+  double const growth = std::pow(static_cast<double>(plan.every), 1.0 / survey.dimension);
   Json bodies = Json::array();
   for (std::size_t b = 0; b < survey.radius.size(); ++b) {
     bool const named = run.spec && b < run.spec->bodies.size();
-    bodies.push_back(
-        {{"name", named ? run.spec->bodies[b].name : fmt::format("body {}", b)}, {"radius", survey.radius[b]}});
+    bodies.push_back({{"name", named ? run.spec->bodies[b].name : fmt::format("body {}", b)},
+                      {"radius", growth * survey.radius[b]}});
   }
   return bodies;
 }
@@ -154,7 +156,7 @@ Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan) 
               {"times", chosen(plan, survey.times)},
               {"numbers", chosen(plan, survey.frames)},
               {"fields", fields_json(survey, plan)},
-              {"bodies", bodies_json(run, survey)},
+              {"bodies", bodies_json(run, survey, plan)},
               {"shapes", Json::array()},
               {"poses", Json::array()},
               {"maps", {{"rising", colours_between(0, 1)}, {"around zero", colours_between(-1, 1)}}}};

@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
 #include <cerrno>
+#include <fmt/format.h>
 
 namespace piola::report {
 
@@ -19,6 +20,12 @@ std::string escaped(std::string_view text) {
     }
   }
   return out;
+}
+
+void require_page_name(std::filesystem::path const& path) {
+  if (path.extension() == ".html" || path.extension() == ".htm") return;
+  throw InputError(
+      fmt::format("{}: is not the name of a page (allowed: names that end in .html) - choose one", path.string()));
 }
 
 PageFile::PageFile(std::filesystem::path path, std::string const& title)

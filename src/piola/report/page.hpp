@@ -36,6 +36,9 @@ class PageFile {
   double size_ = 0;
 };
 
+/// Throws InputError if a page would not have the name of one, NAME.html: no case or table is overwritten by a slip.
+void require_page_name(std::filesystem::path const& path);
+
 /// &, <, > and quotes as what HTML shows so.
 std::string escaped(std::string_view text);
 

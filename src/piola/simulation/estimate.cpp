@@ -125,12 +125,18 @@ double frame_bytes(OutputSpec const& output, std::vector<FieldInfo> const& field
   return 4 * numbers * share + (cells + ids) * share_of_whole;
 }
 
+double picture_pixels(OutputSpec const& output) {
+  constexpr double usual = 800e3;  // of a size that follows what is shown
+  double const given = static_cast<double>(output.picture_width) * output.picture_height;
+  return given > 0 ? given : usual * output.picture_scale * output.picture_scale;
+}
+
 double disk_of(CaseSpec const& spec, Formulation const& formulation, double particles, double state) {
   Plan const plan = plan_of(spec);
   double columns = 24 + static_cast<double>(formulation.diagnose().more.size());
   for (ProbeSpec const& probe : spec.probes) columns += static_cast<double>(probe.quantities.size());
   return plan.frames * (frame_file_bytes + particles * frame_bytes(spec.output, formulation.fields())) +
-         plan.pictures * picture_bytes * spec.output.picture_width * spec.output.picture_height +
+         plan.pictures * picture_bytes * picture_pixels(spec.output) +
          kept_checkpoints * (checkpoint_file_bytes + 8 * state * particles) + plan.rows * columns * cell_bytes;
 }
 

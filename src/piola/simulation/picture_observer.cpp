@@ -2,6 +2,7 @@
 #include "piola/simulation/picture_observer.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/rigid_picture.hpp"
+#include "piola/simulation/look.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
 #include <cstring>
@@ -21,12 +22,13 @@ PictureObserver::PictureObserver(Results results)
     : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
   auto const& particles = results_.particles;
   auto const& output = results_.spec.output;
-  view_ = View{output.picture_view[0], output.picture_view[1], upwards(results_.spec)}.in(particles.dimension);
+  camera_ = camera_of(output, upwards(results_.spec), results_.spec.bodies, particles.dimension);
   if (!schedule_.ever()) return;
   radii_ = ball_radii(particles.volume, particles.body, particles.dimension);
   Stage const stage = Stage::around(particles.X);
   stage_low_ = stage.low;
   stage_high_ = stage.high;
+  if (particles.dimension == 3) camera_.eye = eye_before(camera_, output.picture_perspective, stage_low_, stage_high_);
 }
 
 /// Those whose places a kept picture holds.
@@ -55,9 +57,11 @@ void PictureObserver::keep(std::size_t number, Kept const& kept) const {
     for (double const c : p) numbers.push_back(static_cast<float>(c));
   for (double const v : kept.values) numbers.push_back(static_cast<float>(v));
   std::size_t const before = head.size() * sizeof(double);
-  std::vector<std::byte> bytes(before + numbers.size() * sizeof(float));
+  std::size_t const middle = before + numbers.size() * sizeof(float);
+  std::vector<std::byte> bytes(middle + kept.loose.size());
   std::memcpy(bytes.data(), head.data(), before);
   if (!numbers.empty()) std::memcpy(bytes.data() + before, numbers.data(), numbers.size() * sizeof(float));
+  if (!kept.loose.empty()) std::memcpy(bytes.data() + middle, kept.loose.data(), kept.loose.size());
   write_whole_file(kept_path(number), bytes);
 }
 
@@ -69,7 +73,9 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
   kept.rigids = turning_shapes();
   std::vector<double> head(1 + 6 * kept.rigids.size());
   std::size_t const before = head.size() * sizeof(double);
-  if (bytes.size() != before + numbers.size() * sizeof(float)) return false;
+  std::size_t const middle = before + numbers.size() * sizeof(float);
+  if (bytes.size() != middle + n) return false;
+  kept.loose.assign(bytes.begin() + static_cast<std::ptrdiff_t>(middle), bytes.end());
   std::memcpy(head.data(), bytes.data(), before);
   if (n > 0) std::memcpy(numbers.data(), bytes.data() + before, numbers.size() * sizeof(float));
   auto from = head.begin();
@@ -88,6 +94,7 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
 void PictureObserver::draw(std::size_t number, Kept const& kept) {
   auto const& output = results_.spec.output;
   auto const shapes = shapes_at(results_.spec.rigids, kept.time, kept.rigids);
+  if (meshes_.empty()) meshes_ = reference_meshes(results_.particles);
   PictureData const data{.points = kept.points,
                          .radius = radii_,
                          .values = kept.values,
@@ -98,9 +105,17 @@ void PictureObserver::draw(std::size_t number, Kept const& kept) {
                          .dimension = results_.particles.dimension,
                          .rigid_shapes = shapes,
                          .stage_low = stage_low_,
-                         .stage_high = stage_high_};
-  PictureStyle const style{output.picture_width, output.picture_height, view_, look().range};
-  write_png(path(number), draw_picture(data, style, window_));
+                         .stage_high = stage_high_,
+                         .spread = spread_,
+                         .case_text = results_.spec.source,
+                         .eye = eye_at(camera_, subject(kept.points)),
+                         .time_format = time_format(results_.spec.run.end, output.pictures_every),
+                         .body = results_.particles.body,
+                         .meshes = meshes_,
+                         .loose = kept.loose};
+  PictureStyle style = style_of(output, camera_, window_);
+  style.appearance = appearance_of(results_.spec);
+  write_png(path(number), draw_picture(data, style, shown_window(window_, camera_, subject(kept.points))));
   drawn_[number] = look();
 }
 
@@ -132,11 +147,15 @@ void PictureObserver::see_now(Formulation const& formulation, double time) {
   for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = as_kept(x[i]);
   kept.values = picture_values(cache.values(field_.name), field_.components, component_);
   for (double& value : kept.values) value = as_kept(value);
+  auto const if_known = [&](char const* field) {
+    return cache.knows(field) ? cache.values(field) : std::span<double const>();
+  };
+  kept.loose = loose_particles(if_known("Damage"), if_known("KernelType"), radii_.size());
 
-  window_.include(view_, kept.points, radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end()));
-  show_shapes(window_, view_, shapes_at(results_.spec.rigids, time, kept.rigids), {stage_low_, stage_high_});
-  auto const range = typical_range(kept.values);
-  range_ = {std::min(range_[0], range[0]), std::max(range_[1], range[1])};
+  include(window_, camera_, subject(kept.points));
+  if (camera_.follow < 0)
+    show_shapes(window_, camera_.view, shapes_at(results_.spec.rigids, time, kept.rigids), {stage_low_, stage_high_});
+  spread_.include(kept.values);
   make_folder(results_.folder / "pictures");
   auto const number = static_cast<std::size_t>(count_);
   keep(number, kept);
@@ -151,9 +170,9 @@ void PictureObserver::see_now(Formulation const& formulation, double time) {
   last_time_ = time;
 }
 
-PictureObserver::Look PictureObserver::look() const {
-  auto const& given = results_.spec.output.picture_range;
-  return {given ? *given : range_, {window_.x0, window_.x1, window_.y0, window_.y1}};
+Subject PictureObserver::subject(std::vector<std::array<double, 3>> const& points) const {
+  double const margin = radii_.empty() ? 0 : *std::max_element(radii_.begin(), radii_.end());
+  return {.points = points, .volume = results_.particles.volume, .body = results_.particles.body, .margin = margin};
 }
 
 bool PictureObserver::drawn_as_now(std::size_t number) const {
@@ -191,7 +210,9 @@ void PictureObserver::finish(Formulation const& formulation, Moment const& momen
 
 void PictureObserver::save(StateWriter& writer) const {
   writer.put("pictures", std::array{count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0,
-                                    window_.y1, range_[0], range_[1]});
+                                    window_.y1, spread_.typical[0], spread_.typical[1]});
+  writer.put("picture_extremes",
+             std::array{spread_.extremes[0], spread_.extremes[1], spread_.not_a_number ? 1.0 : 0.0});
 }
 
 void PictureObserver::load(NamedState& reader, Moment const& moment) {
@@ -201,7 +222,12 @@ void PictureObserver::load(NamedState& reader, Moment const& moment) {
   count_ = v[0];
   last_time_ = v[1];
   window_ = {v[2] != 0, v[3], v[4], v[5], v[6]};
-  range_ = {v[7], v[8]};
+  spread_.typical = {v[7], v[8]};
+  if (!reader.has("picture_extremes")) return;  // written by an earlier version
+  std::array<double, 3> extremes{};
+  reader.get("picture_extremes", extremes);
+  spread_.extremes = {extremes[0], extremes[1]};
+  spread_.not_a_number = extremes[2] != 0;
 }
 
 }  // namespace piola

@@ -3,7 +3,6 @@
 #include "piola/output/picture.hpp"
 #include "piola/simulation/observers.hpp"
 #include <chrono>
-#include <limits>
 #include <map>
 
 namespace piola {
@@ -27,7 +26,8 @@ class PictureObserver : public Observer {
     double time = 0;
     std::vector<std::array<double, 3>> points;
     std::vector<double> values;
-    std::vector<RigidState> rigids = {};  ///< that are free or turn
+    std::vector<RigidState> rigids = {};   ///< that are free or turn
+    std::vector<std::uint8_t> loose = {};  ///< see loose_particles
   };
   std::vector<RigidState> turning_shapes() const;
   void see_now(Formulation const& formulation, double time);
@@ -43,20 +43,22 @@ class PictureObserver : public Observer {
 
   Results results_;
   Schedule schedule_;
-  View view_;
+  Camera camera_;
   Window window_;
-  std::array<double, 2> range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Spread spread_;
   std::vector<double> radii_;
+  std::vector<ReferenceMesh> meshes_;  ///< made for the first picture
   std::array<double, 3> stage_low_{}, stage_high_{};
   FieldInfo field_{};  ///< what is drawn; no name before the first picture
   int component_ = whole_field;
   /// How a picture was drawn; nothing is known of those that were drawn before the run was resumed.
   struct Look {
-    std::array<double, 2> range;
-    std::array<double, 4> window;
+    Spread spread;
+    Window window;
     bool operator==(Look const&) const = default;
   };
-  Look look() const;
+  Look look() const { return {spread_, window_}; }
+  Subject subject(std::vector<std::array<double, 3>> const& points) const;
   std::map<std::size_t, Look> drawn_;
   std::chrono::steady_clock::time_point last_drawn_{};
   bool impossible_ = false;  ///< the formulation has no such field, and the user was told

@@ -3,15 +3,19 @@
 #include "piola/base/problems.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/film.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/panels.hpp"
 #include "piola/output/rigid_picture.hpp"
 #include "piola/simulation/rigid_history.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace piola {
 namespace {
@@ -29,21 +33,55 @@ std::string title_of(fs::path const& folder) {
 }
 
 /// The case that the run was started with; nothing if it is not there or cannot be read any more.
-std::optional<CaseSpec> case_of(fs::path const& folder) {
+std::optional<CaseSpec> case_of(fs::path const& folder, ParticleSet& particles) {
   if (!fs::exists(folder / "case.toml")) return std::nullopt;
   try {
-    return read_case(folder / "case.toml");
+    return read_case(folder / "case.toml", {}, {}, &particles);
   } catch (InputError const&) {
     return std::nullopt;
   }
 }
 
-View view_of(RenderOptions const& options, std::optional<CaseSpec> const& spec, int dimension) {
-  View view = options.view;
-  for (std::size_t k = 0; k < up_words.size(); ++k)
-    if (options.up == up_words[k]) view.upwards = static_cast<Up>(k);
-  if (options.up == "auto" && spec) view.upwards = upwards(*spec);
-  return view.in(dimension);
+/// The case with the field, the range and the look asked for; of a run without one, with those alone.
+CaseSpec as_asked(std::optional<CaseSpec> const& found, RenderOptions const& options) {
+  CaseSpec spec = found.value_or(CaseSpec{});
+  spec.output.picture_field = options.field;
+  spec.output.picture_range = options.range;
+  spec.output = with_look(spec.output, options.look);
+  return spec;
+}
+
+TimeFormat format_of(std::vector<std::pair<double, fs::path>> const& frames) {
+  double const last = frames.empty() ? 0 : frames.back().first;
+  return time_format(last,
+                     frames.size() < 2 ? last : (last - frames.front().first) / static_cast<double>(frames.size() - 1));
+}
+
+/// What the case says, changed by what the options say.
+Appearance appearance_of(RenderOptions const& options, std::optional<CaseSpec> const& spec) {
+  Appearance appearance = spec ? appearance_of(*spec) : Appearance{};
+  std::vector<std::string> bodies;
+  for (std::size_t b = 0; spec && b < spec->bodies.size(); ++b) bodies.push_back(spec->bodies[b].name);
+  appearance.as.resize(std::max<std::size_t>(bodies.size(), 1), Representation::automatic);
+  for (std::string const& one : options.as) {
+    auto const sign = one.find('=');
+    std::string const word = sign == std::string::npos ? one : one.substr(sign + 1), body = one.substr(0, sign);
+    if (std::find(representation_words.begin(), representation_words.end(), word) == representation_words.end())
+      throw InputError(fmt::format("--as: {} is no way to draw bodies (allowed: {}) - choose one of these", word,
+                                   fmt::join(representation_words, ", ")));
+    auto const at = std::find(bodies.begin(), bodies.end(), body);
+    if (sign == std::string::npos)
+      appearance.as.assign(appearance.as.size(), representation_of(word));
+    else if (at != bodies.end())
+      appearance.as[static_cast<std::size_t>(at - bodies.begin())] = representation_of(word);
+    else
+      throw InputError(
+          fmt::format("--as: there is no body '{}' (allowed: {}) - name one of these", body,
+                      bodies.empty() ? "none without a case.toml" : fmt::format("{}", fmt::join(bodies, ", "))));
+  }
+  appearance.outline = appearance.outline && options.outline;
+  if (options.cut) appearance.cut = options.cut;
+  return appearance;
 }
 
 std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count) {
@@ -59,41 +97,102 @@ std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count)
   return numbers;
 }
 
+/// A frame and what is drawn of it.
+struct Shot {
+  Frame frame;
+  std::vector<double> radii, values;
+  std::vector<RigidShape> shapes;
+  std::vector<std::uint8_t> loose;
+  PictureData data = {};  ///< refers to the vectors above, which stay where they are when a shot is moved
+  Window window = {};
+};
+
 /// Everything that the pictures of one run have in common.
 class Renderer {
  public:
   Renderer(fs::path const& folder, RenderOptions const& options)
-      : options_(options), title_(title_of(folder)), spec_(case_of(folder)), frames_(list_frames(folder)) {
+      : options_(options),
+        title_(title_of(folder)),
+        spec_(case_of(folder, particles_)),
+        asked_(as_asked(spec_, options)),
+        appearance_(appearance_of(options, spec_)),
+        frames_(list_frames(folder)) {
+    if (spec_) meshes_ = reference_meshes(particles_);
     if (spec_) rigids_.emplace(folder / "history.csv", spec_->rigids);
     for (auto const& entry : frames_) survey(read(entry.second));
   }
   std::size_t count() const { return frames_.size(); }
 
-  fs::path draw(std::size_t number, fs::path const& folder) const {
-    Frame const frame = read(frames_[number].second);
+  double time(std::size_t number) const { return frames_[number].first; }
+
+  std::string const& title() const { return title_; }
+  Window const& window() const { return window_; }
+  TimeFormat time_format() const { return format_of(frames_); }
+  /// The number of the frame nearest in time; there must be one.
+  std::size_t nearest(double time) const {
+    auto const away = [&](auto const& entry) { return std::abs(entry.first - time); };
+    auto const found = std::min_element(frames_.begin(), frames_.end(),
+                                        [&](auto const& a, auto const& b) { return away(a) < away(b); });
+    return static_cast<std::size_t>(found - frames_.begin());
+  }
+  /// Two runs get one range and windows of one size.
+  void share_with(Renderer& other) {
+    for (auto const& [one, two] : {std::pair{this, &other}, std::pair{&other, this}}) {
+      one->spread_.include(two->spread_);
+      one->window_.cover(two->window_);
+    }
+  }
+
+  std::string name(std::size_t number) const { return picture_name(options_.field, components_, component_, number); }
+  Image picture(std::size_t number) const {
+    Shot const seen = shot(number);
+    return draw_picture(seen.data, style(seen.frame.dimension), seen.window);
+  }
+  bool size_is_given() const { return asked_.output.picture_width > 0 && asked_.output.picture_height > 0; }
+  PictureStyle style(int dimension) const {
+    PictureStyle style = style_of(asked_.output, camera_for(dimension), window_);
+    style.appearance = appearance_;
+    return style;
+  }
+
+  Shot shot(std::size_t number) const {
+    Shot shot{.frame = read(frames_[number].second), .radii = {}, .values = {}, .shapes = {}, .loose = {}};
+    Frame const& frame = shot.frame;
     int const components = frame.info.components, component = component_of(frame);
-    auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-    auto const values = picture_values(frame.values, components, component);
-    auto const shapes = shapes_of(frame);
-    PictureData const data{.points = frame.points,
-                           .radius = radii,
-                           .values = values,
-                           .label = picture_label(options_.field, components, component),
-                           .unit = frame.info.unit,
-                           .title = title_,
-                           .time = frame.time,
-                           .dimension = frame.dimension,
-                           .rigid_shapes = shapes,
-                           .stage_low = stage_.low,
-                           .stage_high = stage_.high};
-    PictureStyle const style{options_.width, options_.height, view_of(options_, spec_, frame.dimension),
-                             options_.range ? *options_.range : range_};
-    fs::path path = folder / picture_name(options_.field, components, component, number);
-    write_png(path, draw_picture(data, style, window_));
-    return path;
+    shot.radii = ball_radii(frame.volume, frame.body, frame.dimension);
+    shot.values = picture_values(frame.values, components, component);
+    shot.shapes = shapes_of(frame);
+    shot.loose = loose_particles(frame.damage, frame.kernel_type, frame.points.size());
+    PictureData const data{
+        .points = frame.points,
+        .radius = shot.radii,
+        .values = shot.values,
+        .label = picture_label(options_.field, components, component),
+        .unit = frame.info.unit,
+        .title = title_,
+        .time = frame.time,
+        .dimension = frame.dimension,
+        .rigid_shapes = shot.shapes,
+        .stage_low = stage_.low,
+        .stage_high = stage_.high,
+        .spread = spread_,
+        .case_text = asked_.source,
+        .time_format = time_format(),
+        .body = frame.body,
+        .meshes = belongs(frame) ? std::span<ReferenceMesh const>(meshes_) : std::span<ReferenceMesh const>(),
+        .loose = shot.loose};
+    shot.data = data;
+    shot.data.eye = eye_at(camera_for(frame.dimension), subject_of(frame, shot.radii));
+    shot.window = shown_window(window_, camera_for(frame.dimension), subject_of(frame, shot.radii));
+    return shot;
   }
 
  private:
+  /// Whether the frame is of the case that lies in the folder now.
+  bool belongs(Frame const& frame) const {
+    return frame.points.size() == particles_.X.size() && frame.dimension == particles_.dimension &&
+           std::equal(frame.body.begin(), frame.body.end(), particles_.body.begin(), particles_.body.end());
+  }
   Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
   std::vector<RigidShape> shapes_of(Frame const& frame) const {
     if (!spec_) return {};
@@ -107,41 +206,179 @@ class Renderer {
                                  known.empty() ? "it has none" : fmt::format("allowed: {}", fmt::join(known, ", "))));
   }
   void survey(Frame const& frame) {
+    components_ = frame.info.components;
+    component_ = component_of(frame);
     if (!(stage_.size() > 0)) stage_ = Stage::around(frame.points);
-    View const view = view_of(options_, spec_, frame.dimension);
+    Camera const camera = camera_for(frame.dimension);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-    window_.include(view, frame.points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
-    show_shapes(window_, view, shapes_of(frame), stage_);
-    auto const range = typical_range(picture_values(frame.values, frame.info.components, component_of(frame)));
-    range_ = {std::min(range_[0], range[0]), std::max(range_[1], range[1])};
+    include(window_, camera, subject_of(frame, radii));
+    if (camera.follow < 0) show_shapes(window_, camera.view, shapes_of(frame), stage_);
+    spread_.include(picture_values(frame.values, frame.info.components, component_of(frame)));
+  }
+  Camera camera_for(int dimension) const {
+    Camera camera = camera_of(asked_.output, upwards(asked_), asked_.bodies, dimension);
+    if (dimension == 3) camera.eye = eye_before(camera, asked_.output.picture_perspective, stage_.low, stage_.high);
+    return camera;
+  }
+  static Subject subject_of(Frame const& frame, std::vector<double> const& radii) {
+    double const margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
+    return {.points = frame.points, .volume = frame.volume, .body = frame.body, .margin = margin};
   }
 
   RenderOptions const& options_;
   std::string title_;
+  ParticleSet particles_;  ///< of the case
   std::optional<CaseSpec> spec_;
+  CaseSpec asked_;
+  Appearance appearance_;
+  std::vector<ReferenceMesh> meshes_;
   std::optional<RigidHistory> rigids_;  ///< where there is a case
   std::vector<std::pair<double, fs::path>> frames_;
   Window window_;
   Stage stage_;
-  std::array<double, 2> range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Spread spread_;
+  int components_ = 1, component_ = whole_field;
 };
+
+void expect_frames(fs::path const& folder) {
+  if (fs::exists(folder / "frames.hdf.series")) return;
+  throw InputError(
+      fmt::format("{}: has no frames to draw (no frames.hdf.series) - run the case with --set output.frames.every=TIME",
+                  folder.string()));
+}
+
+/// Pictures of one run, or of several beside each other, by the numbers of the frames of the first.
+class Pictures {
+ public:
+  Pictures(fs::path const& folder, RenderOptions const& options) {
+    std::vector<fs::path> folders{folder};
+    folders.insert(folders.end(), options.beside.begin(), options.beside.end());
+    for (fs::path const& one : folders) {
+      expect_frames(one);
+      runs_.push_back(std::make_unique<Renderer>(one, options));
+      names_.push_back(runs_.back()->title());
+      if (runs_.back()->count() == 0)
+        throw InputError(fmt::format("{}: has no frames to draw - let the run write some", one.string()));
+    }
+    for (std::string const& field : options.more_fields) {
+      fields_.push_back(std::make_unique<RenderOptions>(options));
+      fields_.back()->field = field;
+      fields_.back()->component.clear();
+      of_fields_.push_back(std::make_unique<Renderer>(folder, *fields_.back()));
+    }
+    for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);
+    for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // what came later, too
+    bool const all_differ = std::set<std::string>(names_.begin(), names_.end()).size() == names_.size();
+    for (std::size_t k = 0; !all_differ && k < names_.size(); ++k) names_[k] = name_of(folders[k]);
+  }
+  Renderer const& first() const { return *runs_[0]; }
+  std::size_t count() const { return first().count(); }
+  double time(std::size_t number) const { return first().time(number); }
+
+  std::string name(std::size_t number) const {
+    std::string name = first().name(number);
+    for (auto const& one : fields_) name.insert(name.rfind('-'), "-" + one->field);
+    return name;
+  }
+  Image picture(std::size_t number) const {
+    if (!of_fields_.empty()) {
+      std::vector<Image> images{first().picture(number)};
+      for (auto const& one : of_fields_) images.push_back(one->picture(number));
+      return tiled(images, fitting_columns(first().window(), images.size()));
+    }
+    if (runs_.size() == 1) return first().picture(number);
+    std::vector<Shot> shots;
+    for (auto const& run : runs_) shots.push_back(run->shot(run->nearest(time(number))));
+    std::vector<Panel> panels;
+    for (std::size_t k = 0; k < shots.size(); ++k) panels.push_back({shots[k].data, shots[k].window, names_[k]});
+    return sheet(first(), panels, "", "t = " + first().time_format().text(time(number)));
+  }
+
+  /// Panels with the look of a run.
+  static Image sheet(Renderer const& run, std::vector<Panel> const& panels, std::string title, std::string at_right) {
+    PictureStyle style = run.style(panels[0].data.dimension);
+    int const columns = fitting_columns(run.window(), panels.size());
+    if (!run.size_is_given()) {
+      auto const size = fitting_size(run.window(), panels.size(), columns);
+      style.width = size[0];
+      style.height = size[1];
+    }
+    return draw_panels(panels, {std::move(title), std::move(at_right), columns}, style);
+  }
+
+ private:
+  static std::string name_of(fs::path const& folder) {
+    fs::path const whole = fs::absolute(folder).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  }
+  std::vector<std::unique_ptr<Renderer>> runs_;
+  std::vector<std::string> names_;
+  std::vector<std::unique_ptr<RenderOptions>> fields_;  ///< renderers refer to them
+  std::vector<std::unique_ptr<Renderer>> of_fields_;
+};
+
+/// `count` of the frames, those nearest to equal steps of time; a frame may be there several times.
+std::vector<std::size_t> at_equal_steps(Pictures const& renderer, std::vector<std::size_t> numbers, std::size_t count) {
+  std::sort(numbers.begin(), numbers.end());
+  double const first = renderer.time(numbers.front()), last = renderer.time(numbers.back());
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    double const time =
+        count < 2 ? last : first + (last - first) * static_cast<double>(k) / static_cast<double>(count - 1);
+    out.push_back(*std::min_element(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(renderer.time(a) - time) < std::abs(renderer.time(b) - time);
+    }));
+  }
+  return out;
+}
 
 }  // namespace
 
+std::size_t render_film(fs::path const& folder, RenderOptions const& options, FilmOptions const& film) {
+  Pictures const renderer(folder, options);
+  auto const numbers = chosen(options, renderer.count());
+  double const frames = static_cast<double>(numbers.size());
+  FilmPace pace{.hold_end = film.hold_end};
+  if (film.pictures_per_second) pace.pictures_per_second = *film.pictures_per_second;
+  if (film.seconds && !film.pictures_per_second) pace.pictures_per_second = frames / *film.seconds;
+  double const count = film.seconds ? std::max(1.0, std::round(*film.seconds * pace.pictures_per_second)) : frames;
+  auto const order = at_equal_steps(renderer, numbers, static_cast<std::size_t>(count));
+  Image picture = renderer.picture(order.front());
+  Film out(film.file, picture.width, picture.height, pace);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k > 0 && order[k] != order[k - 1]) picture = renderer.picture(order[k]);
+    out.add(picture);
+  }
+  out.finish();
+  return order.size();
+}
+
+fs::path render_times(fs::path const& folder, RenderOptions const& options, std::vector<double> const& times) {
+  Pictures const pictures(folder, options);
+  Renderer const& run = pictures.first();
+  std::vector<Shot> shots;
+  std::vector<Panel> panels;
+  for (double const time : times) shots.push_back(run.shot(run.nearest(time)));
+  for (Shot const& shot : shots) panels.push_back({shot.data, shot.window, run.time_format().text(shot.frame.time)});
+  fs::path const out = options.out.empty() ? folder / "pictures" : options.out;
+  make_folder(out);
+  std::string name = run.name(0);
+  fs::path path = out / name.replace(name.rfind("000000"), 6, "times");
+  write_png(path, Pictures::sheet(run, panels, run.title(), ""));
+  return path;
+}
+
 std::vector<fs::path> render_frames(fs::path const& folder, RenderOptions const& options,
                                     std::function<void(fs::path const&)> const& drawn) {
-  if (!fs::exists(folder / "frames.hdf.series")) {
-    throw InputError(fmt::format(
-        "{}: has no frames to draw (no frames.hdf.series) - run the case with --set output.frames.every=TIME",
-        folder.string()));
-  }
-  Renderer const renderer(folder, options);
-  fs::path const out = options.out.empty() ? folder / "pictures" : options.out;
-  auto const numbers = chosen(options, renderer.count());
+  Pictures const pictures(folder, options);
+  fs::path const own = options.beside.empty() ? folder / "pictures" : fs::path("side-by-side");
+  fs::path const out = options.out.empty() ? own : options.out;
+  auto const numbers = chosen(options, pictures.count());
   make_folder(out);
   std::vector<fs::path> paths;
   for (std::size_t const k : numbers) {
-    paths.push_back(renderer.draw(k, out));
+    paths.push_back(out / pictures.name(k));
+    write_png(paths.back(), pictures.picture(k));
     if (drawn) drawn(paths.back());
   }
   return paths;

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_headline = 20000;  // of a log: version and title
 
 // frames.xmf was written by earlier versions.
-constexpr std::array own_names{"history.csv", "summary.json", "frames",    "frames.hdf.series", "frames.xmf",
-                               "pictures",    "checkpoints",  "case.toml", "log.txt",           kept_files};
+constexpr std::array own_names{"history.csv", "summary.json", "frames",  "frames.hdf.series", "frames.xmf", "pictures",
+                               "checkpoints", "case.toml",    "log.txt", "report.html",       kept_files};
 
 /// Title of the run whose results lie in a folder; nothing if there are none.
 std::optional<std::string> title_in(fs::path const& folder) {

@@ -91,4 +91,32 @@ std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double t
   return shapes;
 }
 
+Representation representation_of(std::string_view word) {
+  auto const found = std::find(representation_words.begin(), representation_words.end(), word);
+  if (found == representation_words.end()) return Representation::automatic;
+  return static_cast<Representation>(found - representation_words.begin());
+}
+
+Appearance appearance_of(CaseSpec const& spec) {
+  AppearanceSpec const& said = spec.output.appearance;
+  Appearance appearance;
+  appearance.as.assign(spec.bodies.size(), representation_of(said.as));
+  for (AppearanceSpec::OfBody const& one : said.of_body)
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+      if (spec.bodies[b].name == one.body) appearance.as[b] = representation_of(one.as);
+  appearance.outline = said.outline;
+  if (said.cut) appearance.cut = {said.cut->point, said.cut->normal, said.cut->ghost, said.cut->in_reference};
+  return appearance;
+}
+
+std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::span<double const> kernel_type,
+                                          std::size_t particles) {
+  constexpr double all_of_it = 1 - 1e-6;  // frames hold single precision
+  std::vector<std::uint8_t> loose(particles, 0);
+  for (auto const values : {damage, kernel_type})
+    for (std::size_t i = 0; i < std::min(particles, values.size()); ++i)
+      if (values[i] >= all_of_it) loose[i] = 1;
+  return loose;
+}
+
 }  // namespace piola

@@ -3,6 +3,9 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/mechanics/rigid_state.hpp"
 #include "piola/output/picture.hpp"
+#include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace piola {
@@ -16,5 +19,15 @@ Up upwards(CaseSpec const& spec);
 /// else they stand where they started.
 std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
                                   std::vector<RigidState> const& states = {});
+
+/// What a word of representation_words means.
+Representation representation_of(std::string_view word);
+
+/// What output.pictures says of how bodies are drawn.
+Appearance appearance_of(CaseSpec const& spec);
+
+/// Which particles have lost their neighbours for good: damage 1, or Eulerian (kernel type 1). Empty spans: none.
+std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::span<double const> kernel_type,
+                                          std::size_t particles);
 
 }  // namespace piola

@@ -69,14 +69,6 @@ Paint by_patch(CaseSpec const& spec, ParticleSet const& particles) {
   return paint;
 }
 
-View view_of(CaseSpec const& spec, ShapePictureOptions const& options, int dimension) {
-  View view{spec.output.picture_view[0], spec.output.picture_view[1], upwards(spec)};
-  if (options.view) view = {(*options.view)[0], (*options.view)[1], view.upwards};
-  for (std::size_t k = 0; k < up_words.size(); ++k)
-    if (options.up == up_words[k]) view.upwards = static_cast<Up>(k);
-  return view.in(dimension);
-}
-
 }  // namespace
 
 Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictureOptions const& options) {
@@ -87,10 +79,18 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
   auto const radii = ball_radii(particles.volume, particles.body, particles.dimension);
   auto const shapes = shapes_at(spec.rigids, 0);
   Stage const stage = Stage::around(points);
-  View const view = view_of(spec, options, particles.dimension);
+  CaseSpec asked = spec;
+  asked.output = with_look(spec.output, options.look);
+  Camera camera = camera_of(asked.output, upwards(asked), spec.bodies, particles.dimension);
+  Subject const subject{.points = points,
+                        .volume = particles.volume,
+                        .body = particles.body,
+                        .margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end())};
+  if (particles.dimension == 3)
+    camera.eye = eye_before(camera, asked.output.picture_perspective, stage.low, stage.high);
   Window window;
-  window.include(view, points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
-  show_shapes(window, view, shapes, stage);
+  include(window, camera, subject);
+  if (camera.follow < 0) show_shapes(window, camera.view, shapes, stage);
   PictureData const data{.points = points,
                          .radius = radii,
                          .values = {},
@@ -102,10 +102,9 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
                          .stage_low = stage.low,
                          .stage_high = stage.high,
                          .colours = paint.colours,
-                         .legend = paint.legend};
-  std::array<int, 2> const size =
-      options.size ? *options.size : std::array{spec.output.picture_width, spec.output.picture_height};
-  return draw_picture(data, {size[0], size[1], view, {}}, window);
+                         .legend = paint.legend,
+                         .eye = eye_at(camera, subject)};
+  return draw_picture(data, style_of(asked.output, camera, window), shown_window(window, camera, subject));
 }
 
 }  // namespace piola

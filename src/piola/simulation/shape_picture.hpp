@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
-#include "piola/output/picture.hpp"
-#include <optional>
+#include "piola/simulation/look.hpp"
 
 namespace piola {
 
 /// How the bodies of a case are drawn before anything runs; what is not given is as the case has it for its pictures.
 struct ShapePictureOptions {
-  std::optional<std::array<double, 2>> view = {};  ///< azimuth and elevation [deg]
-  std::string up = "auto";
-  std::optional<std::array<int, 2>> size = {};  ///< pixels
-  bool patches = false;                         ///< colours by patch: what is deep inside is grey
+  LookOptions look = {};
+  bool patches = false;  ///< colours by patch: what is deep inside is grey
 };
 
 /// The particles of a case as they start, in the colours of their bodies or of the patches that they stand for, and its

@@ -214,6 +214,49 @@ TEST(HeldSurface, IsTheSameForAnyNumberOfThreadsAndGoesOnBitForBit) {
   }
 }
 
+/// A ball that strikes a plate of three spacings, of which every particle moves the held face.
+Simulation ball_on_plate(std::string const& supports) {
+  return body_with(
+      supports +
+          "[[body]]\nname = \"ball\"\nshape = { spacing = 0.2, arrangement = \"packed\", sphere = { centre = [0.5, "
+          "0.5, 1.01], "
+          "radius = 0.4 } }\nmaterial = { law = \"neo_hookean\", density = 1100, youngs_modulus = 17e6, poissons_ratio "
+          "= "
+          "0.3 }\nformulation = { name = \"nodal\" }\ninitial_velocity = [\"0\", \"0\", \"-5\"]\n",
+      "shape = { spacing = 0.2, arrangement = \"packed\", box = { min = [0, 0, 0], max = [1, 1, 0.6] } }\n");
+}
+
+TEST(HeldSurface, GivesBackWhatContactPushes) {
+  auto const simulation = ball_on_plate(support_on("-z", "xyz"));
+  auto& f = *simulation.formulation;
+  auto const start = f.diagnose();
+  double time = 0, impulse = 0;
+  while (f.diagnose().linear_momentum[2] < 0.5 * std::fabs(start.linear_momentum[2]) && time < 0.2) {
+    double const dt = f.stable_time_step();
+    f.step(time, dt);
+    time += dt;
+    impulse += dt * f.diagnose().actions.at(0).force[2];
+  }
+  auto const end = f.diagnose();
+  EXPECT_GT(end.linear_momentum[2], 0.4 * std::fabs(start.linear_momentum[2])) << "the ball bounces";
+  EXPECT_NEAR(end.linear_momentum[2] - start.linear_momentum[2], impulse, 1e-9 * impulse);
+  EXPECT_LT(std::fabs(end.external_work), 1e-12 * start.kinetic_energy);
+  EXPECT_NEAR(end.total_energy(), start.total_energy(), 2e-3 * start.total_energy());
+}
+
+TEST(HeldSurface, ThatContactPushesGoesOnBitForBitFromACheckpoint) {
+  auto const struck = [] { return ball_on_plate(support_on("-z", "xyz", "velocity = [\"3*t\", \"0\", \"0.2\"]\n")); };
+  auto const whole = struck(), first = struck(), second = struck();
+  go(*whole.formulation, 0, 60);
+  double const middle = go(*first.formulation, 0, 31);
+  EXPECT_GT(std::fabs(first.formulation->diagnose().actions.back().force[2]), 0) << "nothing is pushed";
+  auto state = saved(*first.formulation);
+  second.formulation->load(state);
+  go(*second.formulation, middle, 29);
+  EXPECT_EQ(saved(*second.formulation).values, saved(*whole.formulation).values);
+  EXPECT_EQ(second.formulation->diagnose().actions[0].force, whole.formulation->diagnose().actions[0].force);
+}
+
 /// Relative error of a quarter of the period L / c of the lowest longitudinal mode of a clamped bar that does not
 /// contract: its momentum is zero then.
 double error_of_mode(std::string const& hold, int along) {

@@ -34,8 +34,8 @@ struct SetUpBody {
       : set(a.particles),
         order(nodal::slot_order(set, set.bodies[0])),
         densities(densities_of(a)),
-        reference(nodal::make_reference(
-            {set, set.bodies[0], order, a.loads, a.supports, densities, least_mass, *nodal::find_machine(a.machine.c_str())})) {}
+        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.supports, densities, least_mass,
+                                         *nodal::find_machine(a.machine.c_str())})) {}
   static Values densities_of(Assembly const& a) {
     Values densities;
     for (MaterialParameters const& m : materials_of(a, 0)) densities.push_back(m.value[0]);

@@ -39,6 +39,8 @@ class Boundary {
   void hand_over(Actions& actions);
   /// Multiplies the velocities that no support prescribes.
   void damp(BodyState& state, double factor) const;
+  /// Whether a particle is within the reach of a part of the surface that supports hold.
+  bool moves_surface(Index slot) const { return surface_.reaches(slot); }
   /// After something has pushed particles: supports give back what moves the surface that they hold.
   void withstand(BodyState& state) { surface_.keep_velocity(state.x, state.v, work_); }
   /// sum m a^2 of the part of accelerations that supports take away [N m/s2].

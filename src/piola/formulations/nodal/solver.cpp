@@ -63,6 +63,7 @@ class Solver final : public Formulation {
       monitors_[k]->update(halvings);
     }
     time_ = time + dt;
+    ends_step_ = true;
   }
 
   void damp(double factor) override {
@@ -77,7 +78,16 @@ class Solver final : public Formulation {
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     push_all(bodies_, set_.dimension, slots_, ids, change);
-    for (auto const& body : bodies_) body->boundary().withstand(body->state());
+    std::vector<char> moved(bodies_.size(), 0);
+    slots_.visit(ids, [&](std::size_t, std::size_t body, Index slot) {
+      if (bodies_[body]->boundary().moves_surface(slot)) moved[body] = 1;
+    });
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      if (moved[k] == 0) continue;
+      bodies_[k]->boundary().withstand(bodies_[k]->state());
+      if (ends_step_) bodies_[k]->boundary().hand_over(actions_);
+    }
+    ends_step_ = false;
   }
   double kinetic_energy() const override {
     return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
@@ -134,8 +144,9 @@ class Solver final : public Formulation {
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
   Actions actions_;
-  double time_ = 0;      ///< at the end of the last step [s]
-  double repeated_ = 0;  ///< steps that were taken again in halves
+  bool ends_step_ = false;  ///< what pushes next does so for the step that was taken last, after that for the next one
+  double time_ = 0;         ///< at the end of the last step [s]
+  double repeated_ = 0;     ///< steps that were taken again in halves
 };
 
 std::optional<Failure> Solver::failure() const {

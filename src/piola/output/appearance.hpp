@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/place.hpp"
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// How a body is drawn. Automatic: with a skin where its particles hang together, balls for the rest.
+enum class Representation { automatic, skin, balls, points, none };
+inline constexpr std::array<std::string_view, 5> representation_words{"auto", "skin", "balls", "points", "none"};
+
+/// A plane that cuts bodies open: what lies on the side of its normal is taken away.
+struct CutPlane {
+  Place3 point{}, normal{1, 0, 0};  ///< [m]; of any length
+  bool ghost = false;               ///< what is taken away stays as a shade of 12 %
+  bool in_reference = false;        ///< cuts the bodies as they were at the start
+};
+
+/// What is drawn of a scene.
+struct Appearance {
+  std::vector<Representation> as = {};  ///< per body; those beyond its end: automatic
+  bool outline = true;                  ///< edges of the reference shape of bodies that have moved, dashed
+  std::optional<CutPlane> cut = {};
+};
+
+}  // namespace piola

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/draw_bodies.hpp"
+#include "piola/output/feature_lines.hpp"
+#include "piola/output/rigid_picture.hpp"
+#include "piola/output/scene.hpp"
+#include "piola/output/shade.hpp"
+#include <algorithm>
+
+namespace piola {
+namespace {
+
+constexpr int fine = 2;  // pixels are the mean of fine x fine samples
+
+std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const& scene, ColourMap const& map) {
+  SurfaceFinish finish;
+  finish.flat = data.dimension < 3;
+  if (scene.colours.empty()) {
+    finish.map = [&map](double value) { return map(value); };
+  } else {
+    finish.map = [&scene](double value) {
+      auto const last = static_cast<double>(scene.colours.size() - 1);
+      return scene.colours[value > 0 ? static_cast<std::size_t>(std::min(value, last)) : 0];  // nobody is not a number
+    };
+  }
+  std::vector<SurfaceFinish> all(scene.spacing.size(), finish);
+  for (std::size_t body = 0; body < all.size(); ++body) all[body].spacing = scene.spacing[body];
+  return all;
+}
+
+std::vector<SurfaceFinish> finish_of_tools(PictureData const& data, float spacing) {
+  std::vector<SurfaceFinish> all;
+  for (Colour const& colour : RigidCanvas::colours)
+    all.push_back({.colour = colour, .spacing = spacing, .flat = data.dimension < 3});
+  return all;
+}
+
+/// Moves what a picture in perspective shows to where the eye sees it; see Projection. What is not before the eye is no
+/// longer finite, and is left out.
+void move_to_where_seen(Surfaces& surfaces, Projection const& project) {
+  double const scale = project.scale * fine;
+  auto const moved = [&](auto& place) {
+    Place3 p = project.point(place.x / fine, place.y / fine);
+    for (std::size_t c = 0; c < 3; ++c) p[c] += place.depth / scale * project.towards[c];
+    Place3 const q = project.eye.seen(p);
+    auto const pixel = project(q);
+    place.x = static_cast<float>(pixel[0] * fine);
+    place.y = static_cast<float>(pixel[1] * fine);
+    place.depth = static_cast<float>(dot(q, project.towards) * scale);
+    return static_cast<float>(project.eye.magnification(p));
+  };
+  for (Vertex& vertex : surfaces.vertices) moved(vertex);
+  for (Ellipsoid& one : surfaces.ellipsoids) {
+    float const larger = moved(one);
+    for (float& q : one.Q) q /= larger * larger;
+    for (float& half : one.half) half *= larger;
+  }
+}
+
+/// Whether a particle is farther from its place in the reference configuration than half a spacing.
+bool has_moved(ReferenceMesh const& mesh, std::span<Place3 const> x) {
+  for (std::size_t i = 0; i < mesh.count; ++i)
+    if (distance(x[mesh.first + i], mesh.X[i]) > 0.5 * mesh.spacing) return true;
+  return false;
+}
+
+/// The outlines of the bodies that have moved.
+std::vector<float> outlines(PictureData const& data, Appearance const& appearance, Projection const& project,
+                            SurfaceBuffers const& like) {
+  std::vector<float> coverage;
+  for (std::size_t body = 0; appearance.outline && body < data.meshes.size(); ++body) {
+    ReferenceMesh const& mesh = data.meshes[body];
+    bool const shown = body >= appearance.as.size() || appearance.as[body] != Representation::none;
+    if (!shown || mesh.lines.empty() || mesh.first + mesh.count > data.points.size()) continue;
+    if (!has_moved(mesh, data.points)) continue;
+    coverage.resize(like.depth.size(), 0);
+    DashedLines const dashed{project, fine};
+    dashed.draw(mesh.lines, like.width, like.height, coverage);
+    dashed.draw(silhouette(mesh, project.towards), like.width, like.height, coverage);
+  }
+  return coverage;
+}
+
+}  // namespace
+
+Image draw_bodies(PictureData const& data, Appearance const& appearance, Projection const& project,
+                  SceneArea const& area, ColourMap const& map, Colour background) {
+  Scene scene = make_scene(data, appearance, project, fine);
+  if (project.eye.near()) {
+    move_to_where_seen(scene.bodies, project);
+    move_to_where_seen(scene.ghosts, project);
+  }
+  SurfaceBuffers bodies(area.width * fine, area.height * fine), tools, ghosts;
+  rasterise(scene.bodies, bodies);
+  Shading shading;
+  shading.fine = fine;
+  shading.background = background;
+  shading.radius = scene.radius;
+  shading.range = {map.low(), map.high()};
+  if (!scene.colours.empty()) shading.range = {0, Shading::steps - 1.0};
+  shading.bodies = {&bodies, finish_of_bodies(data, scene, map)};
+  if (!data.rigid_shapes.empty()) {
+    tools = SurfaceBuffers(bodies.width, bodies.height);
+    Stage const stage{data.stage_low, data.stage_high};
+    RigidCanvas{project, stage, data.dimension, fine, area.top * fine, area.right * fine}.draw(tools,
+                                                                                               data.rigid_shapes);
+    shading.tools = {&tools, finish_of_tools(data, 2 * scene.radius)};
+  }
+  if (!scene.ghosts.triangles.empty() || !scene.ghosts.ellipsoids.empty()) {
+    ghosts = SurfaceBuffers(bodies.width, bodies.height);
+    rasterise(scene.ghosts, ghosts);
+    shading.ghosts = {&ghosts, shading.bodies.finish};
+  }
+  auto const lines = outlines(data, appearance, project, bodies);
+  shading.lines = lines;
+  return shade(shading);
+}
+
+}  // namespace piola

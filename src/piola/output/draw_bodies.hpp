@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/colour_map.hpp"
+#include "piola/output/projection.hpp"
+
+namespace piola {
+
+/// The size of a picture and where rigid shapes may be drawn in it [pixels].
+struct SceneArea {
+  int width = 0, height = 0;
+  int top = 0, right = 0;  ///< letters stand above and beyond
+};
+
+/// Bodies, rigid shapes and reference outlines, lit, without letters.
+Image draw_bodies(PictureData const& data, Appearance const& appearance, Projection const& project,
+                  SceneArea const& area, ColourMap const& map, Colour background);
+
+}  // namespace piola

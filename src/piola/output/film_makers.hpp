@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/film.hpp"
+
+namespace piola {
+
+struct Film::Maker {
+  virtual ~Maker() = default;
+  virtual void add(Image const& picture) = 0;
+  virtual void finish() = 0;
+};
+
+std::unique_ptr<Film::Maker> make_webp(std::filesystem::path const& path, int width, int height, FilmPace const& pace);
+std::unique_ptr<Film::Maker> make_mp4(std::filesystem::path const& path, int width, int height, FilmPace const& pace);
+
+}  // namespace piola

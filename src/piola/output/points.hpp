@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/place.hpp"
+#include <array>
+#include <cmath>
+
+/// Little arithmetic of places and directions, three components each, as pictures need it.
+namespace piola {
+
+inline double dot(Place3 const& a, Place3 const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Place3 minus(Place3 const& a, Place3 const& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// a + s b
+inline Place3 plus(Place3 const& a, double s, Place3 const& b) {
+  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+inline Place3 cross(Place3 const& a, Place3 const& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double length(Place3 const& a) { return std::sqrt(dot(a, a)); }
+inline double distance(Place3 const& a, Place3 const& b) { return length(minus(a, b)); }
+/// Of length one; zero stays zero.
+inline Place3 unit(Place3 const& a) {
+  double const size = length(a);
+  return size > 0 ? Place3{a[0] / size, a[1] / size, a[2] / size} : a;
+}
+inline bool finite(Place3 const& a) { return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]); }
+
+}  // namespace piola

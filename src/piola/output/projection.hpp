@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/picture.hpp"
+#include "piola/output/points.hpp"
+#include <array>
+#include <cmath>
+
+/// What the parts of a picture share: from metres to pixels.
+namespace piola {
+
+/// A line of sight; `towards` the viewer has length 1.
+struct Sight {
+  std::array<double, 3> from, towards;
+};
+
+/// Parallel projection: pixels = shift + scale * metres, y downwards; depth grows towards the viewer. A picture in
+/// perspective is the parallel projection of bodies that Eye::seen has moved.
+struct Projection {
+  std::array<double, 3> right, up, towards;
+  double scale = 1, x_shift = 0, y_shift = 0;
+  Eye eye = {};
+
+  /// The line that is seen in a pixel, before anything was moved.
+  Sight sight(double x, double y) const {
+    std::array<double, 3> from = point(x, y);
+    if (!eye.near()) return {from, towards};
+    double const h = eye.height(from);
+    std::array<double, 3> line{};
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      from[c] -= h * towards[c];
+      line[c] = eye.axis[c] + eye.distance * towards[c] - from[c];
+      square += line[c] * line[c];
+    }
+    for (double& c : line) c /= std::sqrt(square);
+    return {from, line};
+  }
+  /// Depth [m] of a point at this distance along a line of sight.
+  double depth(Sight const& line, double along) const {
+    if (!eye.near()) return along;
+    std::array<double, 3> p{};
+    for (std::size_t c = 0; c < 3; ++c) p[c] = line.from[c] + along * line.towards[c];
+    p = eye.seen(p);
+    return p[0] * towards[0] + p[1] * towards[1] + p[2] * towards[2];
+  }
+  std::array<double, 2> operator()(std::array<double, 3> const& p) const {
+    return {x_shift + scale * dot(p, right), y_shift - scale * dot(p, up)};
+  }
+  /// The point of a pixel whose depth is 0 [m].
+  std::array<double, 3> point(double x, double y) const {
+    std::array<double, 3> p{};
+    double const a = (x - x_shift) / scale, b = (y_shift - y) / scale;
+    for (std::size_t c = 0; c < 3; ++c) p[c] = a * right[c] + b * up[c];
+    return p;
+  }
+};
+
+}  // namespace piola

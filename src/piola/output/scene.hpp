@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/appearance.hpp"
+#include "piola/output/projection.hpp"
+#include "piola/output/raster.hpp"
+#include "piola/output/skin.hpp"
+#include <vector>
+
+namespace piola {
+
+/// The bodies of a picture as surfaces, in samples. The owner of a surface is the number of its body.
+struct Scene {
+  Surfaces bodies;
+  Surfaces ghosts;              ///< what a cut has taken away
+  float radius = 0;             ///< of a typical ball [samples]
+  std::vector<float> spacing;   ///< of the particles of each body [samples]
+  std::vector<float> value;     ///< of each particle as it stands in the buffers: with colours, a number of these
+  std::vector<Colour> colours;  ///< all that particles have
+};
+
+/// Skins, balls and sections. A body has a skin if its mesh has cells and it is drawn as one; its particles that belong
+/// to no whole cell are balls. A ball of a body with a mesh is an ellipsoid, stretched by its F, within 1/3 to 4.
+/// `fine`: samples per pixel of the projection.
+Scene make_scene(PictureData const& data, Appearance const& appearance, Projection const& project, int fine);
+
+}  // namespace piola

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/output/image.hpp"
+#include "piola/output/raster.hpp"
+#include <array>
+#include <functional>
+#include <vector>
+
+/// From samples to pixels: colour, light, occlusion and edges. Everything is a pure function of the buffers, pixel by
+/// pixel, so that pictures are the same for any number of threads.
+namespace piola {
+
+/// Red, green and blue in proportion to light (sRGB's curve undone), 0 to 1.
+using Light3 = std::array<float, 3>;
+Light3 linear(Colour colour);
+Colour encoded(Light3 const& light);
+
+/// What an owner's surfaces look like.
+struct SurfaceFinish {
+  /// The colour of a value; nothing: `colour` for all.
+  std::function<Colour(double)> map = {};
+  Colour colour{};
+  float spacing = 0;  ///< of its particles [samples]: jumps of depth above 1.5 of them are edges
+  bool flat = false;  ///< a plane seen straight on: colours as they are in the bar
+};
+
+/// Surfaces that are drawn together.
+struct ShadedLayer {
+  SurfaceBuffers const* surfaces = nullptr;
+  std::vector<SurfaceFinish> finish;  ///< by owner
+};
+
+/// What a picture is made of.
+struct Shading {
+  static constexpr int steps = 1024;  ///< of the table of colours
+  ShadedLayer bodies;
+  ShadedLayer tools = {};             ///< drawn half-transparent where they hide bodies
+  ShadedLayer ghosts = {};            ///< a shade of 12 % over what they hide
+  std::span<float const> lines = {};  ///< coverage per sample of lines behind everything; empty: none
+  int fine = 2;                       ///< pixels are the mean of fine x fine samples
+  float radius = 0;                   ///< of a typical ball [samples]: occlusion looks 1.2 and 5 of them far
+  std::array<double, 2> range{0, 1};  ///< of values: colours in between are taken from a table
+  Colour background{255, 255, 255};
+};
+
+/// Key light from the upper left 0.42, fill from the right 0.16, ambient 0.50, a highlight of 0.10 (power 40): how much
+/// of its colour a surface with this unit normal (right, down, towards the viewer) sends back, and how much white.
+struct Reflected {
+  float colour = 1, white = 0;
+};
+Reflected reflected(std::array<float, 3> const& normal);
+
+/// How open each pixel of a layer is to light from around, 1 in the open to 0.4 (ambient occlusion in screen space,
+/// Mittring 2007 in idea): over 28 directions on a golden spiral and two radii, the mean of how steeply the surfaces
+/// that are near stand over the tangent plane; blurred where depths are equal. A plane has 1 whatever its slope.
+/// `around`: the nearest depth at each pixel of all that stands there; sizes in pixels.
+struct PixelSurface {
+  int width = 0, height = 0;
+  std::vector<float> depth;  ///< minus infinity: nothing [pixels]
+  std::vector<std::array<float, 3>> normal;
+  /// The nearest sample of each pixel.
+  PixelSurface(SurfaceBuffers const& samples, int fine);
+};
+std::vector<float> openness(PixelSurface const& surface, std::span<float const> around, float ball_radius);
+
+/// The picture.
+Image shade(Shading const& shading);
+
+}  // namespace piola

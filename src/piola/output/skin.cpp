@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/output/skin.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/math/symmetric_eigen.hpp"
+#include "piola/neighbours/cell_facets.hpp"
+#include "piola/output/points.hpp"
+#include <algorithm>
+
+namespace piola {
+namespace {
+
+bool has_parted(ReferenceMesh const& mesh, Configuration const& now, Index a, Index b) {
+  auto const i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  if (!now.loose.empty() && (now.loose[i] != 0 || now.loose[j] != 0)) return true;
+  Place3 const d = minus(now.x[j], now.x[i]), D = minus(mesh.X[j], mesh.X[i]);
+  return !(dot(d, d) <= parting_stretch * parting_stretch * dot(D, D));  // not-a-number parts
+}
+
+std::vector<std::uint8_t> whole_cells(ReferenceMesh const& mesh, Configuration const& now) {
+  auto const edges = edges_of(mesh.cells);
+  std::vector<std::uint8_t> whole(static_cast<std::size_t>(mesh.cells.count()), 1);
+  exec_host::for_each_in_set_up(mesh.cells.count(), [&](Index cell) {
+    auto const corner = mesh.cells.of(cell);
+    for (auto const& e : edges)
+      if (has_parted(mesh, now, corner[static_cast<std::size_t>(e[0])], corner[static_cast<std::size_t>(e[1])]))
+        whole[static_cast<std::size_t>(cell)] = 0;
+  });
+  return whole;
+}
+
+void add_triangles(std::span<Index const> corner, std::vector<SkinFacet>& facets) {
+  facets.push_back({{corner[0], corner[1], corner[2]}});
+  if (corner.size() == 4) facets.push_back({{corner[0], corner[2], corner[3]}});
+}
+
+/// Outer facets; those of a box are cut along the shorter diagonal of where they are now.
+void find_surface(ReferenceMesh const& mesh, Skin& skin) {
+  FacetTable const table = facets_of(mesh.cells);
+  for (std::size_t f = 0; f < mesh.across.size(); ++f) {
+    std::size_t const cell = f / table.facet.size();
+    Index const other = mesh.across[f];
+    if (skin.whole[cell] == 0 || (other >= 0 && skin.whole[static_cast<std::size_t>(other)] != 0)) continue;
+    auto const& of = table.facet[f % table.facet.size()];
+    std::array<Index, 4> corner{};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(table.corners); ++c)
+      corner[c] = mesh.cells.of(static_cast<Index>(cell))[static_cast<std::size_t>(of[c])];
+    auto const at = [&](std::size_t c) { return skin.place[static_cast<std::size_t>(corner[c])]; };
+    if (table.corners == 4 && distance(at(1), at(3)) < distance(at(0), at(2)))
+      std::rotate(corner.begin(), corner.begin() + 1, corner.end());
+    add_triangles(std::span(corner).first(static_cast<std::size_t>(table.corners)), skin.facets);
+  }
+}
+
+/// Whole cells of two dimensions.
+void find_area(ReferenceMesh const& mesh, Skin& skin) {
+  for (Index cell = 0; cell < mesh.cells.count(); ++cell) {
+    if (skin.whole[static_cast<std::size_t>(cell)] == 0) continue;
+    auto const c = mesh.cells.of(cell);
+    if (c.size() == 3)
+      add_triangles(c, skin.facets);
+    else
+      add_triangles(std::array{c[0], c[1], c[3], c[2]}, skin.facets);
+  }
+  for (SkinFacet& facet : skin.facets) facet.normal.fill({0, 0, 1});
+}
+
+/// Of each particle, the facets that it is a corner of.
+struct Incidence {
+  std::vector<std::size_t> begin;
+  std::vector<std::uint32_t> facet;
+  Incidence(std::vector<SkinFacet> const& facets, std::size_t particles) : begin(particles + 1, 0) {
+    for (SkinFacet const& f : facets)
+      for (Index const c : f.corner) ++begin[static_cast<std::size_t>(c) + 1];
+    for (std::size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
+    facet.resize(begin.back());
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t k = 0; k < facets.size(); ++k)
+      for (Index const c : facets[k].corner) facet[next[static_cast<std::size_t>(c)]++] = static_cast<std::uint32_t>(k);
+  }
+};
+
+/// Normals at corners: the sum over the facets around that meet this one at less than the angle of an edge, each with
+/// its area.
+void smooth_normals(Skin& skin) {
+  constexpr double cosine_of_edge = 0.574;  // 55 degrees
+  auto const count = static_cast<Index>(skin.facets.size());
+  std::vector<Place3> area(skin.facets.size());
+  exec_host::for_each_in_set_up(count, [&](Index k) {
+    auto const& c = skin.facets[static_cast<std::size_t>(k)].corner;
+    auto const at = [&](std::size_t n) { return skin.place[static_cast<std::size_t>(c[n])]; };
+    area[static_cast<std::size_t>(k)] = cross(minus(at(1), at(0)), minus(at(2), at(0)));
+  });
+  Incidence const incidence(skin.facets, skin.place.size());
+  exec_host::for_each_in_set_up(count, [&](Index k) {
+    SkinFacet& facet = skin.facets[static_cast<std::size_t>(k)];
+    Place3 const own = area[static_cast<std::size_t>(k)];
+    double const size = length(own);
+    for (std::size_t n = 0; n < 3; ++n) {
+      auto const c = static_cast<std::size_t>(facet.corner[n]);
+      Place3 sum{};
+      for (std::size_t m = incidence.begin[c]; m < incidence.begin[c + 1]; ++m) {
+        Place3 const& other = area[incidence.facet[m]];
+        if (dot(own, other) >= cosine_of_edge * size * length(other)) sum = plus(sum, 1, other);
+      }
+      facet.normal[n] = unit(sum);
+    }
+  });
+}
+
+/// The six tetrahedra of a box around its diagonal from corner 0 to corner 7: those of neighbouring boxes match.
+constexpr std::array<std::array<int, 4>, 6> tetrahedra_of_box{
+    {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
+constexpr std::array<std::array<int, 4>, 1> itself{{{0, 1, 2, 3}}};
+
+/// One or two triangles where a function that is linear in a tetrahedron vanishes.
+void cut_tetrahedron(std::array<Index, 4> const& corner, std::span<double const> beyond,
+                     std::vector<std::array<SectionCorner, 3>>& out) {
+  std::array<Index, 4> kept{}, gone{};
+  std::size_t n = 0, m = 0;
+  for (Index const c : corner) (beyond[static_cast<std::size_t>(c)] > 0 ? gone[m++] : kept[n++]) = c;
+  if (n == 0 || m == 0) return;
+  auto const between = [&](Index a, Index b) {
+    double const from = beyond[static_cast<std::size_t>(a)], to = beyond[static_cast<std::size_t>(b)];
+    return SectionCorner{{a, b}, from / (from - to)};
+  };
+  if (n == 2) {
+    SectionCorner const ac = between(kept[0], gone[0]), ad = between(kept[0], gone[1]), bc = between(kept[1], gone[0]),
+                        bd = between(kept[1], gone[1]);
+    out.push_back({ac, ad, bd});
+    out.push_back({ac, bd, bc});
+    return;
+  }
+  bool const one_kept = n == 1;
+  Index const tip = one_kept ? kept[0] : gone[0];
+  auto const& base = one_kept ? gone : kept;
+  out.push_back({between(tip, base[0]), between(tip, base[1]), between(tip, base[2])});
+}
+
+}  // namespace
+
+Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle) {
+  Mat<3> mixed, moment;
+  double size = 0;
+  for (Index const j : mesh.around(particle)) {
+    if (has_parted(mesh, now, static_cast<Index>(particle), j)) continue;
+    auto const other = static_cast<std::size_t>(j);
+    Place3 const d = minus(now.x[other], now.x[particle]), D = minus(mesh.X[other], mesh.X[particle]);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        mixed(a, b) += d[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
+        moment(a, b) += D[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
+      }
+    size += dot(D, D);
+  }
+  if (!(size > 0)) return identity<3>();
+  constexpr double little = 2e-4;
+  for (int a = 0; a < 3; ++a) {
+    mixed(a, a) += little * size;
+    moment(a, a) += little * size;
+  }
+  return mixed * inverse(moment);
+}
+
+Mat<3> with_bounded_stretches(Mat<3> const& F, double least, double most) {
+  Mat<3> const FtF = transpose(F) * F;
+  double off = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) off += (FtF(a, b) - (a == b)) * (FtF(a, b) - (a == b));
+  if (off < 0.5) return F;  // stretches between 0.54 and 1.31
+  SymMat<3> C;
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b) C(a, b) = FtF(a, b);
+  Eigen<3> const e = symmetric_eigen(C);
+  Mat<3> scaled;
+  for (int k = 0; k < 3; ++k) {
+    double const stretch = std::sqrt(std::max(e.value[k], 1e-12));
+    double const factor = std::clamp(stretch, least, most) / stretch;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) scaled(a, b) += factor * e.vector[k][a] * e.vector[k][b];
+  }
+  return F * scaled;
+}
+
+Skin make_skin(ReferenceMesh const& mesh, Configuration const& now) {
+  Skin skin;
+  skin.whole = whole_cells(mesh, now);
+  skin.inside.assign(mesh.count, 0);
+  for (Index cell = 0; cell < mesh.cells.count(); ++cell)
+    if (skin.whole[static_cast<std::size_t>(cell)] != 0)
+      for (Index const c : mesh.cells.of(cell)) skin.inside[static_cast<std::size_t>(c)] = 1;
+  skin.place.assign(now.x.begin(), now.x.end());
+  skin.reference = mesh.X;
+  exec_host::for_each_in_set_up(static_cast<Index>(mesh.count), [&](Index k) {
+    auto const i = static_cast<std::size_t>(k);
+    Place3 const& S = mesh.outward[i];
+    if (dot(S, S) == 0 || skin.inside[i] == 0) return;
+    Vec<3> const s = fitted_gradient(mesh, now, i) * Vec<3>{{S[0], S[1], S[2]}};
+    skin.place[i] = plus(skin.place[i], 1, {s[0], s[1], s[2]});
+    skin.reference[i] = plus(skin.reference[i], 1, S);
+  });
+  if (mesh.cells.count() == 0 || mesh.dimension == 1) return skin;
+  if (mesh.dimension == 2) {
+    find_area(mesh, skin);
+  } else {
+    find_surface(mesh, skin);
+    smooth_normals(skin);
+  }
+  return skin;
+}
+
+std::vector<std::array<SectionCorner, 3>> section(ReferenceMesh const& mesh, Skin const& skin,
+                                                  std::span<double const> beyond) {
+  std::vector<std::array<SectionCorner, 3>> out;
+  if (mesh.dimension < 3) return out;
+  bool const box = mesh.cells.corners == 8;
+  auto const parts = box ? std::span<std::array<int, 4> const>(tetrahedra_of_box) : itself;
+  for (Index cell = 0; cell < mesh.cells.count(); ++cell) {
+    if (skin.whole[static_cast<std::size_t>(cell)] == 0) continue;
+    auto const corner = mesh.cells.of(cell);
+    bool const gone = beyond[static_cast<std::size_t>(corner[0])] > 0;
+    if (std::all_of(corner.begin(), corner.end(),
+                    [&](Index c) { return (beyond[static_cast<std::size_t>(c)] > 0) == gone; }))
+      continue;
+    for (auto const& part : parts) {
+      std::array<Index, 4> tetrahedron{};
+      for (std::size_t c = 0; c < 4; ++c) tetrahedron[c] = corner[static_cast<std::size_t>(part[c])];
+      cut_tetrahedron(tetrahedron, beyond, out);
+    }
+  }
+  return out;
+}
+
+}  // namespace piola

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/tensor.hpp"
+#include "piola/output/reference_mesh.hpp"
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace piola {
+
+/// Particles have parted where an edge of the mesh is longer than so many times its length in the reference
+/// configuration.
+inline constexpr double parting_stretch = 2.5;
+
+/// The particles of one body at one moment: positions [m], and which have lost their neighbours for good (not 0;
+/// empty: none).
+struct Configuration {
+  std::span<Place3 const> x;
+  std::span<std::uint8_t const> loose;
+};
+
+/// F of a particle: the linear map that fits the places of those around it best (least squares over the edges of the
+/// mesh that are whole), with a little of the identity, which decides in directions that nobody marks. Exact to 1e-3 of
+/// F - I for a linear motion.
+Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle);
+
+/// F with its principal stretches brought between these bounds.
+Mat<3> with_bounded_stretches(Mat<3> const& F, double least, double most);
+
+/// A triangle of a body's surface, in 2D of its inside. Corners are particles, counted from the body's first one.
+struct SkinFacet {
+  std::array<Index, 3> corner{};
+  std::array<Place3, 3> normal{};  ///< at the corners; smooth but for edges of more than 55 degrees
+};
+
+/// What a body looks like at one moment.
+struct Skin {
+  std::vector<Place3> place;         ///< of each particle's corner, at the surface for outer particles: x + F S [m]
+  std::vector<Place3> reference;     ///< the same in the reference configuration: X + S
+  std::vector<std::uint8_t> whole;   ///< per cell: not torn
+  std::vector<std::uint8_t> inside;  ///< per particle: belongs to a whole cell, so that it needs no ball
+  std::vector<SkinFacet> facets;
+};
+
+/// The surface of what hangs together: outer facets of the cells none of whose edges has parted and none of whose
+/// particles is loose; in 2D all of these cells. A torn cell leaves a ragged hole with its own thickness.
+Skin make_skin(ReferenceMesh const& mesh, Configuration const& now);
+
+/// The section of a body of three dimensions with the surface on which `beyond`, one value per particle, is zero:
+/// triangles whose corners are mixed from two particles each.
+struct SectionCorner {
+  std::array<Index, 2> particle{};
+  double share = 0;  ///< of the second one
+};
+std::vector<std::array<SectionCorner, 3>> section(ReferenceMesh const& mesh, Skin const& skin,
+                                                  std::span<double const> beyond);
+
+}  // namespace piola
