@@ -96,7 +96,18 @@ void check_fields(RenderArguments const& options) {
 }
 
 /// The first folder is the one that is drawn.
+/// "--view iso DIR": a named view takes one word, and what stands behind it is a folder.
+void give_folder_back(RenderArguments& options) {
+  bool const named = !options.view.empty() && named_view(options.view[0], Up::y);
+  if (!named || options.view.size() < 2) return;
+  options.folders.insert(options.folders.begin(), options.view[1]);
+  options.view.resize(1);
+}
+
 void check_folders(RenderArguments const& options) {
+  if (options.folders.empty())
+    throw InputError(options.shape ? "folder is required - name the case"
+                                   : "folder is required - name the results folder of the run");
   if (options.side_by_side && options.folders.size() < 2)
     throw InputError("--side-by-side: there is one folder only (allowed: two or more) - name the others, too");
   if (!options.side_by_side && options.folders.size() > 1)
@@ -104,11 +115,11 @@ void check_folders(RenderArguments const& options) {
                                  options.folders.size()));
 }
 
-int render(RenderArguments const& given) {
-  check_folders(given);
-  check_fields(given);
-  RenderArguments options = given;
-  options.folder = given.folders.front();
+int render(RenderArguments options) {
+  give_folder_back(options);
+  check_folders(options);
+  check_fields(options);
+  options.folder = options.folders.front();
   if (options.shape) return render_shape(options);
   RenderOptions what{.field = options.fields.front(),
                      .range = {},
@@ -229,7 +240,7 @@ void add_render(CLI::App& program, Action& action) {
   auto const options = std::make_shared<RenderArguments>();
   CLI::App* command =
       program.add_subcommand("render", "Draw pictures from the frames of a run, or the bodies of a case");
-  command->add_option("folder", options->folders, "The results folder of the run; with --shape the case")->required();
+  command->add_option("folder", options->folders, "The results folder of the run; with --shape the case");
   command
       ->add_option("--field", options->fields,
                    "Field that gives the colours, e.g. Pressure, Velocity, VonMisesStress; given several times, "

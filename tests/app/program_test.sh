@@ -33,6 +33,8 @@ expect 2 "2 folders are given" "$program" render bar-results bar-results
 expect 2 "there is one folder only" "$program" render bar-results --side-by-side
 expect 2 "'above' is not known" "$program" render bar-results --view above
 expect 2 "is no direction" "$program" render bar-results --view 3 x
+expect 0 "picture" "$program" render --view iso bar-results --last --size 300 240
+expect 2 "folder is required" "$program" render --last
 printf 'case = "bar.toml"\n[parameters]\n"run.cfl" = [0.4, 0.5]\n"run.end" = ["1 ms", "2 ms"]\n' >study.toml
 expect 0 "4 of 4 completed" "$program" study study.toml
 expect 0 "completed before" "$program" study study.toml --jobs 1

@@ -24,9 +24,13 @@ void check(Assembly const& assembly) {
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
     with_solid(assembly.materials[b], [&](auto const& law) {
       if (law.yield_stress({}, 0, law.kappa) > 0) return;
-      problems.add({}, fmt::format("adaptle: the material of body \"{}\" has no strength under pressure (allowed: "
-                                   "hugoniot_elastic_limit above pressure_at_limit) - check both",
-                                   assembly.particles.bodies[b].name));
+      bool const brittle = laws()[static_cast<std::size_t>(assembly.materials[b].law)].name == "johnson_holmquist";
+      problems.add(
+          {}, fmt::format("adaptle: the material of body \"{}\" has no strength{}", assembly.particles.bodies[b].name,
+                          brittle ? " under pressure (allowed: hugoniot_elastic_limit above pressure_at_limit) - "
+                                    "check both"
+                                  : " (allowed: a stress above 0 at which it yields) - give it one, such as "
+                                    "athermal_stress or yield_stress"));
     });
   if (!assembly.initial_deformation_gradient.empty())
     problems.add({},
