@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
+#include "piola/report/check_rows.hpp"
+#include "piola/report/plot_references.hpp"
 #include "piola/simulation/history_plot.hpp"
 #include "commands.hpp"
 #include "streams.hpp"
@@ -10,11 +13,21 @@ namespace piola::app {
 namespace {
 
 struct PlotArguments {
-  std::string folder, out;
+  std::string folder, out, checks, variant;
   std::vector<std::string> columns, with, log;
   std::string against = "time";
   std::vector<int> size{800, 500};
 };
+
+/// What a checks.toml expects of what is drawn; the rest of the file is left out.
+void add_references_of(PlotArguments const& options, Plot& drawn) {
+  report::RunFolder const run = report::open_run(options.folder);
+  std::string note;
+  auto const rows = report::rows_of_run(run, options.checks, options.variant, note);
+  if (!note.empty()) say("{}\n", note);
+  int const count = report::add_references(drawn, run, rows, options.columns);
+  say("{} reference{} of {}\n", count, count == 1 ? "" : "s", options.checks);
+}
 
 int plot(PlotArguments const& options) {
   auto const has = [&](char const* axis) {
@@ -25,6 +38,12 @@ int plot(PlotArguments const& options) {
                                              .with = {options.with.begin(), options.with.end()},
                                              .log_x = has("x"),
                                              .log_y = has("y")});
+  if (!options.checks.empty()) {
+    if (options.against != "time")
+      throw InputError("--checks: references stand over time (here: --against " + options.against +
+                       ") - leave one out");
+    add_references_of(options, drawn);
+  }
   drawn.width = options.size[0];
   drawn.height = options.size[1];
   std::filesystem::path const name =
@@ -53,6 +72,10 @@ void add_plot(CLI::App& program, Action& action) {
       ->type_size(1)
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"x", "y"}));
+  auto* const checks = command->add_option(
+      "--checks", options->checks, "A checks.toml: what it expects of quantities of these columns is drawn, too");
+  command->add_option("--variant", options->variant, "With --checks: the variant of that file that the run is of")
+      ->needs(checks);
   command->add_option("--out,-o", options->out, "The file: NAME.svg, NAME.png or NAME.pdf (default: in the folder)");
   command->add_option("--size", options->size, "Width and height in pixels; a PNG has twice as many")
       ->expected(2)

@@ -30,6 +30,7 @@ expect 0 "side-by-side/Pressure-0" "$program" render bar-results bar-results --s
 expect 0 "Velocity-Pressure-000004.png" "$program" render --field Velocity --field Pressure bar-results --last
 expect 2 "there are several" "$program" render bar-results --field Velocity --field Pressure --component x
 expect 2 "2 folders are given" "$program" render bar-results bar-results
+expect 2 "references stand over time" "$program" plot bar-results total_energy --against step --checks none.toml
 expect 2 "there is one folder only" "$program" render bar-results --side-by-side
 expect 2 "'above' is not known" "$program" render bar-results --view above
 expect 2 "is no direction" "$program" render bar-results --view 3 x
