@@ -357,7 +357,7 @@ struct Expression::Compiled {
     target.DefineVar("t", &t);
     for (std::size_t i = 0; i < values.size(); ++i) target.DefineVar(names.variables[i], &values[i]);
     auto value = place_values.begin();
-    for (auto const& [name, function] : names.places) target.DefineVar(name, &*value++);
+    for (auto const& [name, of_place] : names.places) target.DefineVar(name, &*value++);
     target.SetExpr(with_own_operators(formula));
   }
 
