@@ -50,7 +50,7 @@ void add_run(py::module_& m) {
       .def("observe", &Session::observe, py::arg("call"), py::arg("every"))
       .def("field", &Session::field, py::arg("name"), py::arg("out").noconvert() = py::none())
       .def("state", &Session::state)
-      .def("load", &load)
+      .def("load", &load, py::arg("arrays"), py::arg("time"), py::arg("step"), py::arg("dt"), py::arg("first_dt"))
       .def("take_warnings", &Session::take_warnings)
       .def_property_readonly("fields", &Session::fields)
       .def_property_readonly("history", &Session::history)
