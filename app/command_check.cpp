@@ -6,6 +6,7 @@
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/particles/parts.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/warnings.hpp"
@@ -80,14 +81,10 @@ Body const& body_named(ParticleSet const& particles, std::string const& name) {
 }
 
 void say_parts(BodySpec const& body, ParticleSet const& particles) {
-  Body const& of = body_named(particles, body.name);
-  for (std::size_t k = 0; k < body.parts.size(); ++k) {
-    std::int64_t count = 0;
-    for (auto id = of.first; id < of.last; ++id)
-      count += part_of(particles, static_cast<std::size_t>(id)) == k + 1 ? 1 : 0;
-    say("  part \"{}\": {} particles of {}\n", body.parts[k].name, count_text(count),
+  auto const shares = part_facts(particles, body_named(particles, body.name), body.parts.size());
+  for (std::size_t k = 0; k < body.parts.size(); ++k)
+    say("  part \"{}\": {} particles of {}\n", body.parts[k].name, count_text(shares[k + 1].particles),
         material_text(body.parts[k].law, body.parts[k].material));
-  }
 }
 
 /// How much of the bodies a region holds.

@@ -6,9 +6,7 @@
 #include "commands.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
-#include <chrono>
 #include <memory>
-#include <thread>
 
 namespace piola::app {
 namespace {
@@ -41,10 +39,7 @@ int follow(ReportArguments const& options, std::filesystem::path const& out) {
       tell_notes(result);
       return completed;
     }
-    for (int k = 0; k < 10 * follow_seconds; ++k) {
-      if (stop_signal != 0) return stopped_by_signal;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
+    if (!wait_unless_stopped(follow_seconds)) return stopped_by_signal;
   }
 }
 

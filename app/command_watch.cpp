@@ -3,10 +3,8 @@
 #include "commands.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
-#include <chrono>
 #include <memory>
 #include <sys/ioctl.h>
-#include <thread>
 #include <unistd.h>
 
 namespace piola::app {
@@ -33,11 +31,7 @@ int watch(WatchArguments const& options) {
     auto const [text, over] = run.look(width_of_terminal());
     write_out((terminal && !options.once ? "\x1b[H\x1b[2J" : "") + text);
     if (over || options.once) return with_output(completed);
-    auto const until = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.every);
-    while (std::chrono::steady_clock::now() < until) {
-      if (stop_signal != 0) return completed;  // whoever has seen enough leaves so
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+    if (!wait_unless_stopped(options.every)) return completed;  // whoever has seen enough leaves so
   }
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "signals.hpp"
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <ctime>
+#include <thread>
 #include <unistd.h>
 
 namespace piola::app {
@@ -65,6 +67,15 @@ void catch_stop_signals() {
 void catch_checkpoint_signals() {
   on(SIGUSR1, on_checkpoint_signal);
   on(SIGUSR2, on_checkpoint_signal);
+}
+
+bool wait_unless_stopped(double seconds) {
+  auto const until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (std::chrono::steady_clock::now() < until) {
+    if (stop_signal != 0) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
 }
 
 }  // namespace piola::app

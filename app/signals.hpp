@@ -15,6 +15,9 @@ extern std::atomic<int> checkpoint_signal;
 /// later or more, since tools that stop programs often signal twice. SIGHUP stays ignored where it is (nohup).
 void catch_stop_signals();
 
+/// Waits so many seconds; false as soon as a signal has asked to stop.
+bool wait_unless_stopped(double seconds);
+
 /// From now on SIGUSR1 and SIGUSR2 are noted; without this they end the program.
 void catch_checkpoint_signals();
 

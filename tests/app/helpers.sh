@@ -8,45 +8,14 @@ if [ ! -x "$program" ]; then
   echo "skipped: the program is not built"
   exit 77
 fi
+helpers=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 cd "$work" || exit 1
 export OMP_WAIT_POLICY=passive
 failures=0
 
-cat > bar.toml <<'CASE'
-title = "Short bar"
-[run]
-end = "20 ms"
-threads = 1
-[[body]]
-name = "bar"
-shape = { box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "2 m"] }, particles = [5, 5, 9] }
-material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 }
-formulation = { name = "jst_sph" }
-initial_velocity = ["5*Z", "0", "0"]
-[[support]]
-body = "bar"
-where = "Z <= 0"
-fix = "xyz"
-[[probe]]
-name = "top"
-body = "bar"
-kind = "average"
-where = "Z >= 2"
-quantities = ["displacement_x"]
-[[quantity]]
-name = "sway"
-column = "top.displacement_x"
-take = "maximum"
-unit = "mm"
-[output.frames]
-every = "5 ms"
-[output.pictures]
-every = "10 ms"
-[output.checkpoints]
-every = "5 ms"
-CASE
+cp "$helpers/bar.toml" .
 
 # expect CODE TEXT COMMAND...: the command ends with this code and says this text.
 expect() {

@@ -118,6 +118,17 @@ inline void advance(Formulation& f, double dt, int n) {
   for (int k = 0; k < n; ++k) f.step(k * dt, dt);
 }
 
+/// Steps of the length that the formulation asks for, from a time on; the time after them.
+inline double advance_by_itself(Formulation& f, double from, int steps) {
+  double time = from;
+  for (int k = 0; k < steps; ++k) {
+    double const dt = f.stable_time_step();
+    f.step(time, dt);
+    time += dt;
+  }
+  return time;
+}
+
 /// By how much of itself the total energy changes in a time, taken in so many steps.
 inline double energy_change(Assembly const& a, double time, int steps) {
   auto const f = make_formulation(a);

@@ -3,7 +3,7 @@
 #include "piola/exec/threads.hpp"
 #include "piola/output/draw_bodies.hpp"
 #include "piola/output/points.hpp"
-#include "piola/setup/shapes.hpp"
+#include "output/drawn_shapes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -25,12 +25,7 @@ struct Stand {
   View view{0, 0};
 
   explicit Stand(int n = 5, int dimension = 3) {
-    ShapeSpec shape;
-    shape.dimension = dimension;
-    shape.max = {2, 1, dimension == 3 ? 0.5 : 0};
-    shape.particles = {4 * n, 2 * n, dimension == 3 ? n : 1};
-    shape.placement = ShapeSpec::Placement::cell_centred;
-    reset(shape);
+    reset(testing::drawn_box(n, ShapeSpec::Placement::cell_centred, dimension));
   }
   void reset(ShapeSpec const& shape) {
     set = {};
@@ -135,13 +130,7 @@ int pixels_in_small_holes(Image const& image, int largest) {
 /// A bar on a wall: its foot is 2.3 times as wide, and lower by as much.
 Stand mushroomed_bar() {
   Stand stand;
-  ShapeSpec bar;
-  bar.kind = ShapeSpec::Kind::cylinder;
-  bar.radius = 0.4;
-  bar.length = 1.6;
-  bar.spacing = 0.08;
-  bar.placement = ShapeSpec::Placement::cell_centred;
-  stand.reset(bar);
+  stand.reset(testing::drawn_cylinder(0.4, 1.6, 0.08));
   for (Place3& p : stand.x) {
     double const wide = 1 + 1.3 * std::exp(-3 * p[2]);
     p = {1 + wide * p[0], 0.4 + wide * p[1], 1.6 - (1.6 - p[2]) * 0.7};
@@ -152,14 +141,7 @@ Stand mushroomed_bar() {
 /// A shell of rings that has fallen to half its radius, with a hole that is its own.
 Stand collapsed_ring() {
   Stand stand;
-  ShapeSpec ring;
-  ring.kind = ShapeSpec::Kind::sphere;
-  ring.dimension = 2;
-  ring.radius = 0.9;
-  ring.inner_radius = 0.6;
-  ring.spacing = 0.03;
-  ring.arrangement = ShapeSpec::Arrangement::rings;
-  stand.reset(ring);
+  stand.reset(testing::drawn_rings(0.9, 0.03, 0.6));
   for (Place3& p : stand.x) {
     double const r = std::hypot(p[0], p[1]), now = std::sqrt(r * r - 0.3);
     p = {1.5 + p[0] / r * now, 0.5 + p[1] / r * now, 0};

@@ -2,7 +2,7 @@
 #include "piola/output/skin.hpp"
 #include "piola/output/feature_lines.hpp"
 #include "piola/output/points.hpp"
-#include "piola/setup/shapes.hpp"
+#include "output/drawn_shapes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -27,34 +27,10 @@ struct Subject {
   Skin skin() const { return make_skin(mesh, now()); }
 };
 
-ShapeSpec box(int n, ShapeSpec::Placement placement, int dimension = 3) {
-  ShapeSpec shape;
-  shape.dimension = dimension;
-  shape.max = {2, 1, dimension == 3 ? 0.5 : 0};
-  shape.particles = {4 * n, 2 * n, dimension == 3 ? n : 1};
-  shape.placement = placement;
-  return shape;
-}
+using testing::drawn_box;
 
-ShapeSpec cylinder() {
-  ShapeSpec shape;
-  shape.kind = ShapeSpec::Kind::cylinder;
-  shape.radius = 1;
-  shape.length = 3;
-  shape.spacing = 0.2;
-  shape.placement = ShapeSpec::Placement::cell_centred;
-  return shape;
-}
-
-ShapeSpec disc() {
-  ShapeSpec shape;
-  shape.kind = ShapeSpec::Kind::sphere;
-  shape.dimension = 2;
-  shape.radius = 1;
-  shape.spacing = 0.1;
-  shape.arrangement = ShapeSpec::Arrangement::rings;
-  return shape;
-}
+ShapeSpec cylinder() { return testing::drawn_cylinder(1, 3, 0.2); }
+ShapeSpec disc() { return testing::drawn_rings(1, 0.1); }
 
 double area(Skin const& skin) {
   double sum = 0;
@@ -77,7 +53,7 @@ double volume(Skin const& skin) {
 
 TEST(Skin, IsTheSurfaceOfABox) {
   for (auto const placement : {ShapeSpec::Placement::on_boundary, ShapeSpec::Placement::cell_centred}) {
-    Subject const s(box(4, placement));
+    Subject const s(drawn_box(4, placement));
     EXPECT_NEAR(area(s.skin()), 7, 1e-9);
     EXPECT_NEAR(volume(s.skin()), 1, 1e-9);
     auto const inside = s.skin().inside;
@@ -87,7 +63,7 @@ TEST(Skin, IsTheSurfaceOfABox) {
 
 TEST(Skin, FillsABodyOfTwoDimensions) {
   for (auto const placement : {ShapeSpec::Placement::on_boundary, ShapeSpec::Placement::cell_centred})
-    EXPECT_NEAR(area(Subject(box(4, placement, 2)).skin()), 2, 1e-9);
+    EXPECT_NEAR(area(Subject(drawn_box(4, placement, 2)).skin()), 2, 1e-9);
   EXPECT_NEAR(area(Subject(disc()).skin()), pi, 0.01 * pi) << "triangles between rings";
 }
 
@@ -105,7 +81,7 @@ TEST(Skin, ReachesTheSurfaceOfARoundBody) {
 }
 
 TEST(Skin, FollowsALinearMotion) {
-  Subject s(box(4, ShapeSpec::Placement::cell_centred));
+  Subject s(drawn_box(4, ShapeSpec::Placement::cell_centred));
   Mat<3> F = identity<3>();
   F(0, 1) = 0.7;
   F(1, 1) = 1.5;
@@ -134,7 +110,7 @@ TEST(Skin, HasNormalsThatAreSmoothButForEdges) {
 }
 
 TEST(Skin, OpensWhereParticlesHaveParted) {
-  Subject s(box(4, ShapeSpec::Placement::on_boundary));
+  Subject s(drawn_box(4, ShapeSpec::Placement::on_boundary));
   double const half = 1, step = 2.0 / 15;
   std::size_t moved = 0;
   for (Place3& x : s.x)
@@ -148,7 +124,7 @@ TEST(Skin, OpensWhereParticlesHaveParted) {
 }
 
 TEST(Skin, LeavesOutWhatHasLostItsNeighbours) {
-  Subject const s(box(3, ShapeSpec::Placement::on_boundary));
+  Subject const s(drawn_box(3, ShapeSpec::Placement::on_boundary));
   std::vector<std::uint8_t> loose(s.x.size(), 0);
   for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = s.x[i][0] > 1.5;
   Skin const skin = make_skin(s.mesh, {s.x, loose});
@@ -158,7 +134,7 @@ TEST(Skin, LeavesOutWhatHasLostItsNeighbours) {
 }
 
 TEST(Skin, TakesPlacesThatAreNoNumbers) {
-  Subject s(box(3, ShapeSpec::Placement::on_boundary));
+  Subject s(drawn_box(3, ShapeSpec::Placement::on_boundary));
   s.x[40][1] = std::numeric_limits<double>::quiet_NaN();
   Skin const skin = s.skin();
   EXPECT_EQ(skin.inside[40], 0);
@@ -167,10 +143,10 @@ TEST(Skin, TakesPlacesThatAreNoNumbers) {
 }
 
 TEST(Skin, IsMissingWhereThereAreNoCells) {
-  ShapeSpec one = box(1, ShapeSpec::Placement::on_boundary);
+  ShapeSpec one = drawn_box(1, ShapeSpec::Placement::on_boundary);
   one.particles = {1, 1, 1};
   EXPECT_TRUE(Subject(one).skin().facets.empty());
-  ShapeSpec layer = box(4, ShapeSpec::Placement::on_boundary);
+  ShapeSpec layer = drawn_box(4, ShapeSpec::Placement::on_boundary);
   layer.particles = {5, 5, 1};
   Subject const s(layer);
   EXPECT_TRUE(s.skin().facets.empty());
@@ -178,7 +154,7 @@ TEST(Skin, IsMissingWhereThereAreNoCells) {
 }
 
 TEST(Section, HasTheAreaOfTheCrossSection) {
-  Subject const s(box(4, ShapeSpec::Placement::cell_centred));
+  Subject const s(drawn_box(4, ShapeSpec::Placement::cell_centred));
   Skin const skin = s.skin();
   Place3 const normal = unit({1, 0.5, 0.2});
   std::vector<double> beyond;
@@ -198,7 +174,7 @@ TEST(Section, HasTheAreaOfTheCrossSection) {
 }
 
 TEST(FeatureLines, AreTheTwelveEdgesOfABox) {
-  Subject const s(box(4, ShapeSpec::Placement::cell_centred));
+  Subject const s(drawn_box(4, ShapeSpec::Placement::cell_centred));
   ASSERT_EQ(s.mesh.lines.size(), 12U);
   double sum = 0;
   for (Polyline const& line : s.mesh.lines) sum += distance(line.front(), line.back());
@@ -224,7 +200,7 @@ TEST(FeatureLines, HaveTheSidesOfACylinderWhereTheViewerSeesThem) {
       EXPECT_GT(std::abs(line[k][0]), 0.9) << "left and right";
     }
   EXPECT_NEAR(along, 2 * 3, 0.1);
-  EXPECT_TRUE(silhouette(Subject(box(4, ShapeSpec::Placement::cell_centred)).mesh, {0, 1, 0}).empty());
+  EXPECT_TRUE(silhouette(Subject(drawn_box(4, ShapeSpec::Placement::cell_centred)).mesh, {0, 1, 0}).empty());
 }
 
 TEST(Stretches, AreBounded) {

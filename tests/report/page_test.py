@@ -21,35 +21,8 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("PIOLA_SOURCE_DIR", Path(__file__).resolve().parents[2]))
 PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
 HOSTILE = "</script><img src=x onerror=alert(1)> & \"quotes\" <!-- "
-CASE = """
-title = '</script><img src=x onerror=alert(1)> & "quotes" <!-- '
-[run]
-end = "20 ms"
-threads = 1
-[[body]]
-name = "bar"
-shape = { box = { min = [0, 0, 0], max = ["1 m", "1 m", "2 m"] }, particles = [5, 5, 9] }
-material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 }
-formulation = { name = "jst_sph" }
-initial_velocity = ["5*Z", "0", "0"]
-[[support]]
-body = "bar"
-where = "Z <= 0"
-fix = "xyz"
-[[probe]]
-name = "top"
-body = "bar"
-kind = "average"
-where = "Z >= 2"
-quantities = ["displacement_x"]
-[[quantity]]
-name = "sway"
-column = "top.displacement_x"
-take = "maximum"
-unit = "mm"
-[output.frames]
-every = "1 ms"
-"""
+BAR = (SOURCE / "tests/app/bar.toml").read_text().split("[output.frames]")[0]
+CASE = BAR.replace('"Short bar"', f"'{HOSTILE}'") + '[output.frames]\nevery = "1 ms"\n'
 CHECKS = """
 [[variant]]
 name = "standard"

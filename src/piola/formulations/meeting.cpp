@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/meeting.hpp"
+#include "piola/math/places.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <array>
@@ -20,9 +21,6 @@ double with_frequency(double step, double omega2) {
 }
 
 constexpr std::array<std::string_view, 4> offered_by_contact{"ContactPressure", "ContactGap", "Slip", "FrictionHeat"};
-
-Point array_of(Vec<3> const& a) { return {a[0], a[1], a[2]}; }
-Vec<3> vector_of(Point const& a) { return {{a[0], a[1], a[2]}}; }
 
 std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   std::vector<contact::RigidSurface> all;

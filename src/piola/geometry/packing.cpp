@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/packing.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/math/places.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ using Point = std::array<double, 3>;
 constexpr double support = 2.4, skin = 0.4, pace = 0.3, largest_move = 0.15, still = 1e-3, depth = 0.5,
                  piece_edge = 0.4;
 constexpr int sweeps_per_list = 5, pushes = 3;
-
-Vec<3> vec(Point const& p) { return {{p[0], p[1], p[2]}}; }
-Point point(Vec<3> const& v) { return {v[0], v[1], v[2]}; }
 
 /// Wendland's C2 kernel with support 1 (Adv. Comput. Math. 4, 1995); scaled by the caller.
 double shape_of_kernel(double q) { return q < 1 ? (1 - q) * (1 - q) * (1 - q) * (1 - q) * (1 + 4 * q) : 0; }
@@ -112,7 +110,7 @@ class Start {
       far -= spacing_;
       double phi = inside ? -1e30 : 1e30;
       if (!(far > 0 && solid_.distance_is_bound())) {
-        phi = solid_.at(vec(X)).distance;
+        phi = solid_.at(vector_of(X)).distance;
         far = std::abs(phi) - 3 * spacing_;
         inside = phi < 0;
       }
@@ -145,7 +143,7 @@ class Packer {
 
   Packing run(PackingOptions const& options) {
     std::vector<Point> at_piece;
-    for (SurfacePiece const& piece : pieces_) at_piece.push_back(point(piece.X));
+    for (SurfacePiece const& piece : pieces_) at_piece.push_back(array_of(piece.X));
     CellGrid const surface(at_piece, reach_);
     for (out_.sweeps = 0; out_.sweeps < options.sweeps;) {
       if (out_.sweeps % sweeps_per_list == 0) find_lists();
@@ -167,7 +165,7 @@ class Packer {
     auto const each = [&](Index a, auto const& f) {
       Point const& x = X_[static_cast<std::size_t>(a)];
       grid.visit(x, [&](Index b) {
-        Vec<3> const r = vec(X_[static_cast<std::size_t>(b)]) - vec(x);
+        Vec<3> const r = vector_of(X_[static_cast<std::size_t>(b)]) - vector_of(x);
         if (b != a && dot(r, r) < far * far) f(b);
       });
     };
@@ -187,10 +185,10 @@ class Packer {
     moved_.resize(X_.size());
     exec_host::for_each_in_set_up(size(), [&](Index a) {
       auto const i = static_cast<std::size_t>(a);
-      Vec<3> const x = vec(X_[i]);
+      Vec<3> const x = vector_of(X_[i]);
       Vec<3> y = x + step_of(a, surface);
       y = pushed_inside(i, y);
-      next_[i] = point(y);
+      next_[i] = array_of(y);
       moved_[i] = dot(y - x, y - x);
     });
     X_.swap(next_);
@@ -200,10 +198,10 @@ class Packer {
 
   Vec<3> step_of(Index a, CellGrid const& surface) const {
     auto const i = static_cast<std::size_t>(a);
-    Vec<3> const x = vec(X_[i]);
+    Vec<3> const x = vector_of(X_[i]);
     Vec<3> sum;
     for (auto p = begin_[i]; p < begin_[i + 1]; ++p) {
-      Vec<3> const r = x - vec(X_[static_cast<std::size_t>(neighbour_[static_cast<std::size_t>(p)])]);
+      Vec<3> const r = x - vector_of(X_[static_cast<std::size_t>(neighbour_[static_cast<std::size_t>(p)])]);
       double const q = std::sqrt(dot(r, r)) / reach_;
       sum = sum + (out_.volume * slope_over_q(q) / (reach_ * reach_)) * r;
     }
@@ -223,7 +221,7 @@ class Packer {
 
   /// At least so far from the surface.
   double away(std::size_t i, Vec<3> const& x) const {
-    Vec<3> const r = x - vec(known_at_[i]);
+    Vec<3> const r = x - vector_of(known_at_[i]);
     return away_[i] - std::sqrt(dot(r, r));
   }
 
@@ -232,7 +230,7 @@ class Packer {
     for (int turn = 0; turn < pushes; ++turn) {
       Foot const foot = solid_.at(x);
       away_[i] = solid_.distance_is_bound() ? -foot.distance : std::min(-foot.distance, 2 * spacing_);
-      known_at_[i] = point(x);
+      known_at_[i] = array_of(x);
       double const out = foot.distance + depth * spacing_;
       if (out <= 1e-6 * spacing_) return x;
       x = x - out * foot.normal;
@@ -258,7 +256,7 @@ double nearest_of(CellGrid const& grid, std::vector<Point> const& X, Point const
   double least = 1e300;
   grid.visit(x, [&](Index b) {
     if (b == self) return;
-    Vec<3> const r = vec(X[static_cast<std::size_t>(b)]) - vec(x);
+    Vec<3> const r = vector_of(X[static_cast<std::size_t>(b)]) - vector_of(x);
     least = std::min(least, dot(r, r));
   });
   return std::sqrt(least);
@@ -284,7 +282,7 @@ PackingQuality quality_of(Solid const& solid, Packing const& packing) {
     double const near = nearest_of(grid, packing.X, packing.X[a], static_cast<Index>(a)) / packing.spacing;
     q.nearest_least = std::min(q.nearest_least, near);
     q.nearest_mean += near / static_cast<double>(packing.X.size());
-    double const phi = solid.at(vec(packing.X[a])).distance / packing.spacing;
+    double const phi = solid.at(vector_of(packing.X[a])).distance / packing.spacing;
     if (phi <= -0.9) continue;
     ++outer;
     placed += std::abs(phi + depth) < 0.02 ? 1 : 0;
@@ -293,7 +291,7 @@ PackingQuality quality_of(Solid const& solid, Packing const& packing) {
   std::vector<SurfacePiece> pieces;
   solid.cut_surface(0.5 * packing.spacing, pieces);
   for (SurfacePiece const& piece : pieces)
-    q.gap = std::max(q.gap, nearest_of(grid, packing.X, point(piece.X), -1) / packing.spacing);
+    q.gap = std::max(q.gap, nearest_of(grid, packing.X, array_of(piece.X), -1) / packing.spacing);
   return q;
 }
 

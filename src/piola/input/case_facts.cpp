@@ -3,22 +3,13 @@
 #include "piola/base/text.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/particles/parts.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace piola {
 namespace {
-
-/// Of what has the body's own material, and of each part [m^dimension].
-std::vector<double> volumes_of_parts(ParticleSet const& particles, Body const& body, std::size_t parts) {
-  std::vector<double> volume(parts + 1, 0);
-  for (std::int64_t id = body.first; id < body.last; ++id) {
-    auto const i = static_cast<std::size_t>(id);
-    volume[part_of(particles, i)] += particles.volume[i];
-  }
-  return volume;
-}
 
 double largest_speed(BodySpec const& spec, ParticleSet const& particles, Body const& body) {
   double largest = 0;
@@ -148,19 +139,17 @@ std::vector<BodyFacts> body_facts(CaseSpec const& spec, ParticleSet const& parti
     BodyFacts facts{
         .name = body.name, .particles = body.last - body.first, .spacing = body.spacing, .lattice = body.lattice};
     facts.largest_speed = largest_speed(spec.bodies[b], particles, body);
-    double volume = 0;
-    auto const read = [&](auto const& law) {
-      facts.mass += volume * law.rho0;
-      facts.p_wave = std::max(facts.p_wave, law.p_wave_speed());
-      if constexpr (requires { law.s_wave_speed(); }) facts.s_wave = std::max(facts.s_wave, law.s_wave_speed());
+    auto const add = [&](MaterialParameters const& material, double volume) {
+      with_any_law(material, [&](auto const& law) {
+        facts.mass += volume * law.rho0;
+        facts.p_wave = std::max(facts.p_wave, law.p_wave_speed());
+        if constexpr (requires { law.s_wave_speed(); }) facts.s_wave = std::max(facts.s_wave, law.s_wave_speed());
+      });
     };
-    auto const volumes = volumes_of_parts(particles, body, spec.bodies[b].parts.size());
-    volume = volumes[0];
-    with_any_law(spec.bodies[b].material, read);
-    for (std::size_t k = 0; k < spec.bodies[b].parts.size(); ++k) {
-      volume = volumes[k + 1];
-      with_any_law(spec.bodies[b].parts[k].material, read);
-    }
+    auto const& parts = spec.bodies[b].parts;
+    auto const shares = part_facts(particles, body, parts.size());
+    add(spec.bodies[b].material, shares[0].volume);
+    for (std::size_t k = 0; k < parts.size(); ++k) add(parts[k].material, shares[k + 1].volume);
     all.push_back(facts);
   }
   return all;

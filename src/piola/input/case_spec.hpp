@@ -45,8 +45,7 @@ struct RegionSpec {
 struct PartSpec {
   std::string name;  ///< "part_1" if the case gives none to the first one
   Expression where;
-  geometry::SolidPtr solid{};  ///< where `where` is a region with a shape and nothing else
-  std::string cut;             ///< that region as the case gives it
+  std::optional<std::size_t> region = {};  ///< where `where` is a region with a shape and nothing else: its number
   MaterialParameters material;
   std::string law;
   Places places;
@@ -227,6 +226,13 @@ struct AppearanceSpec {
   bool outline = true;  ///< of the reference shape
   std::optional<Cut> cut = {};
 };
+
+/// Whether what is taken is an instant [s].
+inline bool takes_instant(QuantitySpec::Take take) {
+  using enum QuantitySpec::Take;
+  return take == time_of_first_peak || take == time_of_maximum || take == time_of_minimum || take == first_time_above ||
+         take == first_time_below;
+}
 
 /// [output]; times in s, 0 = never. Output falls on the first step at or after each multiple.
 struct OutputSpec {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/particles/parts.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -42,17 +43,16 @@ void check_parts(CaseSpec const& spec, ParticleSet const& particles, Problems& p
       problems.add(place_of(from.parts.front().places, ""), refusal(*info, "parts"));
       continue;
     }
-    std::vector<std::int64_t> count(from.parts.size() + 1, 0);
-    for (auto id = body.first; id < body.last; ++id) ++count[part_of(particles, static_cast<std::size_t>(id))];
+    auto const shares = part_facts(particles, body, from.parts.size());
     for (std::size_t k = 0; k < from.parts.size(); ++k) {
       PartSpec const& part = from.parts[k];
       Place const place = place_of(part.places, "where");
       check_part(from, part, *info, problems);
-      if (check_where(part.where, "body.part.where", place, particles, body, problems) && count[k + 1] == 0)
+      if (check_where(part.where, "body.part.where", place, particles, body, problems) && shares[k + 1].particles == 0)
         problems.add(place, "the part " + in_quotes(part.name) + " of body " + in_quotes(from.name) +
                                 " has no particle that no part before it has - change the order or the conditions");
     }
-    if (count[0] == 0)
+    if (shares[0].particles == 0)
       problems.add(place_of(from.places, "material"),
                    "the parts of body " + in_quotes(from.name) +
                        " leave nothing to its own material - leave one part out and give the body its material");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/math/places.hpp"
 #include "piola/mechanics/contact/rigid.hpp"
 #include <algorithm>
 #include <array>
@@ -56,7 +57,7 @@ Vec3 start_of(BodySpec const& body, Vec3 const& X) {
 }
 
 double distance_to(RigidShape const& shape, Vec3 const& x, int dimension) {
-  return contact::distance_from(contact::surface_of(shape, dimension), {{x[0], x[1], x[2]}}).value;
+  return contact::distance_from(contact::surface_of(shape, dimension), vector_of(x)).value;
 }
 
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {

@@ -4,6 +4,7 @@
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/math/places.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include <algorithm>
 #include <cmath>
@@ -109,7 +110,7 @@ std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSe
   for (auto const id : carriers.ids()) {
     auto const i = static_cast<std::size_t>(id);
     auto const at = start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]);
-    x.push_back({{at[0], at[1], at[2]}});
+    x.push_back(vector_of(at));
   }
   return contact::Ties({spec.ties.begin(), spec.ties.end()}, particles, surfaces, carriers, x).found();
 }

@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/math/places.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -77,7 +78,7 @@ bool find_nearest(BodyPlaces const& a, BodyPlaces const& b, double reach, Closen
 /// How far inside a shape a point is [m]; negative outside.
 double depth_in(ShapeSpec const& shape, Vec3 const& x) {
   if (shape.kind == ShapeSpec::Kind::points) return -1;  // nobody knows where it ends
-  if (shape.kind == ShapeSpec::Kind::solid) return -shape.solid->at({{x[0], x[1], x[2]}}).distance;
+  if (shape.kind == ShapeSpec::Kind::solid) return -shape.solid->at(vector_of(x)).distance;
   auto const D = static_cast<std::size_t>(shape.dimension);
   double least = std::numeric_limits<double>::infinity(), square = 0;
   auto const axis = static_cast<std::size_t>(shape.axis);

@@ -123,12 +123,16 @@ void check_size(std::vector<Section> const& sections, CaseSpec const& spec, Read
 }
 
 /// Parts with a shape of their own cut a packed body along their surfaces.
-void cut_by_parts(BodySpec& body) {
+void cut_by_parts(BodySpec& body, std::vector<RegionSpec> const& regions) {
   SolidParticles* const particles = body.shape.solid_particles.get();
   if (particles == nullptr) return;
-  for (PartSpec const& part : body.parts)
-    if (part.solid && part.solid->dimension() == body.shape.dimension) particles->parts.push_back(part.solid);
-  for (PartSpec const& part : body.parts) particles->key += part.solid ? "\ncut " + part.cut : "";
+  for (PartSpec const& part : body.parts) {
+    if (!part.region) continue;
+    RegionSpec const& region = regions[*part.region];
+    if (region.solid->dimension() != body.shape.dimension) continue;
+    particles->parts.push_back(region.solid);
+    particles->key += "\ncut " + region.text;
+  }
 }
 
 /// Constants, and the regions by their names.
@@ -151,7 +155,7 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
     spec.bodies.push_back(read_body(section, common, names.emplace_back()));
     BodySpec& body = spec.bodies.back();
     body.parts = read_parts(section, names.back(), spec.regions);
-    if (body.shape.arrangement == ShapeSpec::Arrangement::packed) cut_by_parts(body);
+    if (body.shape.arrangement == ShapeSpec::Arrangement::packed) cut_by_parts(body, spec.regions);
   }
   refuse_twins(sections, spec.bodies, "body");
   for (BodySpec const& body : spec.bodies)

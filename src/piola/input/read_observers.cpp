@@ -171,10 +171,7 @@ std::optional<std::string> read_column(Section const& section, CaseSpec const& s
   return std::nullopt;
 }
 
-bool takes_time(Take take) {
-  return take == Take::time_of_first_peak || take == Take::time_of_maximum || take == Take::time_of_minimum ||
-         take == Take::first_time_above || take == Take::first_time_below || take == Take::oscillation_period;
-}
+bool takes_time(Take take) { return takes_instant(take) || take == Take::oscillation_period; }
 
 bool compares(Take take) { return take == Take::mean_absolute_difference || take == Take::relative_error; }
 

@@ -6,13 +6,14 @@
 namespace piola {
 namespace {
 
-/// The region that a condition is, if it is a region with a shape and nothing else.
-RegionSpec const* shape_region(std::string const& condition, std::vector<RegionSpec> const& regions) {
+/// The number of the region that a condition is, if it is a region with a shape and nothing else.
+std::optional<std::size_t> shape_region(std::string const& condition, std::vector<RegionSpec> const& regions) {
   auto const words = expression_words(condition);
-  if (words.size() != 1 || condition.find_first_not_of(words[0] + " \t") != std::string::npos) return nullptr;
+  if (words.size() != 1 || condition.find_first_not_of(words[0] + " \t") != std::string::npos) return {};
   auto const found =
       std::find_if(regions.begin(), regions.end(), [&](RegionSpec const& region) { return region.name == words[0]; });
-  return found == regions.end() || !found->solid ? nullptr : &*found;
+  if (found == regions.end() || !found->solid) return {};
+  return static_cast<std::size_t>(found - regions.begin());
 }
 
 PartSpec read_part(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions) {
@@ -20,10 +21,7 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
   section.read("name", part.name);
   if (auto where = section.formula("where", body.names)) {
     part.where = std::move(*where);
-    if (auto const* const region = shape_region(part.where.text(), regions)) {
-      part.solid = region->solid;
-      part.cut = region->text;
-    }
+    part.region = shape_region(part.where.text(), regions);
     if (part.where.depends_on_time())
       section.problems().add(section.place_of("where"),
                              section.name_of("where") +

@@ -7,6 +7,7 @@
 #include "piola/input/read_polygon.hpp"
 #include "piola/input/read_solid.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/math/places.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +25,6 @@ Vec<3> three(std::vector<double> const& numbers) {
   for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c) v[static_cast<int>(c)] = numbers[c];
   return v;
 }
-
-Vec<3> three(std::array<double, 3> const& a) { return {{a[0], a[1], a[2]}}; }
 
 SolidPtr read_plain(Section const& section, std::string_view kind) {
   ShapeSpec shape;
@@ -249,12 +248,13 @@ SolidPtr read_primitive(Section const& section, std::string_view kind, Names con
 }
 
 geometry::SolidPtr solid_of(ShapeSpec const& shape) {
-  if (shape.kind == ShapeSpec::Kind::box) return geometry::box(three(shape.min), three(shape.max), shape.dimension);
+  if (shape.kind == ShapeSpec::Kind::box)
+    return geometry::box(vector_of(shape.min), vector_of(shape.max), shape.dimension);
   if (shape.kind == ShapeSpec::Kind::sphere)
-    return geometry::ball(three(shape.centre), shape.radius, shape.inner_radius, shape.dimension);
+    return geometry::ball(vector_of(shape.centre), shape.radius, shape.inner_radius, shape.dimension);
   Vec<3> axis;
   axis[shape.axis] = 1;
-  return geometry::cylinder(three(shape.centre), axis, shape.length, shape.radius, shape.inner_radius);
+  return geometry::cylinder(vector_of(shape.centre), axis, shape.length, shape.radius, shape.inner_radius);
 }
 
 }  // namespace piola

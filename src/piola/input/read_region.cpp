@@ -5,6 +5,7 @@
 #include "piola/input/read_solid.hpp"
 #include "piola/input/region_names.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/math/places.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,11 +18,9 @@ using Point = std::array<double, 3>;
 
 constexpr std::array<std::string_view, 3> region_kinds{"where", "shape", "near"};
 
-Vec<3> place_of_point(Point const& X) { return {{X[0], X[1], X[2]}}; }
-
 /// Inside or on the surface; a shape in 2D goes on along z.
 Names::OfPlace inside_of(geometry::SolidPtr solid) {
-  return [solid = std::move(solid)](Point const& X) { return solid->at(place_of_point(X)).distance <= 0 ? 1.0 : 0.0; };
+  return [solid = std::move(solid)](Point const& X) { return solid->at(vector_of(X)).distance <= 0 ? 1.0 : 0.0; };
 }
 
 Names::OfPlace read_near(Section const& near, RegionSpec& region) {
@@ -43,7 +42,7 @@ Names::OfPlace read_near(Section const& near, RegionSpec& region) {
   for (std::string const& problem : report.problems) near.problems().add(near.place_of("file"), problem);
   if (!solid) return {};
   return [solid = std::move(solid), within](Point const& X) {
-    return std::abs(solid->at(place_of_point(X)).distance) <= within ? 1.0 : 0.0;
+    return std::abs(solid->at(vector_of(X)).distance) <= within ? 1.0 : 0.0;
   };
 }
 
@@ -109,7 +108,7 @@ void add_names_of_places(ShapeSpec const& shape, bool usable, Names& names) {
     if (names.constants.contains(name) || static_cast<int>(k) > shape.dimension) continue;
     names.places[name] = [solid, k](Point const& X) {
       if (!solid) return 0.0;
-      geometry::Foot const foot = solid->at(place_of_point(X));
+      geometry::Foot const foot = solid->at(vector_of(X));
       return k == 0 ? -foot.distance : foot.normal[static_cast<int>(k) - 1];
     };
   }

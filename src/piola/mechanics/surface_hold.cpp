@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/surface_hold.hpp"
+#include "piola/mechanics/constraint_matrix.hpp"
 #include <algorithm>
 #include <tuple>
 
@@ -71,7 +72,7 @@ void SurfaceHold::begin_step(FieldRef const& x, std::span<HeldDirection> particl
   bool const others = driven_.begin_step(places_at(x), time, dt);
   if (!others && !changed) return;
   make_rows(particles);
-  factorise();
+  matrix_ = constraint_matrix(rows_, weights_, particles_.size(), [&](std::size_t a) { return particles_[a].mass; });
 }
 
 std::size_t SurfaceHold::particle_in(Index slot) const {
@@ -103,32 +104,6 @@ void SurfaceHold::make_rows(std::span<HeldDirection> particles) {
   std::stable_sort(rows_.begin(), rows_.end(), [along](Row const& a, Row const& b) {
     return std::tie(a.held->axis, a.X[along]) < std::tie(b.held->axis, b.X[along]);
   });
-}
-
-void SurfaceHold::factorise() {
-  struct InRow {
-    std::size_t row;
-    double weight;
-  };
-  std::vector<std::vector<InRow>> of_particle(particles_.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t k = rows_[r].first; k < rows_[r].last; ++k)
-      of_particle[weights_[k].particle].push_back({r, weights_[k].weight});
-  auto const each_entry = [&](auto const& f) {
-    for (std::size_t a = 0; a < particles_.size(); ++a)
-      for (std::size_t i = 0; i < of_particle[a].size(); ++i)
-        for (std::size_t j = 0; j <= i; ++j) {
-          InRow const &lower = of_particle[a][i], &upper = of_particle[a][j];
-          double const along = dot(rows_[lower.row].direction, rows_[upper.row].direction);
-          if (along != 0) f(lower.row, upper.row, lower.weight * upper.weight * along / particles_[a].mass);
-        }
-  };
-  std::vector<std::size_t> first(rows_.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r) first[r] = r;
-  each_entry([&](std::size_t i, std::size_t j, double) { first[i] = std::min(first[i], j); });
-  matrix_ = EnvelopeCholesky(std::move(first));
-  each_entry([&](std::size_t i, std::size_t j, double entry) { matrix_.at(i, j) += entry; });
-  matrix_.factorise();
 }
 
 double SurfaceHold::value(Row const& row, FieldRef const& field) const {

@@ -81,7 +81,6 @@ class SurfaceHold {
   /// Its number in particles_, or their count.
   std::size_t particle_in(Index slot) const;
   void make_rows(std::span<HeldDirection> particles);
-  void factorise();
   template <class Of>
   std::vector<double> solved(FieldRef const& field, Of const& wanted) const;
   void add(std::vector<double> const& lambda, FieldRef const& to) const;

@@ -39,8 +39,7 @@ std::vector<SurfaceFinish> finish_of_tools(PictureData const& data, float spacin
 void move_to_where_seen(Surfaces& surfaces, Projection const& project) {
   double const scale = project.scale * fine;
   auto const moved = [&](auto& place) {
-    Place3 p = project.point(place.x / fine, place.y / fine);
-    for (std::size_t c = 0; c < 3; ++c) p[c] += place.depth / scale * project.towards[c];
+    Place3 const p = plus(project.point(place.x / fine, place.y / fine), place.depth / scale, project.towards);
     Place3 const q = project.eye.seen(p);
     auto const pixel = project(q);
     place.x = static_cast<float>(pixel[0] * fine);

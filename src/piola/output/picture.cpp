@@ -27,6 +27,35 @@ Projection make_projection(View const& view, Window const& w, Layout const& area
   return p;
 }
 
+Spread spread_of(PictureData const& data) {
+  if (data.spread) return *data.spread;
+  Spread spread;
+  spread.include(data.values);
+  return spread;
+}
+
+ColourMap map_of(PictureStyle const& style, Spread const& spread) {
+  auto const range = style.range ? *style.range : spread.typical;
+  return {range[0], range[1], style.palette};
+}
+
+/// What a picture and its letters have in common.
+struct Setting {
+  View view;
+  Layout layout;
+  Spread spread;
+  ColourMap map;
+  Projection project;
+  Setting(PictureData const& data, PictureStyle const& style, Window const& window)
+      : view(style.view.in(data.dimension)),
+        layout(layout_of(style.width, style.height, data.title, style.labels)),
+        spread(spread_of(data)),
+        map(map_of(style, spread)),
+        project(make_projection(view, window, layout)) {
+    project.eye = data.eye;
+  }
+};
+
 Image draw_scene(PictureData const& data, PictureStyle const& style, Layout const& layout, Projection const& project,
                  ColourMap const& map, Colour background) {
   double const top = style.labels ? 0.8 * layout.top : 0, right = style.labels ? layout.right : style.width;
@@ -80,42 +109,25 @@ void add_notes_to(Image& image, PictureData const& data, ColourMap const& map) {
 
 }  // namespace
 
-Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window) {
-  PictureStyle style = asked;
-  style.view = style.view.in(data.dimension);
-  Layout const layout = layout_of(style.width, style.height, data.title, style.labels);
-  Spread spread;
-  if (data.spread)
-    spread = *data.spread;
-  else
-    spread.include(data.values);
-  auto const range = style.range ? *style.range : spread.typical;
-  ColourMap const map(range[0], range[1], style.palette);
-  Projection project = make_projection(style.view, window, layout);
-  project.eye = data.eye;
+Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window) {
+  Setting const s(data, style, window);
   ThemeColours const colours = colours_of(style.theme);
   auto const draw_on = [&](Colour background) {
-    Image scene = draw_scene(data, style, layout, project, map, background);
-    if (style.labels) clear_for_letters(scene, layout, background);
+    Image scene = draw_scene(data, style, s.layout, s.project, s.map, background);
+    if (style.labels) clear_for_letters(scene, s.layout, background);
     return scene;
   };
   Image image = style.theme == Theme::transparent ? without_background(draw_on({0, 0, 0}), draw_on({255, 255, 255}))
                                                   : draw_on(colours.background);
-  if (style.labels) draw_overlay(image, layout, overlay_of(data, style.view, project, map, spread), colours);
-  add_notes_to(image, data, map);
+  if (style.labels) draw_overlay(image, s.layout, overlay_of(data, s.view, s.project, s.map, s.spread), colours);
+  add_notes_to(image, data, s.map);
   return image;
 }
 
 void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
                   Window const& window, std::string const& at_right) {
-  View const view = style.view.in(data.dimension);
-  Spread const spread = data.spread.value_or(Spread{});
-  auto const range = style.range ? *style.range : spread.typical;
-  ColourMap const map(range[0], range[1], style.palette);
-  Layout const area = layout_of(style.width, style.height, data.title, style.labels);
-  Projection project = make_projection(view, window, area);
-  project.eye = data.eye;
-  Overlay overlay = overlay_of(data, view, project, map, spread);
+  Setting const s(data, style, window);
+  Overlay overlay = overlay_of(data, s.view, s.project, s.map, s.spread);
   overlay.at_right = at_right;
   draw_overlay(image, layout, overlay, colours_of(style.theme));
 }

@@ -68,7 +68,7 @@ struct PictureStyle {
 /// Bodies as surfaces or balls and rigid shapes, lit, with title, time, colour bar, axes and scale bar. Throws
 /// FileError if there is no memory for so large a picture. The image has notes: title, time, field, range, version and
 /// the check sum of the case.
-Image draw_picture(PictureData const& data, PictureStyle const& asked, Window const& window);
+Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window);
 
 /// The letters of a picture alone, over `image`: title, what stands at the right (the time, usually), the colour bar of
 /// the style's range, and the axes and the scale that a picture of the style's size without labels has.

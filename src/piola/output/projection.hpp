@@ -3,7 +3,6 @@
 #include "piola/output/picture.hpp"
 #include "piola/output/points.hpp"
 #include <array>
-#include <cmath>
 
 /// What the parts of a picture share: from metres to pixels.
 namespace piola {
@@ -22,26 +21,15 @@ struct Projection {
 
   /// The line that is seen in a pixel, before anything was moved.
   Sight sight(double x, double y) const {
-    std::array<double, 3> from = point(x, y);
-    if (!eye.near()) return {from, towards};
-    double const h = eye.height(from);
-    std::array<double, 3> line{};
-    double square = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      from[c] -= h * towards[c];
-      line[c] = eye.axis[c] + eye.distance * towards[c] - from[c];
-      square += line[c] * line[c];
-    }
-    for (double& c : line) c /= std::sqrt(square);
-    return {from, line};
+    Place3 const there = point(x, y);
+    if (!eye.near()) return {there, towards};
+    Place3 const from = plus(there, -eye.height(there), towards);
+    return {from, unit(minus(plus(eye.axis, eye.distance, towards), from))};
   }
   /// Depth [m] of a point at this distance along a line of sight.
   double depth(Sight const& line, double along) const {
     if (!eye.near()) return along;
-    std::array<double, 3> p{};
-    for (std::size_t c = 0; c < 3; ++c) p[c] = line.from[c] + along * line.towards[c];
-    p = eye.seen(p);
-    return p[0] * towards[0] + p[1] * towards[1] + p[2] * towards[2];
+    return dot(eye.seen(plus(line.from, along, line.towards)), towards);
   }
   std::array<double, 2> operator()(std::array<double, 3> const& p) const {
     return {x_shift + scale * dot(p, right), y_shift - scale * dot(p, up)};

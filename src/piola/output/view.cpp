@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/view.hpp"
+#include "piola/output/points.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,6 @@ using Point = std::array<double, 3>;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-double along(Point const& p, Point const& d) { return p[0] * d[0] + p[1] * d[1] + p[2] * d[2]; }
 
 /// A direction given for y upwards, turned so that another axis points upwards.
 Point turned(Up up, Point const& d) {
@@ -57,7 +57,7 @@ Extent most_of(Subject const& subject, Point const& direction) {
   std::vector<std::array<double, 2>> list;  // place, weight
   double all = 0;
   for (std::size_t i = 0; i < subject.points.size(); i += 1 + subject.points.size() / sample) {
-    double const at = along(subject.points[i], direction), weight = subject.volume.empty() ? 1 : subject.volume[i];
+    double const at = dot(subject.points[i], direction), weight = subject.volume.empty() ? 1 : subject.volume[i];
     if (!std::isfinite(at)) continue;
     list.push_back({at, weight});
     all += weight;
@@ -78,7 +78,7 @@ Extent without_strays(Subject const& subject, Point const& direction, Extent con
   double const reach = near * std::max(most.size(), flat * other);
   Extent out;
   for (Point const& p : subject.points) {
-    double const at = along(p, direction);
+    double const at = dot(p, direction);
     if (at >= most.low - reach && at <= most.high + reach) out.take(at);
   }
   return out;
@@ -92,10 +92,10 @@ Point centre_of(Subject const& subject, int body) {
     Point const& p = subject.points[i];
     if (subject.body[i] != body || !std::isfinite(p[0] + p[1] + p[2])) continue;
     double const weight = subject.volume.empty() ? 1 : subject.volume[i];
-    sum = mixed(1, sum, weight, p);
+    sum = plus(sum, weight, p);
     all += weight;
   }
-  return all > 0 ? mixed(1 / all, sum, 0, sum) : Point{};
+  return all > 0 ? plus({}, 1 / all, sum) : Point{};
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ std::optional<std::array<double, 2>> named_view(std::string_view word, Up upward
   Point from{};
   from[number % 3] = number < 3 ? 1 : -1;
   constexpr std::array<std::array<double, 2>, 6> candidates{{{0, 0}, {90, 0}, {180, 0}, {270, 0}, {0, 90}, {0, -90}}};
-  auto const is_it = [&](auto const& c) { return along(View{c[0], c[1], upwards}.towards_viewer(), from) > 0.9; };
+  auto const is_it = [&](auto const& c) { return dot(View{c[0], c[1], upwards}.towards_viewer(), from) > 0.9; };
   return *std::find_if(candidates.begin(), candidates.end(), is_it);
 }
 
@@ -165,7 +165,7 @@ void Window::cover(Window const& other) {
   set = true;
 }
 
-double Eye::height(Point const& p) const { return along(mixed(1, p, -1, axis), towards); }
+double Eye::height(Point const& p) const { return dot(minus(p, axis), towards); }
 
 double Eye::magnification(Point const& p) const {
   constexpr double nearest = 0.95;  // of the way to the eye
@@ -174,17 +174,17 @@ double Eye::magnification(Point const& p) const {
   return h < nearest * distance ? distance / (distance - h) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Point Eye::seen(Point const& p) const { return near() ? mixed(1, axis, magnification(p), mixed(1, p, -1, axis)) : p; }
+Point Eye::seen(Point const& p) const { return near() ? plus(axis, magnification(p), minus(p, axis)) : p; }
 
 double Eye::shift(Point const& p, double other) const {
   if (!near()) return 0;
-  Point const from_axis = mixed(1, p, -1, axis), across = mixed(1, from_axis, -height(p), towards);
-  return std::sqrt(along(across, across)) * std::abs(other - magnification(p));
+  Point const from_axis = minus(p, axis), across = plus(from_axis, -height(p), towards);
+  return length(across) * std::abs(other - magnification(p));
 }
 
 Eye eye_before(Camera const& camera, double angle, Point const& low, Point const& high) {
-  Point const diagonal = mixed(1, high, -1, low);
-  double const half = std::sqrt(along(diagonal, diagonal)) / 2;
+  Point const diagonal = minus(high, low);
+  double const half = length(diagonal) / 2;
   if (!(angle > 0) || !(half > 0)) return {};
   return {half / std::tan(radians(angle / 2)), camera.look_at.value_or(mixed(0.5, low, 0.5, high)),
           camera.view.towards_viewer()};
@@ -204,7 +204,7 @@ void include(Window& window, Camera const& camera, Subject const& subject) {
   std::vector<double> volume;
   for (std::size_t i = 0; i < subject.points.size(); ++i) {
     if (camera.follow >= 0 && subject.body[i] != camera.follow) continue;
-    points.push_back(mixed(1, eye.seen(subject.points[i]), -1, centre));
+    points.push_back(minus(eye.seen(subject.points[i]), centre));
     volume.push_back(subject.volume.empty() ? 1 : subject.volume[i]);
   }
   window.include(camera.view, {.points = points, .volume = volume, .margin = subject.margin});
@@ -215,12 +215,12 @@ Window shown_window(Window const& all, Camera const& camera, Subject const& now)
   double x = (all.x0 + all.x1) / 2, y = (all.y0 + all.y1) / 2;
   if (camera.follow >= 0) {
     Point const centre = centre_of(now, camera.follow);
-    x += along(centre, right);
-    y += along(centre, up);
+    x += dot(centre, right);
+    y += dot(centre, up);
   }
   if (camera.look_at) {
-    x = along(*camera.look_at, right);
-    y = along(*camera.look_at, up);
+    x = dot(*camera.look_at, right);
+    y = dot(*camera.look_at, up);
   }
   double const half_x = (all.x1 - all.x0) / 2 / camera.zoom, half_y = (all.y1 - all.y0) / 2 / camera.zoom;
   return {all.set, x - half_x, x + half_x, y - half_y, y + half_y};

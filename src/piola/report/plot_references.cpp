@@ -17,10 +17,6 @@ bool is_value(Take take) {
   return take == Take::maximum || take == Take::minimum || take == Take::final_value || take == Take::initial_value ||
          take == Take::first_peak || take == Take::at_time || take == Take::mean;
 }
-bool is_time(Take take) {
-  return take == Take::time_of_first_peak || take == Take::time_of_maximum || take == Take::time_of_minimum ||
-         take == Take::first_time_above || take == Take::first_time_below;
-}
 
 /// Lowest and highest finite value of all curves.
 std::array<double, 2> ends_of(Plot const& plot, std::vector<double> Curve::*values) {
@@ -54,7 +50,7 @@ int add_references(Plot& plot, RunFolder const& run, std::vector<VerificationRow
                                        [&](QuantitySpec const& q) { return q.name == row.quantity; });
     if (quantity == quantities.end()) continue;
     bool const drawn = std::find(columns.begin(), columns.end(), quantity->column) != columns.end();
-    bool const across = is_value(quantity->take), upright = is_time(quantity->take);
+    bool const across = is_value(quantity->take), upright = takes_instant(quantity->take);
     if (!drawn || !(across || upright)) continue;
     auto const at = in_si(row, across ? unit_of_column(quantity->column) : "s");
     if (!at || !std::isfinite(*at)) continue;

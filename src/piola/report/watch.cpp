@@ -22,11 +22,6 @@ std::string share_bar(double share, std::size_t width) {
   return "[" + std::string(full, '#') + std::string(width - full, '.') + "]";
 }
 
-std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 double largest_of(std::vector<double> const& values) {
   double most = 0;
   for (double const v : values) most = std::max(most, std::isfinite(v) ? std::abs(v) : 0);
@@ -41,7 +36,8 @@ std::string row_text(HistoryTable const& table, std::size_t width) {
     std::string const unit = unit_of_column(name);
     if (unit == "J" || name == "time" || name == "step") continue;
     double const value = table.rows.back()[c];
-    cells.push_back(fmt::format("{:<24} {}", words_of(name), std::isfinite(value) ? quantity_text(value, unit) : "-"));
+    cells.push_back(
+        fmt::format("{:<24} {}", column_words(name), std::isfinite(value) ? quantity_text(value, unit) : "-"));
   }
   std::size_t const across = std::max<std::size_t>(1, width / 40), lines = (cells.size() + across - 1) / across;
   std::string text;
@@ -62,7 +58,7 @@ std::string energies_text(HistoryTable const& table) {
     bool const shown = unit_of_column(name) == "J" && name.find('.') == std::string::npos && std::isfinite(value);
     if (!shown || (value == 0 && name != "kinetic_energy")) continue;
     double const share = scale > 0 ? value / scale : 0;
-    text += fmt::format("{:<26} {:>12}  {:>7.2f} %  {}\n", words_of(name), quantity_text(value, "J"), 100 * share,
+    text += fmt::format("{:<26} {:>12}  {:>7.2f} %  {}\n", column_words(name), quantity_text(value, "J"), 100 * share,
                         share_bar(std::abs(share), 20));
   }
   return text;
@@ -73,18 +69,10 @@ std::string plot_lines(HistoryTable const& table, std::string const& column, std
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (double const v : values)
     if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
-  if (!(low <= high)) return words_of(column) + " has no value yet\n";
+  if (!(low <= high)) return column_words(column) + " has no value yet\n";
   std::string const unit = unit_of_column(column);
-  return fmt::format("{} from {} to {}\n{}\n", words_of(column), quantity_text(low, unit), quantity_text(high, unit),
-                     line_plot(table.values("time"), values, width));
-}
-
-void require_column(HistoryTable const& table, std::string const& column, std::filesystem::path const& folder) {
-  if (table.find(column)) return;
-  std::vector<std::string> known;
-  for (HistoryColumn const& each : table.columns) known.push_back(each.name);
-  throw InputError(fmt::format("{}: history.csv has no column {} (known: {}) - {}", folder.string(), in_quotes(column),
-                               known_names_text(column, known), advice_for_name(column, known)));
+  return fmt::format("{} from {} to {}\n{}\n", column_words(column), quantity_text(low, unit),
+                     quantity_text(high, unit), line_plot(table.values("time"), values, width));
 }
 
 }  // namespace
@@ -117,7 +105,7 @@ Watch::Look Watch::look(std::size_t width) {
   HistoryTable const table = read_history(run_.path / "history.csv");
   if (table.columns.empty() || table.rows.empty())
     return {fmt::format("{}\n{}, history.csv has no row yet\n", run_.title, run_.status), over};
-  require_column(table, column_, run_.path);
+  if (auto const problem = missing_column(table, column_, run_.path); !problem.empty()) throw InputError(problem);
   double const time = table.values("time").back(), end = run_.spec ? run_.spec->run.end : 0;
   std::string text = fmt::format("{}\n{}, t = {}, step {}", run_.title, run_.status, quantity_text(time, "s"),
                                  number_text(table.values("step").back(), 12));

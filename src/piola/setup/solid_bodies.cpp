@@ -4,6 +4,7 @@
 #include "piola/geometry/combined.hpp"
 #include "piola/geometry/measure.hpp"
 #include "piola/geometry/packing.hpp"
+#include "piola/math/places.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/packing_file.hpp"
@@ -15,9 +16,6 @@ namespace piola {
 namespace {
 
 using Point = std::array<double, 3>;
-
-Vec<3> vector_of(Point const& p) { return {{p[0], p[1], p[2]}}; }
-Point point_of(Vec<3> const& v) { return {v[0], v[1], v[2]}; }
 
 std::array<int, 3> cells_around(geometry::Bounds const& box, double spacing, int dimension) {
   std::array<int, 3> count{1, 1, 1};
@@ -121,7 +119,7 @@ std::vector<PatchShare> find_shares(ShapeSpec const& shape, ParticleSet const& p
   NearestParticle const nearest(particles, body);
   std::vector<std::size_t> owner(pieces.size());
   exec_host::for_each_in_set_up(static_cast<Index>(pieces.size()), [&](Index i) {
-    owner[static_cast<std::size_t>(i)] = nearest(point_of(pieces[static_cast<std::size_t>(i)].X));
+    owner[static_cast<std::size_t>(i)] = nearest(array_of(pieces[static_cast<std::size_t>(i)].X));
   });
   std::map<std::pair<int, std::size_t>, PatchShare> sums;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -207,8 +205,8 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.scattered = packed;
   geometry::Bounds const box = shape.solid->bounds();
   auto const distance = [solid = shape.solid](Point const& X) { return solid->at(vector_of(X)).distance; };
-  body.outline.min = point_of(box.min);
-  body.outline.max = point_of(box.max);
+  body.outline.min = array_of(box.min);
+  body.outline.max = array_of(box.max);
   body.outline.inside = [distance](Point const& X) { return distance(X) <= 0; };
   if (shape.solid->distance_is_bound()) body.outline.distance = distance;
   auto const append = [](auto const& some, auto& to) { to.own().insert(to.own().end(), some.begin(), some.end()); };

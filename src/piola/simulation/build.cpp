@@ -11,6 +11,7 @@
 #include "piola/input/formulations_of.hpp"
 #include "piola/materials/solids.hpp"
 #include "piola/neighbours/cell_moments.hpp"
+#include "piola/particles/parts.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include "piola/simulation/warnings.hpp"
 #include <algorithm>
@@ -147,10 +148,9 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
 
 double mass_of(BodySpec const& spec, Body const& body, ParticleSet const& particles) {
   std::vector<double> const densities = densities_of(spec);
-  std::vector<double> volume(densities.size(), 0);
-  for_each_id(body, [&](std::size_t i) { volume[part_of(particles, i)] += particles.volume[i]; });
+  auto const parts = part_facts(particles, body, spec.parts.size());
   double mass = 0;
-  for (std::size_t k = 0; k < volume.size(); ++k) mass += volume[k] * densities[k];
+  for (std::size_t k = 0; k < parts.size(); ++k) mass += parts[k].volume * densities[k];
   return mass;
 }
 

@@ -57,15 +57,10 @@ std::vector<std::string> ledger(HistoryTable const& table) {
   return columns;
 }
 
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 void add_curves(Plot& plot, HistoryTable const& table, std::string const& run, int number, std::string const& against,
                 std::vector<std::string> const& columns) {
   for (std::size_t c = 0; c < columns.size(); ++c)
-    plot.curves.push_back({.label = words(columns[c]) + (run.empty() ? "" : ", " + run),
+    plot.curves.push_back({.label = column_words(columns[c]) + (run.empty() ? "" : ", " + run),
                            .x = table.values(against),
                            .y = table.values(columns[c]),
                            .colour = static_cast<int>(c),
@@ -119,6 +114,18 @@ std::string unit_of_column(std::string const& name) {
   return "";
 }
 
+std::string missing_column(HistoryTable const& table, std::string const& column, std::filesystem::path const& folder) {
+  if (table.find(column)) return "";
+  auto const known = names_of(table);
+  return fmt::format("{}: history.csv has no column {} (known: {}) - {}", folder.string(), in_quotes(column),
+                     known_names_text(column, known), advice_for_name(column, known));
+}
+
+std::string column_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const& options) {
   HistoryTable const table = history_of(folder);
   auto const columns = options.columns.empty() ? ledger(table) : options.columns;
@@ -128,11 +135,8 @@ Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const&
   auto const look = [&](HistoryTable const& in, std::filesystem::path const& where) {
     auto asked = columns;
     asked.push_back(options.against);
-    auto const known = names_of(in);
     for (std::string const& name : asked)
-      if (!in.find(name))
-        wrong += fmt::format("{}: history.csv has no column {} (known: {}) - {}\n", where.string(), in_quotes(name),
-                             known_names_text(name, known), advice_for_name(name, known));
+      if (auto const problem = missing_column(in, name, where); !problem.empty()) wrong += problem + "\n";
   };
   look(table, folder);
   for (std::size_t k = 0; k < others.size(); ++k) look(others[k], options.with[k]);
@@ -141,8 +145,8 @@ Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const&
   Plot plot;
   plot.title = title_of(folder);
   if (others.empty()) plot.note = run_name(folder);
-  plot.x = {words(options.against), unit_of_column(options.against), options.log_x};
-  plot.y = {columns.size() == 1       ? words(columns.front())
+  plot.x = {column_words(options.against), unit_of_column(options.against), options.log_x};
+  plot.y = {columns.size() == 1       ? column_words(columns.front())
             : options.columns.empty() ? "energy"
                                       : "value",
             common_unit(columns), options.log_y};

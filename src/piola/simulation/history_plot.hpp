@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/history.hpp"
 #include "piola/output/plot.hpp"
 #include <filesystem>
 #include <string>
@@ -17,6 +18,12 @@ struct HistoryPlotOptions {
 /// Columns of history.csv of a run, and of others beside it. Throws InputError for folders without a history and for
 /// columns that it does not have; FileError if one cannot be read.
 Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const& options);
+
+/// What is wrong with asking a history for a column that it does not have; "" if it has it. `folder`: of the run.
+std::string missing_column(HistoryTable const& table, std::string const& column, std::filesystem::path const& folder);
+
+/// A column in words: "kinetic energy".
+std::string column_words(std::string name);
 
 /// The unit of a column of history.csv in SI, "" if its name does not tell.
 std::string unit_of_column(std::string const& name);

@@ -107,25 +107,49 @@ struct Shot {
   Window window = {};
 };
 
-/// Everything that the pictures of one run have in common.
+/// What the pictures of one run have in common, whatever their field.
+struct RunInFolder {
+  std::string title;
+  ParticleSet particles;  ///< of the case
+  std::optional<CaseSpec> spec;
+  std::vector<ReferenceMesh> meshes;
+  std::optional<RigidHistory> rigids;  ///< where there is a case
+  std::vector<std::pair<double, fs::path>> frames;
+
+  explicit RunInFolder(fs::path const& folder)
+      : title(title_of(folder)), spec(case_of(folder, particles)), frames(list_frames(folder)) {
+    if (!spec) return;
+    meshes = reference_meshes(particles);
+    rigids.emplace(folder / "history.csv", spec->rigids);
+  }
+  /// Whether a frame is of the case that lies in the folder now.
+  bool has(Frame const& frame) const {
+    return frame.points.size() == particles.X.size() && frame.dimension == particles.dimension &&
+           std::equal(frame.body.begin(), frame.body.end(), particles.body.begin(), particles.body.end());
+  }
+  std::vector<RigidShape> shapes_of(Frame const& frame) const {
+    if (!spec) return {};
+    return shapes_at(spec->rigids, frame.time, rigids->at(frame.time));
+  }
+};
+
+/// And what those of one field have in common.
 class Renderer {
  public:
-  Renderer(fs::path const& folder, RenderOptions const& options)
+  Renderer(std::shared_ptr<RunInFolder const> run, RenderOptions const& options)
       : options_(options),
-        title_(title_of(folder)),
-        spec_(case_of(folder, particles_)),
-        asked_(as_asked(spec_, options)),
-        appearance_(appearance_of(options, spec_)),
-        frames_(list_frames(folder)) {
-    if (spec_) meshes_ = reference_meshes(particles_);
-    if (spec_) rigids_.emplace(folder / "history.csv", spec_->rigids);
+        run_(std::move(run)),
+        asked_(as_asked(run_->spec, options)),
+        appearance_(appearance_of(options, run_->spec)),
+        frames_(run_->frames) {
     for (auto const& entry : frames_) survey(read(entry.second));
   }
   std::size_t count() const { return frames_.size(); }
 
   double time(std::size_t number) const { return frames_[number].first; }
 
-  std::string const& title() const { return title_; }
+  std::string const& title() const { return run_->title; }
+  std::shared_ptr<RunInFolder const> const& run() const { return run_; }
   Window const& window() const { return window_; }
   TimeFormat time_format() const { return format_of(frames_); }
   /// The number of the frame nearest in time; there must be one.
@@ -161,15 +185,17 @@ class Renderer {
     int const components = frame.info.components, component = component_of(frame);
     shot.radii = ball_radii(frame.volume, frame.body, frame.dimension);
     shot.values = picture_values(frame.values, components, component);
-    shot.shapes = shapes_of(frame);
+    shot.shapes = run_->shapes_of(frame);
     shot.loose = loose_particles(frame.damage, frame.kernel_type, frame.points.size());
-    PictureData const data{
+    Camera const camera = camera_for(frame.dimension);
+    Subject const subject = subject_of(frame, shot.radii);
+    shot.data = {
         .points = frame.points,
         .radius = shot.radii,
         .values = shot.values,
         .label = picture_label(options_.field, components, component),
         .unit = frame.info.unit,
-        .title = title_,
+        .title = run_->title,
         .time = frame.time,
         .dimension = frame.dimension,
         .rigid_shapes = shot.shapes,
@@ -177,27 +203,17 @@ class Renderer {
         .stage_high = stage_.high,
         .spread = spread_,
         .case_text = asked_.source,
+        .eye = eye_at(camera, subject),
         .time_format = time_format(),
         .body = frame.body,
-        .meshes = belongs(frame) ? std::span<ReferenceMesh const>(meshes_) : std::span<ReferenceMesh const>(),
+        .meshes = run_->has(frame) ? std::span<ReferenceMesh const>(run_->meshes) : std::span<ReferenceMesh const>(),
         .loose = shot.loose};
-    shot.data = data;
-    shot.data.eye = eye_at(camera_for(frame.dimension), subject_of(frame, shot.radii));
-    shot.window = shown_window(window_, camera_for(frame.dimension), subject_of(frame, shot.radii));
+    shot.window = shown_window(window_, camera, subject);
     return shot;
   }
 
  private:
-  /// Whether the frame is of the case that lies in the folder now.
-  bool belongs(Frame const& frame) const {
-    return frame.points.size() == particles_.X.size() && frame.dimension == particles_.dimension &&
-           std::equal(frame.body.begin(), frame.body.end(), particles_.body.begin(), particles_.body.end());
-  }
   Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
-  std::vector<RigidShape> shapes_of(Frame const& frame) const {
-    if (!spec_) return {};
-    return shapes_at(spec_->rigids, frame.time, rigids_->at(frame.time));
-  }
   int component_of(Frame const& frame) const {
     if (auto const found = find_component(options_.component, frame.info.components)) return *found;
     auto const known = component_words(frame.info.components);
@@ -212,7 +228,7 @@ class Renderer {
     Camera const camera = camera_for(frame.dimension);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
     include(window_, camera, subject_of(frame, radii));
-    if (camera.follow < 0) show_shapes(window_, camera.view, shapes_of(frame), stage_);
+    if (camera.follow < 0) show_shapes(window_, camera.view, run_->shapes_of(frame), stage_);
     spread_.include(picture_values(frame.values, frame.info.components, component_of(frame)));
   }
   Camera camera_for(int dimension) const {
@@ -226,14 +242,10 @@ class Renderer {
   }
 
   RenderOptions const& options_;
-  std::string title_;
-  ParticleSet particles_;  ///< of the case
-  std::optional<CaseSpec> spec_;
+  std::shared_ptr<RunInFolder const> run_;
   CaseSpec asked_;
   Appearance appearance_;
-  std::vector<ReferenceMesh> meshes_;
-  std::optional<RigidHistory> rigids_;  ///< where there is a case
-  std::vector<std::pair<double, fs::path>> frames_;
+  std::vector<std::pair<double, fs::path>> const& frames_;
   Window window_;
   Stage stage_;
   Spread spread_;
@@ -255,7 +267,7 @@ class Pictures {
     folders.insert(folders.end(), options.beside.begin(), options.beside.end());
     for (fs::path const& one : folders) {
       expect_frames(one);
-      runs_.push_back(std::make_unique<Renderer>(one, options));
+      runs_.push_back(std::make_unique<Renderer>(std::make_shared<RunInFolder const>(one), options));
       names_.push_back(runs_.back()->title());
       if (runs_.back()->count() == 0)
         throw InputError(fmt::format("{}: has no frames to draw - let the run write some", one.string()));
@@ -264,7 +276,7 @@ class Pictures {
       fields_.push_back(std::make_unique<RenderOptions>(options));
       fields_.back()->field = field;
       fields_.back()->component.clear();
-      of_fields_.push_back(std::make_unique<Renderer>(folder, *fields_.back()));
+      of_fields_.push_back(std::make_unique<Renderer>(first().run(), *fields_.back()));
     }
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // what came later, too

@@ -29,17 +29,6 @@ std::string support_on(std::string const& patch, std::string const& fix, std::st
   return "[[support]]\nbody = \"body\"\npatch = \"" + patch + "\"\nfix = \"" + fix + "\"\n" + more;
 }
 
-/// Steps of the length that the formulation asks for, up to a time.
-double go(Formulation& f, double from, int steps) {
-  double time = from;
-  for (int k = 0; k < steps; ++k) {
-    double const dt = f.stable_time_step();
-    f.step(time, dt);
-    time += dt;
-  }
-  return time;
-}
-
 std::string const stretching = "initial_velocity = [\"3*X+2*Y\", \"4*X*Y\", \"3*X*X\"]\n";
 
 TEST(HeldSurface, BearsTheTractionOfAUniformPullAndNothingMoves) {
@@ -54,7 +43,7 @@ TEST(HeldSurface, BearsTheTractionOfAUniformPullAndNothingMoves) {
   auto const simulation = body_with(text);
   auto& f = *simulation.formulation;
   double const start = f.diagnose().strain_energy;
-  go(f, 0, 50);
+  advance_by_itself(f, 0, 50);
   auto const d = f.diagnose();
   EXPECT_LT(d.kinetic_energy, 1e-6 * start);
   EXPECT_NEAR(d.actions.at(0).force[0], -P(0, 0) * 0.68 * 0.72, 1e-4 * P(0, 0) * 0.68 * 0.72);
@@ -121,7 +110,7 @@ TEST(HeldSurface, WhenDrivenDoesTheWorkThatItBooks) {
       body_with(support_on("-x", "xyz") +
                 support_on("+x", "xyz", "velocity = [\"60*t\", \"-30*t*(Z-0.36)\", \"30*t*(Y-0.34)\"]\n"));
   auto& f = *simulation.formulation;
-  go(f, 0, 400);
+  advance_by_itself(f, 0, 400);
   auto const d = f.diagnose();
   EXPECT_GT(d.external_work, 1);
   EXPECT_NEAR(d.total_energy(), d.external_work, 1e-3 * d.external_work);
@@ -132,7 +121,7 @@ TEST(HeldSurface, CarriesABodyAlongWithoutStrain) {
                                     support_on("-x", "xyz", "velocity = [\"2\", \"-1\", \"3\"]\n"));
   auto& f = *simulation.formulation;
   double const start = f.diagnose().kinetic_energy;
-  go(f, 0, 50);
+  advance_by_itself(f, 0, 50);
   auto const d = f.diagnose();
   EXPECT_LT(d.strain_energy, 1e-12 * start);
   EXPECT_LT(std::fabs(d.external_work), 1e-10 * start);
@@ -150,7 +139,7 @@ TEST(HeldSurface, LetsGoWhenItIsReleased) {
   EXPECT_NEAR(time, 1e-3, 1e-9);
   EXPECT_NE(f.diagnose().actions[0].force[0], 0);
   auto const before = f.diagnose();
-  go(f, time, 50);
+  advance_by_itself(f, time, 50);
   auto const after = f.diagnose();
   EXPECT_EQ(after.actions[0].force[0], 0);
   for (std::size_t c = 0; c < 3; ++c)
@@ -160,7 +149,7 @@ TEST(HeldSurface, LetsGoWhenItIsReleased) {
 TEST(HeldSurface, OfTwoSupportsThatShareItIsAsOfOne) {
   auto const one = body_with(stretching + support_on("-x", "xyz"));
   auto const two = body_with(stretching + support_on("-x", "x") + support_on("-x", "yz"));
-  for (auto const* s : {&one, &two}) go(*s->formulation, 0, 40);
+  for (auto const* s : {&one, &two}) advance_by_itself(*s->formulation, 0, 40);
   auto const n = one.particles.X.size();
   EXPECT_LT(largest_difference(sample(*one.formulation, "Position", n), sample(*two.formulation, "Position", n)),
             1e-13);
@@ -189,7 +178,7 @@ TEST(HeldSurface, OfARingInThePlaneHoldsItsHole) {
   auto const simulation = body_with("initial_velocity = [\"-8*Y\", \"8*X\"]\n" + support_on("inner", "xy"), ring);
   auto& f = *simulation.formulation;
   double const start = f.diagnose().total_energy();
-  go(f, 0, 200);
+  advance_by_itself(f, 0, 200);
   auto const d = f.diagnose();
   EXPECT_GT(d.strain_energy, 0.01 * start);
   EXPECT_LT(std::fabs(d.external_work), 1e-12 * start);
@@ -203,11 +192,11 @@ TEST(HeldSurface, IsTheSameForAnyNumberOfThreadsAndGoesOnBitForBit) {
   for (int const threads : {1, 3}) {
     Threads const used(threads);
     auto const whole = body_with(text), first = body_with(text), second = body_with(text);
-    go(*whole.formulation, 0, 90);
-    double const middle = go(*first.formulation, 0, 37);
+    advance_by_itself(*whole.formulation, 0, 90);
+    double const middle = advance_by_itself(*first.formulation, 0, 37);
     auto state = saved(*first.formulation);
     second.formulation->load(state);
-    go(*second.formulation, middle, 53);
+    advance_by_itself(*second.formulation, middle, 53);
     EXPECT_EQ(saved(*second.formulation).values, saved(*whole.formulation).values);
     if (threads == 1) reference = saved(*whole.formulation);
     EXPECT_EQ(saved(*whole.formulation).values, reference.values);
@@ -247,12 +236,12 @@ TEST(HeldSurface, GivesBackWhatContactPushes) {
 TEST(HeldSurface, ThatContactPushesGoesOnBitForBitFromACheckpoint) {
   auto const struck = [] { return ball_on_plate(support_on("-z", "xyz", "velocity = [\"3*t\", \"0\", \"0.2\"]\n")); };
   auto const whole = struck(), first = struck(), second = struck();
-  go(*whole.formulation, 0, 60);
-  double const middle = go(*first.formulation, 0, 31);
+  advance_by_itself(*whole.formulation, 0, 60);
+  double const middle = advance_by_itself(*first.formulation, 0, 31);
   EXPECT_GT(std::fabs(first.formulation->diagnose().actions.back().force[2]), 0) << "nothing is pushed";
   auto state = saved(*first.formulation);
   second.formulation->load(state);
-  go(*second.formulation, middle, 29);
+  advance_by_itself(*second.formulation, middle, 29);
   EXPECT_EQ(saved(*second.formulation).values, saved(*whole.formulation).values);
   EXPECT_EQ(second.formulation->diagnose().actions[0].force, whole.formulation->diagnose().actions[0].force);
 }

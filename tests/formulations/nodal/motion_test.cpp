@@ -129,21 +129,12 @@ TEST(NodalMotion, GoesOnBitForBitFromACheckpoint) {
   support(a, {true, true, true}, [](Point const& X) { return X[1] == 0; });
   load(a, {"3", "t*20", "X"}, everywhere).until = 2e-3;
   auto const whole = make_formulation(a), first = make_formulation(a), second = make_formulation(a);
-  auto const go = [](Formulation& f, double from, int steps) {
-    double time = from;
-    for (int k = 0; k < steps; ++k) {
-      double const dt = f.stable_time_step();
-      f.step(time, dt);
-      time += dt;
-    }
-    return time;
-  };
-  go(*whole, 0, 90);
-  double const middle = go(*first, 0, 37);
+  advance_by_itself(*whole, 0, 90);
+  double const middle = advance_by_itself(*first, 0, 37);
   (void)first->diagnose();  // looking changes nothing
   auto state = saved(*first);
   second->load(state);
-  go(*second, middle, 53);
+  advance_by_itself(*second, middle, 53);
   EXPECT_EQ(saved(*second).values, saved(*whole).values);
   EXPECT_EQ(second->diagnose().external_work, whole->diagnose().external_work);
 }

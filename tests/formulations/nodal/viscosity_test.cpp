@@ -77,19 +77,11 @@ TEST(NodalViscosity, LeavesRotationAndUniformRatesAlone) {
 TEST(NodalViscosity, GoesOnBitForBitFromACheckpoint) {
   Assembly const a = tumbling(3, 0.1, 1);
   auto const whole = make_formulation(a), first = make_formulation(a), second = make_formulation(a);
-  auto const go = [](Formulation& f, double time, int steps) {
-    for (int k = 0; k < steps; ++k) {
-      double const dt = f.stable_time_step();
-      f.step(time, dt);
-      time += dt;
-    }
-    return time;
-  };
-  go(*whole, 0, 60);
-  double const middle = go(*first, 0, 31);
+  advance_by_itself(*whole, 0, 60);
+  double const middle = advance_by_itself(*first, 0, 31);
   auto state = saved(*first);
   second->load(state);
-  go(*second, middle, 29);
+  advance_by_itself(*second, middle, 29);
   EXPECT_EQ(saved(*second).values, saved(*whole).values);
 }
 

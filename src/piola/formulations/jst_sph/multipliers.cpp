@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/multipliers.hpp"
 #include "piola/math/solve.hpp"
+#include "piola/mechanics/constraint_matrix.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -60,7 +61,7 @@ std::vector<NearParticle> interpolation(Cloud const& cloud, CellGrid const& grid
 Multipliers::Multipliers(std::span<HeldDirection const> held, Cloud const& cloud) : D_(cloud.dimension) {
   find_weights(held, cloud);
   find_owners(held);
-  factorise_rows();
+  matrix_ = constraint_matrix(rows_, weights_, slots_.size(), [&](std::size_t a) { return volume_[a]; });
 }
 
 void Multipliers::find_owners(std::span<HeldDirection const> held) {
@@ -101,31 +102,6 @@ void Multipliers::find_weights(std::span<HeldDirection const> held, Cloud const&
     }
     rows_.push_back({k, {h.direction[0], h.direction[1], h.direction[2]}, first, weights_.size()});
   }
-}
-
-void Multipliers::factorise_rows() {
-  struct InRow {
-    std::size_t row;
-    double weight;
-  };
-  std::vector<std::vector<InRow>> of_particle(slots_.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (auto k = rows_[r].first; k < rows_[r].last; ++k)
-      of_particle[weights_[k].particle].push_back({r, weights_[k].weight});
-  auto const each_entry = [&](auto const& f) {
-    for (std::size_t a = 0; a < slots_.size(); ++a)
-      for (auto const& i : of_particle[a])
-        for (auto const& j : of_particle[a]) {
-          double const along = dot(rows_[i.row].direction, rows_[j.row].direction);
-          if (j.row <= i.row && along != 0) f(i.row, j.row, i.weight * j.weight * along / volume_[a]);
-        }
-  };
-  std::vector<std::size_t> first(rows_.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r) first[r] = r;
-  each_entry([&](std::size_t i, std::size_t j, double) { first[i] = std::min(first[i], j); });
-  matrix_ = EnvelopeCholesky(std::move(first));
-  each_entry([&](std::size_t i, std::size_t j, double value) { matrix_.at(i, j) += value; });
-  matrix_.factorise();
 }
 
 /// Rigid motions of the particles about the centre of their mean distance, so that the modes are of like size.

@@ -49,7 +49,6 @@ class Multipliers {
     std::size_t first, last;  ///< in weights_
   };
   void find_weights(std::span<HeldDirection const> held, Cloud const& cloud);
-  void factorise_rows();
   void set_modes(std::vector<Point> const& x);
   void find_owners(std::span<HeldDirection const> held);
   void correct(std::vector<Point> const& v, std::vector<double> const& wanted);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/math/places.hpp"
 #include "piola/mechanics/contact/ties.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -13,7 +14,6 @@ constexpr double near_enough = 0.5;   // of a spacing: points farther from the p
 constexpr double least_share = 0.05;  // points that see less of a face are beyond its rim
 
 std::size_t index(Index k) { return static_cast<std::size_t>(k); }
-Vec<3> vector(std::array<double, 3> const& a) { return {{a[0], a[1], a[2]}}; }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   CellGrid const grid(places, pair.reach);
   for (std::size_t k = 0; k < own.points.size(); ++k) {
     SurfacePoint const& point = own.points[k];
-    Vec<3> const Y = vector(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
+    Vec<3> const Y = vector_of(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
     if (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0) continue;
     Plane const& plane = at.planes[a][k];
     auto shares = at.weights(plane, b, grid, pair.reach);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid.hpp"
+#include "piola/math/places.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,8 +47,6 @@ Distance from_box(RigidSurface const& shape, Vec<3> const& r) {
   }
   return from_faces(q, d, shape.dimension);
 }
-
-Vec<3> vector_of(std::array<double, 3> const& a) { return {{a[0], a[1], a[2]}}; }
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_motion.hpp"
+#include "piola/math/places.hpp"
 #include "piola/mechanics/contact/numbers.hpp"
 #include <algorithm>
 #include <cmath>
@@ -17,14 +18,12 @@ Vec<3> value_at(std::array<Expression, 3> const& formulas, double time) {
   return {{formulas[0]({}, time), formulas[1]({}, time), formulas[2]({}, time)}};
 }
 
-std::array<double, 3> array_of(Vec<3> const& a) { return {a[0], a[1], a[2]}; }
-
 }  // namespace
 
 RigidMotion::RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between)
     : dimension_(dimension), pairs_(shapes, dimension, between) {
   for (RigidShape const& given : shapes) {
-    Shape shape{given, {{given.axis[0], given.axis[1], given.axis[2]}}, {}, {}, 0, value_at(given.angular_velocity, 0)};
+    Shape shape{given, vector_of(given.axis), {}, {}, 0, value_at(given.angular_velocity, 0)};
     if (given.free) shape.body.emplace(given, dimension);
     any_ = any_ || given.turns();
     shapes_.push_back(std::move(shape));

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/particles/particle_set.hpp"
+
+namespace piola {
+
+/// What has the material of a body, or of one of its parts.
+struct PartFacts {
+  std::int64_t particles = 0;
+  double volume = 0;  ///< tributary [m^dimension]
+};
+
+/// Of the body's own material, then of each of so many parts.
+std::vector<PartFacts> part_facts(ParticleSet const& particles, Body const& body, std::size_t parts);
+
+}  // namespace piola
