@@ -346,6 +346,23 @@ class Manual(InFolder):
             for argument in function.args.args:
                 self.assertRegex(line, rf"\b{argument.arg}: ", line)
 
+    def test_clouds_written_by_h5py(self):
+        text = (SOURCE / "docs/user/clouds.md").read_text()
+        (block,) = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        exec(compile(block, "clouds.md", "exec"), {})  # pylint: disable=exec-used
+        case = piola.Case({
+            "title": "cloud",
+            "run": {"end": "10 us"},
+            "body": [{
+                "name": "block",
+                "formulation": {"name": "jst_sph"},
+                "shape": {"points": {"file": str(Path("cloud.h5").resolve())}},
+                "initial_velocity": ["1 m/s", 0, 0],
+                "material": {"law": "neo_hookean", "density": 1000, "youngs_modulus": 1e9, "poissons_ratio": 0.3}}]})
+        run = piola.Run(case)
+        self.assertEqual(run.X.shape, (1000, 3))
+        self.assertAlmostEqual(run.X.max(), 9.5e-3, 15)
+
     def test_names_of_the_page(self):
         text = (SOURCE / "docs/user/python.md").read_text()
         names = set(re.findall(r"`(?:piola\.R|r)un\.(\w+)", text))

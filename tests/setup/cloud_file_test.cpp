@@ -290,11 +290,9 @@ TEST(CloudMessages, NameTheFileThatCannotBeRead) {
             (folder / "none.csv").string() + ": cannot be read - check that the file exists and that you may read it");
   EXPECT_EQ(problems[1],
             (folder / "cloud.VTU").string() +
-                ": is of a kind that cannot be read as points (expected CSV or a frame) - convert it to CSV "
-                "with a header such as \"x [mm],y [mm],z [mm]\"");
-  EXPECT_EQ(problems[2], (folder / "none.h5").string() +
-                             ": cannot be read - it is missing, empty or not a file (of HDF5 files only frames are "
-                             "read; give other points as CSV)");
+                ": is of a kind that cannot be read as points (expected CSV, HDF5 or a frame) - convert it to "
+                "CSV with a header such as \"x [mm],y [mm],z [mm]\"");
+  EXPECT_EQ(problems[2], (folder / "none.h5").string() + ": cannot be read - it is missing, empty or not a file");
 }
 
 TEST(CloudChecks, FindTheSameNeighboursAsAComparisonOfAllPairs) {

@@ -53,8 +53,8 @@ constexpr std::array parameters{
             "keeps the packing beside the case as packed-....cloud for the next run; results folders always have it",
             {}},
     KeyInfo{"body.shape", "points", table, "", {}, "none", "particles from a file", {}},
-    KeyInfo{"body.shape.points", "file", text, "", {}, "", "path from the case file: .csv, or a frame (.hdf)", {}},
-    KeyInfo{"body.shape.points", "unit", text, "", {}, "m", "of a table whose header has no units", {}},
+    KeyInfo{"body.shape.points", "file", text, "", {}, "", "path from the case file: .csv, .h5, or a frame (.hdf)", {}},
+    KeyInfo{"body.shape.points", "unit", text, "", {}, "m", "of a file that gives no units", {}},
     KeyInfo{"body.shape.points",
             "volume",
             quantity,
@@ -64,6 +64,7 @@ constexpr std::array parameters{
             "of the body, shared equally; in 2D a number in m^2",
             {}},
     KeyInfo{"body.shape.points", "body", text, "", {}, "all rows", "only rows with this in the column body", {}},
+    KeyInfo{"body.shape.points", "group", text, "", {}, "the file itself", "of an HDF5 file of another program", {}},
 
     KeyInfo{"body.shape.torus", "centre", point, "m", place_range, "", "centre", {}},
     KeyInfo{"body.shape.torus", "radius", quantity, "m", length_range, "", "from the centre to that of the tube", {}},

@@ -63,10 +63,16 @@ class Image {
 class Reader {
  public:
   explicit Reader(std::filesystem::path const& path);
+  /// Without a seal, for files of other programs, whose texts may have any length. HDF5 itself may crash or hang on a
+  /// damaged one: only for a child.
+  static Reader unsealed(std::filesystem::path const& path);
   bool has(std::string const& path) const;
   std::vector<std::string> names(std::string const& group) const;  ///< members, sorted
   /// Numbers per row of a data set: 1 if it has one dimension.
   std::uint64_t columns(std::string const& dataset) const;
+  /// Rows, and columns if it has two dimensions, of a data set of numbers; empty for what is something else.
+  std::vector<std::uint64_t> shape_of_numbers(std::string const& path) const;
+  bool has_attribute(std::string const& object, std::string const& name) const;
   /// All numbers of a data set with this many columns and any number of rows, row by row. Whole numbers may be asked
   /// for as floating-point ones, not the other way round.
   template <class T>
@@ -80,13 +86,16 @@ class Reader {
   [[noreturn]] void fail(std::string_view what, std::string_view why) const;
 
  private:
+  Reader(std::filesystem::path const& path, Handle file, bool sealed);
   Handle open_dataset(std::string const& path) const;
   Handle open_attribute(std::string const& object, std::string const& name) const;
   std::vector<std::uint64_t> shape(hid_t dataset, std::string const& path) const;
+  std::string text_of_any_length(hid_t attribute, hid_t type, std::string const& object, std::string const& name) const;
   template <class T>
   T single(std::string const& object, std::string const& name) const;
   std::filesystem::path path_;
   std::uintmax_t bytes_ = 0;  ///< of the file
+  bool sealed_ = true;        ///< written by us: texts have a fixed length
   Handle file_;
 };
 

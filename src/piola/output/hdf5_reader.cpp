@@ -15,12 +15,16 @@ namespace {
 constexpr std::uintmax_t most_packing = 1032;
 constexpr std::size_t longest_text = 65536;  // HDF5 itself allows no longer attribute in these files
 
-Handle open_sealed(std::filesystem::path const& path) {
-  verify_seal(path);
+Handle open_file(std::filesystem::path const& path) {
   silence();
   hid_t const id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id < 0) throw FileError(fmt::format("{}: is no HDF5 file - it was written by another program", path.string()));
+  if (id < 0) throw FileError(fmt::format("{}: is no HDF5 file or is cut off - write it again", path.string()));
   return {id, H5Fclose, path.string()};
+}
+
+Handle open_sealed(std::filesystem::path const& path) {
+  verify_seal(path);
+  return open_file(path);
 }
 
 /// Whether values of a type in the file may be read as T.
@@ -34,9 +38,12 @@ bool readable_as(hid_t type) {
 
 }  // namespace
 
-Reader::Reader(std::filesystem::path const& path) : path_(path), file_(open_sealed(path)) {
-  bytes_ = std::filesystem::file_size(path);
-}
+Reader::Reader(std::filesystem::path const& path) : Reader(path, open_sealed(path), true) {}
+
+Reader::Reader(std::filesystem::path const& path, Handle file, bool sealed)
+    : path_(path), bytes_(std::filesystem::file_size(path)), sealed_(sealed), file_(std::move(file)) {}
+
+Reader Reader::unsealed(std::filesystem::path const& path) { return {path, open_file(path), false}; }
 
 void Reader::fail(std::string_view what, std::string_view why) const {
   throw FileError(
@@ -78,6 +85,22 @@ std::uint64_t Reader::columns(std::string const& dataset) const {
   return dims.size() == 1 ? 1 : dims[1];
 }
 
+std::vector<std::uint64_t> Reader::shape_of_numbers(std::string const& path) const {
+  hid_t const id = has(path) ? H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT) : -1;
+  if (id < 0) return {};
+  Handle const object(id, H5Oclose, path);
+  if (H5Iget_type(id) != H5I_DATASET) return {};
+  Handle const type(H5Dget_type(id), H5Tclose, path);
+  Handle const space(H5Dget_space(id), H5Sclose, path);
+  int const rank = H5Sget_simple_extent_ndims(space.id());
+  bool const numbers = readable_as<double>(type.id()) && (rank == 1 || rank == 2);
+  return numbers ? shape(id, path) : std::vector<std::uint64_t>();
+}
+
+bool Reader::has_attribute(std::string const& object, std::string const& name) const {
+  return H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
 template <class T>
 std::vector<T> Reader::dataset(std::string const& path, std::uint64_t columns) const {
   Handle const set = open_dataset(path);
@@ -101,8 +124,9 @@ template std::vector<std::int32_t> Reader::dataset(std::string const&, std::uint
 template std::vector<char> Reader::dataset(std::string const&, std::uint64_t) const;
 
 Handle Reader::open_attribute(std::string const& object, std::string const& name) const {
-  bool const there = H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
-  hid_t const id = there ? H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) : -1;
+  hid_t const id = has_attribute(object, name)
+                       ? H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT)
+                       : -1;
   if (id < 0) fail(name, fmt::format("of {} is missing", object));
   Handle attribute(id, H5Aclose, name);
   Handle const space(H5Aget_space(attribute.id()), H5Sclose, name);
@@ -114,13 +138,24 @@ Handle Reader::open_attribute(std::string const& object, std::string const& name
 std::string Reader::text(std::string const& object, std::string const& name) const {
   Handle const held = open_attribute(object, name);
   Handle const type(H5Aget_type(held.id()), H5Tclose, name);
-  // A text of variable length would be read as a pointer.
-  bool const fixed = H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0;
-  std::size_t const size = fixed ? H5Tget_size(type.id()) : 0;
+  bool const is_text = H5Tget_class(type.id()) == H5T_STRING;
+  bool const any_length = is_text && H5Tis_variable_str(type.id()) > 0;
+  if (any_length && !sealed_) return text_of_any_length(held.id(), type.id(), object, name);
+  std::size_t const size = is_text && !any_length ? H5Tget_size(type.id()) : 0;  // of any length: it is a pointer
   if (size == 0 || size > longest_text) fail(name, fmt::format("of {} is no text of fixed length", object));
   std::string value(size, '\0');
   if (H5Aread(held.id(), type.id(), value.data()) < 0) fail(name, fmt::format("of {} cannot be read", object));
   value.resize(std::min(value.find('\0'), value.size()));
+  return value;
+}
+
+std::string Reader::text_of_any_length(hid_t attribute, hid_t type, std::string const& object,
+                                       std::string const& name) const {
+  char* read = nullptr;
+  if (H5Aread(attribute, type, static_cast<void*>(&read)) < 0 || read == nullptr)
+    fail(name, fmt::format("of {} cannot be read", object));
+  std::string value(read);
+  H5free_memory(read);
   return value;
 }
 

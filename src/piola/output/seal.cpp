@@ -15,6 +15,7 @@ std::string seal_text(std::uint32_t check_sum, std::uint64_t bytes) {
   return fmt::format("piola seal: CRC-32 {:08x} over {:020} bytes\n", check_sum, bytes);
 }
 
+constexpr std::string_view seal_start = "piola seal: ";
 std::size_t const seal_length = seal_text(0, 0).size();
 
 }  // namespace
@@ -35,6 +36,14 @@ void append_seal(std::vector<std::byte>& file) {
   file.insert(file.end(), bytes.begin(), bytes.end());
 }
 
+bool ends_with_seal(std::filesystem::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string seal(seal_length, '\0');
+  file.seekg(-static_cast<std::streamoff>(seal_length), std::ios::end);
+  file.read(seal.data(), static_cast<std::streamsize>(seal_length));
+  return file && seal.starts_with(seal_start);
+}
+
 void verify_seal(std::filesystem::path const& path) {
   std::error_code error;
   auto const size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
@@ -51,7 +60,7 @@ void verify_seal(std::filesystem::path const& path) {
   }
   std::string seal(seal_length, '\0');
   file.read(seal.data(), static_cast<std::streamsize>(seal_length));
-  if (!file || !seal.starts_with("piola seal: ")) {
+  if (!file || !seal.starts_with(seal_start)) {
     throw FileError(fmt::format(
         "{}: does not end with its check sum - the file is cut off or was written by another program", path.string()));
   }

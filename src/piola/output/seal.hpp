@@ -27,6 +27,9 @@ class CheckSum {
 std::string seal_of(std::span<std::byte const> content);
 void append_seal(std::vector<std::byte>& file);
 
+/// Whether the last line of a file is a seal, whatever it says. False, too, for a file that cannot be read.
+bool ends_with_seal(std::filesystem::path const& path);
+
 /// Reads the whole file once, before anything else looks inside. Throws FileError unless its last line is the seal of
 /// all that stands before it.
 void verify_seal(std::filesystem::path const& path);

@@ -4,7 +4,9 @@
 #include "piola/base/text.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/seal.hpp"
 #include "piola/setup/cloud_checks.hpp"
+#include "piola/setup/cloud_datasets.hpp"
 #include "piola/setup/cloud_table.hpp"
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,7 @@
 namespace piola {
 namespace {
 
-enum class CloudFormat { table, frame, other };
+enum class CloudFormat { table, hdf5, other };
 
 CloudFormat cloud_format(std::string const& path) {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -23,7 +25,7 @@ CloudFormat cloud_format(std::string const& path) {
   auto const is_one_of = [&](std::initializer_list<std::string_view> endings) {
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
   };
-  if (is_one_of({".hdf", ".h5", ".hdf5", ".vtkhdf"})) return CloudFormat::frame;
+  if (is_one_of({".hdf", ".h5", ".hdf5", ".vtkhdf"})) return CloudFormat::hdf5;
   if (is_one_of({".vtk", ".vtu", ".vtp", ".npy", ".npz", ".stl", ".obj", ".ply"})) return CloudFormat::other;
   return CloudFormat::table;
 }
@@ -48,7 +50,7 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
     for (int b = 0; b <= last; ++b) table.bodies.push_back(std::to_string(b));
     table.body = std::move(frame.body);
   } catch (FileError const& error) {
-    problems.push_back(fmt::format("{} (of HDF5 files only frames are read; give other points as CSV)", error.what()));
+    problems.emplace_back(error.what());
   } catch (InputError const&) {
     problems.push_back(path + ": is a frame without volumes - give another file");
   }
@@ -57,6 +59,16 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
   for (auto& x : table.X)
     for (auto c = static_cast<std::size_t>(table.dimension); c < 3; ++c) x[c] = 0;
   return table;
+}
+
+/// Frames are sealed, files of other programs are not. Frames whose end is missing are told by their name.
+CloudTable read_cloud_hdf5(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems) {
+  bool const is_frame = ends_with_seal(path) || std::filesystem::path(path).extension() == ".vtkhdf";
+  if (!is_frame) return read_cloud_datasets(path, options.group, options.length_unit, problems);
+  if (!options.group.empty())
+    problems.push_back(path +
+                       ": is a frame, which has no groups to choose from, and the case gives one - leave it out");
+  return read_cloud_frame(path, options, problems);
 }
 
 /// Keeps the rows of one body.
@@ -159,14 +171,17 @@ PointCloud read_cloud_text(std::string_view text, std::string const& name, Cloud
 PointCloud read_cloud(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems) {
   std::size_t const before = problems.size();
   switch (cloud_format(path)) {
-    case CloudFormat::frame: return checked_cloud(read_cloud_frame(path, options, problems), options, problems, before);
+    case CloudFormat::hdf5: return checked_cloud(read_cloud_hdf5(path, options, problems), options, problems, before);
     case CloudFormat::other:
       problems.push_back(path +
-                         ": is of a kind that cannot be read as points (expected CSV or a frame) - convert it to "
+                         ": is of a kind that cannot be read as points (expected CSV, HDF5 or a frame) - convert it to "
                          "CSV with a header such as \"x [mm],y [mm],z [mm]\"");
       return {};
     case CloudFormat::table: break;
   }
+  if (!options.group.empty())
+    problems.push_back(path +
+                       ": is a table, which has no groups to choose from, and the case gives one - leave it out");
   try {
     return read_cloud_text(read_text_file(path), path, options, problems);
   } catch (FileError const& error) {

@@ -25,10 +25,12 @@ struct CloudOptions {
   double length_unit = 1;                   ///< m; of a table whose header gives no units; volumes are in its power
   std::optional<double> total_volume = {};  ///< m^dimension; every point gets an equal share of it
   std::string body = {};                    ///< only the rows of this body; empty: all rows
+  std::string group = {};                   ///< of an HDF5 file of another program; empty: the file itself
 };
 
 /// Reads a table (CSV with a header: x[,y[,z]], and volume, kernel_volume, body if they are there; docs/user/clouds.md)
-/// or, if the name ends in .hdf, .h5, .hdf5 or .vtkhdf, a frame of an earlier run. What is wrong with the file or with
+/// or, if the name ends in .hdf, .h5, .hdf5 or .vtkhdf, a frame of an earlier run or the lists of numbers in an HDF5
+/// file of another program, which are called as the columns of a table. What is wrong with the file or with
 /// the points in it is added to `problems`, everything at once, and the cloud is not to be used then. Never throws on a
 /// bad file. Checked are: numbers that are finite and not absurd, positive volumes, enough points, no two too close,
 /// volumes that fit the distances, a gradient that can be formed everywhere.

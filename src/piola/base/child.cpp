@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/geometry/mesh_child.hpp"
+#include "piola/base/child.hpp"
 #include "piola/base/text.hpp"
 #include <array>
 #include <cerrno>
@@ -18,11 +18,11 @@
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define PIOLA_MESH_UNLIMITED  // sanitizers reserve terabytes
+#define PIOLA_CHILD_UNLIMITED  // sanitizers reserve terabytes
 #endif
 #endif
 
-namespace piola::geometry {
+namespace piola {
 
 namespace {
 
@@ -39,7 +39,7 @@ constexpr char good_end = '+';
   std::signal(SIGPIPE, SIG_IGN);
   rlimit const no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-#ifndef PIOLA_MESH_UNLIMITED
+#ifndef PIOLA_CHILD_UNLIMITED
   std::array<std::uint64_t, 6> pages{};  // the sixth: data and stack
   std::ifstream statm("/proc/self/statm");
   for (auto& count : pages) statm >> count;
@@ -110,4 +110,4 @@ ChildAnswer done_by_child(std::function<std::string()> const& work, ChildLimits 
   return {{}, "crashed or needed too much memory"};
 }
 
-}  // namespace piola::geometry
+}  // namespace piola

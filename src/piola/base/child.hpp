@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace piola::geometry {
+namespace piola {
 
 struct ChildLimits {
   double seconds;      ///< of wall clock
@@ -20,4 +20,4 @@ struct ChildAnswer {
 /// answer. The work must not use threads, nor anything that other threads of this process may hold.
 ChildAnswer done_by_child(std::function<std::string()> const& work, ChildLimits const& limits);
 
-}  // namespace piola::geometry
+}  // namespace piola
