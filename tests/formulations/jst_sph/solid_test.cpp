@@ -84,7 +84,7 @@ TEST(SolidStress, TurnsWithARotationOfAnyAngleAndKeepsItsEnergy) {
 /// P : dF of an increment in one go is that of the energy, and P follows from it.
 TEST(SolidStress, BooksTheWorkOfTheMeanStress) {
   SolidPoint const before = sheared_point();
-  Mat<3> const P_before = jst_sph::first_piola_of(before.history.S, before.pressure, before.F);
+  Mat<3> const P_before = first_piola_of(before.history.S, before.pressure, before.F);
   Mat<3> F = before.F;
   F(1, 1) = 0.996;
   F(2, 1) = 0.004;

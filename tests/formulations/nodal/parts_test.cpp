@@ -103,12 +103,6 @@ TEST(NodalPartsRefused, WithViscosity) {
   EXPECT_NE(refusal(a).find("are those of one material"), std::string::npos) << refusal(a);
 }
 
-TEST(NodalPartsRefused, WithLawsOfYielding) {
-  Assembly a = layered(3);
-  a.parts[0][1].law = find_law("elastic")->index;
-  EXPECT_NE(refusal(a).find("nodal needs a hyperelastic law"), std::string::npos) << refusal(a);
-}
-
 TEST(PartsRefused, ByFormulationsWithoutThem) {
   Assembly a = layered(3);
   for (auto& f : a.formulations) f.name = "jst_sph";

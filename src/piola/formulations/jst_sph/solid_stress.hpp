@@ -3,6 +3,7 @@
 #include "piola/exec/parallel.hpp"
 #include "piola/exec/view.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
+#include "piola/materials/finite_increment.hpp"
 #include "piola/materials/solids.hpp"
 #include "piola/math/embedding.hpp"
 
@@ -24,28 +25,6 @@ struct SolidIncrement {
   bool elastic = false;
 };
 
-/// J sigma F^-T [Pa].
-PIOLA_FN Mat<3> first_piola_of(SymMat<3> const& S, double pressure, Mat<3> const& F) {
-  Mat<3> sigma;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sigma(i, j) = S(i, j) - (i == j ? pressure : 0);
-  return sigma * cofactor(F);
-}
-
-/// The trial deviator of a step: R S R^T + 2 mu dev d with l = (dF - I) ((dF + I)/2)^-1, dF = F F_n^-1, d and w its
-/// parts and R = (I - w/2)^-1 (I + w/2) (Hughes, Winget, Int. J. Numer. Meth. Engng 15, 1980). Exact for rotations.
-PIOLA_FN SymMat<3> trial_deviator(SymMat<3> const& S, double mu, Mat<3> const& F_n, Mat<3> const& F) {
-  Mat<3> const I = identity<3>(), change = (F - F_n) * inverse(F_n), l = change * inverse(I + 0.5 * change);
-  Mat<3> const half_spin = 0.25 * (l - transpose(l)), R = inverse(I - half_spin) * (I + half_spin);
-  Mat<3> const turned = R * S * transpose(R);
-  double const mean = trace(l) / 3;
-  SymMat<3> trial;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j)
-      trial(i, j) = 0.5 * (turned(i, j) + turned(j, i)) + mu * (l(i, j) + l(j, i)) - (i == j ? 2 * mu * mean : 0);
-  return trial;
-}
-
 /// Takes a particle from the end of the last step to the deformation gradient F; returns P there [Pa]. The energy grows
 /// by the mean of the stresses before and after, e += (P_n + P) : (F - F_n) / (2 rho0), which is the work that the
 /// kinetic energy loses in a Verlet step; the pressure sees that energy.
@@ -59,7 +38,7 @@ PIOLA_FN Mat<3> advance_solid(Law const& law, SolidPoint& point, Mat<3> const& F
     point.history.S = trial;
   else
     law.update(point.history, trial, law.pressure(point.history, rho, before), rho, step.dt);
-  double const shear_work = 0.5 * contract(first_piola_of(point.history.S, 0, F), dF) / law.rho0;
+  double const shear_work = 0.5 * contract(first_piola_of(point.history.S, 0.0, F), dF) / law.rho0;
   double const volume = 0.5 * contract(H, dF) / law.rho0;
   auto const energy = [&](double pressure) { return before + old_work + shear_work - pressure * volume; };
   for (int k = 0; k < 3; ++k) point.pressure = law.pressure(point.history, rho, energy(point.pressure));

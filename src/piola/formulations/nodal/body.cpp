@@ -3,7 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       D_(set.dimension),
       order_(slot_order(set, body_)),
       set_(&set),
-      fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0) {
+      fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids) {
   if (!assembly.initial_deformation_gradient.empty())
     throw InputError(fmt::format(
         "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
@@ -38,6 +38,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   allocate();
   fill_reference();
   fill_initial(assembly);
+  fill_histories();
   boundary_.emplace(assembly, body,
                     Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid, reference_.held});
   boundary_->attach(state_);
@@ -53,7 +54,7 @@ void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) 
   for (std::size_t k = 0; k < materials.size(); ++k) {
     Index last = first;
     while (last < order_.particles && part_of(*set_, static_cast<std::size_t>(id(last))) == k) ++last;
-    with_law(materials[k], [&](auto const& law) {
+    with_any_law(materials[k], [&](auto const& law) {
       Constants const constants{
           law.rho0, law.kappa, law.mu, std::min(law.kappa, law.mu), spacing / law.p_wave_speed(), options_.stress_free,
           0};
@@ -79,7 +80,7 @@ void NodalBody::set_viscosity(MaterialParameters const& material) {
         "body '{}': fluctuation_viscosity and shock_viscosity are those of one material (allowed: 0 for a body with "
         "parts) - leave them out, or make the parts bodies and tie them",
         body_.name));
-  with_law(material, [&](auto const& law) {
+  with_any_law(material, [&](auto const& law) {
     double h = 1;
     for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) h *= std::pow(body_.spacing[c], 1.0 / D_);
     double const speed = std::sqrt((state_.constants.kappa_local + 4 * law.mu / 3) / law.rho0);
@@ -112,6 +113,7 @@ void NodalBody::allocate() {
   fields_.each([&](Field& f) {
     if (f.size() > 0 || (&f == &fields_.products && !reference_.lattice)) return;
     if (!fields_.with_viscosity && (&f == &fields_.viscous || &f == &fields_.viscous_kept)) return;
+    if (!fields_.with_solids && (&f == &fields_.history || &f == &fields_.history_kept)) return;
     if (f.components() > 1)
       f.allocate_tiled(n);
     else
@@ -128,6 +130,8 @@ void NodalBody::allocate() {
       std::tuple(f.F.ref(), f.P.ref(), f.cell.ref(), f.C_measured.ref(), f.change.ref(), f.kept.ref());
   s.viscous = f.viscous.ref();
   s.viscous_kept = f.viscous_kept.ref();
+  s.history = f.history.ref();
+  s.history_kept = f.history_kept.ref();
   s.list = reference_.list();
   if (reference_.lattice) s.lattice = reference_.lattice->table();
 }
@@ -168,6 +172,20 @@ void NodalBody::fill_initial(Assembly const& assembly) {
   });
 }
 
+/// Solids in rate form start free of stress where they are not deformed.
+void NodalBody::fill_histories() {
+  for (MaterialRange const& range : materials_)
+    with_solid(range.material, [&](auto const& law) {
+      for (Index i = range.first; i < range.last; ++i) {
+        for (int q = 0; q < Fields::points(D_); ++q) {
+          int const at = SolidPlaces::point(q, D_);
+          fields_.history.at(i, at + SolidPlaces::temperature) = law.initial_temperature();
+          for (int c = 0; c < D_; ++c) fields_.history.at(i, at + SolidPlaces::F + c * (D_ + 1)) = 1;
+        }
+      }
+    });
+}
+
 int NodalBody::step(Machine const& machine, double time, double dt) { return step(machine, time, dt, 0); }
 
 int NodalBody::step(Machine const& machine, double time, double dt, int halvings) {
@@ -205,6 +223,13 @@ double NodalBody::viscous_loss() const {
   int const loss = Fields::viscous_values(D_) - 1;
   for (Index i = 0; fields_.with_viscosity && i < order_.particles; ++i)
     sum += volume(i) * value(state_.viscous, i, loss);
+  return sum;
+}
+
+double NodalBody::mean_of_points(Index slot, int number) const {
+  int const points = fields_.with_solids ? Fields::points(D_) : 0;
+  double sum = 0;
+  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, SolidPlaces::point(q, D_) + number) / points;
   return sum;
 }
 

@@ -42,11 +42,14 @@ class NodalBody {
   int step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
   void damp(double factor);
-  double kinetic_energy() const;                         ///< [J]
-  double strain_energy() const;                          ///< [J], of what observers see
-  double damping_loss() const { return damping_loss_; }  ///< since the start [J]
-  double viscous_loss() const;                           ///< since the start [J]
+  double kinetic_energy() const;                          ///< [J]
+  double strain_energy() const;                           ///< [J], of what observers see
+  double damping_loss() const { return damping_loss_; }   ///< since the start [J]
+  double viscous_loss() const;                            ///< since the start [J]
+  bool remembers() const { return fields_.with_solids; }  ///< solids in rate form
   bool viscous() const { return fields_.with_viscosity; }
+  /// Over the points of a cell, of one number of their histories (SolidPlaces); 0 for bodies without.
+  double mean_of_points(Index slot, int number) const;
   void set_damping_loss(double loss) { damping_loss_ = loss; }
   double next_release(double time) const { return boundary_->next_release(time); }
 
@@ -67,6 +70,7 @@ class NodalBody {
   void allocate();
   void fill_reference();
   void fill_initial(Assembly const& assembly);
+  void fill_histories();
   bool failed() const { return failure_.index < order_.particles; }
 
   Body body_;

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/formulations/nodal/solver.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace piola::nodal {
+namespace {
+
+/// Damage is recorded here; nothing becomes of it.
+void doubt_damage(std::vector<MaterialParameters> const& materials, BodyDoubts& doubts) {
+  bool damages = false;
+  for (MaterialParameters const& material : materials)
+    with_solid(material, [&](auto const& law) { damages = damages || law.damages; });
+  if (damages)
+    doubts.add("material.damage",
+               "damage is recorded, but does not weaken the material (nodal lets no particle fail) - set damage = "
+               "\"none\" and spall = \"limit\", or take the formulation adaptle");
+}
+
+}  // namespace
 
 /// Three particles across are a little stiff in bending near incompressibility (docs/theory/nodal.md, section 5).
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
@@ -12,6 +27,7 @@ void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
   constexpr int few = 3;
   auto const& lattice = assembly.particles.bodies[body].lattice;
   int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
+  doubt_damage(materials_of(assembly, body), doubts);
   double ratio = 0;
   for (MaterialParameters const& material : materials_of(assembly, body))
     ratio = std::max(ratio, poissons_ratio_of(material));

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
+#include "piola/formulations/nodal/state.hpp"
 
 namespace piola::nodal {
 
@@ -12,11 +13,16 @@ struct Fields : FieldSet {
   static int terms(int D) { return D + second(D); }
   static int values(int D) { return 1 + terms(D); }
   /// Strain and viscous stress at every point, and three numbers of the cell.
-  static int viscous_values(int D) { return 2 * (D == 3 ? 4 : 1 << D) * second(D) + 3; }
+  static int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
 
-  explicit Fields(int D, bool has_viscosity = false) : D_(D), with_viscosity(has_viscosity) {}
+  static int points(int D) { return D == 3 ? 4 : 1 << D; }
+  static int solid_values(int D) { return SolidPlaces::point(points(D), D); }
+
+  /// `has_solids`: some cell is of a solid in rate form.
+  explicit Fields(int D, bool has_viscosity = false, bool has_solids = false)
+      : D_(D), with_viscosity(has_viscosity), with_solids(has_solids) {}
   int const D_;
-  bool const with_viscosity;
+  bool const with_viscosity, with_solids;
 
   ListedField V{*this, "CellVolume", "m3", 1, Role::reference};
   ListedField mass{*this, "Mass", "kg", 1, Role::reference};
@@ -40,6 +46,9 @@ struct Fields : FieldSet {
   // Allocated where there is viscosity:
   ListedField viscous{*this, "ViscousHistory", "1", viscous_values(D_), Role::evolved};
   ListedField viscous_kept{*this, "ViscousHistoryAtStepStart", "1", viscous_values(D_), Role::derived};
+  // Allocated where there are solids in rate form:
+  ListedField history{*this, "SolidHistory", "1", solid_values(D_), Role::evolved};
+  ListedField history_kept{*this, "SolidHistoryAtStepStart", "1", solid_values(D_), Role::derived};
 };
 
 }  // namespace piola::nodal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/observed.hpp"
-#include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <array>
 
@@ -22,6 +22,7 @@ Mat<3> first_piola(NodalBody const& body, Index i) {
 
 /// Of the cell, positive in tension [Pa]: of its mean volume ratio where the law has a volumetric part.
 double cell_pressure(NodalBody const& body, Index i) {
+  if (is_solid(body.material(i).material)) return -NodalBody::value(body.state().history, i, SolidPlaces::pressure);
   double p = 0;
   with_law(body.material(i).material, [&](auto const& law) {
     if (std::decay_t<decltype(law)>::volumetric_split && !body.state().constants.stress_free) {
@@ -58,6 +59,7 @@ void observe(NodalBody const& body, NodalObservation& o) {
   for (Index i = 0; i < body.particles(); ++i) {
     double const V = body.volume(i), p = smooth[static_cast<std::size_t>(i)], least = cell(body, i, least_J);
     o.add_strain_energy(V * cell(body, i, energy));
+    o.plastic_work += V * body.mean_of_points(i, SolidPlaces::plastic_work);
     o.least_jacobian = first && i == 0 ? least : std::min(o.least_jacobian, least);
     o.add_state(cell(body, i, mean_J), p, V);
     o.add_motion(body.x(i), body.v(i), body.mass(i));
@@ -74,13 +76,15 @@ Diagnostics finish(NodalObservation const& o) {
   Diagnostics d = o.finish();
   d.more = {{"least_jacobian", o.least_jacobian},
             {"repeated_steps", o.repeated_steps},
-            {"cell_pressure_oscillation", o.of_cells.finish().pressure_oscillation}};
+            {"cell_pressure_oscillation", o.of_cells.finish().pressure_oscillation},
+            {"plastic_work", o.plastic_work},
+            {"internal_energy", d.strain_energy}};
   return d;
 }
 
 namespace {
 
-constexpr std::array<std::string_view, 16> offered{"Displacement",
+constexpr std::array<std::string_view, 20> offered{"Displacement",
                                                    "Position",
                                                    "Velocity",
                                                    "Momentum",
@@ -95,11 +99,25 @@ constexpr std::array<std::string_view, 16> offered{"Displacement",
                                                    "Density",
                                                    "Neighbours",
                                                    "Body",
-                                                   "Id"};
+                                                   "Id",
+                                                   "EquivalentPlasticStrain",
+                                                   "Damage",
+                                                   "Temperature",
+                                                   "InternalEnergy"};
+constexpr std::size_t of_every_law = 16;  ///< the others are of solids in rate form
+
+void add_history(NodalBody const& body, Index i, ObservedParticle& p) {
+  p.plastic_strain = body.mean_of_points(i, SolidPlaces::plastic_strain);
+  p.damage = body.mean_of_points(i, SolidPlaces::damage);
+  p.temperature = body.mean_of_points(i, SolidPlaces::temperature);
+  p.specific_energy = NodalBody::value(body.state().history, i, SolidPlaces::energy);
+}
 
 }  // namespace
 
-std::vector<FieldInfo> observed_fields() { return field_infos(offered); }
+std::vector<FieldInfo> observed_fields(bool solids) {
+  return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
+}
 
 void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
   ObservedField const& found = find_observed(field, offered);
@@ -123,6 +141,7 @@ void sample(NodalBody const& body, int body_number, std::string_view field, std:
     p.cell_pressure = cell_pressure(body, i);
     p.inertia = body.material(i).constants.rho0;
     p.density = p.inertia / p.J;
+    if (is_solid(body.material(i).material)) add_history(body, i, p);
     put(found, p, values);
   }
 }

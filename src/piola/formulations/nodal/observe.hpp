@@ -9,7 +9,8 @@ namespace piola::nodal {
 struct NodalObservation : Observation {
   double least_jacobian = 0;  ///< at a point of a cell
   double repeated_steps = 0;
-  Observation of_cells;  ///< of the pressure of cells, which is not smoothed
+  double plastic_work = 0;  ///< [J]
+  Observation of_cells;     ///< of the pressure of cells, which is not smoothed
 };
 
 void observe(NodalBody const& body, NodalObservation& observation);
@@ -17,8 +18,8 @@ void observe(NodalBody const& body, NodalObservation& observation);
 /// Energies, momenta and extrema over all bodies.
 Diagnostics finish(NodalObservation const& observation);
 
-/// The fields that nodal bodies offer to frames and probes.
-std::vector<FieldInfo> observed_fields();
+/// The fields that nodal bodies offer to frames and probes; `solids`: with those of solids in rate form.
+std::vector<FieldInfo> observed_fields(bool solids);
 
 /// values[id * components + c] of one field for the particles of one body. Throws std::invalid_argument for an unknown
 /// field.

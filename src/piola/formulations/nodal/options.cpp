@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/materials/solids.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -29,18 +30,20 @@ constexpr std::array choices{Choice{
 
 /// What Diagnostics::more holds (observe.cpp).
 constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, DiagnosticInfo{"repeated_steps", "1"},
-                                 DiagnosticInfo{"cell_pressure_oscillation", "1"}};
+                                 DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
+                                 DiagnosticInfo{"internal_energy", "J"}};
 
-constexpr std::array<std::string_view, 5> usable_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
-                                                      "saint_venant_kirchhoff", "compressible_neo_hookean"};
+constexpr std::array<std::string_view, 10> usable_laws{
+    "linear_elastic", "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
+    "elastic",        "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong"};
 
 }  // namespace
 
 FormulationInfo info() {
   FormulationInfo info{
       "nodal",
-      "conservative total-Lagrangian particles for elastic solids: quadratic fits, cells integrated at "
-      "four points, exact masses; nothing is dissipated, on lattices and irregular clouds alike",
+      "conservative total-Lagrangian particles for solids: quadratic fits, cells integrated at "
+      "four points, exact masses; nothing but plastic flow dissipates, on lattices and irregular clouds alike",
       parameters,
       choices,
       usable_laws,
@@ -53,17 +56,43 @@ FormulationInfo info() {
   return info;
 }
 
-Options read_options(FormulationSpec const& spec, MaterialParameters const& material, int dimension, double cfl) {
+namespace {
+
+/// Solids in rate form: what they cannot be.
+void check_solid(MaterialParameters const& material, bool stress_free, Problems& problems) {
+  if (is_explosive(material))
+    problems.add({},
+                 "material: eos = \"jwl\" is an explosive (allowed here: the other words of eos) - take the "
+                 "formulation adaptle");
+  if (stress_free)
+    problems.add({},
+                 fmt::format("formulation: assumption is for hyperelastic laws here, and {} is a solid in rate form "
+                             "(allowed: as_dimension, plane_strain, uniaxial_strain) - leave it out, or take the "
+                             "formulation adaptle",
+                             laws()[static_cast<std::size_t>(material.law)].name));
+}
+
+}  // namespace
+
+Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
+                     double cfl) {
   Problems problems;
-  LawInfo const& law = laws()[static_cast<std::size_t>(material.law)];
-  if (law.rate_form)
-    problems.add({}, fmt::format("formulation: nodal needs a hyperelastic law, and {} is a solid in rate form, with a "
-                                 "history - take jst_sph, taylor_sph or adaptle for it",
-                                 law.name));
   bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
+  bool solids = false;
+  for (MaterialParameters const& material : materials) {
+    if (!is_solid(material)) continue;
+    check_solid(material, stress_free, problems);
+    solids = true;
+  }
   problems.raise_if_any();
-  return {number_of(spec, "least_mass", 0.3), number_of(spec, "fluctuation_viscosity", 0),
-          number_of(spec, "shock_viscosity", 0), stress_free, std::isnan(cfl) ? 0 : cfl};
+  Options o;
+  o.least_mass = number_of(spec, "least_mass", 0.3);
+  o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
+  o.shock_viscosity = number_of(spec, "shock_viscosity", 0);
+  o.stress_free = stress_free;
+  o.cfl = std::isnan(cfl) ? 0 : cfl;
+  o.solids = solids;
+  return o;
 }
 
 }  // namespace piola::nodal

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
+#include <vector>
 
 namespace piola::nodal {
 
@@ -9,6 +10,7 @@ namespace piola::nodal {
 struct Options {
   double least_mass = 0.3;                                ///< of a particle, over that of its cell
   double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
+  bool solids = false;                                    ///< whether some material is a solid in rate form
   bool stress_free = false;                               ///< plane stress, uniaxial stress
   double cfl = 0;  ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
 };
@@ -16,7 +18,9 @@ struct Options {
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
-/// Options of a body. Throws InputError for laws that cannot be used.
-Options read_options(FormulationSpec const& spec, MaterialParameters const& material, int dimension, double cfl);
+/// Options of a body with these materials, its own and those of its parts. Throws InputError for laws that cannot be
+/// used.
+Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
+                     double cfl);
 
 }  // namespace piola::nodal

@@ -24,9 +24,8 @@ class Solver final : public Formulation {
         machine_(choose_machine(assembly.machine.c_str())),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options options;
-      for (MaterialParameters const& material : materials_of(assembly, k))
-        options = read_options(assembly.formulations[k], material, set_.dimension, assembly.cfl);
+      Options const options =
+          read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }
@@ -106,7 +105,9 @@ class Solver final : public Formulation {
     return d;
   }
 
-  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  std::vector<FieldInfo> fields() const override {
+    return observed_fields(std::any_of(bodies_.begin(), bodies_.end(), [](auto const& b) { return b->remembers(); }));
+  }
   void sample(std::string_view field, std::span<double> values) const override {
     int number = 0;
     for (auto const& body : bodies_) {
@@ -195,6 +196,7 @@ void Solver::each_evolved(NodalBody const& body, std::size_t number, F const& f)
   f(fmt::format("body{}_acceleration", number), s.a, D);
   f(fmt::format("body{}_measured_stretch", number), s.C_measured, D * (D + 1) / 2);
   f(fmt::format("body{}_change", number), s.change, 2);
+  if (body.remembers()) f(fmt::format("body{}_solid_history", number), s.history, Fields::solid_values(D));
   if (body.viscous()) f(fmt::format("body{}_viscous_history", number), s.viscous, Fields::viscous_values(D));
 }
 

@@ -24,6 +24,24 @@ struct Constants {
   double least_share;  ///< of its volume ratio at the step's start that a point of a cell must keep
 };
 
+/// Where values lie in the field `history` of solids in rate form, which is of the end of the last step.
+struct SolidPlaces {
+  /// Of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg].
+  enum : int { pressure, energy, of_cell };
+  /// Of a point of it, counted from point(q, D).
+  enum : int {
+    S,                   ///< deviatoric Cauchy stress [Pa], 6 values
+    plastic_strain = 6,  ///< equivalent plastic strain
+    temperature,         ///< [K]
+    damage,              ///< 0 to 1
+    plastic_work,        ///< per reference volume [J/m^3]
+    spread,              ///< tension over that of the cell [Pa]
+    F                    ///< deformation gradient, D x D values
+  };
+
+  static constexpr int point(int q, int D) { return of_cell + q * (F + D * D); }
+};
+
 /// The particles of a body that have one material: slots [first, last).
 struct MaterialRange {
   MaterialParameters material;
@@ -62,6 +80,8 @@ struct BodyState {
       change;  ///< F^T F when the step was last measured; largest change of a strain since, least J now
   FieldRef viscous, viscous_kept;  ///< see ViscousHistory, and at the start of the step; without data: no viscosity
   FieldRef kept;                   ///< x, v, a and the least J at the start of the step
+  FieldRef history,
+      history_kept;  ///< see SolidPlaces, and at the start of the step; without data: no solids in rate form
 
   HeldDirection* held = nullptr;
   Index held_count = 0;

@@ -50,13 +50,13 @@ class Step {
     exec::for_each(b_.slots, CopyMotion<D>{read(b_.x), read(b_.v), read(b_.a), write(b_.kept), write(b_.kept),
                                            write(b_.kept), 0, D});
     exec::for_each(b_.slots, CopyLeast{read(b_.change), write(b_.kept), 1, 3 * D});
-    copy_history(b_.viscous, b_.viscous_kept);
+    copy_histories(b_.viscous, b_.viscous_kept, b_.history, b_.history_kept);
   }
   void restore() const {
     exec::for_each(b_.slots, CopyMotion<D>{read(b_.kept), read(b_.kept), read(b_.kept), write(b_.x), write(b_.v),
                                            write(b_.a), D, 0});
     exec::for_each(b_.slots, CopyLeast{read(b_.kept), write(b_.change), 3 * D, 1});
-    copy_history(b_.viscous_kept, b_.viscous);
+    copy_histories(b_.viscous_kept, b_.viscous, b_.history_kept, b_.history);
   }
 
  private:
@@ -92,8 +92,13 @@ class Step {
       exec::for_each(b_.slots, SumForces<D>{of_stress(), read_reference(b_.mass), read(b_.a), write(b_.a)});
   }
 
-  void copy_history(FieldRef const& from, FieldRef const& to) const {
-    if (from.data != nullptr) exec::for_each(b_.slots, CopyValues{read(from), write(to), ViscousHistory<D>::size});
+  void copy_histories(FieldRef const& viscous, FieldRef const& viscous_to, FieldRef const& solid,
+                      FieldRef const& solid_to) const {
+    copy_history(viscous, viscous_to, ViscousHistory<D>::size);
+    copy_history(solid, solid_to, SolidPlaces::point(Quadratic<D>::points, D));
+  }
+  void copy_history(FieldRef const& from, FieldRef const& to, int values) const {
+    if (from.data != nullptr) exec::for_each(b_.slots, CopyValues{read(from), write(to), values});
   }
 
   void turn_loads(bool at_end) {
@@ -129,7 +134,7 @@ class Step {
     SharedLanes<D> const others(b_, group, range.first);
     Constants constants = range.constants;
     constants.least_share = b_.constants.least_share;
-    with_law(range.material, [&](auto const& law) {
+    auto const update_with = [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
       UpdateStress<D, Law, Observed> const update{law,
                                                   constants,
@@ -151,6 +156,12 @@ class Step {
                                                   write(b_.cell),
                                                   b_.failure};
       fused(slots, exec::erased(update));
+    };
+    with_law(range.material, update_with);
+    with_solid(range.material, [&](auto const& law) {
+      using Cells = SolidCells<D>;
+      auto const wanted = Observed ? Cells::Wanted::as_left : dt < 0 ? Cells::Wanted::trial : Cells::Wanted::end;
+      update_with(Cells(law, range, b_, maximum(dt, 0.0), wanted));
     });
     others.put_back();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/passes.hpp"
+#include "piola/formulations/nodal/solid_cells.hpp"
 #include "piola/formulations/nodal/stress_free.hpp"
 #include "piola/formulations/nodal/viscosity.hpp"
 #include "piola/materials/laws.hpp"
@@ -122,7 +123,9 @@ struct UpdateStress {
     CellPoints<D> const at = gradients(i, in);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
     for (int q = 0; q < points; ++q) energy.F[q] = embed<D>(at.at(q));
-    if (D < 3 && constants.stress_free)
+    if constexpr (std::is_same_v<Law, SolidCells<D>>)
+      law(i, energy);
+    else if (D < 3 && constants.stress_free)
       energy.template without_lateral_stress<D>();
     else
       energy();
