@@ -28,8 +28,6 @@ void Gathered::place_records(Fields& fields, int D, Index slots) {
   for (Index i = 0; i < slots; ++i) first_.data()[i * size.motion + size.one] = 1;
 }
 
-int Gathered::stress_size(int D) { return static_cast<int>(record_sizes(D).stress); }
-
 void Gathered::place_lattice(Fields& fields, Index slots, Index guard) {
   fields.x.allocate(slots, guard);
   fields.products.allocate(slots, guard);

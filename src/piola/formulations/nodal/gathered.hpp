@@ -14,8 +14,6 @@ class Gathered {
 
   /// guard: slots that loops over a lattice may read beside the first and the last one.
   void place_records(Fields& fields, int D, Index slots);
-  /// Doubles that the second sweep reads of a neighbour.
-  static int stress_size(int D);
   static void place_lattice(Fields& fields, Index slots, Index guard);
   std::size_t bytes() const { return first_.bytes() + second_.bytes(); }
 
