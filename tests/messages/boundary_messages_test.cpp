@@ -115,8 +115,8 @@ TEST(BoundaryMessages, MirrorsNeedParticlesOnTheirFace) {
   EXPECT_EQ(message_of(replaced(sample_with("particles = [5, 25, 5]", "spacing = 0.25, placement = \"cell_centred\""),
                                 "Y <= 0", "Y <= 1") +
                        mirror),
-            "case.toml:24:8: a mirror needs particles on its face, but those of body \"column\" are in the middle of "
-            "cells (allowed: placement = \"on_boundary\") - change body.shape");
+            "case.toml:24:8: a mirror needs particles on its face in \"jst_sph\", but those of body \"column\" are in "
+            "the middle of cells (allowed: placement = \"on_boundary\"; any with nodal) - change body.shape");
   EXPECT_EQ(message_of(sample_with("[5, 25, 5]", "[5, 25, 1]") + mirror),
             "case.toml:25:8: the face \"+z\" of body \"column\" cannot be a mirror, because the body has a single "
             "particle in z, in its middle (allowed: 2 or more) - change body.shape.particles");

@@ -127,13 +127,24 @@ Hold hold_of(SupportSpec const& support, std::size_t number, ParticleSet const& 
           .ids = supported_particles(particles, body, support)};
 }
 
+/// The particles of a face that lie in it: none of those that are half a spacing inside of it.
+std::vector<std::int64_t> particles_on(Face const& face, ParticleSet const& particles, Body const& body) {
+  auto ids = face_particles(particles, body, face);
+  auto const axis = static_cast<std::size_t>(face.axis);
+  double const at = face.upper ? body.outline.max[axis] : body.outline.min[axis];
+  std::erase_if(ids, [&](std::int64_t id) {
+    return std::abs(particles.X[static_cast<std::size_t>(id)][axis] - at) > 1e-6 * body.spacing[axis];
+  });
+  return ids;
+}
+
 // By symmetry the particles on a mirror never leave it, those on a skew one never move along it.
 Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& particles, Body const& body) {
   Hold hold{.name = "mirror." + std::to_string(number),
             .place = place_of(mirror.places, ""),
             .along = {},
             .velocity = {},
-            .ids = face_particles(particles, body, mirror.face)};
+            .ids = particles_on(mirror.face, particles, body)};
   for (std::size_t i = 0; i < static_cast<std::size_t>(particles.dimension); ++i)
     hold.along[4 * i] = (static_cast<int>(i) == mirror.face.axis) != mirror.skew ? 1 : 0;
   return hold;

@@ -61,6 +61,16 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const info = formulation_of(spec, mirror.body);
     if (info && !info->mirrors) problems.add(place_of(mirror.places, ""), refusal(*info, "mirrors"));
+    BodySpec const& body = *std::find_if(spec.bodies.begin(), spec.bodies.end(),
+                                         [&](BodySpec const& candidate) { return candidate.name == mirror.body; });
+    // Those that know where bodies end see the plane where the face is.
+    if (info && info->mirrors && !info->outline && body.shape.kind == ShapeSpec::Kind::box &&
+        body.shape.placement != ShapeSpec::Placement::on_boundary)
+      problems.add(place_of(mirror.places, "body"),
+                   "a mirror needs particles on its face in " + in_quotes(info->name) + ", but those of body " +
+                       in_quotes(mirror.body) +
+                       " are in the middle of cells (allowed: placement = \"on_boundary\"; any with nodal) - change "
+                       "body.shape");
   }
 }
 

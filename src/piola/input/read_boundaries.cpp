@@ -196,13 +196,6 @@ MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bod
   BodyNames const* const body = find_body(section, bodies, mirror.body);
   read_face(section, body != nullptr ? *body : BodyNames{}, "mirrors at faces", mirror.face);
   section.read("skew", mirror.skew);
-  bool const box = body != nullptr && body->shape.kind == ShapeSpec::Kind::box;
-  if (box && body->shape.placement != ShapeSpec::Placement::on_boundary) {
-    section.problems().add(
-        section.place_of("body"),
-        "a mirror needs particles on its face, but those of body " + in_quotes(body->name) +
-            " are in the middle of cells (allowed: placement = \"on_boundary\") - change body.shape");
-  }
   section.refuse_unknown();
   mirror.places = places_of(section, {"body", "face"});
   return mirror;

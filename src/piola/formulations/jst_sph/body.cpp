@@ -20,7 +20,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       D_(set.dimension),
       order_(pencil_order(set, body_)),
       set_(&set),
-      images_(assembly, body, order_, reach()),
+      images_(assembly, body, order_, {reach(), reach(), reach()}),
       fields_(D_),
       boundary_(assembly, body, order_, images_.planes(), cloud(set)) {
   if (options_.filter && images_.skew())

@@ -3,9 +3,9 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/formulations/jst_sph/fields.hpp"
-#include "piola/formulations/jst_sph/mirror.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
+#include "piola/formulations/mirror_images.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
 #include <memory>

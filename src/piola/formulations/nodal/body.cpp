@@ -4,6 +4,8 @@
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/formulations/nodal/mirror_passes.hpp"
+#include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,6 +19,14 @@ constexpr int most_halvings = 8;
 /// A point of a cell that loses more than the rest of its volume in a step is crushed faster than the step can follow.
 constexpr double least_share = 0.5;
 
+/// f(integral_constant D)
+template <class F>
+void with_dimension(int D, F const& f) {
+  if (D == 1) f(std::integral_constant<int, 1>{});
+  if (D == 2) f(std::integral_constant<int, 2>{});
+  if (D == 3) f(std::integral_constant<int, 3>{});
+}
+
 }  // namespace
 
 NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
@@ -25,6 +35,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       options_(options),
       D_(set.dimension),
       order_(slot_order(set, body_)),
+      images_(make_images(assembly, body)),
       set_(&set),
       fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids) {
   if (!assembly.initial_deformation_gradient.empty())
@@ -33,16 +44,74 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "initial_deformation_gradient",
         body_.name));
   set_materials(materials_of(assembly, body));
-  reference_ = make_reference(
-      {set, body_, order_, assembly.loads, assembly.supports, densities(), options_.least_mass, machine});
+  reference_ = make_reference({set, body_, order_, assembly.loads, assembly.supports, densities(), options_.least_mass,
+                               machine, images_.empty() ? nullptr : &images_});
+  if (!images_.empty() && !reference_.held.empty())
+    throw InputError(fmt::format(
+        "body '{}': a support that holds the surface of a patch does not go together with mirror planes (allowed: "
+        "hold = \"particles\") - change hold",
+        body_.name));
+  images_.keep(reference_.images);
   allocate();
   fill_reference();
+  if (!images_.empty()) keep_own_side();
   fill_initial(assembly);
   fill_histories();
   boundary_.emplace(assembly, body,
                     Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid, reference_.held});
   boundary_->attach(state_);
   machine.step(state_, 0);  // the accelerations of the start
+}
+
+/// Of the whole body: what is set up are its cells, fits and masses. Between two planes it has no end; what is eight
+/// spacings away is not seen.
+MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body) const {
+  constexpr double far = 8;
+  std::array<double, 3> reach = body_.spacing;  // of directions without planes: any
+  for (auto const& plane : assembly.mirrors) {
+    if (plane.body != body) continue;
+    if (plane.skew)
+      throw InputError(fmt::format(
+          "body '{}': a skew mirror plane is a symmetry of small strains alone, and nodal has one energy for all "
+          "(allowed: mirror planes without skew; skew ones in jst_sph) - remove skew, or the plane",
+          body_.name));
+    if (plane.axis >= D_) continue;  // refused below
+    auto const axis = static_cast<std::size_t>(plane.axis);
+    bool const endless = reach[axis] > body_.spacing[axis];
+    double const length = body_.spacing[axis] * (body_.lattice[axis] + 1);
+    reach[axis] = endless ? far * body_.spacing[axis] : 2 * length;
+  }
+  return {assembly, body, order_, reach};
+}
+
+/// How images follow: records of motion have X and mu of their own, which stay.
+void NodalBody::attach_images() {
+  state_.x.copies = images_.copies({MirrorImages::Kind::position});
+  with_dimension(D_, [&](auto dimension) {
+    constexpr int D = dimension, width = Records<D>::width;
+    state_.second.copies = images_.copies(D * width, [](int value, int axis) {
+      int const m = value % width;
+      return (value / width == axis) != (m < Records<D>::used && turns<D>(m, axis));
+    });
+  });
+}
+
+/// What is on a plane: half of it is the body's own, and it does not leave the plane.
+void NodalBody::keep_own_side() {
+  for (Index i = 0; i < order_.particles; ++i) {
+    int axes = 0;
+    for (int axis = 0; axis < D_; ++axis)
+      if (images_.on_plane(i, static_cast<std::size_t>(axis))) axes |= 1 << axis;
+    if (axes != 0) mirrored_.push_back({i, axes});
+  }
+  state_.mirrored = mirrored_.data();
+  state_.mirrored_count = static_cast<Index>(mirrored_.size());
+  for (Index i = 0; i < order_.particles; ++i) {
+    auto const slot = static_cast<std::size_t>(i);
+    reference_.mass[slot] *= share(i);
+    for (auto& part : reference_.parts)
+      if (!part.empty()) part[slot].area *= share(i);
+  }
 }
 
 void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) {
@@ -105,7 +174,7 @@ void NodalBody::allocate() {
   if (reference_.lattice)
     Gathered::place_lattice(fields_, n, reference_.lattice->guard());
   else
-    gathered_.place_records(fields_, D_, n);
+    gathered_.place_records(fields_, D_, n + images_.count());
   if (auto const& group = reference_.group_of_k; !group.empty()) {
     fields_.k.allocate_tiled(static_cast<Index>(reference_.k.size()) / fields_.k.components());
     fields_.k.share(group.data());
@@ -132,6 +201,7 @@ void NodalBody::allocate() {
   s.viscous_kept = f.viscous_kept.ref();
   s.history = f.history.ref();
   s.history_kept = f.history_kept.ref();
+  if (!images_.empty()) attach_images();
   s.list = reference_.list();
   if (reference_.lattice) s.lattice = reference_.lattice->table();
 }
@@ -170,6 +240,12 @@ void NodalBody::fill_initial(Assembly const& assembly) {
       if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
     }
   });
+  for (MirroredParticle const& p : mirrored_)
+    for (int c = 0; c < D_; ++c) {
+      if ((p.axes >> c & 1) == 0) continue;
+      fields_.x.at(p.slot, c) = set_->X[static_cast<std::size_t>(id(p.slot))][static_cast<std::size_t>(c)];
+      fields_.v.at(p.slot, c) = 0;
+    }
 }
 
 /// Solids in rate form start free of stress where they are not deformed.

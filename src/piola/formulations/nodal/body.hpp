@@ -58,11 +58,18 @@ class NodalBody {
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
   Mat<3> F(Index slot) const;  ///< at the centroid of the cell; of missing directions the mean over its points
   MaterialRange const& material(Index slot) const;
-  double mass(Index slot) const { return value(state_.mass, slot); }
-  double volume(Index slot) const { return value(state_.V, slot); }
+  double mass(Index slot) const { return share(slot) * value(state_.mass, slot); }
+  double volume(Index slot) const { return share(slot) * value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
 
  private:
+  /// Of a particle, on this side of mirror planes.
+  double share(Index slot) const {
+    return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
+  }
+  MirrorImages make_images(Assembly const& assembly, std::size_t body) const;
+  void attach_images();
+  void keep_own_side();
   int step(Machine const& machine, double time, double dt, int halvings);
   void set_materials(std::vector<MaterialParameters> const& materials);
   void set_viscosity(MaterialParameters const& material);
@@ -77,6 +84,8 @@ class NodalBody {
   Options options_;
   int D_;
   SlotOrder order_;
+  MirrorImages images_;
+  std::vector<MirroredParticle> mirrored_;  ///< on planes
   ParticleSet const* set_;
   Fields fields_;
   Gathered gathered_;

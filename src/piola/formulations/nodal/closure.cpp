@@ -170,7 +170,8 @@ std::vector<double> Divergence<D>::residual() const {
 }
 
 template <int D>
-Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLayout const* lattice) const {
+Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLayout const* lattice,
+                             Fold<D> const* fold) const {
   ProjectionMatrix<D> matrix(fits_, cells_, machine, lattice);
   std::vector<double> r = residual(), z(r.size()), p(r.size(), 0), image(r.size());
   Closure closure{std::vector<double>(r.size(), 0), {}};
@@ -183,28 +184,38 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
       for (std::size_t J = 0; J < D; ++J) f(a, a * D + J);
     });
   };
-  auto const goal = products<D>(r, r);
+  auto const inner = [fold](std::vector<double> const& u, std::vector<double> const& v) {
+    return fold != nullptr ? fold->products(u, v) : products<D>(u, v);
+  };
+  auto const extend = [fold](std::vector<double>& u) {
+    if (fold != nullptr) fold->extend(u);
+  };
+  extend(r);
+  auto const goal = inner(r, r);
   Columns<D> before{};
   for (closure.iterations = 0; closure.iterations < most_iterations; ++closure.iterations) {
-    auto const now = products<D>(r, r);
+    auto const now = inner(r, r);
     bool done = true;
     for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
     if (done) break;
     each_particle([&](std::size_t a, std::size_t k) { z[k] = r[k] / matrix.diagonal()[a]; });
     if (levels) levels->add(r, z);
-    auto const rz = products<D>(r, z);
+    if (fold != nullptr) fold->gather(z);
+    auto const rz = inner(r, z);
     each_particle(
         [&](std::size_t, std::size_t k) { p[k] = z[k] + (before[k % D] > 0 ? rz[k % D] / before[k % D] : 0) * p[k]; });
     before = rz;
     matrix.apply(p, image);
-    auto const curvature = products<D>(p, image);
+    extend(image);
+    auto const curvature = inner(p, image);
     each_particle([&](std::size_t, std::size_t k) {
       double const step = curvature[k % D] > 0 ? rz[k % D] / curvature[k % D] : 0;
       closure.mu[k] += step * p[k];
       r[k] -= step * image[k];
     });
   }
-  remove_quadratic<D>(fits_.X(), closure.mu);
+  if (fold == nullptr || !fold->endless()) remove_quadratic<D>(fits_.X(), closure.mu);
+  extend(closure.mu);
   matrix.apply(closure.mu, image);
   closure.coefficients = matrix.coefficients();
   refine<D>(fits_, matrix, closure);

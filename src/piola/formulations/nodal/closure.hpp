@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/fold.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/cell_moments.hpp"
 #include <functional>
@@ -46,8 +47,9 @@ class Divergence {
   /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.
   std::vector<double> residual() const;
   /// The smallest change of the gradients that brings the residual below `tolerance` times what it was; by the loops of
-  /// a machine, over lists or the lattice that the particles fill.
-  Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice) const;
+  /// a machine, over lists or the lattice that the particles fill. fold: of a body with mirror planes.
+  Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice,
+                Fold<D> const* fold = nullptr) const;
 
  private:
   Fits<D> const& fits_;

@@ -16,14 +16,18 @@ class LoadedFace {
       : load_(load),
         body_(from.body),
         fits_(fits),
-        place_(static_cast<std::size_t>(from.order.particles), none),
+        images_(from.images),
+        particles_(static_cast<std::size_t>(from.order.particles)),
+        place_(fits.X().size(), none),
         area_(place_.size(), 0) {
     std::vector<std::size_t> of_id(static_cast<std::size_t>(body_.last - body_.first), none);
     for (std::size_t k = 0; k < load.particles.size(); ++k)
       if (load.particles[k] >= body_.first && load.particles[k] < body_.last)
         of_id[static_cast<std::size_t>(load.particles[k] - body_.first)] = k;
-    for (std::size_t slot = 0; slot < place_.size(); ++slot)
+    for (std::size_t slot = 0; slot < particles_; ++slot)
       place_[slot] = of_id[static_cast<std::size_t>(from.order.id[slot] - body_.first)];
+    for (std::size_t image = particles_; image < place_.size(); ++image)
+      place_[image] = place_[static_cast<std::size_t>(images_->particles().source[image - particles_])];
     for (std::size_t k = 0; k < load.particles.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) faces_[c] = faces_[c] || load.normal_of(k)[c] != 0;
     for (auto const& patch : patches)
@@ -52,7 +56,13 @@ class LoadedFace {
     auto const axis = static_cast<std::size_t>(patch.axis);
     if ((load_.normal && !patch.outermost) || !faces_[axis]) return -1;
     std::size_t const k = place_of(static_cast<std::size_t>(patch.particle));
-    return k == none ? -1 : load_.normal_of(k)[axis] * (patch.upper ? 1 : -1);
+    return k == none ? -1 : turned(patch, axis) * load_.normal_of(k)[axis] * (patch.upper ? 1 : -1);
+  }
+
+  /// -1 of an image that looks the other way than its source.
+  double turned(SurfacePatch const& patch, std::size_t axis) const {
+    auto const particle = static_cast<std::size_t>(patch.particle);
+    return particle < particles_ ? 1 : images_->sign(static_cast<Index>(particle - particles_))[axis];
   }
 
   /// Which of the load's particles answers for what is nearest to a.
@@ -76,6 +86,8 @@ class LoadedFace {
   Load const& load_;
   Body const& body_;
   Fits<D> const& fits_;
+  MirrorImages const* images_;
+  std::size_t particles_;
   std::array<bool, 3> faces_{};     ///< the surface faces along these axes
   std::vector<std::size_t> place_;  ///< of a slot among the load's particles
   std::vector<double> area_;        ///< of a slot's patches along these axes, in spacings

@@ -3,6 +3,7 @@
 // What this file proves is that the same source makes device code for every dimension and law.
 #include "piola/exec/device_launch.hpp"
 #include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 
@@ -56,6 +57,8 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
   launch_each<DriveDirections<D>>(r, passes);
   launch_each<ArriveAlongDirections<D>>(r, passes);
   launch_each<AddLoads<D>>(r, passes);
+  launch_each<KeepEven<D>>(r, passes);
+  launch_each<StayOnPlanes<D>>(r, passes);
 }
 
 }  // namespace

@@ -48,11 +48,10 @@ FormulationInfo info() {
       choices,
       usable_laws,
       diagnostics};
-  info.mirrors = false;
   info.pushable = true;
   info.parts = true;
   info.surface_supports = true;
-  info.outline = true;  // cells end at the surface
+  info.outline = true;  // cells end at the surface, and mirror planes are there
   return info;
 }
 

@@ -6,6 +6,8 @@
 #include "piola/formulations/nodal/face_parts.hpp"
 #include "piola/formulations/nodal/held_faces.hpp"
 #include "piola/formulations/nodal/masses.hpp"
+#include "piola/formulations/nodal/mirror_passes.hpp"
+#include "piola/formulations/nodal/scaled_body.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,50 +28,6 @@ double since(std::chrono::steady_clock::time_point& start) {
   double const seconds = std::chrono::duration<double>(now - start).count();
   start = now;
   return seconds;
-}
-
-/// Cells and surface of a body in slot order and in units of its spacings.
-struct ScaledBody {
-  Points X;
-  std::vector<ScaledCell> cells;
-  std::vector<SurfacePatch> patches;
-  std::array<double, 3> h{1, 1, 1};
-  double h_volume = 1;  ///< product of the spacings
-};
-
-constexpr std::size_t moment_axis[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-
-ScaledBody scaled_body(SetUp const& from) {
-  auto const& [set, body, order] = std::tie(from.set, from.body, from.order);
-  ScaledBody r;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c) {
-    r.h[c] = body.spacing[c];
-    r.h_volume *= body.spacing[c];
-  }
-  BodyCells measured = measure_cells(set, body);
-  std::vector<Index> slot_of(measured.cell.size());
-  for (Index i = 0; i < order.particles; ++i) {
-    auto const id = order.id[static_cast<std::size_t>(i)];
-    auto const local = static_cast<std::size_t>(id - body.first);
-    slot_of[local] = i;
-    r.X.push_back(set.X[static_cast<std::size_t>(id)]);
-    auto const& cell = measured.cell[local];
-    r.cells.push_back({cell.volume / r.h_volume, cell.centroid, cell.spread});
-    for (std::size_t c = 0; c < 3; ++c) {
-      r.X.back()[c] /= r.h[c];
-      r.cells.back().centroid[c] /= r.h[c];
-    }
-    for (std::size_t m = 0; m < 6; ++m) r.cells.back().spread[m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
-  }
-  r.patches = std::move(measured.patch);
-  for (auto& patch : r.patches) {
-    patch.particle = slot_of[static_cast<std::size_t>(patch.particle)];
-    double const area = r.h_volume / r.h[static_cast<std::size_t>(patch.axis)];
-    patch.area /= area;
-    for (std::size_t c = 0; c < 3; ++c) patch.first[c] /= area * r.h[c];
-    for (std::size_t m = 0; m < 6; ++m) patch.second[m] /= area * r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
-  }
-  return r;
 }
 
 /// Columns of the Cholesky factor of a cell's spread [m], rows first.
@@ -105,19 +63,21 @@ class Tables {
   static constexpr auto dimension = static_cast<std::size_t>(D);
 
   Tables(SetUp const& from, ScaledBody const& scaled, Fits<D> const& fits, Reference& to)
-      : from_(from), scaled_(scaled), fits_(fits), to_(to), slots_(static_cast<std::size_t>(from.order.slots())) {}
+      : from_(from), scaled_(scaled), fits_(fits), to_(to), slots_(static_cast<std::size_t>(from.order.slots())) {
+    if (from.images != nullptr) keep_images();
+  }
 
   void fill(Closure const& closure, std::vector<double> const& mass) {
     to_.V.assign(slots_, 0);
     to_.mass.assign(slots_, 1);
-    to_.X.assign(slots_ * dimension, 0);
-    to_.mu.assign(slots_ * dimension, 0);
+    to_.X.assign((slots_ + to_.images.size()) * dimension, 0);
+    to_.mu.assign((slots_ + to_.images.size()) * dimension, 0);
     to_.L.assign(slots_ * dimension * dimension, 0);
     to_.g.assign(slots_ * values * dimension, 0);
     share_k();
     to_.own.assign(slots_ * (values + dimension), 0);
     to_.centroid.assign(slots_ * dimension, 0);
-    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.cells.size()), [&](Index particle) {
+    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.particles), [&](Index particle) {
       auto const a = static_cast<std::size_t>(particle);
       to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
       to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0.front();
@@ -130,11 +90,69 @@ class Tables {
       }
       fill_derivatives(a, closure);
     });
-    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.cells.size()),
+    fill_images(closure);
+    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.particles),
                                   [this](Index a) { fill_own(static_cast<std::size_t>(a)); });
   }
 
+  /// The lists of the body's own particles.
+  void fill_lists(Pairs pairs) {
+    // Slots without a particle have no neighbours.
+    pairs.begin.resize(scaled_.particles + 1);
+    pairs.begin.resize(slots_ + 1, pairs.begin.back());
+    pairs.neighbour.resize(static_cast<std::size_t>(pairs.begin.back()));
+    pairs.weight.resize(pairs.neighbour.size());
+    if (from_.images != nullptr)
+      for (Index& b : pairs.neighbour) b = static_cast<Index>(place_of(static_cast<std::size_t>(b)));
+    to_.begin = std::move(pairs.begin);
+    to_.neighbour = std::move(pairs.neighbour);
+    to_.weight = std::move(pairs.weight);
+  }
+
  private:
+  /// Slot of a particle or an image of the scaled body.
+  std::size_t place_of(std::size_t b) const {
+    return b < scaled_.particles ? b : slots_ + kept_[b - scaled_.particles];
+  }
+
+  /// The images that are neighbours of the body's own particles.
+  void keep_images() {
+    auto const& images = *from_.images;
+    std::vector<char> wanted(static_cast<std::size_t>(images.count()), 0);
+    auto const& pairs = fits_.pairs();
+    for (std::size_t k = 0; k < pairs.end(scaled_.particles - 1); ++k)
+      if (pairs.at(k) >= scaled_.particles) wanted[pairs.at(k) - scaled_.particles] = 1;
+    kept_.resize(wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      kept_[k] = to_.images.size();
+      if (wanted[k] == 0) continue;
+      to_.images.push_back(static_cast<Index>(k));
+      to_.source_of_image.push_back(images.particles().source[k]);
+    }
+    to_.share.assign(slots_, 1);
+    for (std::size_t a = 0; a < scaled_.particles; ++a) to_.share[a] = 1 / images.multiplicity(static_cast<Index>(a));
+  }
+
+  void fill_images(Closure const& closure) {
+    for (std::size_t k = 0; k < to_.images.size(); ++k) {
+      std::size_t const b = scaled_.particles + static_cast<std::size_t>(to_.images[k]);
+      for (std::size_t c = 0; c < dimension; ++c) {
+        to_.X[(slots_ + k) * dimension + c] = scaled_.X[b][c];
+        to_.mu[(slots_ + k) * dimension + c] = closure.mu[b * dimension + c] / scaled_.h[c];
+      }
+    }
+  }
+
+  /// Whether a particle is on a plane across which one of two components turns and the other does not: what ties them
+  /// together is zero there but for round-off.
+  bool odd(std::size_t a, int m, int n) const {
+    for (int axis = 0; axis < D && from_.images != nullptr; ++axis)
+      if (from_.images->on_plane(static_cast<Index>(a), static_cast<std::size_t>(axis)) &&
+          turns<D>(m, axis) != turns<D>(n, axis))
+        return true;
+    return false;
+  }
+
   /// No handedness: the points of neighbouring cells are mirror images.
   double parity(std::size_t a) const {
     auto const id = from_.order.id[a];
@@ -156,6 +174,8 @@ class Tables {
         g[static_cast<std::size_t>(1 + l) * dimension + J] +=
             at_centroid<D>(column, cell, static_cast<int>(J)) / scaled_.h[J];
       }
+      for (int m = 0; m < Quadratic<D>::values; ++m)
+        if (odd(a, m, 1 + static_cast<int>(J))) g[static_cast<std::size_t>(m) * dimension + J] = 0;
     }
   }
 
@@ -167,13 +187,14 @@ class Tables {
         int const n = Quadratic<D>::at(J, K);
         double const hh = scaled_.h[static_cast<std::size_t>(J)] * scaled_.h[static_cast<std::size_t>(K)];
         for (int l = 0; l < Quadratic<D>::terms; ++l)
-          k[static_cast<std::size_t>(l) * second + static_cast<std::size_t>(n)] = fits_.inverse(a, D + n, l) / hh;
+          k[static_cast<std::size_t>(l) * second + static_cast<std::size_t>(n)] =
+              odd(a, 1 + l, 1 + D + n) ? 0 : fits_.inverse(a, D + n, l) / hh;
       }
   }
 
   /// Makes k: one for each particle, or of a lattice for each kind of group of lanes.
   void share_k() {
-    std::size_t const particles = scaled_.cells.size();
+    std::size_t const particles = scaled_.particles;
     if (!to_.lattice) {
       to_.k.assign(slots_ * terms * second, 0);
       for (std::size_t a = 0; a < particles; ++a) fill_second(a, a);
@@ -207,8 +228,10 @@ class Tables {
       own[0] += pairs.weight[n];
       for (std::size_t m = 0; m < terms; ++m) own[1 + m] += pairs.weight[n] * p[m];
       for (std::size_t J = 0; J < dimension; ++J)
-        own[values + J] += pairs.weight[n] * to_.mu[pairs.at(n) * dimension + J];
+        own[values + J] += pairs.weight[n] * to_.mu[place_of(pairs.at(n)) * dimension + J];
     }
+    for (int m = 0; m < Quadratic<D>::values + D; ++m)
+      if (odd(a, m, 0)) own[m] = 0;
   }
 
   SetUp const& from_;
@@ -216,14 +239,32 @@ class Tables {
   Fits<D> const& fits_;
   Reference& to_;
   std::size_t slots_;
+  std::vector<std::size_t> kept_;  ///< of each image, how many before it are neighbours
 };
+
+/// Slot of the particle that an entry of the scaled body is, or is the image of.
+Index source_of(SetUp const& from, std::size_t i) {
+  auto const particles = static_cast<std::size_t>(from.order.particles);
+  return i < particles ? static_cast<Index>(i) : from.images->particles().source[i - particles];
+}
 
 /// The cells with volumes that stand for their masses, in units of the body's own density: what is handed over from
 /// cell to cell is mass, and its moments are those of all materials together.
 std::vector<ScaledCell> heavy_cells(SetUp const& from, std::vector<ScaledCell> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i)
-    cells[i].volume *= from.rho0[part_of(from.set, static_cast<std::size_t>(from.order.id[i]))] / from.rho0.front();
+    cells[i].volume *=
+        from.rho0[part_of(from.set,
+                          static_cast<std::size_t>(from.order.id[static_cast<std::size_t>(source_of(from, i))]))] /
+        from.rho0.front();
   return cells;
+}
+
+/// The lattice of a body that loops may take for one. Pressures that follow a face ask for gradients particle by
+/// particle, which lists give, and images have no place in a lattice.
+std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
+  bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
+  if (follows || from.images != nullptr) return std::nullopt;
+  return lattice_shape(from.set, from.body, from.order);
 }
 
 template <int D>
@@ -232,37 +273,34 @@ Reference make(SetUp const& from) {
   auto clock = std::chrono::steady_clock::now();
   ScaledBody const scaled = scaled_body(from);
   r.costs.cells = since(clock);
-  for (std::size_t i = 0; i < scaled.cells.size(); ++i)
+  for (std::size_t i = 0; i < scaled.particles; ++i)
     if (!(scaled.cells[i].volume > least_cell))
       refuse(from, static_cast<Index>(i),
              "has no part of the body to itself - move it into the body, or apart from its neighbours");
-  auto shape = lattice_shape(from.set, from.body, from.order);
-  // Pressures that follow a face ask for gradients particle by particle, which lists give.
-  for (auto const& load : from.loads)
-    if (load.follows) shape.reset();
+  auto const shape = shape_for_loops(from);
   Fits<D> fits(scaled.X, shape);
   if (shape && fits.usual()) r.lattice.emplace(*shape, from.order.slots(), from.machine.lanes);
   if (fits.hopeless() >= 0)
-    refuse(from, fits.hopeless(),
+    refuse(from, source_of(from, static_cast<std::size_t>(fits.hopeless())),
            "has neighbours that determine no quadratic field - use at least three particles across the body in every "
            "direction");
   r.costs.fits = since(clock);
   Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
-  Closure const closure = divergence.solve(closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr);
+  std::optional<Fold<D>> fold;
+  if (from.images != nullptr) fold.emplace(*from.images, scaled.particles);
+  Closure const closure =
+      divergence.solve(closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr, fold ? &*fold : nullptr);
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
+  for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
   r.held = held_faces<D>(from, fits, scaled.patches, scaled.h);
   r.costs.closure = since(clock);
-  auto const mass =
-      exact_masses<D>(scaled.X, heavy_cells(from, scaled.cells), from.least_mass, shape, !has_lattice_cells(from.body));
+  auto const mass = exact_masses<D>(scaled.X, heavy_cells(from, scaled.cells), from.least_mass, shape,
+                                    !has_lattice_cells(from.body) && !(fold && fold->endless()));
   r.costs.masses = since(clock);
-  Tables<D>(from, scaled, fits, r).fill(closure, mass);
-  Pairs pairs = fits.take_pairs();
-  // Slots without a particle have no neighbours.
-  pairs.begin.resize(static_cast<std::size_t>(from.order.slots()) + 1, pairs.begin.back());
-  r.begin = std::move(pairs.begin);
-  r.neighbour = std::move(pairs.neighbour);
-  r.weight = std::move(pairs.weight);
+  Tables<D> tables(from, scaled, fits, r);
+  tables.fill(closure, mass);
+  tables.fill_lists(fits.take_pairs());
   r.costs.tables = since(clock);
   return r;
 }

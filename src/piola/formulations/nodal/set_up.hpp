@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/mirror_images.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/mechanics/surface_hold.hpp"
@@ -27,9 +28,10 @@ struct SetUp {
   SlotOrder const& order;
   std::vector<Load> const& loads;
   std::vector<Support> const& supports;
-  std::vector<double> const& rho0;  ///< of the body and of its parts [kg/m^3]
-  double least_mass;                ///< of a particle over that of its cell
-  Machine const& machine;           ///< whose loops solve for the divergence theorem
+  std::vector<double> const& rho0;       ///< of the body and of its parts [kg/m^3]
+  double least_mass;                     ///< of a particle over that of its cell
+  Machine const& machine;                ///< whose loops solve for the divergence theorem
+  MirrorImages const* images = nullptr;  ///< the whole body behind its mirror planes; nullptr: it has none
 };
 
 /// What a particle answers for of a loaded face.
@@ -51,11 +53,20 @@ struct Reference {
   std::vector<std::int64_t> begin;           ///< lists, see ListTable
   std::vector<Index> neighbour;
   std::vector<double> weight;
+  // With mirror planes lists name images by the slots after those of the body; V and mass are those of the whole body.
+  std::vector<Index> images;           ///< those that are neighbours, as SetUp::images counts them
+  std::vector<Index> source_of_image;  ///< slots
+  std::vector<double> share;  ///< of a particle in the body itself, where that is not all of it; empty: no planes
   std::optional<LatticeLayout> lattice;  ///< takes the place of the lists where particles fill a lattice
   int closure_iterations = 0;
   SetUpCosts costs;
 
   ListTable list() const { return {begin.data(), nullptr, neighbour.data(), weight.data()}; }
+  /// Slot of a neighbour, or of what it is the image of.
+  Index owner(Index neighbour_slot) const {
+    auto const slots = static_cast<Index>(V.size());
+    return neighbour_slot < slots ? neighbour_slot : source_of_image[static_cast<std::size_t>(neighbour_slot - slots)];
+  }
   int neighbours(Index slot) const {
     auto const at = static_cast<std::size_t>(slot);
     return static_cast<int>(begin[at + 1] - begin[at]);

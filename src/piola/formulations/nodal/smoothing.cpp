@@ -20,7 +20,8 @@ double kernel(double r) {
 }  // namespace
 
 Smoothing::Smoothing(Reference const& reference, int dimension, Index particles)
-    : begin_(reference.begin),
+    : reference_(reference),
+      begin_(reference.begin),
       neighbour_(reference.neighbour),
       V_(reference.V),
       particles_(static_cast<std::size_t>(particles)) {
@@ -57,7 +58,7 @@ void Smoothing::balance() {
     each_particle([&](std::size_t a) {
       sum[a] = V_[a] * d[a];
       for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
-        auto const b = static_cast<std::size_t>(neighbour_[k]);
+        auto const b = owner(k);
         sum[a] += weight_[k] * V_[b] * d[b];
       }
     });
@@ -68,7 +69,7 @@ void Smoothing::balance() {
   own_.assign(particles_, 1);
   each_particle([&](std::size_t a) {
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
-      auto const b = static_cast<std::size_t>(neighbour_[k]);
+      auto const b = owner(k);
       weight_[k] *= d[a] * d[b] * V_[b];
       own_[a] -= weight_[k];
     }
@@ -80,7 +81,7 @@ std::vector<double> Smoothing::once(std::vector<double> const& f) const {
   each_particle([&](std::size_t a) {
     smooth[a] = own_[a] * f[a];
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k)
-      smooth[a] += weight_[k] * f[static_cast<std::size_t>(neighbour_[k])];
+      smooth[a] += weight_[k] * f[owner(k)];
   });
   return smooth;
 }

@@ -23,6 +23,10 @@ class Smoothing {
   void balance();
   std::vector<double> once(std::vector<double> const& f) const;
 
+  /// The particle of pair k, or that of which it is the image.
+  std::size_t owner(std::size_t k) const { return static_cast<std::size_t>(reference_.owner(neighbour_[k])); }
+
+  Reference const& reference_;
   std::vector<std::int64_t> const& begin_;
   std::vector<Index> const& neighbour_;
   std::vector<double> const& V_;

@@ -180,6 +180,11 @@ void StabilityMonitor::measure(int cycles) {
   machine_.observe(body_.state());
   double const energy = body_.kinetic_energy() + body_.strain_energy();
   refresh_mode(mode_);
+  for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane
+    MirroredParticle const& p = body_.state().mirrored[k];
+    for (int c = 0; c < body_.state().dimension; ++c)
+      if ((p.axes >> c & 1) != 0) mode_[place(p.slot, c)] = 0;
+  }
   auto const x = positions();
   body_.state().marks = true;
   auto const rest = accelerations();

@@ -55,6 +55,12 @@ struct ViscousConstants {
   double shock_linear, shock_quadratic;  ///< [Pa s], [Pa s2]
 };
 
+/// A particle on mirror planes, and across which axes these are: a bit each.
+struct MirroredParticle {
+  Index slot;
+  int axes;
+};
+
 struct BodyState {
   int dimension = 3;
   Range slots;
@@ -88,7 +94,9 @@ struct BodyState {
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
-  SurfaceHold* surface = nullptr;           ///< what supports hold of the surface; nullptr: nothing
+  MirroredParticle const* mirrored = nullptr;
+  Index mirrored_count = 0;
+  SurfaceHold* surface = nullptr;  ///< what supports hold of the surface; nullptr: nothing
   void (*kick_surface)(SurfaceHold& surface, BodyState& body, bool first, double dt) = nullptr;
   bool follows = false;       ///< whether some load turns with the deformed face
   bool marks = false;         ///< forces at x also leave F^T F there in C_measured

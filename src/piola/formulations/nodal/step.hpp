@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/shared_lanes.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
@@ -23,6 +24,7 @@ class Step {
     if (b_.follows) turn_loads(true);
     exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
     exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.a), write(b_.a)});
+    exec::for_each_item(b_.mirrored_count, StayOnPlanes<D>{b_.mirrored, write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
     if (dt > 0) arrive(dt);
   }
@@ -31,7 +33,9 @@ class Step {
   /// the last step.
   void accelerate(double dt = -1) {
     sweep<false>(dt);
+    exec::for_each_item(b_.mirrored_count, KeepEven<D>{b_.mirrored, write(b_.second)});
     sum_forces();
+    exec::for_each_item(b_.mirrored_count, StayOnPlanes<D>{b_.mirrored, write(b_.a)});
   }
 
   /// a = M x with the matrix of the divergence theorem.
@@ -102,7 +106,7 @@ class Step {
   }
 
   void turn_loads(bool at_end) {
-    halo_.refresh(b_.first);
+    halo_.refresh(b_.x, b_.first);
     exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, b_.loaded_centroid, of_motion(),
                                                       read_reference(b_.g), read_reference(b_.k)});
   }

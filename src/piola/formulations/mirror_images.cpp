@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/jst_sph/mirror.hpp"
+#include "piola/formulations/mirror_images.hpp"
 #include "piola/base/problems.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace piola::jst_sph {
+namespace piola {
 
-MirrorImages::MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder const& order, double reach)
+MirrorImages::MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder const& order,
+                           std::array<double, 3> const& reach)
     : D_(assembly.particles.dimension), first_(order.slots()) {
   mirrored_ = std::any_of(assembly.mirrors.begin(), assembly.mirrors.end(),
                           [body](MirrorPlane const& plane) { return plane.body == body; });
   if (!mirrored_) return;
+  find_places(assembly, body);
   find_planes(assembly, body, order);
   add_images(assembly, order, reach);
 }
 
-void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotOrder const& order) {
+/// Where the body ends, as far as planes are concerned.
+void MirrorImages::find_places(Assembly const& assembly, std::size_t body) {
   auto const& set = assembly.particles;
   Body const& b = set.bodies[body];
   low_ = high_ = set.X[static_cast<std::size_t>(b.first)];
@@ -26,6 +29,16 @@ void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotO
       high_[c] = std::max(high_[c], set.X[static_cast<std::size_t>(id)][c]);
     }
   tolerance_ = 1e-6 * *std::min_element(b.spacing.begin(), b.spacing.begin() + D_);
+  for (std::size_t c = 0; c < 3; ++c) {
+    at_[c] = {low_[c], high_[c]};
+    if (b.outline.min[c] < low_[c] - tolerance_ && b.outline.max[c] > high_[c] + tolerance_)
+      at_[c] = {b.outline.min[c], b.outline.max[c]};
+  }
+}
+
+void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotOrder const& order) {
+  auto const& set = assembly.particles;
+  Body const& b = set.bodies[body];
   for (auto const& plane : assembly.mirrors) {
     if (plane.body != body) continue;
     if (plane.axis < 0 || plane.axis >= D_)
@@ -36,6 +49,7 @@ void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotO
     skew_ = skew_ || plane.skew;
   }
   multiplicity_.assign(order.id.size(), 1);
+  on_plane_.assign(order.id.size(), 0);
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t side = 0; side < 2; ++side) {
       if (!plane_[c][side].mirror) continue;
@@ -44,8 +58,9 @@ void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotO
       for (Index i = 0; i < order.particles; ++i) {
         auto const id = order.id[static_cast<std::size_t>(i)];
         double const X = set.X[static_cast<std::size_t>(id)][c];
-        if (std::abs(X - (side == 0 ? low_[c] : high_[c])) > tolerance_) continue;
+        if (std::abs(X - at_[c][side]) > tolerance_) continue;
         multiplicity_[static_cast<std::size_t>(i)] *= 2;
+        on_plane_[static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(1U << c);
         on_plane.particles.push_back(id);
       }
       planes_.push_back(on_plane);
@@ -55,7 +70,7 @@ void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotO
 /// Identity first, then reflections and, between two planes, their products that come within reach of the body.
 std::vector<MirrorImages::AxisMap> MirrorImages::maps_along(std::size_t axis, double reach) const {
   std::vector<AxisMap> maps{{1, 0, 1}};
-  double const a = low_[axis], b = high_[axis];
+  double const a = at_[axis][0], b = at_[axis][1];
   auto const [lower, upper] = plane_[axis];
   auto const add = [&](AxisMap const& m) {
     double const p = m.sign * a + m.shift, q = m.sign * b + m.shift;
@@ -74,8 +89,8 @@ std::vector<MirrorImages::AxisMap> MirrorImages::maps_along(std::size_t axis, do
   return maps;
 }
 
-void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, double reach) {
-  auto const x = maps_along(0, reach), y = maps_along(1, reach), z = maps_along(2, reach);
+void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, std::array<double, 3> const& reach) {
+  auto const x = maps_along(0, reach[0]), y = maps_along(1, reach[1]), z = maps_along(2, reach[2]);
   auto const place = [](AxisMap const& m, double X) { return m.sign * X + m.shift; };
   // A particle on a plane is its own image: of maps that lead to the same place along an axis the first one counts.
   auto const is_new = [&](std::vector<AxisMap> const& maps, std::size_t k, double X) {
@@ -95,7 +110,7 @@ void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, 
           std::array const image{place(x[i], X[0]), place(y[j], X[1]), place(z[k], X[2])};
           bool wanted = is_new(x, i, X[0]) && is_new(y, j, X[1]) && is_new(z, k, X[2]);
           for (std::size_t c = 0; c < 3; ++c)
-            wanted = wanted && image[c] > low_[c] - reach && image[c] < high_[c] + reach;
+            wanted = wanted && image[c] > low_[c] - reach[c] && image[c] < high_[c] + reach[c];
           if (!wanted) continue;
           particles_.X.push_back(image);
           particles_.source.push_back(slot);
@@ -133,6 +148,36 @@ void MirrorImages::add_shifts(std::vector<Kind> const& values, std::vector<doubl
   }
 }
 
+void MirrorImages::keep(std::vector<Index> const& images) {
+  std::size_t to = 0;
+  for (Index const image : images) {
+    auto const from = static_cast<std::size_t>(image);
+    particles_.X[to] = particles_.X[from];
+    particles_.source[to] = particles_.source[from];
+    transform_[to] = transform_[from];
+    source_X_[to++] = source_X_[from];
+  }
+  particles_.X.resize(to);
+  particles_.source.resize(to);
+  transform_.resize(to);
+  source_X_.resize(to);
+}
+
+Copies const* MirrorImages::copies(int values, std::function<bool(int value, int axis)> const& turns) {
+  if (empty()) return nullptr;
+  auto table = std::make_unique<Table>();
+  for (auto const& map : maps_)
+    for (int value = 0; value < values; ++value) {
+      double sign = 1;
+      for (int axis = 0; axis < D_; ++axis)
+        if (turns(value, axis)) sign *= map.sign[static_cast<std::size_t>(axis)];
+      table->sign.push_back(sign);
+    }
+  table->copies = {first_, count(), particles_.source.data(), transform_.data(), values, table->sign.data(), nullptr};
+  tables_.push_back(std::move(table));
+  return &tables_.back()->copies;
+}
+
 Copies const* MirrorImages::copies(std::vector<Kind> const& values) {
   if (empty()) return nullptr;
   auto table = std::make_unique<Table>();
@@ -157,4 +202,4 @@ Copies const* MirrorImages::copies(std::vector<Kind> const& values) {
   return &tables_.back()->copies;
 }
 
-}  // namespace piola::jst_sph
+}  // namespace piola

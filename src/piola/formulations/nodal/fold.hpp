@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/mirror_images.hpp"
+#include "piola/formulations/nodal/quadratic.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// Vector fields of a body with mirror planes, D numbers per particle, images after the body's own: the images follow.
+template <int D>
+class Fold {
+ public:
+  Fold(MirrorImages const& images, std::size_t particles) : images_(images), particles_(particles) {}
+
+  /// Gives images what their sources have, and particles on a plane nothing across it.
+  void extend(std::vector<double>& u) const {
+    for (std::size_t a = 0; a < particles_; ++a)
+      for (std::size_t c = 0; c < D; ++c)
+        if (images_.on_plane(static_cast<Index>(a), c)) u[a * D + c] = 0;
+    each_image([&](std::size_t image, std::size_t source, std::size_t c, double sign) {
+      u[image * D + c] = sign * u[source * D + c];
+    });
+  }
+  /// The transpose, in the product of products(), and then extend: makes a preconditioner of the whole body one of
+  /// symmetric fields.
+  void gather(std::vector<double>& z) const {
+    each_image([&](std::size_t image, std::size_t source, std::size_t c, double sign) {
+      z[source * D + c] += sign * z[image * D + c];
+    });
+    for (std::size_t a = 0; a < particles_; ++a)
+      for (std::size_t c = 0; c < D; ++c) z[a * D + c] *= images_.multiplicity(static_cast<Index>(a));
+    extend(z);
+  }
+  /// Sums over the body itself, one per column.
+  std::array<double, static_cast<std::size_t>(D)> products(std::vector<double> const& u,
+                                                           std::vector<double> const& v) const {
+    std::array<double, static_cast<std::size_t>(D)> sum{};
+    for (std::size_t a = 0; a < particles_; ++a)
+      for (std::size_t c = 0; c < D; ++c)
+        sum[c] += u[a * D + c] * v[a * D + c] / images_.multiplicity(static_cast<Index>(a));
+    return sum;
+  }
+  /// Between two planes quadratics are no null space of anything.
+  bool endless() const {
+    for (std::size_t axis = 0; axis < D; ++axis)
+      if (images_.endless(axis)) return true;
+    return false;
+  }
+
+ private:
+  template <class F>
+  void each_image(F const& f) const {
+    for (Index k = 0; k < images_.count(); ++k)
+      for (std::size_t c = 0; c < D; ++c)
+        f(particles_ + static_cast<std::size_t>(k),
+          static_cast<std::size_t>(images_.particles().source[static_cast<std::size_t>(k)]), c, images_.sign(k)[c]);
+  }
+
+  MirrorImages const& images_;
+  std::size_t particles_;
+};
+
+}  // namespace piola::nodal

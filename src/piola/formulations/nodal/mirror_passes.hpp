@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/view.hpp"
+#include "piola/formulations/nodal/list_sums.hpp"
+#include "piola/formulations/nodal/state.hpp"
+
+/// Passes over the particles on mirror planes. Theory: docs/theory/nodal.md, section 6.
+namespace piola::nodal::inline PIOLA_MACHINE {
+
+/// Whether a component changes its sign in a mirror across `axis`: of monomials (1, p) with the components of a vector
+/// after them, as in Records.
+template <int D>
+constexpr bool turns(int m, int axis) {
+  constexpr int values = Quadratic<D>::values;
+  if (m >= values) return m - values == axis;
+  if (m >= 1 && m <= D) return m - 1 == axis;
+  bool odd = false;
+  for (int J = 0; J < D; ++J)
+    if (J != axis && m > D && m == 1 + D + Quadratic<D>::at(J, axis)) odd = true;
+  return odd;
+}
+
+/// The four points of a cell on a plane are no mirror image of themselves. The mean over them and their images is what
+/// the whole body has there: of the stress the even components.
+template <int D>
+struct KeepEven {
+  MirroredParticle const* particles;
+  WriteView stress;
+
+  PIOLA_FN void operator()(Index n) const {
+    MirroredParticle const& p = particles[n];
+    for (int axis = 0; axis < D; ++axis) {
+      if ((p.axes >> axis & 1) == 0) continue;
+      for (int c = 0; c < D; ++c)
+        for (int m = 0; m < Records<D>::used; ++m)
+          if ((c == axis) != turns<D>(m, axis)) stress.scalar(p.slot, 0.0, c * Records<D>::width + m);
+    }
+  }
+};
+
+/// What is on a plane stays there.
+template <int D>
+struct StayOnPlanes {
+  MirroredParticle const* particles;
+  WriteView a;
+
+  PIOLA_FN void operator()(Index n) const {
+    MirroredParticle const& p = particles[n];
+    for (int axis = 0; axis < D; ++axis)
+      if ((p.axes >> axis & 1) != 0) a.scalar(p.slot, 0.0, axis);
+  }
+};
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

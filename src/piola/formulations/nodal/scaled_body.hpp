@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/closure.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+#include <array>
+#include <vector>
+
+namespace piola::nodal {
+
+/// Cells and surface of a body in slot order and in units of its spacings. With mirror planes the body is the whole
+/// one: after its own particles come their images, and what belongs to a particle on a plane is that of the whole body.
+struct ScaledBody {
+  Points X;
+  std::vector<ScaledCell> cells;
+  std::vector<SurfacePatch> patches;
+  std::array<double, 3> h{1, 1, 1};
+  double h_volume = 1;        ///< product of the spacings
+  std::size_t particles = 0;  ///< without images
+};
+
+constexpr std::size_t moment_axis[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+
+/// Measures the cells of the body and continues it behind its mirror planes.
+ScaledBody scaled_body(SetUp const& from);
+
+}  // namespace piola::nodal
