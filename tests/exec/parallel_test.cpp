@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/parallel.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "exec/thread_count.hpp"
 #include "math/random.hpp"
+#include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -170,6 +172,34 @@ TEST(Record, IsEmptyWithoutFailures) {
   FailureSlot slot;
   exec::for_each(Range{0, 4000}, Fail{&slot, 5000});
   EXPECT_EQ(slot.index, FailureSlot::none);
+}
+
+/// Sums of the host, shared by threads; plain ones would differ in their last bits.
+TEST(SumsOf, HaveTheSameBitsForAnyNumberOfThreads) {
+  auto const term = [](Index k) { return std::sin(1.7 * k) * std::exp(0.01 * (k % 1000)); };
+  double const one = [&] {
+    Threads const keep(1);
+    return exec_host::sum_of(5001, term);
+  }();
+  for (int const threads : testing::thread_counts) {
+    Threads const keep(threads);
+    EXPECT_EQ(exec_host::sum_of(5001, term), one) << threads;
+  }
+  double plain = 0;
+  for (Index k = 0; k < 5001; ++k) plain += term(k);
+  EXPECT_NEAR(plain, one, 1e-8 * 22026);
+}
+
+TEST(FailureSlot, KeepsTheLowestId) {
+  std::vector<std::int64_t> const id{7, 3, 9, -1};  // the last slot holds no particle
+  FailureSlot slot;
+  slot.id = id.data();
+  for (Index const i : {3, 2, 0, 1, 2}) exec::record(&slot, i, 10 + i);
+  EXPECT_EQ(slot.index, 1);
+  EXPECT_EQ(slot.code, 11);
+  slot.clear();
+  EXPECT_EQ(slot.index, FailureSlot::none);
+  EXPECT_EQ(slot.id, id.data());
 }
 
 }  // namespace

@@ -8,8 +8,9 @@ namespace {
 /// Two supports at the ends of a beam, each of which holds two particles in y: statics decides.
 TEST(SharedReactions, AreThoseOfStaticsWhereTheseDecide) {
   std::vector<SupportRow> const rows{{0, {0, 0, 0}, {0, 1, 0}, 1}, {1, {2, 0, 0}, {0, 1, 0}, 1}};
-  Impulse rest;
-  rest.add({0.5, 0, 0}, {0, 8, 0});
+  ImpulseSum push;
+  push.add({0.5, 0, 0}, {0, 8, 0});
+  Impulse const rest = push.value();
   std::vector<Impulse> of_support(2);
   share_out(rows, rest, of_support);
   EXPECT_NEAR(of_support[0].linear[1], 6, 1e-12);
@@ -19,8 +20,9 @@ TEST(SharedReactions, AreThoseOfStaticsWhereTheseDecide) {
 
 TEST(SharedReactions, GoByMassAndLeaveOutWhatNothingHolds) {
   std::vector<SupportRow> const rows{{0, {0, 0, 0}, {1, 0, 0}, 1}, {1, {1, 0, 0}, {1, 0, 0}, 3}};
-  Impulse rest;
-  rest.add({0, 0, 0}, {4, 5, 0});
+  ImpulseSum push;
+  push.add({0, 0, 0}, {4, 5, 0});
+  Impulse const rest = push.value();
   std::vector<Impulse> of_support(2);
   share_out(rows, rest, of_support);
   EXPECT_NEAR(of_support[0].linear[0], 1, 1e-12);

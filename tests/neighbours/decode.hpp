@@ -70,16 +70,14 @@ struct SeenPairs {
     StencilTable const t = pairs.stencil();
     for (Index first = 0; first < order.slots(); first += lanes) {
       StencilPattern const& p = t.patterns[t.pattern_of[first / lanes]];
-      read_run(t, p.inner, first, lanes, true, false);
-      read_run(t, p.inner_masked, first, lanes, true, true);
-      read_run(t, p.outer, first, lanes, false, false);
-      read_run(t, p.outer_masked, first, lanes, false, true);
+      read_run(t, p.inner, first, lanes, true);
+      read_run(t, p.outer, first, lanes, false);
     }
   }
-  void read_run(StencilTable const& t, std::int32_t const (&run)[2], Index first, int lanes, bool inner, bool masked) {
+  void read_run(StencilTable const& t, std::int32_t const (&run)[2], Index first, int lanes, bool inner) {
     for (int e = run[0]; e < run[1]; ++e)
       for (int lane = 0; lane < lanes; ++lane) {
-        double const weight = masked ? t.weights[t.entries[e].weights + lane] : 1;
+        double const weight = t.entries[e].weights >= 0 ? t.weights[t.entries[e].weights + lane] : 1;
         if (weight == 0) continue;
         StencilOffset const& o = t.offsets[t.entries[e].offset];
         SeenPair seen{first + lane + t.entries[e].delta, {}, {}, weight * o.l, inner};

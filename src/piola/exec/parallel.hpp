@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/exact_sum.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/math/lanes.hpp"
 #include <type_traits>
@@ -11,11 +12,21 @@ struct Range {
   Index first = 0, last = 0;
 };
 
-/// Where a parallel loop records the first particle (lowest index) whose physics is not admissible.
+/// Where a parallel loop records the first particle (lowest id) whose physics is not admissible.
 struct FailureSlot {
   static constexpr Index none = 2147483647;
   Index index = none;
   int code = 0;
+  std::int64_t const* id = nullptr;  ///< per slot, negative where there is no particle; nullptr: in the order of slots
+
+  void clear() {
+    index = none;
+    code = 0;
+  }
+  bool is_after(Index i) const {
+    if (index == none || id == nullptr) return i < index;
+    return static_cast<std::uint64_t>(id[i]) < static_cast<std::uint64_t>(id[index]);
+  }
 };
 
 }  // namespace piola
@@ -159,14 +170,13 @@ struct BlockSums {
   }
 };
 
-/// Adds the partial sums of n blocks by a fixed tree: the same bits for any number of threads.
+/// Adds the partial sums of n blocks, exactly: the same bits for any number of threads, and wherever blocks stand.
 template <int N>
-Totals<N> add_partials(double* partial, Index n) {
-  for (Index step = 1; step < n; step *= 2)
-    for (Index k = 0; k + step < n; k += 2 * step)
-      for (int c = 0; c < N; ++c) partial[k * N + c] += partial[(k + step) * N + c];
+Totals<N> add_partials(double const* partial, Index n) {
+  ExactSums<N> sums;
+  for (Index k = 0; k < n; ++k) sums.add(partial + static_cast<std::ptrdiff_t>(k) * N);
   Totals<N> r;
-  for (int c = 0; c < N && n > 0; ++c) r.v[c] = partial[c];
+  for (int c = 0; c < N; ++c) r.v[c] = sums.value(c);
   return r;
 }
 
@@ -178,13 +188,13 @@ Totals<N> reduce(Range r, Pass const& pass, double* partial) {
   return add_partials<N>(partial, block_count(r));
 }
 
-/// Records a failure at particle i; the lowest index wins, so the report does not depend on the number of threads.
+/// Records a failure at particle i; the lowest id wins, so the report does not depend on threads or places in memory.
 PIOLA_FN void record(FailureSlot* slot, Index i, int code) {
 #if defined(__CUDA_ARCH__)
   if (atomicMin(&slot->index, i) > i) slot->code = code;
 #else
 #pragma omp critical(piola_failure)
-  if (i < slot->index) {
+  if (slot->is_after(i)) {
     slot->index = i;
     slot->code = code;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/exact_sum.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/math/lanes.hpp"
 
@@ -18,6 +19,32 @@ template <class F>
 void for_each_part_in_set_up(Index n, Index particles, F const& f) {
 #pragma omp parallel for schedule(static) num_threads(team(particles))
   for (Index k = 0; k < n; ++k) f(k);
+}
+
+/// N sums over k = 0 ... n - 1 of what f(k, x) leaves in x[0] ... x[N - 1], which are 0 before: exact, so that it does
+/// not matter which thread adds what. f throws nothing.
+template <int N, class F>
+exec::ExactSums<N> sums_of(Index n, F const& f) {
+  exec::ExactSums<N> all;
+#pragma omp parallel num_threads(team(n))
+  {
+    exec::ExactSums<N> mine;
+#pragma omp for schedule(static) nowait
+    for (Index k = 0; k < n; ++k) {
+      double x[N]{};
+      f(k, x);
+      mine.add(x);
+    }
+#pragma omp critical(piola_exact_sums)
+    all.add(mine);
+  }
+  return all;
+}
+
+/// The exact sum of f(k) over k = 0 ... n - 1.
+template <class F>
+double sum_of(Index n, F const& f) {
+  return sums_of<1>(n, [&](Index k, double* x) { *x = f(k); }).value();
 }
 
 }  // namespace piola::exec_host

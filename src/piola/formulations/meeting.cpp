@@ -173,6 +173,8 @@ void Meeting::sum_forces() {
 void Meeting::push(Formulations const& formulations, double time, double half) {
   std::vector<std::vector<std::int64_t>> ids(shares_.size());
   std::vector<std::vector<Point>> change(shares_.size());
+  std::vector<ImpulseSum> kept_by(actions_.supports.size());
+  exec::ExactSum kept_work;
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     Share const& share = shares_[s];
     auto pushed = pushed_.begin();
@@ -186,8 +188,8 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
         Vec<3> const d = vector_of(held.direction);
         Vec<3> const kept = dot(impulse, d) * d;
         impulse = impulse - kept;
-        work_ -= dot(kept, v_[i]);
-        actions_.supports[held.support].add(array_of(x_[i]), array_of(-1.0 * kept));
+        kept_work += dot(kept, v_[i]);
+        kept_by[held.support].add(array_of(x_[i]), array_of(-1.0 * kept));
       }
       ids[s].push_back(share.local[k]);
       change[s].push_back(array_of((1 / mass_[i]) * impulse));
@@ -195,6 +197,8 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
     }
     formulations[share.part]->push(ids[s], change[s]);
   }
+  for (std::size_t s = 0; s < kept_by.size(); ++s) actions_.supports[s].add(kept_by[s].value());
+  work_ -= kept_work.value();
   book(half);
   motion_.kick(system_, time, half);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace piola {
 
@@ -63,6 +64,7 @@ void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotO
         on_plane_[static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(1U << c);
         on_plane.particles.push_back(id);
       }
+      std::sort(on_plane.particles.begin(), on_plane.particles.end());
       planes_.push_back(on_plane);
     }
 }
@@ -97,6 +99,10 @@ void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, 
     return std::none_of(maps.begin(), maps.begin() + static_cast<std::ptrdiff_t>(k),
                         [&](AxisMap const& m) { return std::abs(place(m, X) - place(maps[k], X)) < tolerance_; });
   };
+  std::vector<Index> by_id(static_cast<std::size_t>(order.particles));
+  std::iota(by_id.begin(), by_id.end(), 0);
+  auto const id = [&](Index slot) { return order.id[static_cast<std::size_t>(slot)]; };
+  std::sort(by_id.begin(), by_id.end(), [&](Index a, Index b) { return id(a) < id(b); });
   for (std::size_t k = 0; k < z.size(); ++k)
     for (std::size_t j = 0; j < y.size(); ++j)
       for (std::size_t i = 0; i < x.size(); ++i) {
@@ -105,8 +111,8 @@ void MirrorImages::add_images(Assembly const& assembly, SlotOrder const& order, 
         maps_.push_back({{x[i].sign, y[j].sign, z[k].sign},
                          {x[i].shift, y[j].shift, z[k].shift},
                          x[i].turn * y[j].turn * z[k].turn});
-        for (Index slot = 0; slot < order.particles; ++slot) {
-          auto const& X = assembly.particles.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])];
+        for (Index const slot : by_id) {
+          auto const& X = assembly.particles.X[static_cast<std::size_t>(id(slot))];
           std::array const image{place(x[i], X[0]), place(y[j], X[1]), place(z[k], X[2])};
           bool wanted = is_new(x, i, X[0]) && is_new(y, j, X[1]) && is_new(z, k, X[2]);
           for (std::size_t c = 0; c < 3; ++c)

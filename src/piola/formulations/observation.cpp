@@ -6,30 +6,27 @@
 
 namespace piola {
 
-void Observation::add_strain_energy(double energy) {
-  totals.strain_energy += energy;
-  totals.bodies.back().strain_energy += energy;
-}
+void Observation::add_strain_energy(double energy) { bodies_.back().strain_energy += energy; }
 
 void Observation::add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass) {
+  double of_particle[7]{};
   for (std::size_t c = 0; c < 3; ++c) {
     std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
-    totals.linear_momentum[c] += mass * v[c];
-    totals.bodies.back().linear_momentum[c] += mass * v[c];
-    totals.bodies.back().kinetic_energy += 0.5 * mass * v[c] * v[c];
-    totals.angular_momentum[c] += mass * (x[p] * v[q] - x[q] * v[p]);
-    totals.kinetic_energy += 0.5 * mass * v[c] * v[c];
+    of_particle[0] += 0.5 * mass * v[c] * v[c];
+    of_particle[1 + c] = mass * v[c];
+    of_particle[4 + c] = mass * (x[p] * v[q] - x[q] * v[p]);
   }
+  bodies_.back().motion.add(of_particle);
 }
 
 void Observation::add_state(double jacobian, double pressure, double tributary) {
-  bool const first = !(volume > 0);
-  totals.jacobian_min = first ? jacobian : std::min(totals.jacobian_min, jacobian);
-  totals.jacobian_max = first ? jacobian : std::max(totals.jacobian_max, jacobian);
-  totals.pressure_min = first ? pressure : std::min(totals.pressure_min, pressure);
-  totals.pressure_max = first ? pressure : std::max(totals.pressure_max, pressure);
-  pressure_square += tributary * pressure * pressure;
-  volume += tributary;
+  bool const first = particles_++ == 0;
+  totals.jacobian_min = first ? jacobian : minimum(totals.jacobian_min, jacobian);
+  totals.jacobian_max = first ? jacobian : maximum(totals.jacobian_max, jacobian);
+  totals.pressure_min = first ? pressure : minimum(totals.pressure_min, pressure);
+  totals.pressure_max = first ? pressure : maximum(totals.pressure_max, pressure);
+  double const of_particle[]{tributary, tributary * pressure * pressure};
+  pressures_.add(of_particle);
 }
 
 void Observation::add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p) {
@@ -63,7 +60,7 @@ void Observation::add_oscillation(ParticleSet const& set, Body const& body, std:
     }
     return d;
   };
-  // All threads look them up, one adds them up in the order of ids.
+  // All threads look them up, one adds them up.
   constexpr std::int64_t most = std::int64_t{1} << 16;
   std::vector<Differences> found;
   for (std::int64_t first = 0; first < body.last - body.first; first += most) {
@@ -73,17 +70,32 @@ void Observation::add_oscillation(ParticleSet const& set, Body const& body, std:
     for (Differences const& d : found)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!d.exists[axis]) continue;
-        second_difference_square += d.value[axis] * d.value[axis];
-        second_difference_count += 1;
+        second_difference_square_ += d.value[axis] * d.value[axis];
+        ++second_differences_;
       }
   }
 }
 
 Diagnostics Observation::finish() const {
   Diagnostics d = totals;
-  double const level = std::sqrt(pressure_square / volume);
-  if (level > 0 && second_difference_count > 0)
-    d.pressure_oscillation = std::sqrt(second_difference_square / second_difference_count) / level;
+  exec::ExactSums<7> motion;
+  exec::ExactSum strain_energy;
+  for (BodySums const& body : bodies_) {
+    auto const& of = body.motion;
+    d.bodies.push_back({body.name, of.value(0), body.strain_energy.value(), {of.value(1), of.value(2), of.value(3)}});
+    motion.add(of);
+    strain_energy += body.strain_energy;
+  }
+  d.kinetic_energy = motion.value(0);
+  d.strain_energy = strain_energy.value();
+  for (int c = 0; c < 3; ++c) {
+    d.linear_momentum[static_cast<std::size_t>(c)] = motion.value(1 + c);
+    d.angular_momentum[static_cast<std::size_t>(c)] = motion.value(4 + c);
+  }
+  double const level = std::sqrt(pressures_.value(1) / volume());
+  if (level > 0 && second_differences_ > 0)
+    d.pressure_oscillation =
+        std::sqrt(second_difference_square_.value() / static_cast<double>(second_differences_)) / level;
   return d;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/exact_sum.hpp"
 #include "piola/formulations/formulation.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
@@ -8,15 +9,11 @@
 /// Sums over bodies that Diagnostics are made of, for every formulation.
 namespace piola {
 
+/// The particles may come in any order.
 struct Observation {
-  Diagnostics totals;
-  double pressure_square = 0;  ///< sum V p^2
-  double volume = 0;           ///< sum V
-  double second_difference_square = 0;
-  double second_difference_count = 0;
-
+  Diagnostics totals;  ///< but for what is summed over particles, which `finish` puts in
   /// What is added from here on belongs to this body, too.
-  void open_body(std::string const& name) { totals.bodies.push_back({name, 0, 0, {}}); }
+  void open_body(std::string const& name) { bodies_.push_back({name, {}, {}}); }
   void add_strain_energy(double energy);  ///< [J]
   /// One particle: position [m], velocity [m/s], mass [kg].
   void add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass);
@@ -28,6 +25,18 @@ struct Observation {
   /// The totals with the pressure oscillation: rms over all lattice lines of (p[i+1] - 2 p[i] + p[i-1]) / 4, divided by
   /// the volume-weighted rms of p.
   Diagnostics finish() const;
+  double volume() const { return pressures_.value(0); }  ///< sum V
+
+ private:
+  struct BodySums {
+    std::string name;
+    exec::ExactSum strain_energy;
+    exec::ExactSums<7> motion;  ///< kinetic energy, linear and angular momentum
+  };
+  std::vector<BodySums> bodies_;
+  exec::ExactSums<2> pressures_;  ///< V, V p^2
+  exec::ExactSum second_difference_square_;
+  std::int64_t particles_ = 0, second_differences_ = 0;
 };
 
 }  // namespace piola

@@ -24,12 +24,19 @@ Action action_of(std::string const& name, Point const& about, Impulse const& imp
 
 }  // namespace
 
-void Impulse::add(Point const& x, Point const& p) {
+void ImpulseSum::add(Point const& x, Point const& p) {
   Point const moment = cross(x, p);
+  double const numbers[]{p[0], p[1], p[2], moment[0], moment[1], moment[2]};
+  sums_.add(numbers);
+}
+
+Impulse ImpulseSum::value() const {
+  Impulse sum;
   for (std::size_t c = 0; c < 3; ++c) {
-    linear[c] += p[c];
-    angular[c] += moment[c];
+    sum.linear[c] = sums_.value(static_cast<int>(c));
+    sum.angular[c] = sums_.value(static_cast<int>(c) + 3);
   }
+  return sum;
 }
 
 void Impulse::add(Impulse const& other) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/exact_sum.hpp"
 #include "piola/mechanics/load.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
 #include "piola/mechanics/support.hpp"
@@ -22,9 +23,18 @@ struct Action {
 struct Impulse {
   std::array<double, 3> linear{};   ///< [N s]
   std::array<double, 3> angular{};  ///< about the origin [N m s]
+  void add(Impulse const& other);
+};
+
+/// The impulse of forces on many particles, which may come in any order.
+class ImpulseSum {
+ public:
   /// The impulse p [N s] of a force at x [m].
   void add(std::array<double, 3> const& x, std::array<double, 3> const& p);
-  void add(Impulse const& other);
+  Impulse value() const;
+
+ private:
+  exec::ExactSums<6> sums_;  ///< linear, angular
 };
 
 /// Impulses of the step that was taken last, which become forces and moments: impulse over dt. The force of a support

@@ -228,8 +228,10 @@ void BodyBoundary::note_places(FieldRef const& x) {
 }
 
 void BodyBoundary::end_step(FieldRef const& x, double& work) {
-  for (auto const& h : held_) work += h.work;
-  for (auto const& p : loaded_) work += p.work;
+  exec::ExactSum of_step;
+  for (auto const& h : held_) of_step += h.work;
+  for (auto const& p : loaded_) of_step += p.work;
+  work += of_step.value();
   for (std::size_t k = 0; k < held_.size(); ++k) {
     HeldDirection const& h = held_[k];
     auto const along_it = [&](double change) {
@@ -268,8 +270,8 @@ void BodyBoundary::take_out_ended(FieldRef const& rate) const {
 }
 
 void BodyBoundary::hand_over(Actions& actions) {
-  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_supports_[k]);
-  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(of_loads_[k]);
+  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_supports_[k].value());
+  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(of_loads_[k].value());
   of_supports_.assign(of_supports_.size(), {});
   of_loads_.assign(of_loads_.size(), {});
 }

@@ -120,7 +120,7 @@ class BodyBoundary {
   std::vector<LoadedParticle> loaded_;
   std::vector<Index> place_of_slot_;              ///< in loaded_
   std::vector<Point> held_start_, loaded_start_;  ///< at the start of the step [m]
-  std::vector<Impulse> of_supports_, of_loads_;
+  std::vector<ImpulseSum> of_supports_, of_loads_;
   double begun_ = 0, ended_ = 0;  ///< start and end of the step that `held_` and `loaded_` are for
   int released_ = -1;             ///< supports and loads that had ended when it began
 };

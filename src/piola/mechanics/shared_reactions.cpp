@@ -60,13 +60,15 @@ void share_out(std::vector<SupportRow> const& rows, Impulse const& rest, std::ve
   }
   matrix.factorise(size);
   matrix.solve(z);
+  std::vector<ImpulseSum> shares(of_support.size());
   for (SupportRow const& row : rows) {
     double speed = 0;
     for (std::size_t m = 0; m < RigidModes::count; ++m) speed += z[m] * modes.along(m, row.x, row.direction);
     Direction impulse = row.direction;
     for (double& c : impulse) c *= row.mass * speed;
-    of_support[row.support].add(row.x, impulse);
+    shares[row.support].add(row.x, impulse);
   }
+  for (std::size_t s = 0; s < shares.size(); ++s) of_support[s].add(shares[s].value());
 }
 
 }  // namespace piola

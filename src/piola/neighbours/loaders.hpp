@@ -42,17 +42,24 @@ struct StencilLoader {
     for (int c = 0; c < Body::sums; ++c) sums[c] = Lanes(0.0);
     auto const own = body.template own<Lanes>(i);
     StencilPattern const& p = table.patterns[table.pattern_of[i / lane_count]];
-    for (int e = p.inner[0]; e < p.inner[1]; ++e) visit<false, true>(i, table.entries[e], body, own, sums);
-    for (int e = p.inner_masked[0]; e < p.inner_masked[1]; ++e) visit<true, true>(i, table.entries[e], body, own, sums);
-    if constexpr (Body::outer_fields > 0) {
-      for (int e = p.outer[0]; e < p.outer[1]; ++e) visit<false, false>(i, table.entries[e], body, own, sums);
-      for (int e = p.outer_masked[0]; e < p.outer_masked[1]; ++e)
-        visit<true, false>(i, table.entries[e], body, own, sums);
-    }
+    visit_all<true>(i, p.inner, body, own, sums);
+    if constexpr (Body::outer_fields > 0) visit_all<false>(i, p.outer, body, own, sums);
     for (int c = 0; c < Body::sums; ++c) result[c] = sums[c];
   }
 
  private:
+  /// Entries that all lanes have come in long runs, so that the branch costs little.
+  template <bool Inner, class Body, class Own>
+  PIOLA_FN void visit_all(Index i, std::int32_t const (&run)[2], Body const& body, Own const& own,
+                          Lanes (&sums)[Body::sums]) const {
+    for (int e = run[0]; e < run[1]; ++e) {
+      StencilEntry const& entry = table.entries[e];
+      if (entry.weights < 0)
+        visit<false, Inner>(i, entry, body, own, sums);
+      else
+        visit<true, Inner>(i, entry, body, own, sums);
+    }
+  }
   template <bool Masked, bool Inner, class Body, class Own>
   PIOLA_FN void visit(Index i, StencilEntry const& e, Body const& body, Own const& own,
                       Lanes (&sums)[Body::sums]) const {

@@ -12,10 +12,10 @@ struct LanePair {
   int group;  // 0 inner, 1 outer
   std::int32_t delta, offset;
   int lane;
-  auto key() const { return std::tuple{group, delta, offset}; }
+  auto key() const { return std::tuple{group, offset, delta}; }
 };
 
-/// The entries of one group of lanes in comparable form: group, delta, offset, lanes present.
+/// The entries of one group of lanes in the order of sums: group, delta, offset, lanes present.
 using Shape = std::vector<std::array<std::int32_t, 4>>;
 
 Shape shape_of(std::vector<LanePair>& pairs) {
@@ -39,11 +39,12 @@ void ReferencePairs::make_stencils() {
   std::int32_t const full = (1 << W) - 1;
   std::int64_t lanes_present = 0, lanes_all = 0;
   std::vector<LanePair> pairs;
-  auto const add = [&](Shape const& shape, int group, bool masked, std::int32_t(&run)[2]) {
+  auto const add = [&](Shape const& shape, int group, std::int32_t(&run)[2]) {
     run[0] = static_cast<std::int32_t>(entries_.size());
     for (auto const& e : shape) {
-      if (e[0] != group || (e[3] != full) != masked) continue;
-      entries_.push_back({e[1], e[2], static_cast<std::int32_t>(weights_.size())});
+      if (e[0] != group) continue;
+      bool const masked = e[3] != full;
+      entries_.push_back({e[1], e[2], masked ? static_cast<std::int32_t>(weights_.size()) : -1});
       for (int lane = 0; masked && lane < W; ++lane) weights_.push_back(((e[3] >> lane) & 1) != 0 ? 1.0 : 0.0);
     }
     run[1] = static_cast<std::int32_t>(entries_.size());
@@ -67,10 +68,8 @@ void ReferencePairs::make_stencils() {
           });
         Shape const shape = shape_of(pairs);
         StencilPattern p{};
-        add(shape, 0, false, p.inner);
-        add(shape, 0, true, p.inner_masked);
-        add(shape, 1, false, p.outer);
-        add(shape, 1, true, p.outer_masked);
+        add(shape, 0, p.inner);
+        add(shape, 1, p.outer);
         patterns_.push_back(p);
         present.push_back(static_cast<std::int64_t>(pairs.size()));
         all.push_back(static_cast<std::int64_t>(shape.size()) * W);

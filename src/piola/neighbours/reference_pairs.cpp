@@ -13,6 +13,8 @@ namespace {
 /// Below this ratio of pivots a correction is meaningless: the neighbours do not span the space.
 constexpr double smallest_pivot_ratio = 1e-9;
 
+constexpr std::int64_t copies_last = std::int64_t{1} << 62;
+
 }  // namespace
 
 ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrder const& order,
@@ -38,7 +40,7 @@ ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrd
     for (std::size_t k = 0; k < static_cast<std::size_t>(particles_); ++k)
       X_[k] = set.X[static_cast<std::size_t>(order.id[k])];
     X_.insert(X_.end(), options.copies.X.begin(), options.copies.X.end());
-    search();
+    search(order);
   }
   correct(set, body, order);
   if (regular_)
@@ -70,15 +72,21 @@ void ReferencePairs::find_offsets(Body const& body) {
     int const wanted = lattice_[c] > 1 ? static_cast<int>(radius / body.spacing[c]) : 0;
     reach[c] = std::min(wanted, lattice_[c] - 1);
   }
-  for (int k = -reach[2]; k <= reach[2]; ++k)
-    for (int j = -reach[1]; j <= reach[1]; ++j)
-      for (int i = -reach[0]; i <= reach[0]; ++i) {
-        std::array const r{i * body.spacing[0], j * body.spacing[1], k * body.spacing[2]};
+  // Along the rows that are next to each other in memory first.
+  auto const axis = row_axes(body);
+  std::array<int, 3> offset{};
+  auto& i = offset[axis[0]];
+  auto& j = offset[axis[1]];
+  auto& k = offset[axis[2]];
+  for (k = -reach[axis[2]]; k <= reach[axis[2]]; ++k)
+    for (j = -reach[axis[1]]; j <= reach[axis[1]]; ++j)
+      for (i = -reach[axis[0]]; i <= reach[axis[0]]; ++i) {
+        std::array const r{offset[0] * body.spacing[0], offset[1] * body.spacing[1], offset[2] * body.spacing[2]};
         double const r2 = squared(r);
         if ((i == 0 && j == 0 && k == 0) || r2 > radius * radius) continue;
         bool const is_inner = r2 <= inner * inner;
         double const s = is_inner ? s_of(r2) : 0;
-        lattice_offset_.push_back({i, j, k});
+        lattice_offset_.push_back(offset);
         offsets_.push_back({s, {s * r[0], s * r[1], s * r[2]}, {r[0], r[1], r[2]}, r2, l_of(r2)});
         offset_inner_.push_back(is_inner ? 1 : 0);
         if (options_.kernel_table) offset_kernel_.push_back(kernel_of(r2));
@@ -214,7 +222,7 @@ void ReferencePairs::find_kinds(ParticleSet const& set, SlotOrder const& order) 
   distance_.resize(kinds_ * width, absent);
 }
 
-void ReferencePairs::search() {
+void ReferencePairs::search(SlotOrder const& order) {
   double const radius = options_.kernel->support * std::max(options_.h_gradient, options_.h_laplacian) * edge;
   std::vector<std::array<double, 3>> points(X_.begin(), X_.begin() + particles_);
   points.insert(points.end(), options_.copies.X.begin(), options_.copies.X.end());
@@ -224,16 +232,20 @@ void ReferencePairs::search() {
   std::vector<std::vector<Index>> found(static_cast<std::size_t>(parts()));
   each_part([&](Index part, Index first, Index end) {
     auto& near = found[static_cast<std::size_t>(part)];
+    std::vector<std::pair<std::int64_t, Index>> by_id;
     for (Index a = first; a < end; ++a) {
       auto const before = std::ssize(near);
+      by_id.clear();
       auto const& Xa = X_[static_cast<std::size_t>(a)];
       grid.visit(Xa, [&](Index point) {
         Index const b = point < particles_ ? point : point + empty;
         auto const& Xb = X_[static_cast<std::size_t>(b)];
         std::array const r{Xb[0] - Xa[0], Xb[1] - Xa[1], Xb[2] - Xa[2]};
-        if (b != a && squared(r) < radius * radius) near.push_back(b);
+        if (b != a && squared(r) < radius * radius)
+          by_id.emplace_back(b < slots_ ? order.id[static_cast<std::size_t>(b)] : copies_last + b, b);
       });
-      std::sort(near.begin() + before, near.end());
+      std::sort(by_id.begin(), by_id.end());
+      for (auto const& [id, b] : by_id) near.push_back(b);
       found_begin_[static_cast<std::size_t>(a) + 1] = std::ssize(near) - before;
     }
   });

@@ -102,7 +102,7 @@ class ReferencePairs {
   void find_offsets(Body const& body);
   /// Sorts slots by where in memory their neighbours are: kind_of_ and distance_.
   void find_kinds(ParticleSet const& set, SlotOrder const& order);
-  void search();
+  void search(SlotOrder const& order);
   /// Of particles and of their copies, in these slots.
   Index source_of(Index slot) const {
     return slot < slots_ ? slot : options_.copies.source[static_cast<std::size_t>(slot - slots_)];
@@ -171,7 +171,8 @@ void ReferencePairs::visit_kind(Index a, std::size_t kind, F const& f) const {
   }
 }
 
-/// f(pair) for every neighbour of the particle in slot a, in an order that depends on the particles alone.
+/// f(pair) for every neighbour of the particle in slot a, in an order that depends on the particles alone: of lattice
+/// offsets, or of ids with copies last.
 template <class F>
 void ReferencePairs::visit(Index a, F const& f) const {
   if (regular_) return visit_kind(a, corrections_.at(a), f);

@@ -25,12 +25,14 @@ struct StencilOffset {
 struct StencilEntry {
   std::int32_t delta;
   std::int32_t offset;
-  std::int32_t weights;  ///< masked entries: position of W factors, 1 where the neighbour exists, else 0
+  std::int32_t weights;  ///< position of W factors, 1 where the neighbour exists, else 0; negative: all lanes have it
 };
 
-/// Entries of a group of lanes, as four runs [begin, end).
+/// Entries of a group of lanes, as two runs [begin, end), each in the order of lattice offsets. So every lane meets its
+/// neighbours in this order, whatever lies beside it in memory: several entries share an offset where lanes find that
+/// neighbour at different distances.
 struct StencilPattern {
-  std::int32_t inner[2], inner_masked[2], outer[2], outer_masked[2];
+  std::int32_t inner[2], outer[2];
 };
 
 /// Regular lattices: no list per particle, only a few hundred distinct patterns per body.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/ordering.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/math/hash.hpp"
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <utility>
 
 namespace piola {
 
@@ -41,11 +44,47 @@ SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std
   return order;
 }
 
-SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
-  constexpr std::size_t rows = 8;
+std::array<std::size_t, 3> row_axes(Body const& body) {
   auto const longest =
       static_cast<std::size_t>(std::max_element(body.lattice.begin(), body.lattice.end()) - body.lattice.begin());
-  std::array<std::size_t, 3> const axis{longest, longest == 0 ? 1U : 0U, longest == 2 ? 1U : 2U};
+  return {longest, longest == 0 ? 1U : 0U, longest == 2 ? 1U : 2U};
+}
+
+namespace {
+
+Shuffle shuffle_of_tests;
+
+SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle) {
+  constexpr std::size_t tile = exec::block_size;
+  std::size_t const whole = static_cast<std::size_t>(order.particles) / tile;
+  struct Dealt {
+    std::uint64_t owner, place;
+    std::size_t tile;
+  };
+  std::vector<Dealt> tiles;
+  for (std::size_t k = 0; k < whole; ++k) {
+    std::uint64_t const random = mixed(shuffle.seed * 0x9E3779B97F4A7C15U + k);
+    tiles.push_back({random % static_cast<std::uint64_t>(shuffle.owners), mixed(random), k});
+  }
+  std::sort(tiles.begin(), tiles.end(), [](Dealt const& a, Dealt const& b) {
+    return std::tie(a.owner, a.place, a.tile) < std::tie(b.owner, b.place, b.tile);
+  });
+  SlotOrder dealt = order;
+  for (std::size_t k = 0; k < whole; ++k) {
+    if (shuffle.moved != nullptr && tiles[k].tile != k) ++*shuffle.moved;
+    std::copy_n(order.id.begin() + static_cast<std::ptrdiff_t>(tiles[k].tile * tile), tile,
+                dealt.id.begin() + static_cast<std::ptrdiff_t>(k * tile));
+  }
+  return dealt;
+}
+
+}  // namespace
+
+Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_tests, shuffle); }
+
+SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
+  constexpr std::size_t rows = 8;
+  auto const axis = row_axes(body);
   auto const wide = static_cast<std::size_t>(std::max(1, body.lattice[axis[1]])),
              high = static_cast<std::size_t>(std::max(1, body.lattice[axis[2]]));
   std::vector<std::size_t> rank(wide * high);
@@ -55,6 +94,11 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
       for (std::size_t z = k; z < std::min(k + rows, high); ++z)
         for (std::size_t y = j; y < std::min(j + rows, wide); ++y) rank[z * wide + y] = next++;
   return order_by_rows(set, body, axis, rank);
+}
+
+SlotOrder dealt_order(ParticleSet const& set, Body const& body) {
+  SlotOrder order = pencil_order(set, body);
+  return shuffle_of_tests.owners > 0 ? dealt_out(order, shuffle_of_tests) : order;
 }
 
 }  // namespace piola

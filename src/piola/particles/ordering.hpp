@@ -23,6 +23,23 @@ struct SlotOrder {
 SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std::size_t, 3> const& axis,
                         std::vector<std::size_t> const& rank);
 
+/// The axes of a body's lattice: the longest, along which its rows lie, and the others as they come.
+std::array<std::size_t, 3> row_axes(Body const& body);
+
 SlotOrder pencil_order(ParticleSet const& set, Body const& body);
+
+/// Tests that results do not depend on where particles stand: as if they were dealt out to several owners, tile by tile
+/// at random, each of which keeps its tiles together, in an order of its own. Tiles of 64 particles in the order of the
+/// body stay together as they are, an incomplete one at the end, because sums over blocks start with them.
+struct Shuffle {
+  int owners = 0;  ///< 0: particles stand in the order of the body
+  std::uint64_t seed = 1;
+  std::int64_t* moved = nullptr;  ///< counts tiles that stand elsewhere for it; nullptr: nobody wants to know
+};
+/// For all that dealt_order makes from now on; returns the one before. Not while others make orders.
+Shuffle set_shuffle(Shuffle const& shuffle);
+
+/// pencil_order, dealt out as the shuffle says: of formulations that promise not to depend on it.
+SlotOrder dealt_order(ParticleSet const& set, Body const& body);
 
 }  // namespace piola

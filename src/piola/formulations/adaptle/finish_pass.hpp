@@ -7,8 +7,8 @@ namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// What the particles of a block say: sums and extrema, in the order of Measures.
 struct BlockMeasures {
-  static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, dt = 6, overlap = 7,
-                       wishes = 8, size = 9;
+  static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, sums = 6, dt = 6,
+                       overlap = 7, wishes = 8, size = 9;
 };
 
 /// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18); in two dimensions with the strain across

@@ -76,7 +76,8 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   Books const& books = particles.books();
   Observation o;
   std::vector<double> pressures(at(s.particles));
-  double internal = 0, plastic = 0, eulerian = 0, failed = 0, hottest = 0;
+  exec::ExactSum internal_sum, plastic;
+  double eulerian = 0, failed = 0, hottest = 0;
   each_particle(s, [&](Index i, double pressure) {
     State const& p = s.state[i];
     Reference const& r = s.reference[i];
@@ -85,7 +86,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
     pressures[at(i)] = pressure;
     o.add_motion({p.x[0], p.x[1], p.x[2]}, {p.v[0], p.v[1], p.v[2]}, r.mass);
     o.add_state(rho0 / p.rho, pressure, r.volume);
-    internal += p.energy;
+    internal_sum += p.energy;
     o.add_strain_energy(p.energy);
     plastic += r.mass / rho0 * p.plastic_work;
     eulerian += p.phi > 0 ? 1 : 0;
@@ -97,6 +98,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
     o.add_oscillation(set, body, p);
   }
   Diagnostics d = o.finish();
+  double const internal = internal_sum.value();
   d.actions = particles.actions().report();
   d.strain_energy = internal + books.contact_energy + books.hourglass_energy;
   d.external_work = books.external_work;
@@ -104,7 +106,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   d.more = {{"internal_energy", internal},
             {"contact_energy", books.contact_energy},
             {"hourglass_energy", books.hourglass_energy},
-            {"plastic_work", plastic},
+            {"plastic_work", plastic.value()},
             {"viscous_loss", books.viscous_loss},
             {"eulerian_particles", eulerian},
             {"converted_particles", books.converted},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/particles.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
@@ -172,8 +173,10 @@ void Particles::set_particles(Assembly const& assembly) {
 void Particles::set_contact(Assembly const& assembly) {
   std::vector<std::array<double, 3>> mean(body_.size());
   for (std::size_t b = 0; b < body_.size(); ++b)
-    for (Index i = body_[b].first; i < body_[b].last; ++i)
-      for (std::size_t c = 0; c < 3; ++c) mean[b][c] += state_[at(i)].v[c] / (body_[b].last - body_[b].first);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Index const first = body_[b].first, n = body_[b].last - first;
+      mean[b][c] = exec_host::sum_of(n, [&](Index k) { return state_[at(first + k)].v[c]; }) / n;
+    }
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
   leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
   system_.contact.pair = contact_pairs_.data();
@@ -382,29 +385,34 @@ void Particles::sum_actions(double time, double dt) {
   auto const place = [&](std::size_t id) {
     return std::array{position_[3 * id], position_[3 * id + 1], position_[3 * id + 2]};
   };
-  for (std::size_t s = 0; s < supports_.size(); ++s)
+  for (std::size_t s = 0; s < supports_.size(); ++s) {
+    ImpulseSum sum;
     for (auto const particle : supports_[s].particles) {
       auto const id = static_cast<std::size_t>(particle);
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < 3; ++c)
         if (holder_[3 * id + c] == s) impulse[c] = dt * reaction_[3 * id + c];
-      actions_.supports[s].add(place(id), impulse);
+      sum.add(place(id), impulse);
     }
+    actions_.supports[s].add(sum.value());
+  }
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     if (loads_[l].name.empty() || has_ended(loads_[l].until, time + 0.5 * dt)) continue;
+    ImpulseSum sum;
     for (std::size_t k = 0; k < loads_[l].particles.size(); ++k) {
       auto const id = static_cast<std::size_t>(loads_[l].particles[k]);
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
         impulse[c] = dt * reference_[id].mass * load_on(loads_[l], k, X_[id], time + 0.5 * dt)[c];
-      actions_.loads[l].add(place(id), impulse);
+      sum.add(place(id), impulse);
     }
+    actions_.loads[l].add(sum.value());
   }
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
-    std::array<double, 6> sum{};
-    for (std::size_t at = 6 * k; at < rigid_action_.size(); at += 6 * shapes_.size())
-      for (std::size_t c = 0; c < 6; ++c) sum[c] += dt * rigid_action_[at + c];
-    actions_.rigids[k].add({{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}});
+    exec::ExactSums<6> sum;
+    for (std::size_t at = 6 * k; at < rigid_action_.size(); at += 6 * shapes_.size()) sum.add(&rigid_action_[at]);
+    actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
+                            {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
     std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
   }
 }
@@ -457,12 +465,10 @@ void Particles::damp(double factor) {
 }
 
 double Particles::kinetic_energy() const {
-  double sum = 0;
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    double const* v = state_[i].v;
-    sum += 0.5 * reference_[i].mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  return sum;
+  return exec_host::sum_of(system_.particles, [&](Index i) {
+    double const* v = state_[at(i)].v;
+    return 0.5 * reference_[at(i)].mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  });
 }
 
 std::size_t Particles::bytes() const {

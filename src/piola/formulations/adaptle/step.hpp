@@ -73,14 +73,22 @@ struct Step {
   Measures finish(double dt) const {
     Measures m;
     m.dt = 1e300;
+    exec::ExactSums<BlockMeasures::sums> sums;
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
         Range const r = body_range(b);
         double const* rigid_power = s.rigids > 0 ? s.rigid_power : nullptr;
         exec::for_each_block(
             r, Finish<D, std::decay_t<decltype(law)>>{law, s.body[b], s.settings, dt, s, rigid_power, s.partial});
-        add_blocks(exec::block_count(r), m);
+        add_blocks(exec::block_count(r), m, sums);
       });
+    using B = BlockMeasures;
+    m.contact_power = sums.value(B::contact);
+    m.hourglass_power = sums.value(B::hourglass);
+    m.rigid_power = sums.value(B::rigid);
+    m.held_power = sums.value(B::held);
+    m.load_power = sums.value(B::load);
+    m.viscous_power = sums.value(B::viscous);
     return m;
   }
 
@@ -114,17 +122,11 @@ struct Step {
                            SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
   }
 
-  /// In the order of blocks: the same bits for any number of threads.
-  void add_blocks(Index blocks, Measures& m) const {
+  void add_blocks(Index blocks, Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {
     using B = BlockMeasures;
     for (Index k = 0; k < blocks; ++k) {
       double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;
-      m.contact_power += p[B::contact];
-      m.hourglass_power += p[B::hourglass];
-      m.rigid_power += p[B::rigid];
-      m.held_power += p[B::held];
-      m.load_power += p[B::load];
-      m.viscous_power += p[B::viscous];
+      sums.add(p);
       m.dt = p[B::dt] < m.dt ? p[B::dt] : m.dt;
       m.overlap = p[B::overlap] > m.overlap ? p[B::overlap] : m.overlap;
       m.wishes += static_cast<Index>(p[B::wishes]);

@@ -18,7 +18,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(pencil_order(set, body_)),
+      order_(dealt_order(set, body_)),
       set_(&set),
       images_(assembly, body, order_, {reach(), reach(), reach()}),
       fields_(D_),
@@ -98,15 +98,17 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   k.project = options_.project && !k.mirrored;
   k.without_rigid = options_.without_rigid() && !k.mirrored;
   if (options_.hourglass()) set_hourglass(mu);
-  for (auto id = body_.first; id < body_.last; ++id) {
-    auto const at = static_cast<std::size_t>(id);
-    k.total_volume += set.volume[at];
-    for (std::size_t c = 0; c < 3; ++c) k.centre[c] += set.volume[at] * set.X[at][c];
-  }
-  for (double& c : k.centre) c /= k.total_volume;
+  auto const moments = exec_host::sums_of<4>(order_.particles, [&](Index i, double* sum) {
+    auto const X = this->X(i);
+    sum[3] = volume(i);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] = volume(i) * X[c];
+  });
+  k.total_volume = moments.value(3);
+  for (int c = 0; c < 3; ++c) k.centre[c] = moments.value(c) / k.total_volume;
   constexpr Index widest = ForceTotals<3>::size;
   partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots) + 1) * widest);
   state_.partial = partial_.data();
+  failure_.id = order_.id.data();
   state_.failure = &failure_;
   state_.regular = pairs_->regular();
   if (state_.regular)
@@ -471,29 +473,23 @@ void JstBody::damp(double factor) {
 }
 
 double JstBody::hourglass_energy() const {
-  double sum = 0;
-  if (options_.hourglass())
-    for (Index i = 0; i < order_.particles; ++i) sum += volume(i) * value(state_.hourglass_energy, i);
-  return sum;
+  if (!options_.hourglass()) return 0;
+  return exec_host::sum_of(order_.particles, [&](Index i) { return volume(i) * value(state_.hourglass_energy, i); });
 }
 
 double JstBody::filtered_energy() const {
-  double sum = 0;
-  if (state_.seen_ratio.data != nullptr)
-    for (Index i = 0; i < order_.particles; ++i) {
-      double const change = value(state_.seen_ratio, i) - 1;
-      sum += volume(i) * change * change;
-    }
-  return 0.5 * state_.constants.kappa_filtered * sum;
+  if (state_.seen_ratio.data == nullptr) return 0;
+  return 0.5 * state_.constants.kappa_filtered * exec_host::sum_of(order_.particles, [&](Index i) {
+           double const change = value(state_.seen_ratio, i) - 1;
+           return volume(i) * change * change;
+         });
 }
 
 double JstBody::kinetic_energy() const {
-  double sum = 0;
-  for (Index i = 0; i < order_.particles; ++i) {
-    auto const v = this->v(i);
-    sum += volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  return 0.5 * state_.constants.rho0 * sum;
+  return 0.5 * state_.constants.rho0 * exec_host::sum_of(order_.particles, [&](Index i) {
+           auto const v = this->v(i);
+           return volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+         });
 }
 
 Mat<3> JstBody::F(Index slot) const {

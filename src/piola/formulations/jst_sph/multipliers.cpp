@@ -48,7 +48,10 @@ std::vector<NearParticle> interpolation(Cloud const& cloud, CellGrid const& grid
     double const q = std::sqrt(dot(r, r));
     if (q < cloud.kernel->support) near.push_back({a, r, cloud.kernel->w(cloud.dimension, q)});
   });
-  std::sort(near.begin(), near.end(), [](auto const& a, auto const& b) { return a.slot < b.slot; });
+  // By places, which no order in memory changes.
+  std::sort(near.begin(), near.end(), [&](auto const& a, auto const& b) {
+    return cloud.X[static_cast<std::size_t>(a.slot)] < cloud.X[static_cast<std::size_t>(b.slot)];
+  });
   bool const good = cloud.dimension == 3   ? correct_linearly<3>(near)
                     : cloud.dimension == 2 ? correct_linearly<2>(near)
                                            : correct_linearly<1>(near);
@@ -198,12 +201,13 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   }
   set_modes(x);
   correct(v, wanted);
-  double work = 0;
+  std::vector<ImpulseSum> impulses(impulses_.size());
+  exec::ExactSum work;
   double const share = stage ? 0.5 : 1.0;  // of a change of v* in that of v^(n+1)
   for (std::size_t a = 0; a < slots_.size(); ++a) {
     Point impulse = change_[a];
     for (double& c : impulse) c *= share * body.constants.rho0 * volume_[a];
-    if (call.when != MultiplierCall::When::start) impulses_[owner_[a]].add(x[a], impulse);
+    if (call.when != MultiplierCall::When::start) impulses[owner_[a]].add(x[a], impulse);
     for (int c = 0; c < D_; ++c) {
       auto const k = static_cast<std::size_t>(c);
       double const change = change_[a][k];
@@ -216,7 +220,8 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
     }
   }
   if (call.when == MultiplierCall::When::start) return;
-  body.totals.external_work += share * body.constants.rho0 * work;
+  for (std::size_t s = 0; s < impulses.size(); ++s) impulses_[s].add(impulses[s].value());
+  body.totals.external_work += share * body.constants.rho0 * work.value();
 }
 
 std::size_t Multipliers::bytes() const {

@@ -101,7 +101,7 @@ void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
   std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
   bool const solid = is_solid(body.state().material);
-  double strain = 0;
+  exec::ExactSum strain;
   o.open_body(body.body().name);
   with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = 0; i < body.particles(); ++i) {
@@ -111,13 +111,13 @@ void observe(JstBody const& body, JstObservation& o) {
       if (solid) o.plastic_work += V * history(body, i, SolidFields::plastic_work);
       double const mismatch = volume_mismatch(body, J, i);
       o.mismatch_square += V * mismatch * mismatch;
-      o.mismatch_max = std::max(o.mismatch_max, std::abs(mismatch));
+      o.mismatch_max = maximum(o.mismatch_max, std::abs(mismatch));
       o.add_state(J, p, V);
       pressure[static_cast<std::size_t>(body.id(i) - body.body().first)] = p;
       o.add_motion(body.x(i), body.v(i), V * law.rho0);
     }
   });
-  o.add_strain_energy(strain + body.hourglass_energy());
+  o.add_strain_energy(strain.value() + body.hourglass_energy());
   o.hourglass_energy += body.hourglass_energy();
   if (body.options().hourglass())
     d.stabilisation_loss += body.state().totals.viscous_work - body.hourglass_energy() - body.filtered_energy();
@@ -130,9 +130,9 @@ void observe(JstBody const& body, JstObservation& o) {
 
 Diagnostics finish(JstObservation const& o) {
   Diagnostics d = o.finish();
-  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square / o.volume)},
+  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square.value() / o.volume())},
             {"volume_mismatch_max", o.mismatch_max},
-            {"plastic_work", o.plastic_work},
+            {"plastic_work", o.plastic_work.value()},
             {"internal_energy", d.strain_energy},
             {"hourglass_energy", o.hourglass_energy}};
   return d;

@@ -8,9 +8,10 @@
 namespace piola::jst_sph {
 
 struct JstObservation : Observation {
-  double mismatch_square = 0;  ///< sum V (det F - volume ratio of the volumetric energy)^2
+  exec::ExactSum mismatch_square;  ///< sum V (det F - volume ratio of the volumetric energy)^2
   double mismatch_max = 0;
-  double plastic_work = 0, hourglass_energy = 0;  ///< [J]
+  exec::ExactSum plastic_work;  ///< [J]
+  double hourglass_energy = 0;  ///< [J]
 };
 
 void observe(JstBody const& body, JstObservation& observation);

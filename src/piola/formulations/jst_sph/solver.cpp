@@ -180,9 +180,13 @@ class Solver final : public Formulation {
 FailureSlot Solver::failure_of(JstBody const& body, double largest_speed) {
   FailureSlot const recorded = *body.state().failure;
   if (recorded.index < body.particles() || !std::isnan(largest_speed)) return recorded;
-  for (Index i = 0; i < body.particles(); ++i)
-    if (std::isnan(JstBody::value(body.state().wave_speed, i))) return {i, no_wave_speed};
-  return recorded;
+  FailureSlot found = recorded;
+  for (Index i = 0; i < body.particles(); ++i) {
+    if (!std::isnan(JstBody::value(body.state().wave_speed, i)) || !found.is_after(i)) continue;
+    found.index = i;
+    found.code = no_wave_speed;
+  }
+  return found;
 }
 
 std::optional<Failure> Solver::failure() const {

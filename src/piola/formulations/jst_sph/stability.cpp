@@ -115,22 +115,21 @@ class Operator {
   }
 
  private:
-  std::size_t at(Index i, int c) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(D_) + c; }
+  /// Displacements and modes are in the order of ids, what is kept of fields in that of slots.
+  std::size_t at(Index i, int c) const {
+    return static_cast<std::size_t>(body_.id(i) - body_.body().first) * static_cast<std::size_t>(D_) + c;
+  }
+  std::size_t kept_at(Index i, int c) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(D_) + c; }
   template <class F>
   void each_particle(F const& f) const {
     exec_host::for_each_in_set_up(body_.particles(), f);
   }
-  /// In the order of slots, so that its bits depend on nothing else.
   double square(std::vector<double> const& u) const {
-    double sum = 0;
-    for (Index i = 0; i < body_.particles(); ++i) {
-      double const volume = body_.volume(i);
-      for (int c = 0; c < D_; ++c) {
-        double const value = u[at(i, c)];
-        sum += volume * value * value;
-      }
-    }
-    return sum;
+    return exec_host::sum_of(body_.particles(), [&](Index i) {
+      double sum = 0;
+      for (int c = 0; c < D_; ++c) sum += u[at(i, c)] * u[at(i, c)];
+      return body_.volume(i) * sum;
+    });
   }
   /// Makes of the displacement u its rates, minus those without displacement if there are any to take away. Hourglass
   /// forces see positions, too.
@@ -139,8 +138,8 @@ class Operator {
     each_particle([&](Index i) {
       auto const X = body_.X(i);
       for (int c = 0; c < D_; ++c) {
-        auto const k = at(i, c);
-        JstBody::set(trial_.v, i, c, u[k]);
+        auto const k = kept_at(i, c);
+        JstBody::set(trial_.v, i, c, u[at(i, c)]);
         JstBody::set(trial_.rate, i, c, 0);
         if (hourglass) JstBody::set(trial_.x, i, c, x_ != nullptr ? x_[k] : X[static_cast<std::size_t>(c)]);
         for (int d = 0; d < D_; ++d)

@@ -50,7 +50,7 @@ class StabilityMonitor {
 
   JstBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;        ///< in slot order
+  std::vector<double> mode_;        ///< in the order of ids
   double frequency_ = 0;            ///< 1/s, at the last measurement
   double frequency_per_speed_ = 0;  ///< 1/m, at the start
   double wave_speed_ = 0;           ///< m/s, largest one at the last measurement

@@ -3,9 +3,9 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
-#include "piola/materials/solids.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/materials/laws.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -140,6 +140,7 @@ void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) 
   set_viscosity(materials.front());
   partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots)) + 1);
   state_.partial = partial_.data();
+  failure_.id = order_.id.data();
   state_.failure = &failure_;
 }
 
@@ -274,32 +275,26 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
     return 0;
   }
   machine.restore(state_);
-  failure_ = {};
+  failure_.clear();
   int const first = step(machine, time, 0.5 * dt, halvings + 1);
   return 1 + first + (failed() ? 0 : step(machine, time + 0.5 * dt, 0.5 * dt, halvings + 1));
 }
 
 double NodalBody::kinetic_energy() const {
-  double sum = 0;
-  for (Index i = 0; i < order_.particles; ++i) {
+  return exec_host::sum_of(order_.particles, [&](Index i) {
     auto const v = this->v(i);
-    sum += 0.5 * mass(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  return sum;
+    return 0.5 * mass(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  });
 }
 
 double NodalBody::strain_energy() const {
-  double sum = 0;
-  for (Index i = 0; i < order_.particles; ++i) sum += volume(i) * value(state_.cell, i, 0);
-  return sum;
+  return exec_host::sum_of(order_.particles, [&](Index i) { return volume(i) * value(state_.cell, i, 0); });
 }
 
 double NodalBody::viscous_loss() const {
-  double sum = 0;
+  if (!fields_.with_viscosity) return 0;
   int const loss = Fields::viscous_values(D_) - 1;
-  for (Index i = 0; fields_.with_viscosity && i < order_.particles; ++i)
-    sum += volume(i) * value(state_.viscous, i, loss);
-  return sum;
+  return exec_host::sum_of(order_.particles, [&](Index i) { return volume(i) * value(state_.viscous, i, loss); });
 }
 
 double NodalBody::mean_of_points(Index slot, int number) const {

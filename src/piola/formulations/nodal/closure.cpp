@@ -21,10 +21,13 @@ using Columns = std::array<double, static_cast<std::size_t>(D)>;
 
 template <int D>
 Columns<D> products(std::vector<double> const& u, std::vector<double> const& v) {
-  Columns<D> sum{};
-  for (std::size_t k = 0; k < u.size(); k += D)
-    for (std::size_t J = 0; J < D; ++J) sum[J] += u[k + J] * v[k + J];
-  return sum;
+  auto const sums = exec_host::sums_of<D>(static_cast<Index>(u.size() / D), [&](Index particle, double* sum) {
+    std::size_t const first = static_cast<std::size_t>(particle) * D;
+    for (std::size_t J = 0; J < D; ++J) sum[J] = u[first + J] * v[first + J];
+  });
+  Columns<D> result{};
+  for (int J = 0; J < D; ++J) result[static_cast<std::size_t>(J)] = sums.value(J);
+  return result;
 }
 
 /// Takes from every column the quadratic that fits it best. Quadratics change no gradient, but are large in solutions

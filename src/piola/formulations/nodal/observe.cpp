@@ -53,7 +53,7 @@ std::vector<double> by_id(NodalBody const& body, std::vector<double> const& by_s
 }  // namespace
 
 void observe(NodalBody const& body, NodalObservation& o) {
-  bool const first = !(o.volume > 0);
+  bool const first = !(o.volume() > 0);
   o.open_body(body.body().name);
   auto const of_cells = cell_pressures(body), smooth = body.smoothing()(of_cells);
   for (Index i = 0; i < body.particles(); ++i) {

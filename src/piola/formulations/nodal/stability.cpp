@@ -79,13 +79,14 @@ StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
 }
 
 std::size_t StabilityMonitor::place(Index i, int c) const {
-  return static_cast<std::size_t>(i) * static_cast<std::size_t>(body_.state().dimension) + static_cast<std::size_t>(c);
+  auto const number = static_cast<std::size_t>(body_.id(i) - body_.body().first);
+  return number * static_cast<std::size_t>(body_.state().dimension) + static_cast<std::size_t>(c);
 }
 
 template <class F>
 void StabilityMonitor::each_number(F const& f) const {
   exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
-    for (std::size_t k = place(i, 0); k < place(i + 1, 0); ++k) f(k);
+    for (int c = 0; c < body_.state().dimension; ++c) f(place(i, c));
   });
 }
 
@@ -122,23 +123,23 @@ StabilityMonitor::Vector StabilityMonitor::accelerations() {
 /// sum m u.v
 double StabilityMonitor::product(Vector const& u, Vector const& v) const {
   int const D = body_.state().dimension;
-  double sum = 0;
-  for (std::size_t k = 0; k < u.size();) {
-    double of_particle = 0;
-    for (int c = 0; c < D; ++c, ++k) of_particle += u[k] * v[k];
-    sum += body_.mass(static_cast<Index>(k) / D - 1) * of_particle;
-  }
-  return sum;
+  return exec_host::sum_of(body_.particles(), [&](Index i) {
+    double sum = 0;
+    for (int c = 0; c < D; ++c) sum += u[place(i, c)] * v[place(i, c)];
+    return body_.mass(i) * sum;
+  });
 }
 
 /// sum m a^2 of what moves freely.
 double StabilityMonitor::square_of_accelerations() const {
   auto const& state = body_.state();
   int const D = state.dimension;
-  double sum = 0;
-  for (Index i = 0; i < body_.particles(); ++i)
-    for (int c = 0; c < D; ++c) sum += body_.mass(i) * value_at(state.a, i, c) * value_at(state.a, i, c);
-  return sum - body_.boundary().square_of_held(state);
+  double const all = exec_host::sum_of(body_.particles(), [&](Index i) {
+    double sum = 0;
+    for (int c = 0; c < D; ++c) sum += value_at(state.a, i, c) * value_at(state.a, i, c);
+    return body_.mass(i) * sum;
+  });
+  return all - body_.boundary().square_of_held(state);
 }
 
 /// One cycle of Lanczos' method for -da/dx, which is symmetric in the product above, from the mode, which becomes the

@@ -50,14 +50,14 @@ class StabilityMonitor {
 
   NodalBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;
-  double frequency_ = 0;  ///< 1/s, at the last measurement
-  double start_ = 0;      ///< 1/s, at the start
-  double steps_ = 0;      ///< since the last measurement
-  double caution_ = 1;    ///< share of the step that is left after steps that had to be halved
-  double accurate_ = 0;   ///< step that keeps the energy as well as is wanted [s]; 0: any
-  double pace_ = 0;       ///< steps between the last two measurements; 0: there was one alone
-  double interval_ = 0;   ///< steps to the next measurement while strains change little
+  std::vector<double> mode_;  ///< in the order of ids
+  double frequency_ = 0;      ///< 1/s, at the last measurement
+  double start_ = 0;          ///< 1/s, at the start
+  double steps_ = 0;          ///< since the last measurement
+  double caution_ = 1;        ///< share of the step that is left after steps that had to be halved
+  double accurate_ = 0;       ///< step that keeps the energy as well as is wanted [s]; 0: any
+  double pace_ = 0;           ///< steps between the last two measurements; 0: there was one alone
+  double interval_ = 0;       ///< steps to the next measurement while strains change little
 };
 
 }  // namespace piola::nodal

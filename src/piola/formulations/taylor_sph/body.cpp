@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
@@ -364,12 +365,10 @@ void TaylorBody::damp(double factor) {
 }
 
 double TaylorBody::kinetic_energy() const {
-  double sum = 0;
-  for (Index i = 0; i < particles(); ++i) {
+  return exec_host::sum_of(particles(), [&](Index i) {
     auto const velocity = v(i);
-    sum += 0.5 * mass_[at(i)] * dot(velocity, velocity);
-  }
-  return sum;
+    return 0.5 * mass_[at(i)] * dot(velocity, velocity);
+  });
 }
 
 /// `ahead`: how far the surface has drifted on when its normals are taken [s].

@@ -136,6 +136,9 @@ class TaylorBody {
   };
   /// `tractions`: what acted on the particles; nothing: to be found from the surface of half time.
   void add_impulses(double time, double dt, std::vector<Push> const* tractions = nullptr);
+  /// add(load, place, impulse) of each particle.
+  template <class F>
+  void visit_pushes(double time, double dt, std::vector<Push> const* tractions, F const& add);
   void turn_boundary(double ahead);
   void conserve_momentum();
   Impulse momentum();

@@ -208,15 +208,22 @@ void TaylorBody::note_distances(Points const& x) {
 
 /// Impulse of tractions and accelerations, and its moment, with the places of half time.
 void TaylorBody::add_impulses(double time, double dt, std::vector<Push> const* tractions) {
-  of_load_.assign(of_load_.size(), {});
+  std::vector<ImpulseSum> of_load(of_load_.size());
   auto const add = [&](std::size_t load, std::array<double, 3> const& x, std::array<double, 3> const& impulse) {
-    of_load_[load].add(x, impulse);
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::size_t const p = (c + 1) % 3, q = (c + 2) % 3;
-      momentum_[c] += impulse[c];
-      momentum_[3 + c] += x[p] * impulse[q] - x[q] * impulse[p];
-    }
+    of_load[load].add(x, impulse);
   };
+  visit_pushes(time, dt, tractions, add);
+  for (std::size_t load = 0; load < of_load.size(); ++load) {
+    of_load_[load] = of_load[load].value();
+    for (std::size_t c = 0; c < 3; ++c) {
+      momentum_[c] += of_load_[load].linear[c];
+      momentum_[3 + c] += of_load_[load].angular[c];
+    }
+  }
+}
+
+template <class F>
+void TaylorBody::visit_pushes(double time, double dt, std::vector<Push> const* tractions, F const& add) {
   double const back = state_.k.moving ? -0.5 * dt : 0;
   boundary_.each_acceleration(time + 0.5 * dt, [&](std::size_t load, Index i, std::array<double, 3> a) {
     for (double& c : a) c *= dt * mass_[at(i)];

@@ -32,6 +32,7 @@ void TaylorBody::find_reactions(Impulse const& before, double dt) {
   take_out(before);
   for (Impulse const& load : of_load_) take_out(load);
   std::vector<SupportRow> rows;
+  std::vector<ImpulseSum> of_support(of_support_.size());
   for (std::size_t k = 0; k < boundary_.particles().size(); ++k) {
     Index const particle = boundary_.particles()[k];
     BoundaryItem const& item = state_.items[k];
@@ -42,10 +43,11 @@ void TaylorBody::find_reactions(Impulse const& before, double dt) {
       rows.push_back({static_cast<std::size_t>(item.support[h]), x, d, mass_[at(particle)]});
       Direction impulse = d;
       for (double& c : impulse) c *= dt * dot(f, d);
-      of_support_[rows.back().support].add(x, impulse);
+      of_support[rows.back().support].add(x, impulse);
     }
   }
   if (rows.empty()) return;
+  for (std::size_t s = 0; s < of_support.size(); ++s) of_support_[s] = of_support[s].value();
   for (Impulse const& support : of_support_) take_out(support);
   share_out(rows, rest, of_support_);
 }
