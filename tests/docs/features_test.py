@@ -268,6 +268,8 @@ FEATURES = {
     "`johnson_cook`": material(name="copper_ofhc"),
     "`zerilli_armstrong`": material(law="zerilli_armstrong", **STEEL, athermal_stress=2e8, thermal_softening=0.002,
                                     thermal_rate=1e-4),
+    "`steinberg_guinan`": material(law="steinberg_guinan", **YIELD, strain_factor=36, hardening_exponent=0.45,
+                                   pressure_coefficient=2.8e-11),
     "`johnson_holmquist`, glass and ceramics": material(name="soda_lime_glass"),
     "equations of state: `stiffened_gas`": metal(eos="stiffened_gas", adiabatic_exponent=4),
     "equations of state: `mie_grueneisen`": metal(eos="mie_grueneisen", grueneisen_gamma=2, hugoniot_s1=1.5),

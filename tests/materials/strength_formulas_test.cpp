@@ -45,6 +45,46 @@ TEST(ZerilliArmstrongReturn, EndsOnTheYieldSurface) {
         }
 }
 
+/// Half-hard oxygen-free copper of Steinberg 1996, at 300 K.
+SteinbergGuinan half_hard_copper() {
+  double const v[] = {0.12e9, 36, 0.45, 0, 0.64e9, 2.83e-11, 3.77e-4, 1790, 1.5, 2.02};
+  double const heat[Heat::size] = {383, 1, 0, 300, unbounded, 1};
+  return {v, Heat(heat)};
+}
+
+TEST(SteinbergGuinanStress, HasTheValuesOfTheFormulas) {
+  auto const law = half_hard_copper();
+  EXPECT_EQ(law.hardened(0), 0.12e9);
+  EXPECT_NEAR(law.hardened(0.1), 238463695.676, 1e-2);  // 120 MPa times 4.6^0.45
+  EXPECT_EQ(law.hardened(2), 0.64e9) << "1 + 36 2 to the power 0.45 is 6.9";
+  EXPECT_EQ(law.stiffness(0, 1, 300), 1);
+  EXPECT_NEAR(law.stiffness(10e9, 1.07, 400), 1.238988967645, 1e-12);  // 1 + 0.283/1.07^(1/3) - 0.0377
+  EXPECT_EQ(law.stiffness(-50e9, 1, 300), 0);
+  EXPECT_EQ(law.melting(1), 1790);
+  EXPECT_NEAR(law.melting(1.2), 3159.0847, 1e-3);  // 1790 exp(0.5) 1.2^0.3733
+  FlowState const s{.plastic_strain = 0.1, .temperature = 400, .pressure = 10e9, .compression = 1.07};
+  EXPECT_NEAR(law.yield_stress(s, 1e5), 295453888.1266, 1e-2);
+  EXPECT_EQ(law.yield_stress({.temperature = 1790}, 1e5), 0);
+  EXPECT_GT(law.yield_stress({.temperature = 1790, .pressure = 20e9, .compression = 1.2}, 1e5), 0) << "not molten";
+}
+
+TEST(SteinbergGuinanReturn, EndsOnTheYieldSurface) {
+  auto const law = half_hard_copper();
+  for (double const mises : {1e8, 4e8, 5e9})
+    for (double const strain : {0.0, 0.2, 3.0})
+      for (double const pressure : {-1e9, 0.0, 2e10}) {
+        FlowState const s{.plastic_strain = strain, .temperature = 350, .pressure = pressure};
+        double const three_mu = 3 * 47.7e9, x = law.increment(mises, three_mu, s, 1e-8);
+        if (x == 0) {
+          EXPECT_LE(mises, law.yield_stress(s, 0));
+          continue;
+        }
+        FlowState const after{.plastic_strain = strain + x, .temperature = 350, .pressure = pressure};
+        EXPECT_NEAR(mises - three_mu * x, law.yield_stress(after, 0), 1e-12 * mises) << mises << " " << strain;
+      }
+  EXPECT_NEAR(law.increment(1e8, 3 * 47.7e9, {.temperature = 2000}, 1e-8) * 3 * 47.7e9, 1e8, 1e-4) << "molten";
+}
+
 /// Float glass of Holmquist, Johnson, Grady, Lopatin, Hertel 1995.
 Solid<JohnsonHolmquist, PolynomialEos> glass(double bulking = 1) {
   return Solid<JohnsonHolmquist, PolynomialEos>(parameters_by_name("johnson_holmquist", "polynomial", "",

@@ -121,7 +121,8 @@ TEST(AdaptleMessages, LawsMustBeInRateForm) {
   a.materials[1] = rubber();
   EXPECT_EQ(refusal(a),
             "adaptle: the law of body \"second\" has no rate form (allowed: elastic, perfectly_plastic, "
-            "isotropic_hardening, johnson_cook, zerilli_armstrong, johnson_holmquist) - choose another law or "
+            "isotropic_hardening, johnson_cook, zerilli_armstrong, johnson_holmquist, steinberg_guinan) - choose "
+            "another law or "
             "formulation");
 }
 

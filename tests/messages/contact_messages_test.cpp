@@ -37,6 +37,57 @@ TEST(ContactMessages, FormulationsWithoutContactRefuseIt) {
   EXPECT_NE(refusal(taylor, "contact").find("nodal"), std::string::npos) << "who knows it";
 }
 
+std::string two(std::string const& a, std::string const& b, std::string const& more) {
+  auto const body = [](std::string const& name, std::string const& at, std::string const& formulation) {
+    std::string const law = formulation == "adaptle"   ? "elastic"
+                            : formulation == "jst_sph" ? "neo_hookean"
+                                                       : "linear_elastic";
+    return "[[body]]\nname = \"" + name + "\"\nshape = { box = { min = [0, " + at + "], max = [1, 1" + at +
+           "] }, spacing = 0.1 }\nmaterial = { law = \"" + law +
+           "\", density = 1, youngs_modulus = 1, poissons_ratio = 0.3 }\nformulation = { name = \"" + formulation +
+           "\" }\n";
+  };
+  return message_of("title = \"T\"\n[run]\nend = 1\n" + body("a", "0", a) + body("b", "20", b) + more);
+}
+
+// Asked for and not there: refused, with the body that is in the way.
+TEST(ContactMessages, FrictionNeedsTwoSurfaces) {
+  std::string const friction = "[contact]\nfriction = 0.3\n";
+  EXPECT_EQ(two("nodal", "jst_sph", friction), "");
+  EXPECT_EQ(two("taylor_sph", "nodal", friction),
+            "case.toml:15:12: contact.friction has nothing to act on: body \"a\" has no surface, the formulation "
+            "taylor_sph knows no contact (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D, without "
+            "mirrors) - remove it, or change the body");
+  EXPECT_NE(two("adaptle", "nodal", friction).find("body \"a\" has no surface, particles of adaptle that may turn"),
+            std::string::npos);
+  EXPECT_NE(two("jst_sph", "nodal", friction + "[[mirror]]\nbody = \"a\"\nface = \"-x\"\n")
+                .find("body \"a\" has no surface, it has mirror planes"),
+            std::string::npos);
+  EXPECT_NE(two("adaptle", "adaptle", "[contact]\nself = true\n").find("contact.self has nothing to act on"),
+            std::string::npos);
+  EXPECT_NE(two("taylor_sph", "nodal", "[[contact]]\nbetween = [\"a\", \"b\"]\n").find("body \"a\" has no surface by"),
+            std::string::npos);
+}
+
+TEST(ContactMessages, MirrorsAndLinesSaySo) {
+  std::string const mirror = "[[mirror]]\nbody = \"column\"\nface = \"-x\"\n";
+  EXPECT_NE(
+      message_of(sample_case() + mirror + "[contact]\nscale = 2\n")
+          .find("contact found no surface: body \"column\" has none, it has mirror planes (allowed: nodal, jst_sph "
+                "and total-Lagrangian adaptle in 2D and 3D, without mirrors)"),
+      std::string::npos);
+  EXPECT_NE(message_of(sample_case() + mirror +
+                       "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -9, 0], normal = [0, 1, 0] }\n")
+                .find("rigid shapes found no surface: body \"column\" has none, it has mirror planes"),
+            std::string::npos);
+  std::string const line =
+      "title = \"T\"\n[run]\nend = 1\n[[body]]\nname = \"bar\"\nshape = { box = { min = [0], max = [1] }, spacing = "
+      "0.1 "
+      "}\nmaterial = { law = \"neo_hookean\", density = 1, youngs_modulus = 1, poissons_ratio = 0.3 }\nformulation = { "
+      "name = \"jst_sph\" }\n[contact]\nscale = 2\n";
+  EXPECT_NE(message_of(line).find("contact found no surface: body \"bar\" has none, it is in 1D"), std::string::npos);
+}
+
 TEST(ContactMessages, FrictionIsANumberThatIsNotNegative) {
   EXPECT_EQ(contact("friction = 0"), "");
   EXPECT_EQ(contact("friction = -0.1"), "case.toml:24:12: contact.friction is -0.1 (allowed: from 0 to 10)");
@@ -128,7 +179,7 @@ TEST(ContactMessages, RigidShapesAreOfOneKind) {
             "case.toml:23:1: rigid has 2 of plane, sphere, cylinder, box (allowed: one) - add or remove one");
   EXPECT_EQ(rigid("cone = 1\nsphere = { centre = [0, 0, 0], radius = 1 }"),
             "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity, "
-            "angular_velocity, motion, mass, density, gravity, fix, turns) - choose one of these");
+            "angular_velocity, motion, mass, density, inertia, gravity, fix, turns) - choose one of these");
   EXPECT_EQ(with("[[rigid]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
             "case.toml:23:1: rigid needs \"name\" (name in messages and of columns) - add name = \"column\"");
 }

@@ -50,6 +50,31 @@ TEST(RigidMessages, FreeShapesStartWithAVelocity) {
             "case.toml:28:11: rigid.gravity[1], formula \"1/t\" is inf at t = 0 (allowed: a finite number)");
 }
 
+TEST(RigidMessages, MomentsOfInertiaAreThoseOfSomeBody) {
+  std::string const mass = "mass = 1\ninertia = ";
+  EXPECT_EQ(free(mass + "[1, 2, \"2.5 kg m^2\"]"), "");
+  EXPECT_EQ(free(mass + "[[2, -1, 0], [-1, 2, 0], [0, 0, 3.5]]"), "");
+  EXPECT_EQ(free(mass + "[1, 1, 2]"), "") << "a thin plate";
+  EXPECT_EQ(
+      free(mass + "[1, 2, 3.5]"),
+      "case.toml:28:11: rigid.inertia has the principal moments 1, 2 and 3.5 kg m^2 (allowed: none above the sum of "
+      "the others, as mass has no negative part)");
+  EXPECT_EQ(free(mass + "[1, 0, 1]"),
+            "case.toml:28:11: rigid.inertia has the principal moment 0 kg m^2 (allowed: above 0)");
+  EXPECT_EQ(free(mass + "[[1, 2, 0], [2, 1, 0], [0, 0, 1]]"),
+            "case.toml:28:11: rigid.inertia has the principal moment -1 kg m^2 (allowed: above 0)");
+  EXPECT_EQ(free(mass + "[[2, 1, 0], [0, 2, 0], [0, 0, 3]]"),
+            "case.toml:28:11: rigid.inertia has 1 in row 0 and 0 in row 1 for the same product (allowed: a symmetric "
+            "tensor)");
+  EXPECT_NE(free(mass + "[1, \"2 kg\", 1]").find("is not a quantity in kg m^2"), std::string::npos);
+  EXPECT_NE(free(mass + "[1, 2]").find("rigid.inertia is a list of 2 (allowed: a list of 3)"), std::string::npos);
+  EXPECT_NE(free(mass + "[[1, 0, 0], 2, 3]").find("rigid.inertia[1] is 2"), std::string::npos);
+  EXPECT_EQ(free(mass + "[1, 1, 1]\nturns = false"),
+            "case.toml:28:11: rigid.inertia has no meaning with turns = false - remove it");
+  EXPECT_EQ(moving("inertia = [1, 1, 1]"),
+            "case.toml:26:11: rigid.inertia is used only with motion = \"free\" - remove it");
+}
+
 TEST(RigidMessages, OtherShapesAreFixedOrDriven) {
   EXPECT_EQ(moving("motion = \"fixed\""), "");
   EXPECT_EQ(moving("motion = \"driven\"\nangular_velocity = [\"sin(t)\", 0, 0]"), "");

@@ -241,7 +241,8 @@ TEST(Warnings, SurfacesThatOverlapAtTheStart) {
 
 TEST(Warnings, SettingsOfTheOtherContact) {
   EXPECT_NE(about("contact.law has no effect", warnings(two_cubes("jst_sph", 1, "[contact]\nlaw = \"linear\"\n"))), "");
-  EXPECT_NE(about("contact.friction has no effect", warnings(two_cubes("adaptle", 1, "[contact]\nfriction = 0.1\n"))),
+  EXPECT_NE(about("contact.friction has no effect",
+                  warnings(two_cubes("adaptle\", description = \"total_lagrangian", 1, "[contact]\nfriction = 0.1\n"))),
             "");
   EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, "[contact]\nfriction = 0.1\n")).empty());
   auto const rubber = [](std::string const& settings) {

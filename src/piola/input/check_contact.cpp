@@ -7,6 +7,16 @@
 namespace piola {
 namespace {
 
+constexpr std::string_view who_has_one =
+    " (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D, without mirrors)";
+
+/// Of a case in which no body can be pushed: by its formulation, or as it is there.
+std::string no_surface(CaseSpec const& spec, FormulationInfo const& first, std::string const& what) {
+  if (!first.pushable) return refusal(first, what);
+  return what + " found no surface: body " + in_quotes(spec.bodies[0].name) + " has none, " +
+         why_without_surface(spec, 0) + std::string(who_has_one) + " - remove it, or change the body";
+}
+
 // Contact and rigid shapes need one body that knows them; the others are warned of.
 void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   auto const all = formulations_of(spec);
@@ -21,8 +31,8 @@ void check_contact_ability(CaseSpec const& spec, Problems& problems) {
     problems.add(place_of(rigid.places, ""),
                  able ? "the rigid shape " + in_quotes(rigid.name) +
                             " pushes nobody, since contact.law is \"none\" (allowed: one of them) - remove one"
-                      : refusal(all.front(), "rigid shapes"));
-  if (spec.contact && !able) problems.add(place_of(spec.contact->places, ""), refusal(all.front(), "contact"));
+                      : no_surface(spec, all.front(), "rigid shapes"));
+  if (spec.contact && !able) problems.add(place_of(spec.contact->places, ""), no_surface(spec, all.front(), "contact"));
 }
 
 void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Problems& problems) {
@@ -59,6 +69,22 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
                  "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
 }
 
+/// Friction, or contact of bodies with themselves, that is asked for where bodies meet by no surface.
+void check_surface_settings(CaseSpec const& spec, Problems& problems) {
+  if (!spec.contact || spec.contact->law == ContactRule::Law::none || surfaces_meet(spec)) return;
+  bool const rubs = spec.contact->friction.kinetic > 0 && (spec.bodies.size() > 1 || !spec.rigids.empty());
+  if (!rubs && !spec.contact->self) return;
+  char const* const key = rubs ? "friction" : "self";
+  bool able = false;  // else told already
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) able = able || meets_rigids(spec, b);
+  for (std::size_t b = 0; able && b < spec.bodies.size(); ++b)
+    if (!has_surface(spec, b))
+      problems.add(place_of(spec.contact->places, key),
+                   std::string("contact.") + key + " has nothing to act on: body " + in_quotes(spec.bodies[b].name) +
+                       " has no surface, " + why_without_surface(spec, b) + std::string(who_has_one) +
+                       " - remove it, or change the body");
+}
+
 /// Whoever may turn Eulerian loses its surface.
 void check_surface_law(CaseSpec const& spec, Problems& problems) {
   if (!spec.contact || spec.contact->law != ContactRule::Law::surface) return;
@@ -90,6 +116,7 @@ void check_contact(CaseSpec const& spec, Problems& problems) {
   check_contact_ability(spec, problems);
   check_contact_pairs(spec, problems);
   check_surface_law(spec, problems);
+  check_surface_settings(spec, problems);
 }
 
 }  // namespace piola

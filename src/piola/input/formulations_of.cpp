@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/formulations_of.hpp"
+#include "piola/base/text.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -46,6 +47,18 @@ bool can_have_surface(CaseSpec const& spec, std::size_t body) {
   bool const converts =
       info->contact && (description == b.formulation.words.end() || description->second != "total_lagrangian");
   return !mirrored && !converts;
+}
+
+std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
+  BodySpec const& b = spec.bodies[body];
+  auto const info = find_formulation(b.formulation.name);
+  if (b.shape.dimension < 2) return "it is in 1D";
+  if (b.shape.kind == ShapeSpec::Kind::points) return "nobody knows the surface of particles from a file";
+  if (info && info->pushable)
+    return info->contact ? "particles of adaptle that may turn Eulerian have no surface; description = "
+                           "\"total_lagrangian\" keeps it"
+                         : "it has mirror planes";
+  return "the formulation " + b.formulation.name + " knows no contact";
 }
 
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {

@@ -23,6 +23,8 @@ bool has_surface(CaseSpec const& spec, std::size_t body);
 
 /// The same, whether or not contact is switched off: ties need it, too.
 bool can_have_surface(CaseSpec const& spec, std::size_t body);
+/// Why a body has no surface that others could push, in words.
+std::string why_without_surface(CaseSpec const& spec, std::size_t body);
 
 /// Whether a tie of the case names the body.
 bool is_tied(CaseSpec const& spec, std::size_t body);

@@ -170,6 +170,16 @@ constexpr std::array boundary_keys{
             "free (one of mass and density is required there): mass, in kg; in 2D per length, in kg/m",
             {}},
     KeyInfo{"rigid", "density", quantity, "kg/m^3", positive, "from mass", "free: density of the whole shape", {}},
+    KeyInfo{
+        "rigid",
+        "inertia",
+        list,
+        "",
+        {},
+        "of the homogeneous shape",
+        "free: moments of inertia about x, y and z through the centre at the start, or the rows of the tensor, in kg "
+        "m^2, for a shape that stands in for another one; in 2D a list of one, in kg m",
+        {}},
     KeyInfo{"rigid",
             "gravity",
             formulas,

@@ -91,13 +91,15 @@ void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid)
     section.problems().add(section.place_of("motion"), "a rigid shape is free in 1D (allowed: 2D, 3D)");
   else
     read_mass(section, names.dimension, rigid);
+  if (names.dimension > 1) read_inertia(section, names.dimension, rigid);
   refuse_variables(section, "velocity", rigid.velocity, true);
   refuse_variables(section, "angular_velocity", rigid.angular_velocity, true);
   if (auto gravity = read_vector(section, "gravity", names)) rigid.gravity = std::move(*gravity);
   refuse_variables(section, "gravity", rigid.gravity, false);
   read_fix(section, names.dimension, rigid);
   section.read("turns", rigid.can_turn);
-  if (!rigid.can_turn) section.refuse("angular_velocity", "has no meaning with turns = false");
+  if (!rigid.can_turn)
+    for (char const* key : {"angular_velocity", "inertia"}) section.refuse(key, "has no meaning with turns = false");
 }
 
 }  // namespace
@@ -115,7 +117,7 @@ void read_rigid_motion(Section const& section, int dimension, std::map<std::stri
   }
   refuse_variables(section, "velocity", rigid.velocity, false);
   refuse_variables(section, "angular_velocity", rigid.angular_velocity, false);
-  for (char const* key : {"mass", "density", "gravity", "fix", "turns"})
+  for (char const* key : {"mass", "density", "inertia", "gravity", "fix", "turns"})
     section.refuse(key, "is used only with motion = \"free\"");
 }
 

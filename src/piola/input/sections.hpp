@@ -70,6 +70,8 @@ RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string
 /// The part of read_rigid that reads how the shape moves.
 void read_rigid_motion(Section const& section, int dimension, std::map<std::string, double> const& constants,
                        RigidSpec& rigid);
+/// Its key `inertia`, of a free shape in 2D or 3D.
+void read_inertia(Section const& section, int dimension, RigidSpec& rigid);
 /// The rule for all, and those of pairs: a table, a list of tables, or "none".
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
 /// `rigids` only for what is said of them.

@@ -14,8 +14,9 @@ constexpr std::array renamed{RenamedMaterial{"aluminium_adaptle_3_2", "aluminium
 
 std::vector<LibraryMaterial> all_sets() {
   std::vector<LibraryMaterial> all;
-  for (auto const& some : {library::steels(), library::aluminium_alloys(), library::other_metals(),
-                           library::non_metals(), library::brittle(), library::explosives()})
+  for (auto const& some :
+       {library::steels(), library::aluminium_alloys(), library::other_metals(), library::high_rate_metals(),
+        library::non_metals(), library::brittle(), library::explosives()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -11,6 +11,7 @@ using enum Checked;
 std::span<LibraryMaterial const> steels();
 std::span<LibraryMaterial const> aluminium_alloys();
 std::span<LibraryMaterial const> other_metals();
+std::span<LibraryMaterial const> high_rate_metals();
 std::span<LibraryMaterial const> non_metals();
 std::span<LibraryMaterial const> brittle();
 std::span<LibraryMaterial const> explosives();

@@ -82,7 +82,10 @@ constexpr std::array sources{
                   "Natl. Bur. Stand. 68A (1964) 259-268"},
     LibrarySource{"young_2021",
                   "J. Young, F. Teixeira-Dias, A. Azevedo, F. Mill, Adaptive Total Lagrangian Eulerian SPH for "
-                  "high-velocity impacts, Int. J. Mech. Sci. 192 (2021) 106108"}};
+                  "high-velocity impacts, Int. J. Mech. Sci. 192 (2021) 106108"},
+    LibrarySource{"zerilli_1987",
+                  "F. J. Zerilli, R. W. Armstrong, Dislocation-mechanics-based constitutive relations for material "
+                  "dynamics calculations, J. Appl. Phys. 61 (1987) 1816-1825"}};
 
 }  // namespace
 

@@ -54,7 +54,8 @@ template <class Strength, class Eos>
 class Solid {
  public:
   using Layout = SolidLayout<Strength>;
-  static constexpr bool pressed = Strength::brittle;  ///< the strength asks for the pressure
+  static constexpr bool pressed = Strength::pressed;  ///< the strength asks for the pressure
+  static constexpr bool brittle = Strength::brittle;  ///< what is broken still bears shear under pressure
 
   double rho0;            ///< density at rest [kg/m^3]
   double mu;              ///< shear modulus [Pa]
@@ -120,9 +121,11 @@ class Solid {
   }
 
   /// The trial deviator brought back to the yield surface after dt [s], for predictions: the history stays as it is.
-  PIOLA_FN SymMat<3> returned(SolidHistory const& h, SymMat<3> const& trial, double dt, double pressure = 0) const {
+  /// pressure [Pa]; compression: rho/rho0.
+  PIOLA_FN SymMat<3> returned(SolidHistory const& h, SymMat<3> const& trial, double dt, double pressure = 0,
+                              double compression = 1) const {
     double const mises = von_mises(trial);
-    return scaled(trial, mises, strength_.increment(mises, 3 * mu, flow_state(h, pressure), dt));
+    return scaled(trial, mises, strength_.increment(mises, 3 * mu, flow_state(h, pressure, compression), dt));
   }
 
   /// The same from the flow stress of the last plastic step [Pa], 0 where there was none: laws whose yield stress asks
@@ -141,7 +144,7 @@ class Solid {
   /// step.
   PIOLA_FN double update(SolidHistory& h, SymMat<3> const& trial, double pressure, double rho, double dt,
                          double last_flow = 0) const {
-    FlowState const before = flow_state(h, pressure);
+    FlowState const before = flow_state(h, pressure, rho / rho0);
     double const mises = von_mises(trial), strain = strength_.increment(mises, 3 * mu, before, dt, last_flow);
     h.S = scaled(trial, mises, strain);
     if (spalls(h.S, pressure, h.toughness)) h.damage = 1;
@@ -188,8 +191,8 @@ class Solid {
     damages = wears_ || spall_ > 0;
   }
 
-  PIOLA_FN static FlowState flow_state(SolidHistory const& h, double pressure) {
-    return {h.plastic_strain, h.temperature, pressure, h.damage};
+  PIOLA_FN static FlowState flow_state(SolidHistory const& h, double pressure, double compression = 1) {
+    return {h.plastic_strain, h.temperature, pressure, h.damage, compression};
   }
   /// Damage of a plastic step, and the bulking that follows from it.
   PIOLA_FN void wear(SolidHistory& h, FlowState const& before, double flow, double strain, double rate,

@@ -11,6 +11,7 @@
 #include "piola/materials/plastic/johnson_holmquist.hpp"
 #include "piola/materials/plastic/none.hpp"
 #include "piola/materials/plastic/perfect.hpp"
+#include "piola/materials/plastic/steinberg_guinan.hpp"
 #include "piola/materials/plastic/zerilli_armstrong.hpp"
 #include "piola/materials/solid.hpp"
 #include <array>
@@ -91,8 +92,8 @@ template <class... Strength>
 struct StrengthList {
   static constexpr int size = sizeof...(Strength);
 };
-using Strengths =
-    StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook, ZerilliArmstrong, JohnsonHolmquist>;
+using Strengths = StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook, ZerilliArmstrong,
+                               JohnsonHolmquist, SteinbergGuinan>;
 
 /// Whether the material is a solid in rate form.
 inline bool is_solid(MaterialParameters const& material) {

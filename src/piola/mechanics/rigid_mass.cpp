@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/rigid_mass.hpp"
+#include "piola/math/symmetric_eigen.hpp"
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,20 @@ Mat<3> axes_with(Vec<3> const& first) {
   return axes;
 }
 
+/// Of a tensor that was given; in 2D it has one moment.
+PrincipalInertia principal(std::array<double, 6> const& given, int dimension) {
+  if (dimension < 3) return {{{0, 0, given[2]}}, identity<3>()};
+  SymMat<3> I;
+  for (std::size_t k = 0; k < 6; ++k) I.c[k] = given[k];
+  Eigen<3> const e = symmetric_eigen(I);
+  PrincipalInertia inertia;
+  for (int k = 0; k < 3; ++k) {
+    inertia.moment[k] = e.value[k];
+    for (int c = 0; c < 3; ++c) inertia.axes(c, k) = e.vector[k][c];
+  }
+  return inertia;
+}
+
 }  // namespace
 
 double volume_of(RigidShape const& shape, int dimension) {
@@ -40,6 +55,7 @@ double volume_of(RigidShape const& shape, int dimension) {
 }
 
 PrincipalInertia inertia_of(RigidShape const& shape, int dimension) {
+  if (shape.inertia) return principal(*shape.inertia, dimension);
   double const m = shape.mass, r2 = shape.radius * shape.radius;
   auto const square = [&](std::size_t c) { return shape.half_lengths[c] * shape.half_lengths[c]; };
   PrincipalInertia inertia{{}, identity<3>()};

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/base/expression.hpp"
 #include <array>
+#include <optional>
 #include <string>
 
 namespace piola {
@@ -20,8 +21,11 @@ struct RigidShape {
   std::array<Expression, 3> velocity, angular_velocity;
   std::array<Point, 3> edges{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< box: unit vectors along its edges
 
-  bool free = false;                  ///< else it moves as prescribed
-  double mass = 0;                    ///< free [kg]; in 2D per length [kg/m]
+  bool free = false;  ///< else it moves as prescribed
+  double mass = 0;    ///< free [kg]; in 2D per length [kg/m]
+  /// Free: XX YY ZZ XY YZ XZ about the centre at the start [kg m2]; in 2D ZZ alone counts, per length [kg m]. Else that
+  /// of the homogeneous shape.
+  std::optional<std::array<double, 6>> inertia;
   std::array<Expression, 3> gravity;  ///< free: acceleration, in t [m/s2]
   std::array<bool, 3> held{};         ///< free: directions in which it keeps the velocity of the start
   bool can_turn = true;               ///< free

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/contact_surface.hpp"
+#include "piola/math/places.hpp"
 #include "piola/setup/faces.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
@@ -43,7 +44,19 @@ double height_above(ShapeSpec const& shape, Face const& face, std::array<double,
   return face.part == Face::Part::outer ? shape.radius - r : r - shape.inner_radius;
 }
 
-/// A point for each patch that a particle has a share of.
+/// How far a place on a tangent plane with this normal lies outside a curved face [m]; 0 where it is beside another
+/// one.
+double rise_above(geometry::Solid const& solid, Vec<3> const& y, Vec<3> const& normal, double spacing) {
+  constexpr double rounding = 1e-9, widest = 0.25;  // of the spacing
+  constexpr double same_face = 0.9;                 // cosine
+  geometry::Foot const foot = solid.at(y);
+  double const size = std::fabs(foot.distance);
+  bool const curved = size > rounding * spacing && size < widest * spacing && dot(foot.normal, normal) > same_face;
+  return curved ? foot.distance : 0;
+}
+
+/// A point for each patch that a particle has a share of. The middle of a share of a curved face lies off the face, by
+/// a third of its sagitta, which is put right.
 void add_patch_points(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
                       contact::Surface& surface) {
   constexpr double rounding = 1e-6;
@@ -52,10 +65,9 @@ void add_patch_points(ShapeSpec const& shape, ParticleSet const& particles, Body
     double const size = std::sqrt(dot(area, area));
     if (!(size > rounding * share.area)) continue;  // a fold within one particle's reach
     Vec<3> const normal = (1 / size) * area;
-    double height = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      height +=
-          normal[static_cast<int>(c)] * (share.middle[c] - particles.X[static_cast<std::size_t>(share.particle)][c]);
+    Vec<3> const X = vector_of(particles.X[static_cast<std::size_t>(share.particle)]);
+    double height = dot(normal, vector_of(share.middle) - X);
+    height -= rise_above(*shape.solid, X + height * normal, normal, surface.spacing);
     surface.points.push_back({share.particle, height * normal, normal, share.area});
   }
 }

@@ -20,18 +20,6 @@ Place place_of_doubt(BodySpec const& body, std::string const& key) {
   return place_in_table(body.places, key.substr(0, dot), key.substr(dot + 1));
 }
 
-/// Why a body has no surface that others could push.
-std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
-  BodySpec const& b = spec.bodies[body];
-  auto const info = find_formulation(b.formulation.name);
-  if (b.shape.dimension < 2) return "it is in 1D";
-  if (info && info->pushable)
-    return info->contact ? "particles of adaptle that may turn Eulerian have no surface; description = "
-                           "\"total_lagrangian\" keeps it"
-                         : "it has mirror planes";
-  return "the formulation " + b.formulation.name + " knows no contact";
-}
-
 /// Bodies that nothing keeps apart from other bodies or rigid shapes.
 void warn_of_strangers(CaseSpec const& spec, Problems& found) {
   if (spec.contact && spec.contact->law == ContactRule::Law::none) return;

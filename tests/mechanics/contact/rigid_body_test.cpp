@@ -49,6 +49,47 @@ TEST(RigidMass, OfKnownShapes) {
   EXPECT_DOUBLE_EQ(inertia_of(s, 2).moment[2], 6);
 }
 
+TEST(RigidMass, IsThatWhichIsGiven) {
+  RigidShape s = brick();
+  s.inertia = {{4, 3, 2, 0, 0, 0}};
+  PrincipalInertia const plain = inertia_of(s, 3);
+  for (int k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(plain.moment[k], 4 - k);
+  EXPECT_EQ(inertia_of(s, 2).moment[2], 2);
+  // Moments 1, 3 and 3.5; the first about (1, 1, 0).
+  s.inertia = {{2, 2, 3.5, -1, 0, 0}};
+  PrincipalInertia const turned = inertia_of(s, 3);
+  double across = 0;
+  for (int k = 0; k < 3; ++k) {
+    Vec<3> const axis{{turned.axes(0, k), turned.axes(1, k), turned.axes(2, k)}};
+    if (std::fabs(turned.moment[k] - 1) < 1e-14) across = std::fabs(axis[0] + axis[1]);
+  }
+  EXPECT_NEAR(across, std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(turned.moment[0] + turned.moment[1] + turned.moment[2], 7.5, 1e-14);
+}
+
+// Euler's equations of a symmetric top, I1 = I2, without forces: its axis goes round L at the rate |L|/I1, and the part
+// of the angular velocity across goes round the axis, as seen from the body, at (I3 - I1)/I1 times that along it.
+TEST(RigidBody, PrecessesAsASymmetricTop) {
+  RigidShape shape = brick();
+  shape.inertia = {{2, 2, 3, 0, 0, 0}};  // of no box
+  shape.angular_velocity = {Expression("0.8"), Expression("0"), Expression("4")};
+  RigidBody top(shape, 3);
+  EXPECT_NEAR(largest(top.spin - Vec<3>{{1.6, 0, 12}}), 0, 1e-14);
+  double const rate = std::sqrt(dot(top.spin, top.spin)) / 2, along = 4 * (3 - 2) / 2.0;
+  Vec<3> const pole = (1 / std::sqrt(dot(top.spin, top.spin))) * top.spin, axis{{0, 0, 1}};
+  constexpr double dt = 1e-4;
+  constexpr int steps = 10000;
+  for (int k = 0; k < steps; ++k) top.drift(dt);
+  double const angle = rate * dt * steps;
+  Vec<3> const flat = axis - dot(axis, pole) * pole;
+  Vec<3> const expected =
+      dot(axis, pole) * pole + std::cos(angle) * flat + std::sin(angle) * cross(pole, flat);  // Rodrigues
+  Mat<3> const R = matrix_of(top.turn);
+  EXPECT_LT(largest(R * axis - expected), 1e-6);
+  Vec<3> const own = transpose(R) * top.angular_velocity();
+  EXPECT_LT(largest(own - Vec<3>{{0.8 * std::cos(along), 0.8 * std::sin(along), 4}}), 1e-6);
+}
+
 // About the middle axis, which flips again and again.
 TEST(RigidBody, TumblesWithAllItsEnergyAndAngularMomentum) {
   RigidShape shape = brick();

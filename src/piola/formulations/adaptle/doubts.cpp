@@ -87,7 +87,7 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
 void doubt_tension(BodyOptions const& o, BodyDoubts& doubts) {
   bool unlimited = false;
   with_solid(doubts.material(), [&](auto const& law) {
-    unlimited = !law.pressed && !law.damages && !(law.spall_pressure < unbounded) && law.front_speed() == 0 &&
+    unlimited = !law.brittle && !law.damages && !(law.spall_pressure < unbounded) && law.front_speed() == 0 &&
                 law.yield_stress({}, 0) < unbounded;
   });
   bool const flows = o.description == Description::eulerian ||

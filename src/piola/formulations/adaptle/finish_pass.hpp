@@ -177,7 +177,7 @@ struct Finish {
       SymMat<3> const r = law.deviator_rate(symmetric_of(h.S), L);
       SymMat<3> trial;
       for (int c = 0; c < 6; ++c) trial.c[c] = p.S[c] + dt * r.c[c];
-      SymMat<3> const S = law.returned(history_of(p, p.S, s.own, i), trial, dt, h.pressure);
+      SymMat<3> const S = law.returned(history_of(p, p.S, s.own, i), trial, dt, h.pressure, h.rho / law.rho0);
       double const energy = p.energy + dt * (stress_power(h, symmetric_of(h.S), L) + sum.heat);
       // A total-Lagrangian density follows from the thickness that the step will end with.
       double const end = p.thickness + dt * h.thickness * rate;

@@ -27,6 +27,7 @@ void launch_all(Range r, void const* pass) {
   launch_law<D, Solid<JohnsonCook, MieGrueneisen>>(r, pass);
   launch_law<D, Solid<ZerilliArmstrong, StiffenedGas>>(r, pass);
   launch_law<D, Solid<JohnsonHolmquist, PolynomialEos>>(r, pass);
+  launch_law<D, Solid<SteinbergGuinan, MieGrueneisen>>(r, pass);
   launch_law<D, Solid<PerfectPlasticity, JwlEos>>(r, pass);
   launch_material<D, float>(r, pass);
   launch_material<D, double>(r, pass);

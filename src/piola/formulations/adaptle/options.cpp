@@ -113,8 +113,9 @@ constexpr std::array formulas{
     FormulaInfo{
         "ignition", "time at which an explosive (eos = \"jwl\") is lit, in s; without it: at once everywhere", {}}};
 
-constexpr std::array<std::string_view, 6> usable_laws{"elastic",      "perfectly_plastic", "isotropic_hardening",
-                                                      "johnson_cook", "zerilli_armstrong", "johnson_holmquist"};
+constexpr std::array<std::string_view, 7> usable_laws{"elastic",         "perfectly_plastic", "isotropic_hardening",
+                                                      "johnson_cook",    "zerilli_armstrong", "johnson_holmquist",
+                                                      "steinberg_guinan"};
 
 constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"contact_energy", "J"},

@@ -29,7 +29,7 @@ Direction load_on(Load const& load, std::size_t k, Direction const& X, double ti
 /// What the law of a body says of it. kernel_volume: of spatial sums, in volumes of a particle.
 template <class Law>
 void take_constants(Law const& law, BodyOptions const& o, double kernel_volume, BodyConstants& b) {
-  b.releases = o.releases && !law.pressed;  // what is broken still bears shear under pressure
+  b.releases = o.releases && !law.brittle;  // what is broken still bears shear under pressure
   b.rho0 = law.rho0;
   b.least_rho = law.rho0 / kernel_volume;
   b.bulk_modulus = law.kappa;

@@ -147,7 +147,7 @@ struct HalfState {
     h.pressure = acting_pressure(law, s, own, i, h.rho, specific);
     if constexpr (Law::pressed) {
       SolidHistory const history = history_of(s, h.S, own, i);
-      SymMat<3> const S = law.returned(history, history.S, 0.5 * dt, h.pressure);
+      SymMat<3> const S = law.returned(history, history.S, 0.5 * dt, h.pressure, h.rho / law.rho0);
       for (int c = 0; c < 6; ++c) h.S[c] = S.c[c];
     }
     h.c = law.sound_speed(h.rho, specific);

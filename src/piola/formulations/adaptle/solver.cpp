@@ -19,7 +19,7 @@ void check(Assembly const& assembly) {
     if (!is_solid(assembly.materials[b]))
       problems.add({}, fmt::format("adaptle: the law of body \"{}\" has no rate form (allowed: elastic, "
                                    "perfectly_plastic, isotropic_hardening, johnson_cook, zerilli_armstrong, "
-                                   "johnson_holmquist) - choose another law or formulation",
+                                   "johnson_holmquist, steinberg_guinan) - choose another law or formulation",
                                    assembly.particles.bodies[b].name));
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
     with_solid(assembly.materials[b], [&](auto const& law) {

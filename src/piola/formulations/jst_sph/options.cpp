@@ -98,9 +98,10 @@ constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"}, Dia
                                  DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"hourglass_energy", "J"}};
 
-constexpr std::array<std::string_view, 10> usable_laws{
-    "linear_elastic", "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
-    "elastic",        "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong"};
+constexpr std::array<std::string_view, 11> usable_laws{
+    "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
+    "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",
+    "steinberg_guinan"};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 

@@ -35,7 +35,7 @@ constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, Diagnost
 
 constexpr std::array<std::string_view, 10> usable_laws{
     "linear_elastic", "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
-    "elastic",        "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong"};
+    "elastic",        "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong", "steinberg_guinan"};
 
 }  // namespace
 

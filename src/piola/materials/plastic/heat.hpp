@@ -13,6 +13,7 @@ struct FlowState {
   double temperature = 0;     ///< [K]
   double pressure = 0;        ///< positive in compression [Pa]
   double damage = 0;          ///< 0 to 1
+  double compression = 1;     ///< density over that at rest
 };
 
 /// Adiabatic heating by plastic work, and what Johnson and Cook measure temperature and rate by.

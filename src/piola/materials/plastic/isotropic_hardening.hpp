@@ -10,7 +10,7 @@ class IsotropicHardening {
  public:
   static constexpr std::string_view name = "isotropic_hardening";
   static constexpr std::string_view about = "elastic solid in rate form whose yield stress grows with plastic strain";
-  static constexpr bool yields = true, thermal = false, homologous = false, brittle = false;
+  static constexpr bool yields = true, thermal = false, homologous = false, brittle = false, pressed = false;
   static constexpr std::array parameters{
       Parameter{"yield_stress", "Pa", "von Mises stress at first yield", positive},
       Parameter{"hardening_modulus", "Pa", "d (yield stress) / d (plastic strain)", not_negative}};

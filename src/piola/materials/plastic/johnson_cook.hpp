@@ -13,7 +13,7 @@ class JohnsonCook {
  public:
   static constexpr std::string_view name = "johnson_cook";
   static constexpr std::string_view about = "elastic solid in rate form, flow stress by strain, rate and temperature";
-  static constexpr bool yields = true, thermal = true, homologous = true, brittle = false;
+  static constexpr bool yields = true, thermal = true, homologous = true, brittle = false, pressed = false;
   static constexpr std::array parameters{Parameter{"yield_stress", "Pa", "A, flow stress at first yield", positive},
                                          Parameter{"hardening_coefficient", "Pa", "B of B ep^n", not_negative},
                                          Parameter{"hardening_exponent", "1", "n of B ep^n", not_negative},

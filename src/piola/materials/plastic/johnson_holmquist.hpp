@@ -19,7 +19,7 @@ class JohnsonHolmquist {
   static constexpr std::string_view name = "johnson_holmquist";
   static constexpr std::string_view about =
       "brittle solid in rate form (glass, ceramics), strength by pressure and damage (Johnson-Holmquist 2)";
-  static constexpr bool yields = true, thermal = false, homologous = false, brittle = true;
+  static constexpr bool yields = true, thermal = false, homologous = false, brittle = true, pressed = true;
   static constexpr std::array parameters{
       Parameter{"hugoniot_elastic_limit", "Pa", "HEL, axial stress at yield in uniaxial compression", positive},
       Parameter{"pressure_at_limit", "Pa", "P_HEL, pressure at the Hugoniot elastic limit", positive},

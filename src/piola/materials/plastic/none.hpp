@@ -9,7 +9,7 @@ namespace piola::inline PIOLA_MACHINE {
 struct NoPlasticity {
   static constexpr std::string_view name = "elastic";
   static constexpr std::string_view about = "elastic solid in rate form (Jaumann), with an equation of state";
-  static constexpr bool yields = false, thermal = false, homologous = false, brittle = false;
+  static constexpr bool yields = false, thermal = false, homologous = false, brittle = false, pressed = false;
   static constexpr std::array<Parameter, 0> parameters{};
 
   PIOLA_FN NoPlasticity(double const*, Heat const&) {}

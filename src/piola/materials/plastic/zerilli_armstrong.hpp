@@ -17,7 +17,7 @@ class ZerilliArmstrong {
   static constexpr std::string_view name = "zerilli_armstrong";
   static constexpr std::string_view about =
       "elastic solid in rate form, flow stress by thermally activated dislocations (Zerilli-Armstrong)";
-  static constexpr bool yields = true, thermal = true, homologous = false, brittle = false;
+  static constexpr bool yields = true, thermal = true, homologous = false, brittle = false, pressed = false;
   static constexpr std::array parameters{
       Parameter{"athermal_stress", "Pa", "C0, the part that neither rate nor temperature changes", not_negative, 0},
       Parameter{"thermal_stress", "Pa", "C1, of body-centred cubic metals", not_negative, 0},
