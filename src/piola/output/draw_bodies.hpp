@@ -12,6 +12,7 @@ namespace piola {
 struct SceneArea {
   int width = 0, height = 0;
   int top = 0, right = 0;  ///< letters stand above and beyond
+  int bottom = 0;          ///< and below; 0: nothing does
 };
 
 /// Bodies, rigid shapes and reference outlines, lit, without letters. Without a background the image has opacity.

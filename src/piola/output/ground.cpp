@@ -117,6 +117,15 @@ float interpolated(std::vector<float> const& hidden, double x, double y) {
   return (1 - v) * ((1 - u) * at(i, j) + u * at(i + 1, j)) + v * ((1 - u) * at(i, j + 1) + u * at(i + 1, j + 1));
 }
 
+/// Fades what comes near to letters, so that the ground does not end in a line.
+float fade_at_letters(SceneArea const& area, int x, int y) {
+  int const bottom = area.bottom > 0 ? area.bottom : 2 * area.height,
+            right = area.right < area.width ? area.right : 2 * area.width;
+  float const room = 0.15F * static_cast<float>(std::min(area.width, area.height));
+  float const t = std::clamp(static_cast<float>(std::min(right - x, bottom - y)) / room, 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
 }  // namespace
 
 std::vector<GroundLight> ground_below(PictureData const& data, Appearance const& appearance, Projection const& project,
@@ -144,7 +153,8 @@ std::vector<GroundLight> ground_below(PictureData const& data, Appearance const&
       auto& light =
           out[static_cast<std::size_t>(row) * static_cast<std::size_t>(area.width) + static_cast<std::size_t>(x)];
       float const own = 0.5F * fade;
-      light = {own + (1 - own) * 0.9F * sky, 1 - 0.85F * sky};
+      float const share = own + (1 - own) * 0.9F * sky;
+      light = {share * fade_at_letters(area, x, static_cast<int>(row)), 1 - 0.85F * sky};
     }
   });
   return out;

@@ -59,7 +59,8 @@ struct Setting {
 Image draw_scene(PictureData const& data, PictureStyle const& style, Layout const& layout, Projection const& project,
                  ColourMap const& map, std::optional<Colour> background) {
   double const top = style.labels ? 0.8 * layout.top : 0, right = style.labels ? layout.right : style.width;
-  SceneArea const area{style.width, style.height, static_cast<int>(top), static_cast<int>(right)};
+  SceneArea const area{style.width, style.height, static_cast<int>(top), static_cast<int>(right),
+                       style.labels ? static_cast<int>(layout.bottom) : 0};
   return draw_bodies(data, style.appearance, project, area, map, background);
 }
 
