@@ -292,7 +292,7 @@ void print_output(CaseSpec const& spec) {
   say("output:\n");
   every("a row of history.csv", spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / 500);
   every("a frame", spec.output.frames_every);
-  every("a picture of " + spec.output.picture_field, spec.output.pictures_every);
+  every("a picture of " + spec.output.pictures.field, spec.output.pictures.every);
   every("a checkpoint", spec.output.checkpoints_every);
   std::vector<std::string> probes, quantities;
   for (ProbeSpec const& probe : spec.probes) {

@@ -32,7 +32,7 @@ struct RenderArguments {
   CaseOptions with;
   std::vector<std::string> as;
   std::vector<double> cut;
-  bool ghost = false, no_outline = false;
+  bool ghost = false, no_outline = false, panels = false;
 };
 
 /// From words to numbers.
@@ -132,6 +132,7 @@ int render(RenderArguments options) {
                      .more_fields = {options.fields.begin() + 1, options.fields.end()},
                      .beside = {options.folders.begin() + 1, options.folders.end()}};
   what.as = options.as;
+  what.panels = options.panels;
   what.outline = !options.no_outline;
   if (!options.cut.empty()) {
     auto const& c = options.cut;
@@ -184,6 +185,15 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
       ->check(CLI::Range(200, 20000));
 }
 
+/// What is drawn beside the bodies, and how well.
+void add_drawing_options(CLI::App& command, LookOptions& look) {
+  command.add_option("--quality", look.quality, "normal; high: more samples and a smoother shade")
+      ->check(CLI::IsMember(std::vector<std::string>(quality_words.begin(), quality_words.end())));
+  command.add_option("--warp", look.warp, "Draws displacements so many times as large")->check(CLI::Range(0.0, 1e6));
+  command.add_flag("--supports", look.supports, "Hatches what supports hold");
+  command.add_flag("--ground", look.ground, "A plane below the bodies, with their shadow; in space only");
+}
+
 void add_film_options(CLI::App& command, RenderArguments& options) {
   auto* const film = command.add_option(
       "--film", options.film.file, "Draw a film in place of pictures: NAME.webp, or NAME.mp4 by the program ffmpeg");
@@ -208,6 +218,8 @@ void add_film_options(CLI::App& command, RenderArguments& options) {
       ->excludes(command.get_option("--frame"))
       ->excludes(command.get_option("--last"))
       ->excludes(command.get_option("--every"));
+  for (char const* const one : {"--side-by-side", "--times", "--component", "--range"})
+    command.get_option("--panels")->excludes(command.get_option(one));
 }
 
 void add_appearance_options(CLI::App& command, RenderArguments& options) {
@@ -227,7 +239,7 @@ void add_shape_options(CLI::App& command, RenderArguments& options) {
   auto* const shape =
       command.add_flag("--shape", options.shape, "Draw the bodies of a case as they stand before anything runs");
   for (char const* const of_frames : {"--field", "--component", "--range", "--frame", "--last", "--every", "--film",
-                                      "--side-by-side", "--times", "--as", "--cut", "--no-outline"})
+                                      "--side-by-side", "--times", "--as", "--cut", "--no-outline", "--panels"})
     shape->excludes(command.get_option(of_frames));
   command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
   options.with.add_to(command, false);
@@ -247,6 +259,8 @@ void add_render(CLI::App& program, Action& action) {
                    "the pictures stand beside each other")
       ->allow_extra_args(false)
       ->capture_default_str();
+  command->add_flag("--panels", options->panels, "Draw the panels that the case has for its pictures")
+      ->excludes(command->get_option("--field"));
   command->add_option("--component", options->component,
                       "Component of a vector (x, y, z) or tensor (xx, xy, ...); default: length, von Mises stress");
   command
@@ -262,6 +276,7 @@ void add_render(CLI::App& program, Action& action) {
   command->add_option("--out,-o", options->out,
                       "Folder of the pictures (default: pictures in the results folder); with --shape the picture");
   add_look_options(*command, *options);
+  add_drawing_options(*command, options->look);
   add_film_options(*command, *options);
   add_appearance_options(*command, *options);
   add_shape_options(*command, *options);

@@ -23,7 +23,7 @@ int run(RunArguments const& options) {
   ParticleSet particles;
   PackingLine line(options.quiet);
   CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
-  if (options.no_pictures) spec.output.pictures_every = 0;
+  if (options.no_pictures) spec.output.pictures.every = 0;
   Simulation simulation = build(std::move(spec), std::move(particles));
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
                          .resume = false,

@@ -101,12 +101,12 @@ double work_of(fs::path const& file, std::vector<std::string> const& overrides) 
 // What only the page shows: one small picture, of the end.
 void keep_the_last_picture(OutputSpec& output, double end) {
   constexpr int width = 500;
-  if (output.pictures_every <= 0) return;
-  output.pictures_every = end;
-  output.picture_scale = 0.5;
-  if (output.picture_width <= width) return;
-  output.picture_height = std::max(16, output.picture_height * width / output.picture_width);
-  output.picture_width = width;
+  if (output.pictures.every <= 0) return;
+  output.pictures.every = end;
+  output.pictures.scale = 0.5;
+  if (output.pictures.width <= width) return;
+  output.pictures.height = std::max(16, output.pictures.height * width / output.pictures.width);
+  output.pictures.width = width;
 }
 
 int run_verify(VerifyArguments const& options) {
@@ -129,7 +129,7 @@ int run_verify(VerifyArguments const& options) {
   auto const prepare = [&](fs::path const& file, std::vector<std::string> const& variant) {
     CaseSpec spec = read_case(file, with_own(variant));
     if (scratch) spec.output.frames_every = 0;
-    if (scratch && options.markdown.empty() && options.report.empty()) spec.output.pictures_every = 0;
+    if (scratch && options.markdown.empty() && options.report.empty()) spec.output.pictures.every = 0;
     if (scratch) keep_the_last_picture(spec.output, spec.run.end);
     return build(std::move(spec));
   };

@@ -28,7 +28,7 @@ struct BentCube {
   }
 };
 
-void draw(benchmark::State& state, Representation as) {
+void draw(benchmark::State& state, Appearance const& appearance) {
   exec_host::set_threads(0);
   BentCube const cube(static_cast<int>(state.range(0)));
   int const width = static_cast<int>(state.range(1)), height = static_cast<int>(state.range(2));
@@ -40,11 +40,14 @@ void draw(benchmark::State& state, Representation as) {
   Projection const project{view.right(), view.up(), view.towards_viewer(), 0.5 * height, 0.2 * width, 0.7 * height};
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        draw_bodies(data, {.as = {as}}, project, {width, height, 0, width}, ColourMap(0, 1)).rgb.data());
+        draw_bodies(data, appearance, project, {width, height, 0, width}, ColourMap(0, 1), Colour{255, 255, 255})
+            .rgb.data());
 }
 
-void skin(benchmark::State& state) { draw(state, Representation::skin); }
-void balls(benchmark::State& state) { draw(state, Representation::balls); }
+void skin(benchmark::State& state) { draw(state, {.as = {Representation::skin}}); }
+void balls(benchmark::State& state) { draw(state, {.as = {Representation::balls}}); }
+void high_quality(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .quality = Quality::high}); }
+void on_ground(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .ground = Place3{0, 1, 0}}); }
 void mesh(benchmark::State& state) {
   BentCube const cube(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(reference_meshes(cube.set).data());
@@ -56,6 +59,8 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK(skin)->Apply(sizes);
 BENCHMARK(balls)->Apply(sizes);
+BENCHMARK(high_quality)->Apply(sizes);
+BENCHMARK(on_ground)->Apply(sizes);
 BENCHMARK(mesh)->Apply(sizes);
 
 }  // namespace

@@ -32,6 +32,9 @@ expect 2 "there are several" "$program" render bar-results --field Velocity --fi
 expect 2 "2 folders are given" "$program" render bar-results bar-results
 expect 2 "references stand over time" "$program" plot bar-results total_energy --against step --checks none.toml
 expect 2 "there is one folder only" "$program" render bar-results --side-by-side
+expect 2 "the case of the run has none" "$program" render bar-results --panels
+expect 0 "drawn" "$program" render bar-results --last --quality high --warp 3 --supports --size 300 240
+expect 2 "excludes" "$program" render bar-results --panels --field Velocity
 expect 2 "'above' is not known" "$program" render bar-results --view above
 expect 2 "is no direction" "$program" render bar-results --view 3 x
 expect 0 "picture" "$program" render --view iso bar-results --last --size 300 240

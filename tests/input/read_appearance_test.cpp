@@ -9,7 +9,9 @@ std::string with(std::string const& keys) {
   return test::sample_case() + "\n[output.pictures]\nevery = 1\n" + keys + "\n";
 }
 
-AppearanceSpec read(std::string const& keys) { return read_case_text(with(keys), "case.toml").output.appearance; }
+AppearanceSpec read(std::string const& keys) {
+  return read_case_text(with(keys), "case.toml").output.pictures.appearance;
+}
 
 std::string refusal(std::string const& keys) { return test::message_of(with(keys)); }
 

@@ -147,12 +147,12 @@ every = "0.1 s"
   EXPECT_EQ(spec.output.frame_fields, (std::vector<std::string>{"Displacement", "Pressure"}));
   EXPECT_FALSE(spec.output.compress);
   EXPECT_DOUBLE_EQ(spec.output.history_every, 1e-3);
-  EXPECT_DOUBLE_EQ(spec.output.pictures_every, 0.05);
-  EXPECT_EQ(spec.output.picture_field, "VonMisesStress");
-  EXPECT_EQ(*spec.output.picture_range, (std::array<double, 2>{0, 5e6}));
-  EXPECT_EQ(spec.output.picture_view, (std::array<double, 2>{45, -10}));
-  EXPECT_EQ(spec.output.picture_width, 640);
-  EXPECT_EQ(spec.output.picture_height, 480);
+  EXPECT_DOUBLE_EQ(spec.output.pictures.every, 0.05);
+  EXPECT_EQ(spec.output.pictures.field, "VonMisesStress");
+  EXPECT_EQ(*spec.output.pictures.range, (std::array<double, 2>{0, 5e6}));
+  EXPECT_EQ(spec.output.pictures.view, (std::array<double, 2>{45, -10}));
+  EXPECT_EQ(spec.output.pictures.width, 640);
+  EXPECT_EQ(spec.output.pictures.height, 480);
   EXPECT_DOUBLE_EQ(spec.output.checkpoints_every, 0.1);
 }
 
@@ -169,17 +169,17 @@ map = "magma"
 theme = "dark"
 labels = false
 )");
-  EXPECT_EQ(spec.output.picture_named_view, "-x");
-  EXPECT_NEAR(spec.output.picture_roll, 5.729578, 1e-6);
-  EXPECT_EQ(spec.output.picture_zoom, 1.5);
-  EXPECT_EQ(*spec.output.picture_look_at, (std::array<double, 3>{0.001, 2, 0}));
-  EXPECT_EQ(spec.output.picture_follow, "column");
-  EXPECT_EQ(spec.output.picture_map, "magma");
-  EXPECT_EQ(spec.output.picture_theme, "dark");
-  EXPECT_FALSE(spec.output.picture_labels);
-  EXPECT_EQ(spec.output.picture_width, 0) << "as what is shown needs it";
+  EXPECT_EQ(spec.output.pictures.named_view, "-x");
+  EXPECT_NEAR(spec.output.pictures.roll, 5.729578, 1e-6);
+  EXPECT_EQ(spec.output.pictures.zoom, 1.5);
+  EXPECT_EQ(*spec.output.pictures.look_at, (std::array<double, 3>{0.001, 2, 0}));
+  EXPECT_EQ(spec.output.pictures.follow, "column");
+  EXPECT_EQ(spec.output.pictures.map, "magma");
+  EXPECT_EQ(spec.output.pictures.theme, "dark");
+  EXPECT_FALSE(spec.output.pictures.labels);
+  EXPECT_EQ(spec.output.pictures.width, 0) << "as what is shown needs it";
   CaseSpec const angles = read(sample_case() + "[output.pictures]\nevery = 1\nazimuth = -20\nelevation = 80\n");
-  EXPECT_EQ(angles.output.picture_view, (std::array<double, 2>{-20, 80}));
+  EXPECT_EQ(angles.output.pictures.view, (std::array<double, 2>{-20, 80}));
 }
 
 TEST(ReadCase, RunSettingsAreRead) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <optional>
+#include <set>
 
 namespace piola {
 namespace {
@@ -47,7 +49,7 @@ struct Stand {
   Projection project() const { return {view.right(), view.up(), view.towards_viewer(), 100, 50, 170}; }
   Scene scene() const { return make_scene(data(), appearance, project(), 2); }
   Image image() const {
-    return draw_bodies(data(), appearance, project(), {width, height, 0, width}, ColourMap(0, 2), {255, 255, 255});
+    return draw_bodies(data(), appearance, project(), {width, height, 0, width}, ColourMap(0, 2), white);
   }
 };
 
@@ -253,6 +255,65 @@ TEST(Scene, TakesWhatIsNowhereAloneOrInOnePlace) {
   one.values.clear();
   one.radius.clear();
   EXPECT_EQ(pixels(one.image()), 0);
+}
+
+TEST(Scene, HatchesWhatIsHeld) {
+  Stand stand;
+  std::vector<std::uint8_t> held(stand.x.size(), 0);
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] = stand.x[i][0] < 0.2;
+  for (auto const as : {Representation::skin, Representation::balls}) {
+    stand.appearance.as = {as};
+    PictureData data = stand.data();
+    auto const draw = [&] {
+      return draw_bodies(data, stand.appearance, stand.project(), {width, height, 0, width}, ColourMap(0, 2), white);
+    };
+    Image const plain = draw();
+    data.held = held;
+    Image const hatched = draw();
+    int at_held = 0, elsewhere = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        if (hatched.at(x, y) == plain.at(x, y)) continue;
+        for (std::size_t c = 0; c < 3; ++c) ASSERT_LE(hatched.at(x, y)[c], plain.at(x, y)[c]) << "stripes are dark";
+        (x < 50 + 35 ? at_held : elsewhere) += 1;
+      }
+    EXPECT_GT(at_held, 200);
+    EXPECT_EQ(elsewhere, 0);
+  }
+}
+
+TEST(Scene, HasTheOpacityThatPicturesOnBlackAndOnWhiteTell) {
+  Stand stand;
+  for (Place3& p : stand.x) p[0] += 1.1;  // an outline, too
+  stand.appearance.cut = CutPlane{{1.9, 0, 0}, {1, 0.3, 0}, true};
+  stand.view = {30, 20};
+  auto const on = [&](std::optional<Colour> background) {
+    return draw_bodies(stand.data(), stand.appearance, stand.project(), {width, height, 0, width}, ColourMap(0, 2),
+                       background);
+  };
+  Image const clear = on(std::nullopt), other = without_background(on(Colour{0, 0, 0}), on(Colour{255, 255, 255}));
+  EXPECT_EQ(clear.alpha, other.alpha);
+  EXPECT_EQ(clear.rgb, other.rgb);
+  EXPECT_GT(std::count(clear.alpha.begin(), clear.alpha.end(), 255), 1000);
+  EXPECT_GT(std::count_if(clear.alpha.begin(), clear.alpha.end(), [](int a) { return a > 0 && a < 255; }), 200);
+}
+
+TEST(Scene, HasFinerEdgesInHighQuality) {
+  Stand stand;
+  stand.view = {30, 20};
+  Image const normal = stand.image();
+  stand.appearance.quality = Quality::high;
+  Image const high = stand.image();
+  auto const colours = [](Image const& image) {
+    std::set<Colour> all;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) all.insert(image.at(x, y));
+    return all.size();
+  };
+  EXPECT_GT(colours(high), colours(normal)) << "edges have 17 steps in place of 5";
+  int differ = 0;
+  for (std::size_t k = 0; k < high.rgb.size(); ++k) differ += std::abs(high.rgb[k] - normal.rgb[k]) > 40;
+  EXPECT_LT(differ, static_cast<int>(high.rgb.size()) / 100) << "it is the same picture";
 }
 
 }  // namespace

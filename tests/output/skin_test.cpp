@@ -217,5 +217,29 @@ TEST(Stretches, AreBounded) {
   EXPECT_EQ(with_bounded_stretches(identity<3>(), 0.3, 4).c[0], 1);
 }
 
+TEST(Skin, DoesNotFlickerWhereMaterialPartsAndComesBack) {
+  Subject s(drawn_box(2, ShapeSpec::Placement::cell_centred, 2));
+  auto const stretched = [&](double stretch) {
+    s.x = s.mesh.X;
+    for (Place3& p : s.x)
+      if (p[0] > 1) p[0] += (stretch - 1) * s.mesh.spacing;
+    return s.now();
+  };
+  EXPECT_TRUE(torn_cells(s.mesh, stretched(2.3), {}).empty());
+  auto const torn = torn_cells(s.mesh, stretched(2.6), {});
+  ASSERT_FALSE(torn.empty());
+  EXPECT_EQ(torn_cells(s.mesh, stretched(2.3), torn), torn) << "between the two bounds it stays as it was";
+  EXPECT_TRUE(torn_cells(s.mesh, stretched(1.9), torn).empty()) << "rubber that has come back is whole";
+  Configuration now = stretched(2.3);
+  EXPECT_NEAR(area(make_skin(s.mesh, now)), 2 + 1.3 * s.mesh.spacing, 1e-3);
+  now.torn = torn;
+  EXPECT_NEAR(area(make_skin(s.mesh, now)), 2 - s.mesh.spacing, 1e-3);
+  std::vector<std::uint8_t> loose(s.x.size(), 0);
+  loose[0] = 1;
+  now = s.now();
+  now.loose = loose;
+  EXPECT_EQ(torn_cells(s.mesh, now, {}), std::vector<Index>{0});
+}
+
 }  // namespace
 }  // namespace piola

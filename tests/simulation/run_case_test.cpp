@@ -99,9 +99,9 @@ TEST(RunCase, MomentaDriftOnlyWhereNothingHoldsOrPushes) {
 TEST(RunCase, WritesAllThatAUserExpects) {
   TemporaryFolder const folder;
   Simulation s = probed();
-  s.spec.output.pictures_every = 0.5;
-  s.spec.output.picture_width = 300;
-  s.spec.output.picture_height = 240;
+  s.spec.output.pictures.every = 0.5;
+  s.spec.output.pictures.width = 300;
+  s.spec.output.pictures.height = 240;
   CaseOutcome const outcome = run(s, folder / "r");
   EXPECT_EQ(outcome.ending, Ending::completed);
   for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "case.toml", "log.txt",
@@ -129,8 +129,8 @@ std::vector<Colour> bar_of(Image const& image) {
 
 Simulation pictured() {
   Simulation s = probed();
-  s.spec.output.pictures_every = 0.25;
-  s.spec.output.picture_field = "Displacement";  // starts at zero: the first range is not that of the run
+  s.spec.output.pictures.every = 0.25;
+  s.spec.output.pictures.field = "Displacement";  // starts at zero: the first range is not that of the run
   return s;
 }
 
@@ -144,7 +144,7 @@ TEST(RunCase, DrawsAllPicturesWithTheColoursOfTheWholeRun) {
     EXPECT_EQ(entry.path().extension(), ".png") << "what was kept for the colours is gone";
 
   Simulation given = pictured();
-  given.spec.output.picture_range = std::array{0.0, 1.0};
+  given.spec.output.pictures.range = std::array{0.0, 1.0};
   run(given, folder / "given");
   EXPECT_NE(bar_of(first), bar_of(read_png(folder / "given/pictures/Displacement-000000.png")));
 }
@@ -166,14 +166,62 @@ TEST(RunCase, DrawsTheSamePicturesAfterAStop) {
   }
 }
 
+/// Two panels: the same field from two sides, or two fields.
+Simulation pictured_twice(std::string const& other_field) {
+  Simulation s = pictured();
+  auto& pictures = s.spec.output.pictures;
+  pictures.panels.assign(2, pictures);
+  pictures.panels[1].field = other_field;
+  pictures.panels[1].roll = 90;
+  return s;
+}
+
+TEST(RunCase, DrawsPanelsThatStayTheSameAfterAStop) {
+  for (char const* const other : {"Displacement", "Velocity"}) {
+    TemporaryFolder const folder;
+    Simulation whole = pictured_twice(other), first = pictured_twice(other), second = pictured_twice(other);
+    run(whole, folder / "whole");
+    std::atomic<int> stop{0};
+    springs(first).stop_at = 57;
+    springs(first).stop = &stop;
+    run(first, folder / "parts", false, &stop);
+    run(second, folder / "parts", true);
+    std::string const name = other == std::string("Velocity") ? "Displacement-Velocity-" : "Displacement-";
+    for (char const* number : {"000000", "000002", "000004"}) {
+      auto const picture = std::string("pictures/").append(name).append(number).append(".png");
+      ASSERT_TRUE(std::filesystem::exists(folder / "whole" / picture)) << picture;
+      EXPECT_TRUE(text_of(folder / "whole" / picture) == text_of(folder / "parts" / picture)) << picture;
+    }
+  }
+}
+
+TEST(RunCase, DrawsMomentsIntoOnePictureAtTheEnd) {
+  TemporaryFolder const folder;
+  Simulation s = pictured(), other = pictured(), none = pictured();
+  s.spec.output.pictures.times = {0, 0.3, 9};
+  other.spec.output.pictures.times = {0.01, 0.25, 1};
+  run(s, folder / "r");
+  run(other, folder / "other");
+  run(none, folder / "none");
+  std::string const strip = "pictures/Displacement-times.png";
+  Image const image = read_png(folder / "r" / strip);
+  EXPECT_EQ(image.rgb, read_png(folder / "other" / strip).rgb) << "the same pictures are the nearest";
+  EXPECT_GT(image.width, read_png(folder / "none/pictures/Displacement-000000.png").width);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none" / strip));
+  for (char const* number : {"000000", "000003"}) {
+    auto const picture = std::string("pictures/Displacement-").append(number).append(".png");
+    EXPECT_TRUE(text_of(folder / "r" / picture) == text_of(folder / "none" / picture)) << "the others are as before";
+  }
+}
+
 TEST(RunCase, DrawsAComponent) {
   TemporaryFolder const folder;
   Simulation s = pictured();
-  s.spec.output.picture_component = "x";
+  s.spec.output.pictures.component = "x";
   run(s, folder / "r");
   EXPECT_TRUE(std::filesystem::exists(folder / "r/pictures/Displacement-x-000004.png"));
   Simulation none = pictured();
-  none.spec.output.picture_component = "xx";
+  none.spec.output.pictures.component = "xx";
   CaseOutcome const outcome = run(none, folder / "none");
   ASSERT_EQ(outcome.summary.warnings.size(), 1u);
   EXPECT_NE(outcome.summary.warnings[0].find("no field 'Displacement' with a component 'xx'"), std::string::npos);

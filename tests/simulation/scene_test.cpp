@@ -60,10 +60,10 @@ TEST(Appearance, IsThatOfEachBody) {
   CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
   spec.bodies.push_back(spec.bodies.front());
   spec.bodies[1].name = "other";
-  spec.output.appearance.as = "balls";
-  spec.output.appearance.of_body = {{"other", "none", {}}};
-  spec.output.appearance.cut = AppearanceSpec::Cut{{1, 2, 3}, {0, 0, 1}, true, false};
-  Appearance const appearance = appearance_of(spec);
+  spec.output.pictures.appearance.as = "balls";
+  spec.output.pictures.appearance.of_body = {{"other", "none", {}}};
+  spec.output.pictures.appearance.cut = AppearanceSpec::Cut{{1, 2, 3}, {0, 0, 1}, true, false};
+  Appearance const appearance = appearance_of(spec, spec.output.pictures);
   EXPECT_EQ(appearance.as, (std::vector{Representation::balls, Representation::none}));
   EXPECT_EQ(appearance.cut->point, (Place3{1, 2, 3}));
   EXPECT_TRUE(appearance.cut->ghost);
@@ -84,6 +84,25 @@ TEST(Shapes, StandWhereTheirVelocityHasTakenThem) {
   EXPECT_DOUBLE_EQ(shapes[0].centre[0], 2.5);
   EXPECT_DOUBLE_EQ(shapes[0].centre[1], 2);
   EXPECT_NEAR(shapes[0].centre[2], 3.25, 1e-12);  // the integral of 2 t
+}
+
+TEST(Warp, EnlargesDisplacementsAndSaysSo) {
+  std::vector<std::array<double, 3>> const X{{1, 2, 3}}, x{{1.5, 2, 2}};
+  EXPECT_EQ(warped(x, X, 1), x);
+  EXPECT_EQ(warped(x, X, 10)[0], (std::array{6.0, 2.0, -7.0}));
+  EXPECT_EQ(warped(x, X, 0), X);
+  PictureSpec picture;
+  EXPECT_EQ(title_of("A", picture), "A");
+  picture.warp = 10;
+  EXPECT_EQ(title_of("A", picture), "A, displacements \u00d7 10");
+}
+
+TEST(HeldParticles, AreThoseOfTheSupports) {
+  ParticleSet particles;
+  CaseSpec const spec = read_case_text(test::sample_case(), "case.toml", {}, {}, &particles);
+  auto const held = held_particles(spec, particles);
+  ASSERT_EQ(held.size(), particles.X.size());
+  for (std::size_t i = 0; i < held.size(); ++i) EXPECT_EQ(held[i] != 0, particles.X[i][1] <= 0) << i;
 }
 
 }  // namespace

@@ -60,6 +60,8 @@ constexpr std::array sections{
     SectionInfo{"output.history", "[output.history]", "the table history.csv"},
     SectionInfo{"output.pictures", "[output.pictures]", "PNG pictures coloured by a field"},
     SectionInfo{"output.pictures.cut", "cut = { ... }", "a plane that cuts bodies open"},
+    SectionInfo{"output.pictures.panel", "[[output.pictures.panel]]", "one of several views or fields in each picture"},
+    SectionInfo{"output.pictures.panel.cut", "cut = { ... }", "a plane that cuts bodies open"},
     SectionInfo{"output.checkpoints", "[output.checkpoints]", "files to resume from; one is always written at the end"},
 };
 

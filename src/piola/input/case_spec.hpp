@@ -227,6 +227,39 @@ struct AppearanceSpec {
   std::optional<Cut> cut = {};
 };
 
+/// What a picture, or a panel of one, shows and how.
+struct PictureSpec {
+  std::string field = "Pressure";
+  std::string component = {};                       ///< of that field, e.g. "x"; empty: see picture_values
+  std::string up = "auto";                          ///< auto, x, y, z, -x, -y, -z
+  std::optional<std::array<double, 2>> range = {};  ///< SI; otherwise from the data
+  std::array<double, 2> view{30, 20};               ///< azimuth, elevation [deg]
+  std::string named_view = {};                      ///< x, -y, iso ...; empty: view
+  double roll = 0;                                  ///< deg
+  double zoom = 1;
+  double perspective = 0;                             ///< deg
+  std::optional<std::array<double, 3>> look_at = {};  ///< m
+  std::string follow = {};                            ///< name of a body
+  int width = 0, height = 0;                          ///< pixels; 0: as what is shown needs it
+  double scale = 1;                                   ///< of that
+  std::string theme = "light", map = "auto";
+  bool labels = true;
+  AppearanceSpec appearance = {};
+  std::string quality = "normal";  ///< normal, high
+  double warp = 1;                 ///< displacements are drawn so many times as large
+  bool ground = false;             ///< a plane below the bodies, with their shadow
+  bool supports = false;           ///< what supports hold is hatched
+  std::string caption = {};        ///< of a panel
+};
+
+/// [output.pictures]
+struct PicturesSpec : PictureSpec {
+  double every = 0;                      ///< s
+  std::vector<PictureSpec> panels = {};  ///< beside each other in one picture; none: the picture is one
+  int columns = 0;                       ///< of panels; 0: as many as fit
+  std::vector<double> times = {};        ///< of the moments that one more picture shows [s]
+};
+
 /// Whether what is taken is an instant [s].
 inline bool takes_instant(QuantitySpec::Take take) {
   using enum QuantitySpec::Take;
@@ -240,23 +273,7 @@ struct OutputSpec {
   std::vector<std::string> frame_fields;  ///< empty: the formulation's default list
   double history_every = 0;               ///< 0: a five-hundredth of the run
   double checkpoints_every = 0;           ///< also written at the end, on a signal, on failure
-  double pictures_every = 0;
-  std::string picture_field = "Pressure";
-  std::string picture_component = {};                  ///< of that field, e.g. "x"; empty: see picture_values
-  std::string picture_up = "auto";                     ///< auto, x, y, z, -x, -y, -z
-  std::optional<std::array<double, 2>> picture_range;  ///< SI; otherwise from the data
-  std::array<double, 2> picture_view{30, 20};          ///< azimuth, elevation [deg]
-  std::string picture_named_view = {};                 ///< x, -y, iso ...; empty: picture_view
-  double picture_roll = 0;                             ///< deg
-  double picture_zoom = 1;
-  double picture_perspective = 0;                             ///< deg
-  std::optional<std::array<double, 3>> picture_look_at = {};  ///< m
-  std::string picture_follow = {};                            ///< name of a body
-  int picture_width = 0, picture_height = 0;                  ///< pixels; 0: as what is shown needs it
-  double picture_scale = 1;                                   ///< of that
-  std::string picture_theme = "light", picture_map = "auto";
-  bool picture_labels = true;
-  AppearanceSpec appearance;
+  PicturesSpec pictures;
   bool compress = true;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/key_tables.hpp"
+#include <algorithm>
 #include <array>
+#include <vector>
 
 namespace piola {
 namespace {
@@ -13,6 +15,7 @@ constexpr std::array<std::string_view, 8> map_words{"auto", "viridis",  "cividis
                                                     "grey", "blue_red", "blue_brown", "heat_on_grey"};
 constexpr std::array<std::string_view, 3> theme_words{"light", "dark", "transparent"};
 constexpr std::array<std::string_view, 5> representation_words{"auto", "skin", "balls", "points", "none"};
+constexpr std::array<std::string_view, 2> quality_words{"normal", "high"};
 constexpr std::array<std::string_view, 2> cut_words{"clip", "ghost"};
 constexpr std::array<std::string_view, 2> configuration_words{"current", "reference"};
 
@@ -122,7 +125,50 @@ constexpr std::array output_keys{
             "true",
             "dashed lines where the edges of bodies were that have moved",
             {}},
+    KeyInfo{
+        "output.pictures",
+        "quality",
+        word,
+        "",
+        {},
+        "\"normal\"",
+        "high: pixels are the mean of 4 x 4 samples in place of 2 x 2, and the light from around has more directions",
+        quality_words},
+    KeyInfo{"output.pictures",
+            "warp",
+            quantity,
+            "1",
+            {0, 1e6, false, false},
+            "1",
+            "displacements are drawn so many times as large, which the title says",
+            {}},
+    KeyInfo{"output.pictures",
+            "ground",
+            flag,
+            "",
+            {},
+            "false",
+            "a plane below the bodies as they stand at the start, with their shadow; three dimensions only",
+            {}},
+    KeyInfo{"output.pictures", "supports", flag, "", {}, "false", "what supports hold is hatched", {}},
     KeyInfo{"output.pictures", "cut", table, "", {}, "none", "a plane that cuts bodies open", {}},
+    KeyInfo{"output.pictures",
+            "panel",
+            list,
+            "",
+            {},
+            "one picture",
+            "[[output.pictures.panel]]: several views or fields beside each other in each picture, at most 16",
+            {}},
+    KeyInfo{"output.pictures", "columns", whole, "", {1, 16, false, false}, "as fits", "of panels", {}},
+    KeyInfo{"output.pictures",
+            "times",
+            list,
+            "s",
+            not_negative,
+            "none",
+            "one more picture at the end, FIELD-times.png, with the pictures nearest to these times beside each other",
+            {}},
     KeyInfo{"output.pictures.cut", "point", point, "m", place_range, "", "a point of the plane", {}},
     KeyInfo{"output.pictures.cut",
             "normal",
@@ -158,8 +204,39 @@ constexpr std::array output_keys{
             {}},
 };
 
+constexpr KeyInfo caption_key{"output.pictures.panel",    "caption", text, "", {}, "the view, if it has a name",
+                              "what stands at the panel", {}};
+
+/// Keys of a picture that a panel has, too. What a panel does not say is as the picture has it.
+bool is_of_panels(KeyInfo const& info) {
+  constexpr std::array<std::string_view, 8> not_these{"every",   "up",    "size",   "theme",
+                                                      "columns", "times", "labels", "panel"};
+  return info.section == "output.pictures" &&
+         std::find(not_these.begin(), not_these.end(), info.key) == not_these.end();
+}
+
+std::vector<KeyInfo> with_keys_of_panels() {
+  std::vector<KeyInfo> keys(output_keys.begin(), output_keys.end());
+  for (KeyInfo info : output_keys) {
+    if (is_of_panels(info)) {
+      info.section = "output.pictures.panel";
+      info.standard = "as the picture";
+    } else if (info.section == "output.pictures.cut") {
+      info.section = "output.pictures.panel.cut";
+    } else {
+      continue;
+    }
+    keys.push_back(info);
+  }
+  keys.push_back(caption_key);
+  return keys;
+}
+
 }  // namespace
 
-std::span<KeyInfo const> keys_of_output() { return output_keys; }
+std::span<KeyInfo const> keys_of_output() {
+  static std::vector<KeyInfo> const keys = with_keys_of_panels();
+  return keys;
+}
 
 }  // namespace piola

@@ -14,13 +14,16 @@ std::vector<std::string> representation_list() {
 void read_representation(Section const& pictures, AppearanceSpec& appearance) {
   Node const* const node = pictures.node().find("as");
   if (node == nullptr) return;
+  std::string const name = pictures.name_of("as");
+  appearance.as = AppearanceSpec{}.as;
+  appearance.of_body.clear();
   auto const words = representation_list();
   if (!node->is_table()) {
-    if (auto const word = read_word({*node, "output.pictures.as"}, words, pictures.problems())) appearance.as = *word;
+    if (auto const word = read_word({*node, name}, words, pictures.problems())) appearance.as = *word;
     return;
   }
   for (Node::Entry const& entry : node->entries)
-    if (auto const word = read_word({entry.value, "output.pictures.as." + entry.key}, words, pictures.problems()))
+    if (auto const word = read_word({entry.value, name + "." + entry.key}, words, pictures.problems()))
       appearance.of_body.push_back({entry.key, *word, entry.place});
 }
 
@@ -46,7 +49,7 @@ void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, 
     if (std::any_of(bodies.begin(), bodies.end(), named)) continue;
     std::vector<std::string> known;
     for (BodySpec const& spec : bodies) known.push_back(spec.name);
-    pictures.problems().add(place, "output.pictures.as names the body " + in_quotes(body) +
+    pictures.problems().add(place, pictures.name_of("as") + " names the body " + in_quotes(body) +
                                        " (allowed: " + joined(known) + ") - name a body of this case");
   }
 }

@@ -11,19 +11,6 @@
 namespace piola {
 namespace {
 
-std::vector<std::string> known_fields() {
-  std::vector<std::string> names;
-  for (FieldName const& field : field_names()) names.emplace_back(field.name);
-  return names;
-}
-
-std::string_view unit_of_field(std::string_view name) {
-  for (FieldName const& field : field_names()) {
-    if (field.name == name) return field.unit;
-  }
-  return "1";
-}
-
 void read_threads(Section const& section, RunSpec& run) {
   auto const value = section.find("threads");
   if (!value || (value->node.is_text() && value->node.text == "auto")) return;
@@ -97,105 +84,13 @@ void read_frames(Section const& section, OutputSpec& output) {
   section.refuse_unknown();
 }
 
-/// Two numbers, for instance the ends of a range.
-std::optional<std::array<double, 2>> read_pair(Section const& section, std::string_view key, std::string_view unit) {
-  auto const value = section.find(key);
-  if (!value) return std::nullopt;
-  auto const items = read_list(*value, 2, 2, section.problems());
-  if (!items) return std::nullopt;
-  Interval const allowed = key_info("output.pictures", key).allowed;
-  auto const first = read_number((*items)[0], unit, allowed, section.problems());
-  auto const second = read_number((*items)[1], unit, allowed, section.problems());
-  if (!first || !second) return std::nullopt;
-  return std::array{*first, *second};
-}
-
-void read_size(Section const& section, OutputSpec& output) {
-  auto const value = section.find("size");
-  if (!value) return;
-  auto const items = read_list(*value, 2, 2, section.problems());
-  if (!items) return;
-  Interval const allowed = key_info("output.pictures", "size").allowed;
-  auto const width = read_whole((*items)[0], allowed, section.problems());
-  auto const height = read_whole((*items)[1], allowed, section.problems());
-  if (width) output.picture_width = static_cast<int>(*width);
-  if (height) output.picture_height = static_cast<int>(*height);
-}
-
-// Plain numbers are in degrees here, unlike SI, because nobody thinks of a view in radians.
-void read_view(Section const& section, OutputSpec& output) {
-  auto const view = section.find("view");
-  if (view && view->node.kind == Node::Kind::text) {
-    static std::vector<std::string> const words{"x", "y", "z", "-x", "-y", "-z", "iso", "iso2"};
-    if (auto const word = read_word(*view, words, section.problems())) output.picture_named_view = *word;
-    for (char const* const key : {"azimuth", "elevation"}) section.refuse(key, "is given by the name of the view");
-  } else if (view) {
-    auto const items = read_list(*view, 2, 2, section.problems());
-    Interval const allowed = key_info("output.pictures", "view").allowed;
-    for (std::size_t i = 0; items && i < 2; ++i) {
-      if (auto const angle = read_number((*items)[i], "degree", allowed, section.problems()))
-        output.picture_view[i] = *angle;
-    }
-    for (char const* const key : {"azimuth", "elevation"}) section.refuse(key, "is given by view");
-  }
-  section.read("azimuth", output.picture_view[0]);
-  section.read("elevation", output.picture_view[1]);
-  section.read("roll", output.picture_roll);
-}
-
-void read_frame_of_picture(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
-  section.read("zoom", output.picture_zoom);
-  section.read("perspective", output.picture_perspective);
-  if (auto const point = section.point("look_at")) {
-    output.picture_look_at = std::array{0.0, 0.0, 0.0};
-    std::copy(point->begin(), point->end(), output.picture_look_at->begin());
-  }
-  std::vector<std::string> known;
-  for (BodySpec const& body : bodies)
-    if (!body.name.empty()) known.push_back(body.name);
-  if (auto const body = section.find("follow"))
-    if (auto const word = read_word(*body, known, section.problems())) output.picture_follow = *word;
-  read_size(section, output);
-}
-
-void check_component(Section const& section, OutputSpec const& output) {
-  for (FieldName const& field : field_names()) {
-    if (field.name != output.picture_field || find_component(output.picture_component, field.components)) continue;
-    std::string known;
-    for (std::string_view const word : component_words(field.components)) {
-      known += known.empty() ? "" : ", ";
-      known += word;
-    }
-    section.problems().add(section.place_of("component"),
-                           "output.pictures.component is " + in_quotes(output.picture_component) + " (" +
-                               std::string(field.name) + " has " + (known.empty() ? "no components" : known) + ")" +
-                               (known.empty() ? " - leave it out" : ""));
-  }
-}
-
-void read_pictures(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
-  section.read("every", output.pictures_every);
-  if (auto const field = section.find("field")) {
-    if (auto const word = read_word(*field, known_fields(), section.problems())) output.picture_field = *word;
-  }
-  section.read("component", output.picture_component);
-  check_component(section, output);
-  section.read("up", output.picture_up);
-  output.picture_range = read_pair(section, "range", unit_of_field(output.picture_field));
-  if (output.picture_range && (*output.picture_range)[0] >= (*output.picture_range)[1]) {
-    section.problems().add(section.place_of("range"),
-                           "output.pictures.range is empty (allowed: the lower value first)");
-  }
-  read_view(section, output);
-  read_frame_of_picture(section, output, bodies);
-  section.read("map", output.picture_map);
-  section.read("theme", output.picture_theme);
-  section.read("labels", output.picture_labels);
-  read_appearance(section, bodies, output.appearance);
-  section.refuse_unknown();
-}
-
 }  // namespace
+
+std::vector<std::string> known_fields() {
+  std::vector<std::string> names;
+  for (FieldName const& field : field_names()) names.emplace_back(field.name);
+  return names;
+}
 
 void read_run(Section const& section, RunSpec& run) {
   section.read("end", run.end);
@@ -223,7 +118,7 @@ void read_output(Section const& section, OutputSpec& output, std::span<BodySpec 
     history->read("every", output.history_every);
     history->refuse_unknown();
   }
-  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output, bodies);
+  if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output.pictures, bodies);
   if (auto const checkpoints = section.table("checkpoints")) {
     checkpoints->read("every", output.checkpoints_every);
     checkpoints->refuse_unknown();

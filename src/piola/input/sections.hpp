@@ -36,7 +36,11 @@ Places places_of(Section const& section, std::initializer_list<char const*> keys
 
 void read_run(Section const& section, RunSpec& run);
 void read_output(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies);
-/// The part of read_output that reads how bodies are drawn.
+/// The part of read_output that reads [output.pictures].
+void read_pictures(Section const& section, PicturesSpec& pictures, std::span<BodySpec const> bodies);
+/// Names of all fields.
+std::vector<std::string> known_fields();
+/// The part of it that reads how bodies are drawn. What a panel does not say stays as it is.
 void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, AppearanceSpec& appearance);
 std::map<std::string, double> read_constants(Value const& value, Problems& problems);
 

@@ -19,11 +19,18 @@ struct CutPlane {
   bool in_reference = false;        ///< cuts the bodies as they were at the start
 };
 
+/// How many samples a pixel has, and how many directions the light from around.
+enum class Quality { normal, high };
+inline constexpr std::array<std::string_view, 2> quality_words{"normal", "high"};
+
 /// What is drawn of a scene.
 struct Appearance {
   std::vector<Representation> as = {};  ///< per body; those beyond its end: automatic
   bool outline = true;                  ///< edges of the reference shape of bodies that have moved, dashed
   std::optional<CutPlane> cut = {};
+  Quality quality = Quality::normal;
+  /// Upwards, of length 1: a plane across it below the bodies of the reference configuration, in three dimensions.
+  std::optional<Place3> ground = {};
 };
 
 }  // namespace piola

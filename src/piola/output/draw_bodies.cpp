@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/draw_bodies.hpp"
 #include "piola/output/feature_lines.hpp"
+#include "piola/output/ground.hpp"
 #include "piola/output/rigid_picture.hpp"
 #include "piola/output/scene.hpp"
 #include "piola/output/shade.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace piola {
 namespace {
 
-constexpr int fine = 2;  // pixels are the mean of fine x fine samples
+/// Pixels are the mean of so many samples squared.
+int samples_across(Quality quality) { return quality == Quality::high ? 4 : 2; }
 
-std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const& scene, ColourMap const& map) {
+std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const& scene, ColourMap const& map,
+                                            int hatch) {
   SurfaceFinish finish;
   finish.flat = data.dimension < 3;
   if (scene.colours.empty()) {
@@ -23,7 +27,10 @@ std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const
     };
   }
   std::vector<SurfaceFinish> all(scene.spacing.size(), finish);
-  for (std::size_t body = 0; body < all.size(); ++body) all[body].spacing = scene.spacing[body];
+  for (std::size_t body = 0; body < all.size(); ++body) {
+    all[body].spacing = scene.spacing[body];
+    if (scene.hatched && body >= scene.bodies_in_all) all[body].hatch = hatch;
+  }
   return all;
 }
 
@@ -34,16 +41,23 @@ std::vector<SurfaceFinish> finish_of_tools(PictureData const& data, float spacin
   return all;
 }
 
+/// How far stripes stand apart [samples]: the same share of every picture.
+int hatch_of(SceneArea const& area, int fine) {
+  double const unit = std::sqrt(static_cast<double>(area.width) * area.height / 800000.0);
+  return fine * std::max(4, static_cast<int>(std::lround(9 * unit)));
+}
+
 /// Moves what a picture in perspective shows to where the eye sees it; see Projection. What is not before the eye is no
 /// longer finite, and is left out.
-void move_to_where_seen(Surfaces& surfaces, Projection const& project) {
-  double const scale = project.scale * fine;
+void move_to_where_seen(Surfaces& surfaces, Projection const& project, int samples) {
+  auto const fine = static_cast<float>(samples);
+  double const scale = project.scale * samples;
   auto const moved = [&](auto& place) {
     Place3 const p = plus(project.point(place.x / fine, place.y / fine), place.depth / scale, project.towards);
     Place3 const q = project.eye.seen(p);
     auto const pixel = project(q);
-    place.x = static_cast<float>(pixel[0] * fine);
-    place.y = static_cast<float>(pixel[1] * fine);
+    place.x = static_cast<float>(pixel[0] * samples);
+    place.y = static_cast<float>(pixel[1] * samples);
     place.depth = static_cast<float>(dot(q, project.towards) * scale);
     return static_cast<float>(project.eye.magnification(p));
   };
@@ -64,7 +78,7 @@ bool has_moved(ReferenceMesh const& mesh, std::span<Place3 const> x) {
 
 /// The outlines of the bodies that have moved.
 std::vector<float> outlines(PictureData const& data, Appearance const& appearance, Projection const& project,
-                            SurfaceBuffers const& like) {
+                            SurfaceBuffers const& like, int fine) {
   std::vector<float> coverage;
   for (std::size_t body = 0; appearance.outline && body < data.meshes.size(); ++body) {
     ReferenceMesh const& mesh = data.meshes[body];
@@ -82,21 +96,24 @@ std::vector<float> outlines(PictureData const& data, Appearance const& appearanc
 }  // namespace
 
 Image draw_bodies(PictureData const& data, Appearance const& appearance, Projection const& project,
-                  SceneArea const& area, ColourMap const& map, Colour background) {
+                  SceneArea const& area, ColourMap const& map, std::optional<Colour> background) {
+  int const fine = samples_across(appearance.quality);
   Scene scene = make_scene(data, appearance, project, fine);
   if (project.eye.near()) {
-    move_to_where_seen(scene.bodies, project);
-    move_to_where_seen(scene.ghosts, project);
+    move_to_where_seen(scene.bodies, project, fine);
+    move_to_where_seen(scene.ghosts, project, fine);
   }
   SurfaceBuffers bodies(area.width * fine, area.height * fine), tools, ghosts;
   rasterise(scene.bodies, bodies);
   Shading shading;
   shading.fine = fine;
-  shading.background = background;
+  shading.directions = appearance.quality == Quality::high ? 96 : 28;
+  shading.transparent = !background;
+  if (background) shading.background = *background;
   shading.radius = scene.radius;
   shading.range = {map.low(), map.high()};
   if (!scene.colours.empty()) shading.range = {0, Shading::steps - 1.0};
-  shading.bodies = {&bodies, finish_of_bodies(data, scene, map)};
+  shading.bodies = {&bodies, finish_of_bodies(data, scene, map, hatch_of(area, fine))};
   if (!data.rigid_shapes.empty()) {
     tools = SurfaceBuffers(bodies.width, bodies.height);
     Stage const stage{data.stage_low, data.stage_high};
@@ -109,8 +126,10 @@ Image draw_bodies(PictureData const& data, Appearance const& appearance, Project
     rasterise(scene.ghosts, ghosts);
     shading.ghosts = {&ghosts, shading.bodies.finish};
   }
-  auto const lines = outlines(data, appearance, project, bodies);
+  auto const lines = outlines(data, appearance, project, bodies, fine);
   shading.lines = lines;
+  auto const ground = ground_below(data, appearance, project, area);
+  shading.ground = ground;
   return shade(shading);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/appearance.hpp"
 #include "piola/output/colour_map.hpp"
+#include "piola/output/picture.hpp"
 #include "piola/output/projection.hpp"
+#include <optional>
 
 namespace piola {
 
@@ -9,10 +12,11 @@ namespace piola {
 struct SceneArea {
   int width = 0, height = 0;
   int top = 0, right = 0;  ///< letters stand above and beyond
+  int bottom = 0;          ///< and below; 0: nothing does
 };
 
-/// Bodies, rigid shapes and reference outlines, lit, without letters.
+/// Bodies, rigid shapes and reference outlines, lit, without letters. Without a background the image has opacity.
 Image draw_bodies(PictureData const& data, Appearance const& appearance, Projection const& project,
-                  SceneArea const& area, ColourMap const& map, Colour background);
+                  SceneArea const& area, ColourMap const& map, std::optional<Colour> background);
 
 }  // namespace piola

@@ -8,7 +8,6 @@
 namespace piola {
 namespace {
 
-constexpr int directions = 28;
 constexpr float least_openness = 0.4F;
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
@@ -22,12 +21,12 @@ struct Tap {
 constexpr int pattern = 4;
 
 /// Places on a golden spiral that fill a disc evenly, without the pixel itself.
-std::vector<Tap> spiral(float radius, int turn) {
+std::vector<Tap> spiral(float radius, int turn, int directions) {
   std::vector<Tap> taps;
   float const golden = std::numbers::pi_v<float> * (3 - std::sqrt(5.0F));
   float const first = 2 * std::numbers::pi_v<float> * static_cast<float>(turn) / (pattern * pattern);
   for (int k = 0; k < directions; ++k) {
-    float const r = radius * std::sqrt((static_cast<float>(k) + 0.5F) / directions),
+    float const r = radius * std::sqrt((static_cast<float>(k) + 0.5F) / static_cast<float>(directions)),
                 a = golden * static_cast<float>(k) + first;
     Tap const tap{static_cast<int>(std::lround(r * std::cos(a))), static_cast<int>(std::lround(r * std::sin(a)))};
     if (tap.x != 0 || tap.y != 0) taps.push_back(tap);
@@ -120,7 +119,8 @@ PixelSurface::PixelSurface(SurfaceBuffers const& samples, int fine)
   });
 }
 
-std::vector<float> openness(PixelSurface const& surface, std::span<float const> around, float ball_radius) {
+std::vector<float> openness(PixelSurface const& surface, std::span<float const> around, float ball_radius,
+                            int directions) {
   auto const pixels = surface.depth.size();
   std::vector<float> open(pixels, 1);
   // Not below two pixels, where there is nothing to see, and not so far that taps are strewn.
@@ -128,18 +128,18 @@ std::vector<float> openness(PixelSurface const& surface, std::span<float const> 
   std::vector<std::vector<Tap>> close, wide;
   for (int turn = 0; turn < pattern * pattern; ++turn) {
     // Neighbours in the pattern differ by much: 7 has no divisor in common with 16.
-    close.push_back(spiral(near_by, 7 * turn % (pattern * pattern)));
-    wide.push_back(spiral(far_off, 7 * turn % (pattern * pattern)));
+    close.push_back(spiral(near_by, 7 * turn % (pattern * pattern), directions));
+    wide.push_back(spiral(far_off, 7 * turn % (pattern * pattern), directions));
   }
   exec_host::for_each_part_in_set_up(surface.height, static_cast<Index>(pixels), [&](Index y) {
     std::vector<float> sum(static_cast<std::size_t>(surface.width), 0);
-    Pixels pixels = shown(surface, y);
-    for (int k = 0; k < pattern && pixels.first < pixels.last; ++k, ++pixels.first) {
-      auto const turn = static_cast<std::size_t>(y % pattern * pattern + pixels.first % pattern);
-      for (Tap const& tap : close[turn]) add_row(surface, around, tap, pixels, near_by, sum);
-      for (Tap const& tap : wide[turn]) add_row(surface, around, tap, pixels, far_off, sum);
+    Pixels some = shown(surface, y);
+    for (int k = 0; k < pattern && some.first < some.last; ++k, ++some.first) {
+      auto const turn = static_cast<std::size_t>(y % pattern * pattern + some.first % pattern);
+      for (Tap const& tap : close[turn]) add_row(surface, around, tap, some, near_by, sum);
+      for (Tap const& tap : wide[turn]) add_row(surface, around, tap, some, far_off, sum);
     }
-    constexpr float share = strength / (2 * directions);
+    float const share = strength / static_cast<float>(2 * directions);
     float* const row = &open[static_cast<std::size_t>(y) * sum.size()];
     for (std::size_t x = 0; x < sum.size(); ++x) row[x] = std::max(least_openness, 1 - share * sum[x]);
   });

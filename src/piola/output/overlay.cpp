@@ -190,6 +190,22 @@ Layout layout_of(int width, int height, std::string_view title, bool letters) {
   return at;
 }
 
+Image draw_marks(int width, int height, Layout const& layout, Overlay const& overlay, ThemeColours const& colours,
+                 bool transparent) {
+  Image strip(width, height, colours.background);
+  if (transparent) strip.alpha.assign(strip.rgb.size() / 3, 0);
+  Layout at = layout;
+  at.width = width;
+  at.height = height;
+  at.left = 0;
+  at.right = width;
+  Canvas canvas(strip);
+  Writer writer(canvas, at, overlay, colours);
+  writer.axes();
+  writer.scale_bar();
+  return canvas.image();
+}
+
 void draw_overlay(Image& image, Layout const& layout, Overlay const& overlay, ThemeColours const& colours) {
   Canvas canvas(image);
   Writer writer(canvas, layout, overlay, colours);

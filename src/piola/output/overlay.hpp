@@ -63,6 +63,10 @@ struct Overlay {
   double pixels_per_metre = 0;  ///< 0: no scale bar
 };
 
+/// A strip of this size with axes and scale bar alone.
+Image draw_marks(int width, int height, Layout const& layout, Overlay const& overlay, ThemeColours const& colours,
+                 bool transparent);
+
 /// Draws them over the image.
 void draw_overlay(Image& image, Layout const& layout, Overlay const& overlay, ThemeColours const& colours);
 

@@ -12,14 +12,16 @@ namespace {
 struct PanelCells {
   Layout layout;
   int columns, rows, width, height;
-  double caption;  ///< height of the line below each
-  PanelCells(PictureStyle const& style, Sheet const& sheet, std::size_t panels)
+  double caption;  ///< height of what stands below each
+  PanelCells(PictureStyle const& style, Sheet const& sheet, std::size_t panels, bool marks)
       : layout(layout_of(style.width, style.height, sheet.title, style.labels)),
         columns(std::max(1, sheet.columns)),
         rows(static_cast<int>((panels + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns))),
-        caption(style.labels ? 2 * layout.text : 0) {
+        caption(style.labels ? (marks ? 84 * layout.unit : 2 * layout.text) : 0) {
     width = std::max(1, static_cast<int>((layout.right - layout.left) / columns));
-    height = std::max(1, static_cast<int>((layout.bottom - layout.top) / std::max(rows, 1) - caption));
+    // Without axes of the whole there is more room below.
+    double const bottom = marks && style.labels ? layout.height - 16 * layout.unit : layout.bottom;
+    height = std::max(1, static_cast<int>((bottom - layout.top) / std::max(rows, 1) - caption));
   }
   int x(std::size_t k) const {
     return static_cast<int>(layout.left) + width * static_cast<int>(k % static_cast<std::size_t>(columns));
@@ -58,20 +60,36 @@ Image draw_panels(std::span<Panel const> panels, Sheet const& sheet, PictureStyl
   Image out(style.width, style.height, colours.background);
   if (style.theme == Theme::transparent) out.alpha.assign(out.rgb.size() / 3, 0);
   if (panels.empty()) return out;
-  PanelCells const cells(style, sheet, panels.size());
+  bool const marks = std::any_of(panels.begin(), panels.end(), [](Panel const& panel) { return panel.own != nullptr; });
+  PanelCells const cells(style, sheet, panels.size(), marks);
   PictureData first = panels.front().data;
   PictureStyle bare = style;
   bare.labels = false;
   bare.width = cells.width;
   bare.height = cells.height;
   if (!bare.range && first.spread) bare.range = first.spread->typical;
-  for (std::size_t k = 0; k < panels.size(); ++k)
-    paste(out, draw_picture(panels[k].data, bare, panels[k].window), cells.x(k), cells.y(k));
+  auto notes = out.notes;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    PictureStyle one = bare;
+    if (panels[k].own) {
+      one.view = panels[k].own->view;
+      one.appearance = panels[k].own->appearance;
+    }
+    Image const panel = draw_picture(panels[k].data, one, panels[k].window);
+    paste(out, panel, cells.x(k), cells.y(k));
+    if (k == 0) notes = panel.notes;
+    if (!marks || !style.labels) continue;
+    Image const strip =
+        draw_marks(cells.layout, static_cast<int>(cells.caption), panels[k].data, one, panels[k].window);
+    paste(out, strip, cells.x(k), cells.y(k) + cells.height);
+  }
   first.title = sheet.title;
+  notes.front().second = sheet.title;
   if (style.labels) {
-    draw_letters(out, cells.layout, first, bare, panels.front().window, sheet.at_right);
+    draw_letters(out, cells.layout, first, bare, panels.front().window, sheet.at_right, !marks);
     write_captions(out, panels, cells, colours.ink);
   }
+  out.notes = std::move(notes);
   return out;
 }
 

@@ -9,6 +9,8 @@ struct Panel {
   PictureData const& data;
   Window window;
   std::string caption;  ///< below it
+  /// View and appearance, if they are its own: axes and scale then stand at each panel.
+  PictureStyle const* own = nullptr;
 };
 
 /// What all panels have in common.

@@ -57,9 +57,10 @@ struct Setting {
 };
 
 Image draw_scene(PictureData const& data, PictureStyle const& style, Layout const& layout, Projection const& project,
-                 ColourMap const& map, Colour background) {
+                 ColourMap const& map, std::optional<Colour> background) {
   double const top = style.labels ? 0.8 * layout.top : 0, right = style.labels ? layout.right : style.width;
-  SceneArea const area{style.width, style.height, static_cast<int>(top), static_cast<int>(right)};
+  SceneArea const area{style.width, style.height, static_cast<int>(top), static_cast<int>(right),
+                       style.labels ? static_cast<int>(layout.bottom) : 0};
   return draw_bodies(data, style.appearance, project, area, map, background);
 }
 
@@ -85,11 +86,16 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
 }
 
 /// What flew out of the window, or lies beyond it where a picture is enlarged, must not lie under letters.
-void clear_for_letters(Image& image, Layout const& layout, Colour background) {
+void clear_for_letters(Image& image, Layout const& layout, std::optional<Colour> background) {
   double const air = 8 * layout.unit;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      if (x > layout.right + air || y < layout.top - air || y > layout.bottom + air) image.set(x, y, background);
+      if (x > layout.right + air || y < layout.top - air || y > layout.bottom + air) {
+        image.set(x, y, background.value_or(Colour{}));
+        if (!background)
+          image.alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                      static_cast<std::size_t>(x)] = 0;
+      }
 }
 
 /// What tells where a picture comes from.
@@ -112,24 +118,32 @@ void add_notes_to(Image& image, PictureData const& data, ColourMap const& map) {
 Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window) {
   Setting const s(data, style, window);
   ThemeColours const colours = colours_of(style.theme);
-  auto const draw_on = [&](Colour background) {
-    Image scene = draw_scene(data, style, s.layout, s.project, s.map, background);
-    if (style.labels) clear_for_letters(scene, s.layout, background);
-    return scene;
-  };
-  Image image = style.theme == Theme::transparent ? without_background(draw_on({0, 0, 0}), draw_on({255, 255, 255}))
-                                                  : draw_on(colours.background);
+  std::optional<Colour> background = colours.background;
+  if (style.theme == Theme::transparent) background.reset();
+  Image image = draw_scene(data, style, s.layout, s.project, s.map, background);
+  if (style.labels) clear_for_letters(image, s.layout, background);
   if (style.labels) draw_overlay(image, s.layout, overlay_of(data, s.view, s.project, s.map, s.spread), colours);
   add_notes_to(image, data, s.map);
   return image;
 }
 
 void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
-                  Window const& window, std::string const& at_right) {
+                  Window const& window, std::string const& at_right, bool marks) {
   Setting const s(data, style, window);
   Overlay overlay = overlay_of(data, s.view, s.project, s.map, s.spread);
   overlay.at_right = at_right;
+  if (!marks) {
+    overlay.axes.clear();
+    overlay.pixels_per_metre = 0;
+  }
   draw_overlay(image, layout, overlay, colours_of(style.theme));
+}
+
+Image draw_marks(Layout const& layout, int height, PictureData const& data, PictureStyle const& style,
+                 Window const& window) {
+  Setting const s(data, style, window);
+  return draw_marks(style.width, height, layout, overlay_of(data, s.view, s.project, s.map, s.spread),
+                    colours_of(style.theme), style.theme == Theme::transparent);
 }
 
 void Spread::include(std::span<double const> values) {

@@ -53,6 +53,9 @@ struct PictureData {
   std::span<int const> body = {};              ///< numbers, particles of a body one after the other; empty: one body
   std::span<ReferenceMesh const> meshes = {};  ///< per body; none: particles are balls that do not stretch
   std::span<std::uint8_t const> loose = {};    ///< not 0: has lost its neighbours for good; empty: none has
+  std::span<std::uint8_t const> held = {};     ///< not 0: hatched; empty: none is
+  /// Per body, the cells of its mesh that count as torn; empty: as the points say.
+  std::span<std::vector<Index> const> torn = {};
 };
 
 struct PictureStyle {
@@ -73,7 +76,11 @@ Image draw_picture(PictureData const& data, PictureStyle const& style, Window co
 /// The letters of a picture alone, over `image`: title, what stands at the right (the time, usually), the colour bar of
 /// the style's range, and the axes and the scale that a picture of the style's size without labels has.
 void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
-                  Window const& window, std::string const& at_right);
+                  Window const& window, std::string const& at_right, bool marks = true);
+
+/// Axes and scale of a picture of the style's size without labels, as a strip of this height below it.
+Image draw_marks(Layout const& layout, int height, PictureData const& data, PictureStyle const& style,
+                 Window const& window);
 
 /// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a
 /// little more, so that a body looks closed.

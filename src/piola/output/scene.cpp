@@ -7,7 +7,8 @@
 namespace piola {
 namespace {
 
-constexpr std::size_t most_balls = 2'000'000;  // above it there are more balls than samples
+constexpr std::size_t most_balls = 2'000'000;    // above it there are more balls than samples
+constexpr std::size_t most_bodies = nobody / 2;  // with their hatched twins
 constexpr double least_stretch = 1.0 / 3, most_stretch = 4;
 
 /// From metres to samples.
@@ -54,6 +55,7 @@ class BodyDrawing {
     if (mesh_) {
       now = {data_.points.subspan(first, count), {}};
       if (!data_.loose.empty()) now.loose = data_.loose.subspan(first, count);
+      if (body_ < data_.torn.size()) now.torn = data_.torn[body_];
     }
     Skin skin;
     if (mesh_ && solid && mesh_->dimension > 1) skin = make_skin(*mesh_, now);
@@ -66,6 +68,8 @@ class BodyDrawing {
 
  private:
   float value(std::size_t i) const { return scene_.value[i]; }
+  bool held(std::size_t i) const { return scene_.hatched && data_.held[i] != 0; }
+  Owner owner(bool hatched) const { return static_cast<Owner>(body_ + (hatched ? scene_.bodies_in_all : 0)); }
 
   void add_skin(Skin const& skin, std::size_t first) {
     Surfaces& out = scene_.bodies;
@@ -73,7 +77,9 @@ class BodyDrawing {
     std::size_t const first_vertex = out.vertices.size(), first_triangle = out.triangles.size();
     for (SkinFacet const& facet : skin.facets) {
       Triangle t;
-      t.owner = static_cast<Owner>(body_);
+      // A support often holds one layer of particles: its cells are hatched, which can be seen from the side.
+      t.owner = owner(std::any_of(facet.corner.begin(), facet.corner.end(),
+                                  [&](Index c) { return held(first + static_cast<std::size_t>(c)); }));
       for (std::size_t c = 0; c < 3; ++c) {
         auto const i = static_cast<std::size_t>(facet.corner[c]);
         if (vertex[i] < 0) {
@@ -118,11 +124,12 @@ class BodyDrawing {
     for (auto const& corners : section(*mesh_, skin, far)) {
       std::array<Place3, 3> x{};
       Triangle t;
-      t.owner = static_cast<Owner>(body_);
+      bool hatched = false;
       for (std::size_t c = 0; c < 3; ++c) {
         auto const a = static_cast<std::size_t>(corners[c].particle[0]),
                    b = static_cast<std::size_t>(corners[c].particle[1]);
         double const share = corners[c].share;
+        hatched = hatched || held(first + a) || held(first + b);
         x[c] = plus(skin.place[a], share, minus(skin.place[b], skin.place[a]));
         Vertex v = to_samples_(x[c]);
         float const s = static_cast<float>(share), from = value(first + a), to = value(first + b);
@@ -130,6 +137,7 @@ class BodyDrawing {
         t.corner[c] = static_cast<std::int32_t>(scene_.bodies.vertices.size());
         scene_.bodies.vertices.push_back(v);
       }
+      t.owner = owner(hatched);
       t.normal.fill(to_samples_.normal(unit(cross(minus(x[1], x[0]), minus(x[2], x[0])))));
       scene_.bodies.triangles.push_back(t);
     }
@@ -158,7 +166,7 @@ class BodyDrawing {
     e.y = centre.y;
     e.depth = centre.depth;
     e.value = value(first + i);
-    e.owner = static_cast<Owner>(body_);
+    e.owner = owner(held(first + i));
     e.flat = data_.dimension < 3;
     double const least = (data_.dimension == 1 ? 5.0 : 1.2) * to_samples_.fine;  // thinner ones cannot be seen
     double const radius = data_.radius[first + i] * to_samples_.project.scale * to_samples_.fine;
@@ -238,12 +246,22 @@ Scene make_scene(PictureData const& data, Appearance const& appearance, Projecti
   scene.bodies.nearest_value = scene.ghosts.nearest_value = !data.colours.empty();
   set_values(data, scene);
   double const radius_of_spacing = 0.58;  // see ball_radii
+  scene.hatched = data.held.size() == data.points.size() && !data.held.empty();
+  each_body(data, [&](std::size_t body, std::size_t, std::size_t) {
+    body = std::min<std::size_t>(body, most_bodies - 1);
+    scene.bodies_in_all = std::max(scene.bodies_in_all, static_cast<Owner>(body + 1));
+  });
   each_body(data, [&](std::size_t body, std::size_t first, std::size_t count) {
-    body = std::min<std::size_t>(body, nobody - 1);
+    body = std::min<std::size_t>(body, most_bodies - 1);
     scene.spacing.resize(std::max(scene.spacing.size(), body + 1), 0);
     scene.spacing[body] = static_cast<float>(data.radius[first] / radius_of_spacing * project.scale * fine);
     BodyDrawing(data, appearance, to_samples, body, scene).draw(first, count);
   });
+  if (scene.hatched) {
+    scene.spacing.resize(scene.bodies_in_all, 0);
+    std::vector<float> const twins = scene.spacing;
+    scene.spacing.insert(scene.spacing.end(), twins.begin(), twins.end());
+  }
   scene.radius = static_cast<float>(typical_radius(data.radius) * project.scale * fine);
   return scene;
 }

@@ -8,12 +8,15 @@
 
 namespace piola {
 
-/// The bodies of a picture as surfaces, in samples. The owner of a surface is the number of its body.
+/// The bodies of a picture as surfaces, in samples. The owner of a surface is the number of its body; of what is
+/// hatched, the number of bodies more.
 struct Scene {
   Surfaces bodies;
-  Surfaces ghosts;              ///< what a cut has taken away
-  float radius = 0;             ///< of a typical ball [samples]
-  std::vector<float> spacing;   ///< of the particles of each body [samples]
+  Surfaces ghosts;             ///< what a cut has taken away
+  float radius = 0;            ///< of a typical ball [samples]
+  std::vector<float> spacing;  ///< of the particles of each body [samples]
+  bool hatched = false;        ///< there are particles that are
+  Owner bodies_in_all = 0;
   std::vector<float> value;     ///< of each particle as it stands in the buffers: with colours, a number of these
   std::vector<Colour> colours;  ///< all that particles have
 };

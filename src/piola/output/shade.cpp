@@ -10,6 +10,8 @@ namespace {
 constexpr float tool_opacity = 0.45F;  // where it hides a body
 constexpr float ghost_opacity = 0.12F;
 constexpr float edge_darkness = 0.45F;  // what an edge leaves of the colour
+constexpr float stripe_darkness = 0.35F;
+constexpr Colour ground_grey{205, 208, 212}, dark_ground_grey{66, 69, 76};
 constexpr Colour line_grey{115, 115, 115};
 
 /// Linear light of sRGB's 256 steps (IEC 61966-2-1).
@@ -94,6 +96,7 @@ struct Prepared {
     float const closed = open.empty() ? 0 : 1 - open[pixel];
     float factor = 1 - (luminance(colour) < dark ? 0.5F : 1.0F) * closed;
     if (is_edge(x, y, 1.5F * f.spacing)) factor *= edge_darkness;
+    if (f.hatch > 0 && (x + y) % f.hatch < f.hatch / 4) factor *= stripe_darkness;
     Light3 out{};
     for (std::size_t c = 0; c < 3; ++c) out[c] = factor * (light.colour * colour[c] + light.white);
     return out;
@@ -134,7 +137,10 @@ std::vector<float> nearest_of(std::vector<PixelSurface> const& layers) {
 struct Sampler {
   Shading const& shading;
   Prepared const &bodies, &tools, &ghosts;
-  Light3 background, line;
+  Light3 background, line, ground;
+
+  /// Whether a sample shows the background, if only through a shade.
+  bool shows_background(std::size_t at) const { return bodies.depth(at) == nothing && tools.depth(at) == nothing; }
 
   Light3 operator()(int x, int y, std::size_t pixel) const {
     std::size_t const at = shading.bodies.surfaces->at(x, y);
@@ -148,13 +154,45 @@ struct Sampler {
 
   Light3 solid(int x, int y, std::size_t pixel, std::size_t at) const {
     float const body = bodies.depth(at), tool = tools.depth(at);
-    if (body == nothing && tool == nothing)
-      return shading.lines.empty() ? background : mixed(background, line, shading.lines[at]);
+    if (shows_background(at)) {
+      Light3 behind = background;
+      if (!shading.ground.empty()) {
+        GroundLight const& there = shading.ground[pixel];
+        behind =
+            mixed(behind, {there.light * ground[0], there.light * ground[1], there.light * ground[2]}, there.share);
+      }
+      return shading.lines.empty() ? behind : mixed(behind, line, shading.lines[at]);
+    }
     if (body >= tool) return bodies.seen(x, y, pixel);
     if (body == nothing) return tools.seen(x, y, pixel);
     return mixed(bodies.seen(x, y, pixel), tools.seen(x, y, pixel), tool_opacity);
   }
 };
+
+/// Pixels as the mean of their samples; and on another background, if that is asked for, where it shows.
+void draw_pixels(Image& image, Image* other, Sampler const& sample, Sampler const& on_other) {
+  int const width = image.width, fine = sample.shading.fine;
+  float const samples = static_cast<float>(fine * fine);
+  auto const add = [&](Light3& sum, Light3 const& one) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += std::min(one[c], 1.0F) / samples;
+  };
+  exec_host::for_each_part_in_set_up(image.height, width * image.height, [&](Index y) {
+    for (int x = 0; x < width; ++x) {
+      auto const pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      Light3 sum{}, sum_on_other{};
+      for (int k = 0; k < fine * fine; ++k) {
+        int const i = x * fine + k % fine, j = y * fine + k / fine;
+        Light3 const one = sample(i, j, pixel);
+        add(sum, one);
+        if (!other) continue;
+        bool const shows = sample.shows_background(sample.shading.bodies.surfaces->at(i, j));
+        add(sum_on_other, shows ? on_other(i, j, pixel) : one);
+      }
+      image.set(x, y, encoded(sum));
+      if (other) other->set(x, y, encoded(sum_on_other));
+    }
+  });
+}
 
 }  // namespace
 
@@ -191,23 +229,28 @@ Image shade(Shading const& shading) {
   }
   auto const around = nearest_of(surfaces);
   float const radius = shading.radius / static_cast<float>(shading.fine);
-  for (std::size_t k = 0; k < surfaces.size(); ++k) layers[k].open = openness(surfaces[k], around, radius);
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    layers[k].open = openness(surfaces[k], around, radius, shading.directions);
 
-  int const width = surfaces.front().width, height = surfaces.front().height, fine = shading.fine;
-  Image image(width, height, shading.background);
-  Sampler const sample{shading, layers[0], layers[1], layers[2], linear(shading.background), linear(line_grey)};
-  exec_host::for_each_part_in_set_up(height, width * height, [&](Index y) {
-    for (int x = 0; x < width; ++x) {
-      auto const pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      Light3 sum{};
-      for (int k = 0; k < fine * fine; ++k) {
-        Light3 const one = sample(x * fine + k % fine, y * fine + k / fine, pixel);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += std::min(one[c], 1.0F) / static_cast<float>(fine * fine);
-      }
-      image.set(x, y, encoded(sum));
-    }
-  });
-  return image;
+  bool const dark = luminance(linear(shading.background)) < 0.5F && !shading.transparent;
+  auto const sampler = [&](Colour background) {
+    return Sampler{shading,
+                   layers[0],
+                   layers[1],
+                   layers[2],
+                   linear(background),
+                   linear(line_grey),
+                   linear(dark ? dark_ground_grey : ground_grey)};
+  };
+  int const width = surfaces.front().width, height = surfaces.front().height;
+  if (!shading.transparent) {
+    Image image(width, height, shading.background);
+    draw_pixels(image, nullptr, sampler(shading.background), sampler(shading.background));
+    return image;
+  }
+  Image on_black(width, height, {}), on_white(width, height, {});
+  draw_pixels(on_black, &on_white, sampler({0, 0, 0}), sampler({255, 255, 255}));
+  return without_background(on_black, on_white);
 }
 
 }  // namespace piola

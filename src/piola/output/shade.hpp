@@ -22,12 +22,18 @@ struct SurfaceFinish {
   Colour colour{};
   float spacing = 0;  ///< of its particles [samples]: jumps of depth above 1.5 of them are edges
   bool flat = false;  ///< a plane seen straight on: colours as they are in the bar
+  int hatch = 0;      ///< dark stripes so many samples apart; 0: none
 };
 
 /// Surfaces that are drawn together.
 struct ShadedLayer {
   SurfaceBuffers const* surfaces = nullptr;
   std::vector<SurfaceFinish> finish;  ///< by owner
+};
+
+/// The ground at a pixel: how much of it covers the background, and how light it is.
+struct GroundLight {
+  float share = 0, light = 1;
 };
 
 /// What a picture is made of.
@@ -41,6 +47,9 @@ struct Shading {
   float radius = 0;                   ///< of a typical ball [samples]: occlusion looks 1.2 and 5 of them far
   std::array<double, 2> range{0, 1};  ///< of values: colours in between are taken from a table
   Colour background{255, 255, 255};
+  bool transparent = false;                  ///< there is no background: the picture has opacity
+  std::span<GroundLight const> ground = {};  ///< per pixel, behind everything; empty: none
+  int directions = 28;                       ///< of the light from around
 };
 
 /// Key light from the upper left 0.42, fill from the right 0.16, ambient 0.50, a highlight of 0.10 (power 40): how much
@@ -51,7 +60,7 @@ struct Reflected {
 Reflected reflected(std::array<float, 3> const& normal);
 
 /// How open each pixel of a layer is to light from around, 1 in the open to 0.4 (ambient occlusion in screen space,
-/// Mittring 2007 in idea): over 28 directions on a golden spiral and two radii, the mean of how steeply the surfaces
+/// Mittring 2007 in idea): over some directions on a golden spiral and two radii, the mean of how steeply the surfaces
 /// that are near stand over the tangent plane; blurred where depths are equal. A plane has 1 whatever its slope.
 /// `around`: the nearest depth at each pixel of all that stands there; sizes in pixels.
 struct PixelSurface {
@@ -61,7 +70,8 @@ struct PixelSurface {
   /// The nearest sample of each pixel.
   PixelSurface(SurfaceBuffers const& samples, int fine);
 };
-std::vector<float> openness(PixelSurface const& surface, std::span<float const> around, float ball_radius);
+std::vector<float> openness(PixelSurface const& surface, std::span<float const> around, float ball_radius,
+                            int directions = 28);
 
 /// The picture.
 Image shade(Shading const& shading);

@@ -9,21 +9,38 @@
 namespace piola {
 namespace {
 
+bool is_longer(ReferenceMesh const& mesh, Configuration const& now, Index a, Index b, double stretch) {
+  auto const i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  Place3 const d = minus(now.x[j], now.x[i]), D = minus(mesh.X[j], mesh.X[i]);
+  return !(dot(d, d) <= stretch * stretch * dot(D, D));  // not-a-number parts
+}
+
 bool has_parted(ReferenceMesh const& mesh, Configuration const& now, Index a, Index b) {
   auto const i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
   if (!now.loose.empty() && (now.loose[i] != 0 || now.loose[j] != 0)) return true;
-  Place3 const d = minus(now.x[j], now.x[i]), D = minus(mesh.X[j], mesh.X[i]);
-  return !(dot(d, d) <= parting_stretch * parting_stretch * dot(D, D));  // not-a-number parts
+  return is_longer(mesh, now, a, b, parting_stretch);
+}
+
+/// Whether an edge of a cell is as `f` says, which takes its ends.
+template <class F>
+bool any_edge(ReferenceMesh const& mesh, Index cell, F const& f) {
+  auto const corner = mesh.cells.of(cell);
+  auto const edges = edges_of(mesh.cells);
+  return std::any_of(edges.begin(), edges.end(), [&](auto const& e) {
+    return f(corner[static_cast<std::size_t>(e[0])], corner[static_cast<std::size_t>(e[1])]);
+  });
 }
 
 std::vector<std::uint8_t> whole_cells(ReferenceMesh const& mesh, Configuration const& now) {
-  auto const edges = edges_of(mesh.cells);
   std::vector<std::uint8_t> whole(static_cast<std::size_t>(mesh.cells.count()), 1);
+  if (now.torn) {
+    for (Index const cell : *now.torn)
+      if (cell >= 0 && cell < mesh.cells.count()) whole[static_cast<std::size_t>(cell)] = 0;
+    return whole;
+  }
   exec_host::for_each_in_set_up(mesh.cells.count(), [&](Index cell) {
-    auto const corner = mesh.cells.of(cell);
-    for (auto const& e : edges)
-      if (has_parted(mesh, now, corner[static_cast<std::size_t>(e[0])], corner[static_cast<std::size_t>(e[1])]))
-        whole[static_cast<std::size_t>(cell)] = 0;
+    whole[static_cast<std::size_t>(cell)] =
+        any_edge(mesh, cell, [&](Index a, Index b) { return has_parted(mesh, now, a, b); }) ? 0 : 1;
   });
   return whole;
 }
@@ -137,6 +154,17 @@ void cut_tetrahedron(std::array<Index, 4> const& corner, std::span<double const>
 }
 
 }  // namespace
+
+std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& now, std::span<Index const> before) {
+  auto whole = whole_cells(mesh, {now.x, now.loose, {}});
+  for (Index const cell : before)
+    if (any_edge(mesh, cell, [&](Index a, Index b) { return is_longer(mesh, now, a, b, joining_stretch); }))
+      whole[static_cast<std::size_t>(cell)] = 0;
+  std::vector<Index> torn;
+  for (Index cell = 0; cell < mesh.cells.count(); ++cell)
+    if (whole[static_cast<std::size_t>(cell)] == 0) torn.push_back(cell);
+  return torn;
+}
 
 Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle) {
   Mat<3> mixed, moment;

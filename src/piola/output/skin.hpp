@@ -4,6 +4,7 @@
 #include "piola/output/reference_mesh.hpp"
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,13 +13,21 @@ namespace piola {
 /// Particles have parted where an edge of the mesh is longer than so many times its length in the reference
 /// configuration.
 inline constexpr double parting_stretch = 2.5;
+/// What has parted belongs together again where no edge is longer than that: in between, it stays as it was, so that
+/// skins do not flicker from picture to picture.
+inline constexpr double joining_stretch = 2;
 
 /// The particles of one body at one moment: positions [m], and which have lost their neighbours for good (not 0;
 /// empty: none).
 struct Configuration {
   std::span<Place3 const> x;
   std::span<std::uint8_t const> loose;
+  std::optional<std::span<Index const>> torn = {};  ///< cells that are, rising; nothing: those that have parted
 };
+
+/// The cells that are torn, rising: an edge of theirs has parted, one of their particles is loose, or they were torn
+/// (`before`, rising) and have an edge that has not joined again.
+std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& now, std::span<Index const> before);
 
 /// F of a particle: the linear map that fits the places of those around it best (least squares over the edges of the
 /// mesh that are whole), with a little of the identity, which decides in directions that nobody marks. Exact to 1e-3 of

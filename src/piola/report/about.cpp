@@ -135,7 +135,7 @@ Json about_run(RunFolder const& run) {
              {"version", version()},
              {"failed_particle", failed_particle(run.failure)},
              {"up", std::string(up_words[static_cast<std::size_t>(run.spec ? upwards(*run.spec) : Up::y)])},
-             {"view", run.spec ? run.spec->output.picture_view : std::array{30.0, 20.0}},
+             {"view", run.spec ? run.spec->output.pictures.view : std::array{30.0, 20.0}},
              {"case", run.case_text},
              {"log", end_of(run.log)}};
   about["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary);

@@ -28,7 +28,7 @@ Shown survey_of(RunFolder const& run, ReportOptions const& options) {
   auto const numbers = spread(run.frames.size(), wanted);
   FrameReader const first(run.frames[numbers.front()].second);
   auto const fields = options.fields.empty()
-                          ? usual_fields(first, run.spec ? run.spec->output.picture_field : "Pressure", most_fields)
+                          ? usual_fields(first, run.spec ? run.spec->output.pictures.field : "Pressure", most_fields)
                           : options.fields;
   Shown shown{survey_frames(run, numbers, fields), {}};
   shown.plan = {.frames = std::vector<std::size_t>(numbers.size()), .fields = fields.size(), .bits = options.bits};

@@ -108,7 +108,7 @@ struct Plan {
 Plan plan_of(CaseSpec const& spec) {
   OutputSpec const& o = spec.output;
   auto const times = [&](double every) { return every > 0 ? std::floor(spec.run.end / every) + 1 : 0; };
-  return {o.history_every > 0 ? times(o.history_every) : 501, times(o.frames_every), times(o.pictures_every),
+  return {o.history_every > 0 ? times(o.history_every) : 501, times(o.frames_every), times(o.pictures.every),
           std::max(1.0, times(o.checkpoints_every))};
 }
 
@@ -127,8 +127,8 @@ double frame_bytes(OutputSpec const& output, std::vector<FieldInfo> const& field
 
 double picture_pixels(OutputSpec const& output) {
   constexpr double usual = 800e3;  // of a size that follows what is shown
-  double const given = static_cast<double>(output.picture_width) * output.picture_height;
-  return given > 0 ? given : usual * output.picture_scale * output.picture_scale;
+  double const given = static_cast<double>(output.pictures.width) * output.pictures.height;
+  return given > 0 ? given : usual * output.pictures.scale * output.pictures.scale;
 }
 
 double disk_of(CaseSpec const& spec, Formulation const& formulation, double particles, double state) {

@@ -19,15 +19,18 @@ struct LookOptions {
   std::optional<std::array<int, 2>> size = {};        ///< pixels
   std::string theme = {}, map = {};
   std::optional<bool> labels = {};
+  std::string quality = {};
+  std::optional<double> warp = {};
+  bool ground = false, supports = false;  ///< false: as the case has it
 };
 
-/// The output of a case with these options in place of its own. Throws InputError for a word that is not known.
-OutputSpec with_look(OutputSpec output, LookOptions const& look);
+/// A picture of a case with these options in place of its own. Throws InputError for a word that is not known.
+PictureSpec with_look(PictureSpec picture, LookOptions const& look);
 
 /// How the pictures of a case are framed. `up` is where its pictures have it, see upwards. Throws InputError if there
 /// is no body of the name to be followed.
-Camera camera_of(OutputSpec const& output, Up up, std::span<BodySpec const> bodies, int dimension);
+Camera camera_of(PictureSpec const& picture, Up up, std::span<BodySpec const> bodies, int dimension);
 /// Size, colours and letters; the size follows the window where the case gives none.
-PictureStyle style_of(OutputSpec const& output, Camera const& camera, Window const& window);
+PictureStyle style_of(PictureSpec const& picture, Camera const& camera, Window const& window);
 
 }  // namespace piola

@@ -3,8 +3,10 @@
 #include "piola/output/files.hpp"
 #include "piola/output/rigid_picture.hpp"
 #include "piola/simulation/look.hpp"
+#include "piola/simulation/panel_pictures.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -16,19 +18,50 @@ namespace {
 /// must not show.
 double as_kept(double value) { return static_cast<double>(static_cast<float>(value)); }
 
+/// Of each list its length and its entries.
+std::vector<std::int32_t> flattened(std::vector<std::vector<Index>> const& lists) {
+  std::vector<std::int32_t> out;
+  for (auto const& list : lists) {
+    out.push_back(static_cast<std::int32_t>(list.size()));
+    for (Index const k : list) out.push_back(static_cast<std::int32_t>(k));
+  }
+  return out;
+}
+
+template <class Number>
+std::vector<std::vector<Index>> unflattened(std::vector<Number> const& numbers) {
+  std::vector<std::vector<Index>> lists;
+  for (std::size_t k = 0; k < numbers.size();) {
+    auto& list = lists.emplace_back();
+    auto const count = static_cast<std::size_t>(std::max<Number>(numbers[k++], 0));
+    for (std::size_t n = 0; n < count && k < numbers.size(); ++n) list.push_back(static_cast<Index>(numbers[k++]));
+  }
+  return lists;
+}
+
+std::string name_in_state(char const* what, std::size_t panel) {
+  return panel == 0 ? what : fmt::format("{}_{}", what, panel);
+}
+
 }  // namespace
 
 PictureObserver::PictureObserver(Results results)
-    : results_(std::move(results)), schedule_(results_.spec.output.pictures_every) {
+    : results_(std::move(results)), schedule_(results_.spec.output.pictures.every) {
   auto const& particles = results_.particles;
-  auto const& output = results_.spec.output;
-  camera_ = camera_of(output, upwards(results_.spec), results_.spec.bodies, particles.dimension);
+  Up const up = upwards(results_.spec);
+  for (PictureSpec const& spec : panels_of(results_.spec.output.pictures))
+    panels_.push_back({spec, camera_of(spec, up, results_.spec.bodies, particles.dimension), {}, {}});
   if (!schedule_.ever()) return;
   radii_ = ball_radii(particles.volume, particles.body, particles.dimension);
   Stage const stage = Stage::around(particles.X);
   stage_low_ = stage.low;
   stage_high_ = stage.high;
-  if (particles.dimension == 3) camera_.eye = eye_before(camera_, output.picture_perspective, stage_low_, stage_high_);
+  bool const supports =
+      std::any_of(panels_.begin(), panels_.end(), [](Shown const& panel) { return panel.spec.supports; });
+  if (supports) held_ = held_particles(results_.spec, particles);
+  if (particles.dimension < 3) return;
+  for (Shown& panel : panels_)
+    panel.camera.eye = eye_before(panel.camera, panel.spec.perspective, stage_low_, stage_high_);
 }
 
 /// Those whose places a kept picture holds.
@@ -40,7 +73,9 @@ std::vector<RigidState> PictureObserver::turning_shapes() const {
 }
 
 std::filesystem::path PictureObserver::path(std::size_t number) const {
-  return results_.folder / "pictures" / picture_name(field_.name, field_.components, component_, number);
+  Shown const& first = panels_.front();
+  std::string const name = picture_name(first.field.name, first.field.components, first.component, number);
+  return results_.folder / "pictures" / with_other_fields(name, panels_of(results_.spec.output.pictures));
 }
 
 std::filesystem::path PictureObserver::kept_path(std::size_t number) const {
@@ -52,16 +87,20 @@ void PictureObserver::keep(std::size_t number, Kept const& kept) const {
   for (RigidState const& rigid : kept.rigids)
     for (auto const& part : {rigid.centre, rigid.turn}) head.insert(head.end(), part.begin(), part.end());
   std::vector<float> numbers;
-  numbers.reserve(4 * kept.values.size() + 2);
+  numbers.reserve((3 + kept.values.size()) * kept.points.size());
   for (auto const& p : kept.points)
     for (double const c : p) numbers.push_back(static_cast<float>(c));
-  for (double const v : kept.values) numbers.push_back(static_cast<float>(v));
+  for (auto const& values : kept.values)
+    for (double const v : values) numbers.push_back(static_cast<float>(v));
   std::size_t const before = head.size() * sizeof(double);
   std::size_t const middle = before + numbers.size() * sizeof(float);
-  std::vector<std::byte> bytes(middle + kept.loose.size());
+  auto const torn = flattened(kept.torn);
+  std::vector<std::byte> bytes(middle + kept.loose.size() + torn.size() * sizeof(std::int32_t));
   std::memcpy(bytes.data(), head.data(), before);
   if (!numbers.empty()) std::memcpy(bytes.data() + before, numbers.data(), numbers.size() * sizeof(float));
   if (!kept.loose.empty()) std::memcpy(bytes.data() + middle, kept.loose.data(), kept.loose.size());
+  if (!torn.empty())
+    std::memcpy(bytes.data() + middle + kept.loose.size(), torn.data(), torn.size() * sizeof(std::int32_t));
   write_whole_file(kept_path(number), bytes);
 }
 
@@ -69,13 +108,17 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
   if (!std::filesystem::exists(kept_path(number))) return false;
   std::string const bytes = read_text_file(kept_path(number));
   std::size_t const n = radii_.size();
-  std::vector<float> numbers(4 * n);
+  std::vector<float> numbers((3 + panels_.size()) * n);
   kept.rigids = turning_shapes();
   std::vector<double> head(1 + 6 * kept.rigids.size());
   std::size_t const before = head.size() * sizeof(double);
   std::size_t const middle = before + numbers.size() * sizeof(float);
-  if (bytes.size() != middle + n) return false;
-  kept.loose.assign(bytes.begin() + static_cast<std::ptrdiff_t>(middle), bytes.end());
+  if (bytes.size() < middle + n || (bytes.size() - middle - n) % sizeof(std::int32_t) != 0) return false;
+  kept.loose.assign(bytes.begin() + static_cast<std::ptrdiff_t>(middle),
+                    bytes.begin() + static_cast<std::ptrdiff_t>(middle + n));
+  std::vector<std::int32_t> torn((bytes.size() - middle - n) / sizeof(std::int32_t));
+  if (!torn.empty()) std::memcpy(torn.data(), bytes.data() + middle + n, torn.size() * sizeof(std::int32_t));
+  kept.torn = unflattened(torn);
   std::memcpy(head.data(), bytes.data(), before);
   if (n > 0) std::memcpy(numbers.data(), bytes.data() + before, numbers.size() * sizeof(float));
   auto from = head.begin();
@@ -87,56 +130,99 @@ bool PictureObserver::read_kept(std::size_t number, Kept& kept) const {
     }
   kept.points.resize(n);
   for (std::size_t i = 0; i < 3 * n; ++i) kept.points[i / 3][i % 3] = static_cast<double>(numbers[i]);
-  kept.values.assign(numbers.begin() + static_cast<std::ptrdiff_t>(3 * n), numbers.end());
+  kept.values.clear();
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    auto const first = numbers.begin() + static_cast<std::ptrdiff_t>((3 + k) * n);
+    kept.values.emplace_back(first, first + static_cast<std::ptrdiff_t>(n));
+  }
   return true;
 }
 
-void PictureObserver::draw(std::size_t number, Kept const& kept) {
-  auto const& output = results_.spec.output;
-  auto const shapes = shapes_at(results_.spec.rigids, kept.time, kept.rigids);
+PictureObserver::Points PictureObserver::points_of(std::size_t panel, Kept const& kept) const {
+  return warped(kept.points, results_.particles.X, panels_[panel].spec.warp);
+}
+
+PictureData PictureObserver::data_of(std::size_t panel, Kept const& kept, Points const& points,
+                                     std::span<RigidShape const> shapes) const {
+  Shown const& shown = panels_[panel];
+  return {.points = points,
+          .radius = radii_,
+          .values = kept.values[panel],
+          .label = picture_label(shown.field.name, shown.field.components, shown.component),
+          .unit = shown.field.unit,
+          .title = title_of(results_.spec.title, shown.spec),
+          .time = kept.time,
+          .dimension = results_.particles.dimension,
+          .rigid_shapes = shapes,
+          .stage_low = stage_low_,
+          .stage_high = stage_high_,
+          .spread = shown.spread,
+          .case_text = results_.spec.source,
+          .eye = eye_at(shown.camera, subject(points)),
+          .time_format = time_format(results_.spec.run.end, results_.spec.output.pictures.every),
+          .body = results_.particles.body,
+          .meshes = meshes_,
+          .loose = kept.loose,
+          .held = shown.spec.supports ? std::span<std::uint8_t const>(held_) : std::span<std::uint8_t const>(),
+          .torn = kept.torn};
+}
+
+PictureObserver::Look PictureObserver::look() const {
+  Look look;
+  for (Shown const& panel : panels_) {
+    look.spread.push_back(panel.spread);
+    look.window.push_back(panel.window);
+  }
+  give_one_size(look.window);
+  return look;
+}
+
+void PictureObserver::make_meshes() {
   if (meshes_.empty()) meshes_ = reference_meshes(results_.particles);
-  PictureData const data{.points = kept.points,
-                         .radius = radii_,
-                         .values = kept.values,
-                         .label = picture_label(field_.name, field_.components, component_),
-                         .unit = field_.unit,
-                         .title = results_.spec.title,
-                         .time = kept.time,
-                         .dimension = results_.particles.dimension,
-                         .rigid_shapes = shapes,
-                         .stage_low = stage_low_,
-                         .stage_high = stage_high_,
-                         .spread = spread_,
-                         .case_text = results_.spec.source,
-                         .eye = eye_at(camera_, subject(kept.points)),
-                         .time_format = time_format(results_.spec.run.end, output.pictures_every),
-                         .body = results_.particles.body,
-                         .meshes = meshes_,
-                         .loose = kept.loose};
-  PictureStyle style = style_of(output, camera_, window_);
-  style.appearance = appearance_of(results_.spec);
-  write_png(path(number), draw_picture(data, style, shown_window(window_, camera_, subject(kept.points))));
+}
+
+Image PictureObserver::picture(Kept const& kept) const {
+  auto const shapes = shapes_at(results_.spec.rigids, kept.time, kept.rigids);
+  auto const windows = look().window;
+  std::vector<PanelPicture> panels;
+  std::vector<Points> points;
+  for (std::size_t k = 0; k < panels_.size(); ++k) points.push_back(points_of(k, kept));
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    Shown const& shown = panels_[k];
+    PictureStyle style = style_of(shown.spec, shown.camera, windows[k]);
+    style.appearance = appearance_of(results_.spec, shown.spec);
+    panels.push_back(
+        {data_of(k, kept, points[k], shapes), style, shown_window(windows[k], shown.camera, subject(points[k]))});
+  }
+  return draw_together(panels, results_.spec.output.pictures, windows.front());
+}
+
+void PictureObserver::draw(std::size_t number, Kept const& kept) {
+  make_meshes();
+  write_png(path(number), picture(kept));
   drawn_[number] = look();
 }
 
 /// What is drawn; false if the formulation has no such field.
 bool PictureObserver::prepare(Formulation const& formulation) {
-  if (impossible_ || !field_.name.empty()) return !impossible_;
-  auto const& output = results_.spec.output;
+  if (impossible_ || !panels_.front().field.name.empty()) return !impossible_;
   FieldCache const cache(formulation, results_.particles);
-  if (cache.knows(output.picture_field)) {
-    FieldInfo const& info = cache.info(output.picture_field);
-    if (auto const component = find_component(output.picture_component, info.components)) {
-      field_ = info;
-      component_ = *component;
-      return true;
+  for (Shown& panel : panels_) {
+    PictureSpec const& spec = panel.spec;
+    if (cache.knows(spec.field)) {
+      FieldInfo const& info = cache.info(spec.field);
+      if (auto const component = find_component(spec.component, info.components)) {
+        panel.field = info;
+        panel.component = *component;
+        continue;
+      }
     }
+    impossible_ = true;
+    results_.journal.warn(
+        fmt::format("pictures: the formulation has no field '{}'{}, so that no picture is drawn", spec.field,
+                    spec.component.empty() ? "" : fmt::format(" with a component '{}'", spec.component)));
   }
-  impossible_ = true;
-  results_.journal.warn(fmt::format(
-      "pictures: the formulation has no field '{}'{}, so that no picture is drawn", output.picture_field,
-      output.picture_component.empty() ? "" : fmt::format(" with a component '{}'", output.picture_component)));
-  return false;
+  return !impossible_;
 }
 
 void PictureObserver::see_now(Formulation const& formulation, double time) {
@@ -145,17 +231,26 @@ void PictureObserver::see_now(Formulation const& formulation, double time) {
   Kept kept{time, std::vector<std::array<double, 3>>(radii_.size()), {}, formulation.rigids()};
   auto const x = cache.values("Position");
   for (std::size_t i = 0; i < 3 * radii_.size(); ++i) kept.points[i / 3][i % 3] = as_kept(x[i]);
-  kept.values = picture_values(cache.values(field_.name), field_.components, component_);
-  for (double& value : kept.values) value = as_kept(value);
+  for (Shown const& panel : panels_) {
+    auto& values = kept.values.emplace_back(
+        picture_values(cache.values(panel.field.name), panel.field.components, panel.component));
+    for (double& value : values) value = as_kept(value);
+  }
   auto const if_known = [&](char const* field) {
     return cache.knows(field) ? cache.values(field) : std::span<double const>();
   };
   kept.loose = loose_particles(if_known("Damage"), if_known("KernelType"), radii_.size());
 
-  include(window_, camera_, subject(kept.points));
-  if (camera_.follow < 0)
-    show_shapes(window_, camera_.view, shapes_at(results_.spec.rigids, time, kept.rigids), {stage_low_, stage_high_});
-  spread_.include(kept.values);
+  make_meshes();
+  torn_ = kept.torn = torn_now(meshes_, kept.points, kept.loose, torn_);
+
+  auto const shapes = shapes_at(results_.spec.rigids, time, kept.rigids);
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    Shown& panel = panels_[k];
+    include(panel.window, panel.camera, subject(points_of(k, kept)));
+    if (panel.camera.follow < 0) show_shapes(panel.window, panel.camera.view, shapes, {stage_low_, stage_high_});
+    panel.spread.include(kept.values[k]);
+  }
   make_folder(results_.folder / "pictures");
   auto const number = static_cast<std::size_t>(count_);
   keep(number, kept);
@@ -181,10 +276,47 @@ bool PictureObserver::drawn_as_now(std::size_t number) const {
 }
 
 void PictureObserver::draw_all() {
+  auto const& times = results_.spec.output.pictures.times;
+  std::vector<Kept> nearest(times.size());
+  bool complete = !times.empty();
   for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
-    if (Kept kept; !drawn_as_now(k) && read_kept(k, kept)) draw(k, kept);
+    Kept kept;
+    bool const as_now = drawn_as_now(k);
+    if (as_now && times.empty()) {
+      std::filesystem::remove(kept_path(k));
+      continue;
+    }
+    bool const there = read_kept(k, kept);
+    complete = complete && there;
+    if (there && !as_now) draw(k, kept);
+    for (std::size_t n = 0; there && n < times.size(); ++n)
+      if (k == 0 || std::abs(kept.time - times[n]) < std::abs(nearest[n].time - times[n])) nearest[n] = kept;
     std::filesystem::remove(kept_path(k));
   }
+  if (complete && count_ > 0) draw_times(nearest);
+}
+
+/// Of a run that is extended after its end not all moments are there any more: the picture stays as it was.
+void PictureObserver::draw_times(std::vector<Kept> const& nearest) {
+  Shown const& shown = panels_.front();
+  TimeFormat const format = time_format(results_.spec.run.end, results_.spec.output.pictures.every);
+  std::vector<std::vector<RigidShape>> shapes;
+  std::vector<PictureData> data;
+  std::vector<Points> points;
+  make_meshes();
+  std::vector<Panel> panels;
+  for (Kept const& kept : nearest) shapes.push_back(shapes_at(results_.spec.rigids, kept.time, kept.rigids));
+  for (Kept const& kept : nearest) points.push_back(points_of(0, kept));
+  for (std::size_t k = 0; k < nearest.size(); ++k) data.push_back(data_of(0, nearest[k], points[k], shapes[k]));
+  for (std::size_t k = 0; k < nearest.size(); ++k)
+    panels.push_back(
+        {data[k], shown_window(shown.window, shown.camera, subject(points[k])), format.text(nearest[k].time)});
+  PictureStyle style = style_of(shown.spec, shown.camera, shown.window);
+  style.appearance = appearance_of(results_.spec, shown.spec);
+  std::string name = path(0).filename().string();
+  write_png(results_.folder / "pictures" / name.replace(name.rfind("000000"), 6, "times"),
+            draw_sheet(panels, {results_.spec.title, "", fitting_columns(shown.window, panels.size())}, shown.spec,
+                       shown.window, style));
 }
 
 /// A run that is stopped ends soon: the pictures that are missing are drawn when it is resumed and comes to its end.
@@ -209,25 +341,35 @@ void PictureObserver::finish(Formulation const& formulation, Moment const& momen
 }
 
 void PictureObserver::save(StateWriter& writer) const {
-  writer.put("pictures", std::array{count_, last_time_, window_.set ? 1.0 : 0.0, window_.x0, window_.x1, window_.y0,
-                                    window_.y1, spread_.typical[0], spread_.typical[1]});
-  writer.put("picture_extremes",
-             std::array{spread_.extremes[0], spread_.extremes[1], spread_.not_a_number ? 1.0 : 0.0});
+  auto const torn = flattened(torn_);
+  if (!torn.empty()) writer.put("picture_torn", std::vector<double>(torn.begin(), torn.end()));
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    Window const& window = panels_[k].window;
+    Spread const& spread = panels_[k].spread;
+    writer.put(name_in_state("pictures", k),
+               std::array{count_, last_time_, window.set ? 1.0 : 0.0, window.x0, window.x1, window.y0, window.y1,
+                          spread.typical[0], spread.typical[1]});
+    writer.put(name_in_state("picture_extremes", k),
+               std::array{spread.extremes[0], spread.extremes[1], spread.not_a_number ? 1.0 : 0.0});
+  }
 }
 
 void PictureObserver::load(NamedState& reader, Moment const& moment) {
-  std::array<double, 9> v{};
-  reader.get("pictures", v);
+  if (reader.has("picture_torn")) torn_ = unflattened(reader.all("picture_torn"));
   schedule_.start_after(moment.time);
-  count_ = v[0];
-  last_time_ = v[1];
-  window_ = {v[2] != 0, v[3], v[4], v[5], v[6]};
-  spread_.typical = {v[7], v[8]};
-  if (!reader.has("picture_extremes")) return;  // written by an earlier version
-  std::array<double, 3> extremes{};
-  reader.get("picture_extremes", extremes);
-  spread_.extremes = {extremes[0], extremes[1]};
-  spread_.not_a_number = extremes[2] != 0;
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    Shown& panel = panels_[k];
+    std::array<double, 9> v{};
+    reader.get(name_in_state("pictures", k), v);
+    count_ = v[0];
+    last_time_ = v[1];
+    panel.window = {v[2] != 0, v[3], v[4], v[5], v[6]};
+    panel.spread.typical = {v[7], v[8]};
+    std::array<double, 3> extremes{};
+    reader.get(name_in_state("picture_extremes", k), extremes);
+    panel.spread.extremes = {extremes[0], extremes[1]};
+    panel.spread.not_a_number = extremes[2] != 0;
+  }
 }
 
 }  // namespace piola

@@ -10,7 +10,8 @@ namespace piola {
 /// pictures/FIELD-000000.png at each due time and at the end. When a run ends all its pictures have one range of
 /// colours (unless the case gives it) and one scale: they are drawn then, from particle positions and values that are
 /// kept until then. For those who watch a long run, a picture is also drawn at its time if a second has passed since
-/// the last one, with the colours and the scale of what was seen so far; and the last one when the run is stopped.
+/// the last one, with the colours and the scale of what was seen so far; and the last one when the run is stopped. The
+/// pictures nearest to some times, if asked for, stand beside each other in pictures/FIELD-times.png when a run ends.
 class PictureObserver : public Observer {
  public:
   explicit PictureObserver(Results results);
@@ -21,21 +22,30 @@ class PictureObserver : public Observer {
   std::filesystem::path const& last() const { return last_; }
 
  private:
+  using Torn = std::vector<std::vector<Index>>;  ///< cells of each body, see torn_cells
   /// What a picture shows, as it is kept on the disk.
   struct Kept {
     double time = 0;
     std::vector<std::array<double, 3>> points;
-    std::vector<double> values;
-    std::vector<RigidState> rigids = {};   ///< that are free or turn
-    std::vector<std::uint8_t> loose = {};  ///< see loose_particles
+    std::vector<std::vector<double>> values;  ///< of each panel
+    std::vector<RigidState> rigids = {};      ///< that are free or turn
+    std::vector<std::uint8_t> loose = {};     ///< see loose_particles
+    Torn torn = {};
   };
   std::vector<RigidState> turning_shapes() const;
   void see_now(Formulation const& formulation, double time);
   void draw(std::size_t number, Kept const& kept);
+  using Points = std::vector<std::array<double, 3>>;
+  Points points_of(std::size_t panel, Kept const& kept) const;
+  PictureData data_of(std::size_t panel, Kept const& kept, Points const& points,
+                      std::span<RigidShape const> shapes) const;
+  Image picture(Kept const& kept) const;
+  void make_meshes();
   bool prepare(Formulation const& formulation);
   bool drawn_as_now(std::size_t number) const;
   void draw_all();
   void draw_last();
+  void draw_times(std::vector<Kept> const& nearest);
   std::filesystem::path path(std::size_t number) const;
   std::filesystem::path kept_path(std::size_t number) const;
   void keep(std::size_t number, Kept const& kept) const;
@@ -43,21 +53,28 @@ class PictureObserver : public Observer {
 
   Results results_;
   Schedule schedule_;
-  Camera camera_;
-  Window window_;
-  Spread spread_;
+  /// What one panel of the pictures shows; a picture without panels is one.
+  struct Shown {
+    PictureSpec spec;
+    Camera camera;
+    Window window;
+    Spread spread;
+    FieldInfo field{};  ///< no name before the first picture
+    int component = whole_field;
+  };
+  std::vector<Shown> panels_;
   std::vector<double> radii_;
   std::vector<ReferenceMesh> meshes_;  ///< made for the first picture
+  std::vector<std::uint8_t> held_;     ///< by supports, if a panel shows it
+  Torn torn_;                          ///< at the last picture
   std::array<double, 3> stage_low_{}, stage_high_{};
-  FieldInfo field_{};  ///< what is drawn; no name before the first picture
-  int component_ = whole_field;
   /// How a picture was drawn; nothing is known of those that were drawn before the run was resumed.
   struct Look {
-    Spread spread;
-    Window window;
+    std::vector<Spread> spread;
+    std::vector<Window> window;
     bool operator==(Look const&) const = default;
   };
-  Look look() const { return {spread_, window_}; }
+  Look look() const;
   Subject subject(std::vector<std::array<double, 3>> const& points) const;
   std::map<std::size_t, Look> drawn_;
   std::chrono::steady_clock::time_point last_drawn_{};

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/render.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/film.hpp"
-#include "piola/output/frames.hpp"
-#include "piola/output/panels.hpp"
 #include "piola/output/rigid_picture.hpp"
-#include "piola/simulation/rigid_history.hpp"
-#include "piola/simulation/scene.hpp"
+#include "piola/simulation/panel_pictures.hpp"
+#include "piola/simulation/run_in_folder.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace piola {
@@ -22,33 +18,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t most_summary_bytes = 100'000'000;
-
-std::string title_of(fs::path const& folder) {
-  if (!fs::exists(folder / "summary.json")) return folder.filename().string();
-  auto const summary =
-      nlohmann::json::parse(read_text_file(folder / "summary.json", most_summary_bytes), nullptr, false);
-  bool const titled = summary.is_object() && summary.contains("title") && summary["title"].is_string();
-  return titled ? summary["title"].get<std::string>() : folder.filename().string();
-}
-
-/// The case that the run was started with; nothing if it is not there or cannot be read any more.
-std::optional<CaseSpec> case_of(fs::path const& folder, ParticleSet& particles) {
-  if (!fs::exists(folder / "case.toml")) return std::nullopt;
-  try {
-    return read_case(folder / "case.toml", {}, {}, &particles);
-  } catch (InputError const&) {
-    return std::nullopt;
-  }
-}
-
-/// The case with the field, the range and the look asked for; of a run without one, with those alone.
-CaseSpec as_asked(std::optional<CaseSpec> const& found, RenderOptions const& options) {
-  CaseSpec spec = found.value_or(CaseSpec{});
-  spec.output.picture_field = options.field;
-  spec.output.picture_range = options.range;
-  spec.output = with_look(spec.output, options.look);
-  return spec;
+/// The pictures of a case with the field, the range and the look asked for; of a run without one, those alone.
+PicturesSpec as_asked(std::optional<CaseSpec> const& found, RenderOptions const& options) {
+  PicturesSpec pictures = found ? found->output.pictures : PicturesSpec{};
+  auto const change = [&](PictureSpec const& picture) {
+    PictureSpec changed = with_look(picture, options.look);
+    if (!options.panels) {
+      changed.field = options.field;
+      changed.component = options.component;
+      changed.range = options.range;
+    }
+    return changed;
+  };
+  if (!options.panels) pictures.panels.clear();
+  static_cast<PictureSpec&>(pictures) = change(pictures);
+  for (PictureSpec& panel : pictures.panels) panel = change(panel);
+  return pictures;
 }
 
 TimeFormat format_of(std::vector<std::pair<double, fs::path>> const& frames) {
@@ -58,8 +43,9 @@ TimeFormat format_of(std::vector<std::pair<double, fs::path>> const& frames) {
 }
 
 /// What the case says, changed by what the options say.
-Appearance appearance_of(RenderOptions const& options, std::optional<CaseSpec> const& spec) {
-  Appearance appearance = spec ? appearance_of(*spec) : Appearance{};
+Appearance appearance_of(RenderOptions const& options, std::optional<CaseSpec> const& spec,
+                         PictureSpec const& picture) {
+  Appearance appearance = spec ? appearance_of(*spec, picture) : Appearance{};
   std::vector<std::string> bodies;
   for (std::size_t b = 0; spec && b < spec->bodies.size(); ++b) bodies.push_back(spec->bodies[b].name);
   appearance.as.resize(std::max<std::size_t>(bodies.size(), 1), Representation::automatic);
@@ -81,6 +67,7 @@ Appearance appearance_of(RenderOptions const& options, std::optional<CaseSpec> c
   }
   appearance.outline = appearance.outline && options.outline;
   if (options.cut) appearance.cut = options.cut;
+  appearance.quality = picture.quality == "high" ? Quality::high : Quality::normal;
   return appearance;
 }
 
@@ -97,51 +84,17 @@ std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count)
   return numbers;
 }
 
-/// A frame and what is drawn of it.
-struct Shot {
-  Frame frame;
-  std::vector<double> radii, values;
-  std::vector<RigidShape> shapes;
-  std::vector<std::uint8_t> loose;
-  PictureData data = {};  ///< refers to the vectors above, which stay where they are when a shot is moved
-  Window window = {};
-};
-
-/// What the pictures of one run have in common, whatever their field.
-struct RunInFolder {
-  std::string title;
-  ParticleSet particles;  ///< of the case
-  std::optional<CaseSpec> spec;
-  std::vector<ReferenceMesh> meshes;
-  std::optional<RigidHistory> rigids;  ///< where there is a case
-  std::vector<std::pair<double, fs::path>> frames;
-
-  explicit RunInFolder(fs::path const& folder)
-      : title(title_of(folder)), spec(case_of(folder, particles)), frames(list_frames(folder)) {
-    if (!spec) return;
-    meshes = reference_meshes(particles);
-    rigids.emplace(folder / "history.csv", spec->rigids);
-  }
-  /// Whether a frame is of the case that lies in the folder now.
-  bool has(Frame const& frame) const {
-    return frame.points.size() == particles.X.size() && frame.dimension == particles.dimension &&
-           std::equal(frame.body.begin(), frame.body.end(), particles.body.begin(), particles.body.end());
-  }
-  std::vector<RigidShape> shapes_of(Frame const& frame) const {
-    if (!spec) return {};
-    return shapes_at(spec->rigids, frame.time, rigids->at(frame.time));
-  }
-};
-
 /// And what those of one field have in common.
 class Renderer {
  public:
-  Renderer(std::shared_ptr<RunInFolder const> run, RenderOptions const& options)
-      : options_(options),
-        run_(std::move(run)),
-        asked_(as_asked(run_->spec, options)),
-        appearance_(appearance_of(options, run_->spec)),
+  Renderer(std::shared_ptr<RunInFolder const> run, RenderOptions const& options, PictureSpec picture)
+      : run_(std::move(run)),
+        asked_(std::move(picture)),
+        appearance_(appearance_of(options, run_->spec, asked_)),
         frames_(run_->frames) {
+    CaseSpec spec = run_->spec.value_or(CaseSpec{});
+    spec.output.pictures.up = asked_.up;
+    up_ = upwards(spec);
     for (auto const& entry : frames_) survey(read(entry.second));
   }
   std::size_t count() const { return frames_.size(); }
@@ -151,6 +104,7 @@ class Renderer {
   std::string const& title() const { return run_->title; }
   std::shared_ptr<RunInFolder const> const& run() const { return run_; }
   Window const& window() const { return window_; }
+  void set_window(Window const& window) { window_ = window; }
   TimeFormat time_format() const { return format_of(frames_); }
   /// The number of the frame nearest in time; there must be one.
   std::size_t nearest(double time) const {
@@ -167,14 +121,14 @@ class Renderer {
     }
   }
 
-  std::string name(std::size_t number) const { return picture_name(options_.field, components_, component_, number); }
+  std::string name(std::size_t number) const { return picture_name(asked_.field, components_, component_, number); }
   Image picture(std::size_t number) const {
     Shot const seen = shot(number);
     return draw_picture(seen.data, style(seen.frame.dimension), seen.window);
   }
-  bool size_is_given() const { return asked_.output.picture_width > 0 && asked_.output.picture_height > 0; }
+  PictureSpec const& asked() const { return asked_; }
   PictureStyle style(int dimension) const {
-    PictureStyle style = style_of(asked_.output, camera_for(dimension), window_);
+    PictureStyle style = style_of(asked_, camera_for(dimension), window_);
     style.appearance = appearance_;
     return style;
   }
@@ -188,37 +142,41 @@ class Renderer {
     shot.shapes = run_->shapes_of(frame);
     shot.loose = loose_particles(frame.damage, frame.kernel_type, frame.points.size());
     Camera const camera = camera_for(frame.dimension);
-    Subject const subject = subject_of(frame, shot.radii);
+    shot.points = points_of(frame);
+    Subject const subject = subject_of(frame, shot.points, shot.radii);
     shot.data = {
-        .points = frame.points,
+        .points = shot.points,
         .radius = shot.radii,
         .values = shot.values,
-        .label = picture_label(options_.field, components, component),
+        .label = picture_label(asked_.field, components, component),
         .unit = frame.info.unit,
-        .title = run_->title,
+        .title = title_of(run_->title, asked_),
         .time = frame.time,
         .dimension = frame.dimension,
         .rigid_shapes = shot.shapes,
         .stage_low = stage_.low,
         .stage_high = stage_.high,
         .spread = spread_,
-        .case_text = asked_.source,
+        .case_text = run_->spec ? std::string_view(run_->spec->source) : std::string_view(),
         .eye = eye_at(camera, subject),
         .time_format = time_format(),
         .body = frame.body,
         .meshes = run_->has(frame) ? std::span<ReferenceMesh const>(run_->meshes) : std::span<ReferenceMesh const>(),
-        .loose = shot.loose};
+        .loose = shot.loose,
+        .held = asked_.supports && run_->has(frame) ? std::span<std::uint8_t const>(run_->held)
+                                                    : std::span<std::uint8_t const>(),
+        .torn = torn_[number]};
     shot.window = shown_window(window_, camera, subject);
     return shot;
   }
 
  private:
-  Frame read(fs::path const& path) const { return read_frame(path, options_.field); }
+  Frame read(fs::path const& path) const { return read_frame(path, asked_.field); }
   int component_of(Frame const& frame) const {
-    if (auto const found = find_component(options_.component, frame.info.components)) return *found;
+    if (auto const found = find_component(asked_.component, frame.info.components)) return *found;
     auto const known = component_words(frame.info.components);
     throw InputError(fmt::format("--component: {} has no component '{}' ({}) - choose one of these, or leave it out",
-                                 options_.field, options_.component,
+                                 asked_.field, asked_.component,
                                  known.empty() ? "it has none" : fmt::format("allowed: {}", fmt::join(known, ", "))));
   }
   void survey(Frame const& frame) {
@@ -227,25 +185,41 @@ class Renderer {
     if (!(stage_.size() > 0)) stage_ = Stage::around(frame.points);
     Camera const camera = camera_for(frame.dimension);
     auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-    include(window_, camera, subject_of(frame, radii));
+    auto const points = points_of(frame);
+    include(window_, camera, subject_of(frame, points, radii));
+    torn_.emplace_back();
+    if (run_->has(frame))
+      torn_.back() =
+          torn_now(run_->meshes, frame.points, loose_particles(frame.damage, frame.kernel_type, frame.points.size()),
+                   torn_.size() < 2 ? Torn{} : torn_[torn_.size() - 2]);
     if (camera.follow < 0) show_shapes(window_, camera.view, run_->shapes_of(frame), stage_);
     spread_.include(picture_values(frame.values, frame.info.components, component_of(frame)));
   }
   Camera camera_for(int dimension) const {
-    Camera camera = camera_of(asked_.output, upwards(asked_), asked_.bodies, dimension);
-    if (dimension == 3) camera.eye = eye_before(camera, asked_.output.picture_perspective, stage_.low, stage_.high);
+    std::span<BodySpec const> const bodies = run_->spec ? std::span(run_->spec->bodies) : std::span<BodySpec const>();
+    Camera camera = camera_of(asked_, up_, bodies, dimension);
+    if (dimension == 3) camera.eye = eye_before(camera, asked_.perspective, stage_.low, stage_.high);
     return camera;
   }
-  static Subject subject_of(Frame const& frame, std::vector<double> const& radii) {
+  std::vector<std::array<double, 3>> points_of(Frame const& frame) const {
+    if (asked_.warp == 1) return frame.points;
+    if (run_->has(frame)) return warped(frame.points, run_->particles.X, asked_.warp);
+    throw InputError(
+        "--warp: where particles stood at the start is not known without the run's case.toml - leave it out");
+  }
+  static Subject subject_of(Frame const& frame, std::vector<std::array<double, 3>> const& points,
+                            std::vector<double> const& radii) {
     double const margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
-    return {.points = frame.points, .volume = frame.volume, .body = frame.body, .margin = margin};
+    return {.points = points, .volume = frame.volume, .body = frame.body, .margin = margin};
   }
 
-  RenderOptions const& options_;
   std::shared_ptr<RunInFolder const> run_;
-  CaseSpec asked_;
+  PictureSpec asked_;
+  Up up_ = Up::y;
   Appearance appearance_;
   std::vector<std::pair<double, fs::path>> const& frames_;
+  using Torn = std::vector<std::vector<Index>>;
+  std::vector<Torn> torn_;  ///< of each frame
   Window window_;
   Stage stage_;
   Spread spread_;
@@ -265,23 +239,18 @@ class Pictures {
   Pictures(fs::path const& folder, RenderOptions const& options) {
     std::vector<fs::path> folders{folder};
     folders.insert(folders.end(), options.beside.begin(), options.beside.end());
-    for (fs::path const& one : folders) {
-      expect_frames(one);
-      runs_.push_back(std::make_unique<Renderer>(std::make_shared<RunInFolder const>(one), options));
-      names_.push_back(runs_.back()->title());
-      if (runs_.back()->count() == 0)
-        throw InputError(fmt::format("{}: has no frames to draw - let the run write some", one.string()));
-    }
+    for (fs::path const& one : folders) add_run(one, options);
     for (std::string const& field : options.more_fields) {
-      fields_.push_back(std::make_unique<RenderOptions>(options));
-      fields_.back()->field = field;
-      fields_.back()->component.clear();
-      of_fields_.push_back(std::make_unique<Renderer>(first().run(), *fields_.back()));
+      PictureSpec picture = first().asked();
+      picture.field = field;
+      picture.component.clear();
+      of_fields_.push_back(std::make_unique<Renderer>(first().run(), options, picture));
     }
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // what came later, too
     bool const all_differ = std::set<std::string>(names_.begin(), names_.end()).size() == names_.size();
     for (std::size_t k = 0; !all_differ && k < names_.size(); ++k) names_[k] = name_of(folders[k]);
+    if (options.panels) make_panels(options);
   }
   Renderer const& first() const { return *runs_[0]; }
   std::size_t count() const { return first().count(); }
@@ -289,10 +258,11 @@ class Pictures {
 
   std::string name(std::size_t number) const {
     std::string name = first().name(number);
-    for (auto const& one : fields_) name.insert(name.rfind('-'), "-" + one->field);
-    return name;
+    for (auto const& one : of_fields_) name.insert(name.rfind('-'), "-" + one->asked().field);
+    return panels_.empty() ? name : with_other_fields(name, panels_of(asked_));
   }
   Image picture(std::size_t number) const {
+    if (!panels_.empty()) return picture_of_panels(number);
     if (!of_fields_.empty()) {
       std::vector<Image> images{first().picture(number)};
       for (auto const& one : of_fields_) images.push_back(one->picture(number));
@@ -308,25 +278,54 @@ class Pictures {
 
   /// Panels with the look of a run.
   static Image sheet(Renderer const& run, std::vector<Panel> const& panels, std::string title, std::string at_right) {
-    PictureStyle style = run.style(panels[0].data.dimension);
     int const columns = fitting_columns(run.window(), panels.size());
-    if (!run.size_is_given()) {
-      auto const size = fitting_size(run.window(), panels.size(), columns);
-      style.width = size[0];
-      style.height = size[1];
-    }
-    return draw_panels(panels, {std::move(title), std::move(at_right), columns}, style);
+    return draw_sheet(panels, {std::move(title), std::move(at_right), columns}, run.asked(), run.window(),
+                      run.style(panels[0].data.dimension));
   }
 
  private:
+  void add_run(fs::path const& folder, RenderOptions const& options) {
+    expect_frames(folder);
+    auto const run = std::make_shared<RunInFolder const>(folder);
+    PicturesSpec const asked = as_asked(run->spec, options);
+    if (runs_.empty()) asked_ = asked;
+    PictureSpec const& shown = panels_of(asked).front();
+    runs_.push_back(std::make_unique<Renderer>(run, options, shown));
+    names_.push_back(runs_.back()->title());
+    if (runs_.back()->count() == 0)
+      throw InputError(fmt::format("{}: has no frames to draw - let the run write some", folder.string()));
+  }
+
+  void make_panels(RenderOptions const& options) {
+    if (asked_.panels.empty())
+      throw InputError("--panels: the case of the run has none - add [[output.pictures.panel]] to its case.toml");
+    std::vector<Window> windows;
+    for (PictureSpec const& panel : asked_.panels) {
+      panels_.push_back(std::make_unique<Renderer>(first().run(), options, panel));
+      windows.push_back(panels_.back()->window());
+    }
+    give_one_size(windows);
+    for (std::size_t k = 0; k < panels_.size(); ++k) panels_[k]->set_window(windows[k]);
+  }
+
+  Image picture_of_panels(std::size_t number) const {
+    std::vector<Shot> shots;
+    for (auto const& panel : panels_) shots.push_back(panel->shot(number));
+    std::vector<PanelPicture> pictures;
+    for (std::size_t k = 0; k < shots.size(); ++k)
+      pictures.push_back({shots[k].data, panels_[k]->style(shots[k].frame.dimension), shots[k].window});
+    return draw_together(pictures, asked_, panels_.front()->window());
+  }
+
   static std::string name_of(fs::path const& folder) {
     fs::path const whole = fs::absolute(folder).lexically_normal();
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   }
   std::vector<std::unique_ptr<Renderer>> runs_;
   std::vector<std::string> names_;
-  std::vector<std::unique_ptr<RenderOptions>> fields_;  ///< renderers refer to them
   std::vector<std::unique_ptr<Renderer>> of_fields_;
+  PicturesSpec asked_;                             ///< of the first run
+  std::vector<std::unique_ptr<Renderer>> panels_;  ///< if panels are asked for
 };
 
 /// `count` of the frames, those nearest to equal steps of time; a frame may be there several times.

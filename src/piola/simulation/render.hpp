@@ -24,6 +24,7 @@ struct RenderOptions {
   std::vector<std::filesystem::path> beside = {};
   std::vector<std::string> as = {};  ///< "skin" for all bodies, "BODY=balls" for one: besides what the case says
   std::optional<CutPlane> cut = {};  ///< instead of that of the case
+  bool panels = false;               ///< what the panels of the case show, in place of the field
   bool outline = true;               ///< false: none, whatever the case says
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/scene.hpp"
+#include "piola/input/check_case.hpp"
 #include "piola/math/quaternion.hpp"
+#include "piola/output/skin.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <optional>
 
 namespace piola {
@@ -56,7 +59,7 @@ bool rests(RigidShape const& shape) {
 
 Up upwards(CaseSpec const& spec) {
   for (std::size_t k = 0; k < up_words.size(); ++k)
-    if (spec.output.picture_up == up_words[k]) return static_cast<Up>(k);
+    if (spec.output.pictures.up == up_words[k]) return static_cast<Up>(k);
   if (auto const up = against_gravity(spec)) return *up;
   for (RigidSpec const& rigid : spec.rigids) {
     if (rigid.kind != RigidShape::Kind::plane || !rests(rigid)) continue;
@@ -97,16 +100,57 @@ Representation representation_of(std::string_view word) {
   return static_cast<Representation>(found - representation_words.begin());
 }
 
-Appearance appearance_of(CaseSpec const& spec) {
-  AppearanceSpec const& said = spec.output.appearance;
+Appearance appearance_of(CaseSpec const& spec, PictureSpec const& picture) {
+  AppearanceSpec const& said = picture.appearance;
   Appearance appearance;
   appearance.as.assign(spec.bodies.size(), representation_of(said.as));
   for (AppearanceSpec::OfBody const& one : said.of_body)
     for (std::size_t b = 0; b < spec.bodies.size(); ++b)
       if (spec.bodies[b].name == one.body) appearance.as[b] = representation_of(one.as);
   appearance.outline = said.outline;
+  appearance.quality = picture.quality == "high" ? Quality::high : Quality::normal;
+  if (picture.ground) appearance.ground = View{0, 0, upwards(spec)}.up();
   if (said.cut) appearance.cut = {said.cut->point, said.cut->normal, said.cut->ghost, said.cut->in_reference};
   return appearance;
+}
+
+std::string title_of(std::string const& title, PictureSpec const& picture) {
+  if (picture.warp == 1) return title;
+  return fmt::format("{}{}displacements \u00d7 {:g}", title, title.empty() ? "" : ", ", picture.warp);
+}
+
+std::vector<std::array<double, 3>> warped(std::span<std::array<double, 3> const> x,
+                                          std::span<std::array<double, 3> const> X, double warp) {
+  std::vector<std::array<double, 3>> out(x.begin(), x.end());
+  if (warp == 1) return out;
+  for (std::size_t i = 0; i < std::min(out.size(), X.size()); ++i)
+    for (std::size_t c = 0; c < 3; ++c) out[i][c] = X[i][c] + warp * (x[i][c] - X[i][c]);
+  return out;
+}
+
+std::vector<std::uint8_t> held_particles(CaseSpec const& spec, ParticleSet const& particles) {
+  std::vector<std::uint8_t> held(particles.X.size(), 0);
+  for (SupportSpec const& support : spec.supports)
+    for (std::size_t b = 0; b < std::min(spec.bodies.size(), particles.bodies.size()); ++b)
+      if (spec.bodies[b].name == support.body)
+        for (std::int64_t const id : supported_particles(particles, particles.bodies[b], support))
+          held[static_cast<std::size_t>(id)] = 1;
+  return held;
+}
+
+std::vector<std::vector<Index>> torn_now(std::span<ReferenceMesh const> meshes,
+                                         std::span<std::array<double, 3> const> points,
+                                         std::span<std::uint8_t const> loose,
+                                         std::vector<std::vector<Index>> const& before) {
+  std::vector<std::vector<Index>> torn;
+  for (std::size_t b = 0; b < meshes.size(); ++b) {
+    ReferenceMesh const& mesh = meshes[b];
+    Configuration const now{points.subspan(mesh.first, mesh.count),
+                            loose.empty() ? loose : loose.subspan(mesh.first, mesh.count)};
+    torn.push_back(
+        torn_cells(mesh, now, b < before.size() ? std::span<Index const>(before[b]) : std::span<Index const>()));
+  }
+  return torn;
 }
 
 std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::span<double const> kernel_type,

@@ -80,14 +80,14 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
   auto const shapes = shapes_at(spec.rigids, 0);
   Stage const stage = Stage::around(points);
   CaseSpec asked = spec;
-  asked.output = with_look(spec.output, options.look);
-  Camera camera = camera_of(asked.output, upwards(asked), spec.bodies, particles.dimension);
+  PictureSpec& picture = asked.output.pictures;
+  picture = with_look(picture, options.look);
+  Camera camera = camera_of(picture, upwards(asked), spec.bodies, particles.dimension);
   Subject const subject{.points = points,
                         .volume = particles.volume,
                         .body = particles.body,
                         .margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end())};
-  if (particles.dimension == 3)
-    camera.eye = eye_before(camera, asked.output.picture_perspective, stage.low, stage.high);
+  if (particles.dimension == 3) camera.eye = eye_before(camera, picture.perspective, stage.low, stage.high);
   Window window;
   include(window, camera, subject);
   if (camera.follow < 0) show_shapes(window, camera.view, shapes, stage);
@@ -104,7 +104,7 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
                          .colours = paint.colours,
                          .legend = paint.legend,
                          .eye = eye_at(camera, subject)};
-  return draw_picture(data, style_of(asked.output, camera, window), shown_window(window, camera, subject));
+  return draw_picture(data, style_of(picture, camera, window), shown_window(window, camera, subject));
 }
 
 }  // namespace piola

@@ -33,9 +33,10 @@ constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, Diagnost
                                  DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
                                  DiagnosticInfo{"internal_energy", "J"}};
 
-constexpr std::array<std::string_view, 10> usable_laws{
-    "linear_elastic", "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
-    "elastic",        "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong", "steinberg_guinan"};
+constexpr std::array<std::string_view, 11> usable_laws{
+    "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
+    "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",
+    "steinberg_guinan"};
 
 }  // namespace
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/problems.hpp"
+#include "piola/input/read_case.hpp"
+#include "piola/output/files.hpp"
+#include "piola/output/frames.hpp"
+#include "piola/output/picture.hpp"
+#include "piola/simulation/rigid_history.hpp"
+#include "piola/simulation/scene.hpp"
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace piola {
+
+inline constexpr std::uint64_t most_summary_bytes = 100'000'000;
+
+/// The title of a run; without a summary, the name of its folder.
+inline std::string title_of_run(std::filesystem::path const& folder) {
+  if (!std::filesystem::exists(folder / "summary.json")) return folder.filename().string();
+  auto const summary =
+      nlohmann::json::parse(read_text_file(folder / "summary.json", most_summary_bytes), nullptr, false);
+  bool const titled = summary.is_object() && summary.contains("title") && summary["title"].is_string();
+  return titled ? summary["title"].get<std::string>() : folder.filename().string();
+}
+
+/// The case that the run was started with; nothing if it is not there or cannot be read any more.
+inline std::optional<CaseSpec> case_of(std::filesystem::path const& folder, ParticleSet& particles) {
+  if (!std::filesystem::exists(folder / "case.toml")) return std::nullopt;
+  try {
+    return read_case(folder / "case.toml", {}, {}, &particles);
+  } catch (InputError const&) {
+    return std::nullopt;
+  }
+}
+
+/// A frame and what is drawn of it.
+struct Shot {
+  Frame frame;
+  std::vector<double> radii, values;
+  std::vector<RigidShape> shapes;
+  std::vector<std::uint8_t> loose;
+  std::vector<std::array<double, 3>> points = {};  ///< with displacements as large as asked for
+  PictureData data = {};  ///< refers to the vectors above, which stay where they are when a shot is moved
+  Window window = {};
+};
+
+/// What the pictures of one run have in common, whatever their field.
+struct RunInFolder {
+  std::string title;
+  ParticleSet particles;  ///< of the case
+  std::optional<CaseSpec> spec;
+  std::vector<ReferenceMesh> meshes;
+  std::vector<std::uint8_t> held;      ///< by supports
+  std::optional<RigidHistory> rigids;  ///< where there is a case
+  std::vector<std::pair<double, std::filesystem::path>> frames;
+
+  explicit RunInFolder(std::filesystem::path const& folder)
+      : title(title_of_run(folder)), spec(case_of(folder, particles)), frames(list_frames(folder)) {
+    if (!spec) return;
+    meshes = reference_meshes(particles);
+    held = held_particles(*spec, particles);
+    rigids.emplace(folder / "history.csv", spec->rigids);
+  }
+  /// Whether a frame is of the case that lies in the folder now.
+  bool has(Frame const& frame) const {
+    return frame.points.size() == particles.X.size() && frame.dimension == particles.dimension &&
+           std::equal(frame.body.begin(), frame.body.end(), particles.body.begin(), particles.body.end());
+  }
+  std::vector<RigidShape> shapes_of(Frame const& frame) const {
+    if (!spec) return {};
+    return shapes_at(spec->rigids, frame.time, rigids->at(frame.time));
+  }
+};
+
+}  // namespace piola
