@@ -116,6 +116,20 @@ class Page(unittest.TestCase):
         self.assertEqual(len(self.frames["times"]), 21)
         self.assertEqual([body["name"] for body in self.frames["bodies"]], ["bar"])
 
+    def test_the_view_is_that_of_the_pictures_by_angles_or_by_name(self):
+        self.assertEqual((self.about["view"], self.about["up"], self.about["perspective"]), ([30, 20], "y", False))
+        for setting, view in (('output.pictures.view="-z"', [180, 0]), ('output.pictures.view="iso"', [45, 35.264]),
+                              ("output.pictures.view=[10, 70]", [10, 70])):
+            folder = self.folder / "looked at"
+            shutil.copytree(self.run_folder, folder, dirs_exist_ok=True)
+            program("run", self.folder / "case.toml", "--quiet", "--force", "--out", folder, "--set", 'run.end="1 ms"',
+                    "--set", "output.pictures.every=0", "--set", setting, "--set", "output.pictures.perspective=20")
+            program("report", folder)
+            about = json.loads(Elements((folder / "report.html").read_text(encoding="utf-8")).data["about"])
+            self.assertTrue(about["perspective"])
+            for angle, wanted in zip(about["view"], view):
+                self.assertAlmostEqual(angle, wanted, places=3)
+
     def test_checks_are_judged_for_the_variant_that_the_run_is(self):
         rows = self.about["rows"]
         self.assertEqual([(row["variant"], row["quantity"]) for row in rows], [("standard", "sway")])
@@ -173,6 +187,22 @@ class Page(unittest.TestCase):
                          [("bar", "standard", HOSTILE)])
         self.assertEqual(about["runs"][0]["plots"][0]["name"], "energies")
         self.assertNotIn("<img", text)
+
+    def test_a_verification_in_markdown_shows_what_is_measured_and_what_is_expected(self):
+        case = self.folder / "drawn" / "bar"
+        case.mkdir(parents=True)
+        (case / "case.toml").write_text(BAR, encoding="utf-8")
+        (case / "checks.toml").write_text(CHECKS + "[[check]]" + CHECKS.split("[[check]]")[1].replace(
+            "standard", "faster"), encoding="utf-8")
+        program("verify", "--cases", case.parent, "--markdown", self.folder / "md")
+        plots = re.findall(r"!\[(.*)\]\((.*\.svg)\)", (self.folder / "md" / "README.md").read_text(encoding="utf-8"))
+        self.assertEqual(plots, [("top.displacement x, measured and expected", "bar-top-displacement-x.svg")])
+        program("verify", "--cases", case.parent, "--out", self.folder / "kept")
+        program("plot", self.folder / "kept" / "bar" / "standard", "top.displacement_x",
+                "--checks", case / "checks.toml", "-o", self.folder / "one.svg")
+        lines = {name: len(re.findall(r"<path [^>]*stroke-dasharray", path.read_text(encoding="utf-8")))
+                 for name, path in (("one", self.folder / "one.svg"), ("all", self.folder / "md" / plots[0][1]))}
+        self.assertEqual(lines, {"one": 1, "all": 1})  # both variants have the same reference: it is drawn once
 
     def test_frames_are_packed_as_told(self):
         sizes = {len(zlib.decompress(base64.b64decode(text))) for name, text in self.page.data.items()

@@ -97,7 +97,7 @@ class Paper {
     y_.from = plot_.height - 52;
     y_.to = 46;
     frame();
-    for (Curve const& curve : plot_.curves) line(curve);
+    for (Curve const& curve : plot_.curves) curve.marks ? rings(curve) : line(curve);
     labels();
   }
   /// After drawing.
@@ -193,6 +193,17 @@ class Paper {
     }
     cairo_stroke(c_);
     cairo_set_dash(c_, nullptr, 0, 0);
+  }
+
+  void rings(Curve const& curve) {
+    set_pen(curve);
+    cairo_set_dash(c_, nullptr, 0, 0);
+    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+      if (!x_.shows(curve.x[i]) || !y_.shows(curve.y[i])) continue;
+      cairo_new_sub_path(c_);
+      cairo_arc(c_, x_.at(curve.x[i]), y_.at(curve.y[i]), 4.5, 0, 2 * std::acos(-1.0));
+      cairo_stroke(c_);
+    }
   }
 
   /// Names beside the last points, pushed apart where they would lie on each other.
