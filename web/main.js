@@ -193,7 +193,7 @@ class Page {
     const { azimuth, elevation, zoom, target, perspective } = this.scene.view;
     this.address.set({
       a: azimuth.toFixed(1), e: elevation.toFixed(1), zoom: zoom.toPrecision(4),
-      to: target.map((x) => x.toPrecision(4)).join("_"), persp: perspective ? 1 : null,
+      to: target.map((x) => x.toPrecision(4)).join("_"), persp: perspective ? 1 : 0,
     });
     this.draw();
   }
@@ -401,7 +401,7 @@ function restore(page) {
   view.zoom = Math.min(Math.max(address.number("zoom", page.home.zoom), 0.05), 500);
   const target = address.get("to", "").split("_").map(Number);
   if (target.length === 3 && target.every(Number.isFinite)) view.target = target;
-  byId("perspective").checked = view.perspective = address.get("persp") === "1";
+  byId("perspective").checked = view.perspective = address.get("persp", view.perspective ? "1" : "0") === "1";
   for (const id of ["map", "range", "low", "high", "cut"]) if (address.get(id)) byId(id).value = address.get(id);
   document.querySelectorAll(".typed").forEach((label) => { label.hidden = byId("range").value !== "typed"; });
   byId("cut-place").value = 1000 * address.number("at", 0.5);
@@ -419,6 +419,7 @@ async function openScene(about, address) {
   const bodies = sumOf(await unpacked(bytesOf(takeText("bodies"))), 0, frames.particles);
   const plane = frames.dimension < 3;
   const view = new View(plane ? "y" : about.up, plane ? 0 : about.view[0], plane ? 0 : about.view[1]);
+  view.perspective = !plane && Boolean(about.perspective);
   let scene;
   try {
     scene = new Scene(byId("view"), frames, bodies, view);

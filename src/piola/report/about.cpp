@@ -7,6 +7,7 @@
 #include "piola/output/history.hpp"
 #include "piola/output/picture.hpp"
 #include "piola/simulation/history_plot.hpp"
+#include "piola/simulation/look.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
 #include <cmath>
@@ -126,16 +127,24 @@ std::optional<Json> one_plot(RunFolder const& run, std::vector<std::string> cons
   return std::nullopt;
 }
 
+/// Where the pictures of the case look from, whether it says so by angles or by a name.
+View view_of(RunFolder const& run) {
+  if (!run.spec) return {30, 20, Up::y};
+  return camera_of(run.spec->output, upwards(*run.spec), run.spec->bodies, 3).view;
+}
+
 }  // namespace
 
 Json about_run(RunFolder const& run) {
+  View const view = view_of(run);
   Json about{{"title", run.title},
              {"status", run.status},
              {"failure", run.failure},
              {"version", version()},
              {"failed_particle", failed_particle(run.failure)},
-             {"up", std::string(up_words[static_cast<std::size_t>(run.spec ? upwards(*run.spec) : Up::y)])},
-             {"view", run.spec ? run.spec->output.picture_view : std::array{30.0, 20.0}},
+             {"up", std::string(up_words[static_cast<std::size_t>(view.upwards)])},
+             {"view", {view.azimuth, view.elevation}},
+             {"perspective", run.spec && run.spec->output.picture_perspective > 0},
              {"case", run.case_text},
              {"log", end_of(run.log)}};
   about["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/render.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/film.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/panels.hpp"
 #include "piola/output/rigid_picture.hpp"
+#include "piola/simulation/results_folder.hpp"
 #include "piola/simulation/rigid_history.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
@@ -30,16 +30,6 @@ std::string title_of(fs::path const& folder) {
       nlohmann::json::parse(read_text_file(folder / "summary.json", most_summary_bytes), nullptr, false);
   bool const titled = summary.is_object() && summary.contains("title") && summary["title"].is_string();
   return titled ? summary["title"].get<std::string>() : folder.filename().string();
-}
-
-/// The case that the run was started with; nothing if it is not there or cannot be read any more.
-std::optional<CaseSpec> case_of(fs::path const& folder, ParticleSet& particles) {
-  if (!fs::exists(folder / "case.toml")) return std::nullopt;
-  try {
-    return read_case(folder / "case.toml", {}, {}, &particles);
-  } catch (InputError const&) {
-    return std::nullopt;
-  }
 }
 
 /// The case with the field, the range and the look asked for; of a run without one, with those alone.
@@ -117,7 +107,7 @@ struct RunInFolder {
   std::vector<std::pair<double, fs::path>> frames;
 
   explicit RunInFolder(fs::path const& folder)
-      : title(title_of(folder)), spec(case_of(folder, particles)), frames(list_frames(folder)) {
+      : title(title_of(folder)), spec(case_in_results(folder, &particles)), frames(list_frames(folder)) {
     if (!spec) return;
     meshes = reference_meshes(particles);
     rigids.emplace(folder / "history.csv", spec->rigids);
