@@ -59,7 +59,8 @@ Scale scale_of(Plot const& plot, PlotAxis const& axis, std::vector<double> Curve
                                  axis.logarithmic ? "above 0" : "a finite number",
                                  axis.logarithmic ? " or a linear axis" : ""));
   scale.factor = prefix_for(std::max(std::abs(scale.low), std::abs(scale.high)), axis.unit).factor;
-  if (scale.low == scale.high) {
+  constexpr double round_off = 1e-11;  // of the values: what is constant but for it is drawn as constant
+  if (scale.high - scale.low <= round_off * std::max(std::abs(scale.low), std::abs(scale.high))) {
     double const air = scale.high == 0 ? 1 : 0.1 * std::abs(scale.high);
     scale.low -= scale.logarithmic ? 0.5 * scale.low : air;
     scale.high += air;
