@@ -37,8 +37,8 @@ Plan fitting_plan(RunFolder const& run, Survey const& survey, Plan plan, PlanLim
     plan.stretched = false;
     fits = share();
   }
-  if (fits < 1 && plan.fields > limits.least_fields) {
-    plan.fields = limits.least_fields;
+  while (fits < 1 && plan.fields > limits.least_fields) {
+    --plan.fields;
     fits = share();
   }
   if (fits < 1 && plan.frames.size() > least_frames) {
