@@ -70,6 +70,7 @@ void add_report(CLI::App& program, Action& action) {
   command->add_option("--bits", options->what.bits, "Bits of a coordinate")
       ->check(CLI::Range(8, 16))
       ->capture_default_str();
+  command->add_flag("--surface", options->what.surface, "Show the surfaces of bodies in place of all their particles");
   command->add_option("--budget", options->megabytes, "Megabytes that the page may have")
       ->check(CLI::Range(1.0, 2000.0))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include "piola/output/files.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/verification_page.hpp"
+#include "piola/report/verification_plots.hpp"
 #include "piola/simulation/verification_report.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
@@ -140,7 +141,8 @@ int run_verify(VerifyArguments const& options) {
         what, prepare, [&](VerifyProgress const& at) { line.show(at); }, stop_signal);
   }
   write_out(options.json ? verification_json(cases) : verification_table(cases));
-  if (!options.markdown.empty()) write_verification_page(options.markdown, cases);
+  auto const plots_of = [&](CaseVerification const& c) { return report::verification_plots(c, what.out); };
+  if (!options.markdown.empty()) write_verification_page(options.markdown, cases, plots_of);
   if (!options.report.empty()) report::write_verification_report(options.report, cases, what.out);
   if (stop_signal != 0) return stopped_by_signal;
   return with_output(all_accepted(cases) ? completed : internal_error);
@@ -155,7 +157,7 @@ void add_verify(CLI::App& program, Action& action) {
   command->add_option("names", options->names, "Cases, or folders of cases (default: all)");
   command->add_flag("--short", options->short_only, "Only the variants that take seconds");
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_option("--markdown", options->markdown, "Also write the page DIR/README.md, with pictures");
+  command->add_option("--markdown", options->markdown, "Also write the page DIR/README.md, with pictures and plots");
   command->add_option("--report", options->report, "Also write one HTML page, with plots and pictures of each run");
   command->add_option("--cases", options->cases, "Folder of the cases (default: those that came with the program)");
   command->add_option("--out,-o", options->out,

@@ -2,7 +2,7 @@
 # The sources of the report's page (web/) become texts inside the program.
 
 set(_web "${PROJECT_SOURCE_DIR}/web")
-set(_scripts frames.js colours.js view.js balls.js scene.js panels.js verification.js main.js)
+set(_scripts frames.js colours.js view.js balls.js surface.js scene.js panels.js verification.js main.js)
 set(PIOLA_WEB_SCRIPT "")
 foreach(script IN LISTS _scripts)
   file(READ "${_web}/${script}" text)

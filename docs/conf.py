@@ -23,7 +23,10 @@ nitpicky = True
 highlight_language = "none"
 # Debian's MathJax, which tools/make_site puts beside the pages: nothing is fetched.
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_CHTML-full"
-mathjax3_config = None
+# It is MathJax 2, for which MyST has no settings: only what stands in elements of these classes is a formula.
+myst_update_mathjax = False
+mathjax2_config = {"tex2jax": {"processClass": "math", "ignoreClass": "mathjax_ignore|tex2jax_ignore"},
+                   "showMathMenu": False, "messageStyle": "none"}
 
 html_theme = "furo"
 html_title = f"Piola {release}"

@@ -16,7 +16,8 @@ class CMakeBuild(build_ext):
     """Configures, builds and installs the component python below the folder that becomes the wheel."""
 
     def build_extension(self, ext):
-        build = Path(os.environ.get("PIOLA_BUILD_FOLDER", self.build_temp)).resolve()
+        given = os.environ.get("PIOLA_BUILD_FOLDER")  # pip builds in another working folder: not from there
+        build = (ROOT / given if given else Path(self.build_temp)).resolve()
         target = Path(self.get_ext_fullpath(ext.name)).resolve().parent.parent
         build.mkdir(parents=True, exist_ok=True)
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DPIOLA_PYTHON=ON", "-DPIOLA_TESTS=OFF", "-DPIOLA_TOGETHER=ON",

@@ -25,13 +25,28 @@ uniform vec3 low, cell;
 uniform float missing;
 uniform highp sampler2D bodies, colours;
 uniform vec4 cut;
-uniform int marked, asPoints;
+uniform int marked, asPoints, stretched;
 uniform float pixels;
+in float s0, s1, s2, s3, s4, s5;
+uniform vec4 stretching;
 out vec2 place;
 out vec3 middle;
 out vec3 colour;
 out float radius;
+out vec2 wide;
+flat out mat3 shape;
+// V of F = V R makes an ellipsoid of a ball; seen here in the directions of the screen. Its inverse is the shape.
+void stretch() {
+  vec3 a = stretching.x + (vec3(s0, s1, s2) - 1.0) * stretching.y;
+  vec3 b = stretching.z + (vec3(s3, s4, s5) - 1.0) * stretching.w;
+  mat3 seen = turn * mat3(a.x, b.x, b.z, b.x, a.y, b.y, b.z, b.y, a.z) * transpose(turn);
+  wide = vec2(length(seen[0]), length(seen[1]));
+  shape = inverse(seen);
+}
 void main() {
+  wide = vec2(1.0);
+  shape = mat3(1.0);
+  if (stretched == 1) stretch();
   vec4 kind = texelFetch(bodies, ivec2(int(body), 0), 0);
   vec3 q = vec3(qx, qy, qz), x = low + q * cell;
   bool gone = kind.g < 0.5 || qx == missing || qy == missing || qz == missing || dot(cut.xyz, x) > cut.w;
@@ -43,8 +58,9 @@ void main() {
   }
   place = corner;
   middle = turn * (x - target);
-  vec2 aside = asPoints == 1 ? vec2(0.0) : corner * radius;
-  gl_PointSize = 2.0 * radius * pixels * (eye == 0.0 ? 1.0 : eye / max(eye - middle.z, 0.02 * eye));
+  vec2 aside = asPoints == 1 ? vec2(0.0) : corner * wide * radius;
+  float widest = max(wide.x, wide.y);
+  gl_PointSize = 2.0 * widest * radius * pixels * (eye == 0.0 ? 1.0 : eye / max(eye - middle.z, 0.02 * eye));
   gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : project(middle + vec3(aside, 0.0));
 }`;
 
@@ -55,17 +71,21 @@ in vec2 place;
 in vec3 middle;
 in vec3 colour;
 in float radius;
+in vec2 wide;
+flat in mat3 shape;
 uniform float flatness;
 uniform highp int asPoints;
 out vec4 pixel;
 void main() {
-  vec2 p = asPoints == 1 ? vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0) : place;
-  float rest = 1.0 - dot(p, p);
+  vec2 p = asPoints == 1 ? (vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0)) * max(wide.x, wide.y) : place * wide;
+  vec3 q = shape * vec3(p, 0.0), deep = shape[2];
+  float a = dot(deep, deep), b = dot(deep, q), rest = b * b - a * (dot(q, q) - 1.0);
   if (rest < 0.0) discard;
-  float z = sqrt(rest);
+  float z = (sqrt(rest) - b) / a;
+  vec3 n = normalize(shape * (q + z * deep));
   vec4 at = project(middle + vec3(p, z) * radius);
   gl_FragDepth = 0.5 + 0.5 * at.z / at.w;
-  float light = max(dot(vec3(p, z), normalize(vec3(-0.35, 0.5, 0.8))), 0.0);
+  float light = max(dot(n, normalize(vec3(-0.35, 0.5, 0.8))), 0.0);
   pixel = vec4(colour * mix(0.38 + 0.66 * light, 1.0, flatness), 1.0);
 }`;
 
@@ -127,13 +147,17 @@ function tableTexture(gl) {
 
 /** Small balls are points, one vertex each; large ones, for which points have no size, are instances of a square. */
 class Balls {
-  constructor(gl, bodies) {
+  /** `stretched`: the ends of the bytes of V, by component; null: balls are round. */
+  constructor(gl, bodies, stretched) {
     this.gl = gl;
     this.count = bodies.length;
-    this.largestPoint = Math.min(gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1], 48);
+    this.stretched = stretched;
+    this.largestPoint = Math.min(gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1] / (stretched ? 4 : 1), 48);
     Object.assign(this, programOf(gl, ballVertex, ballFragment));
     this.buffers = {};
-    for (const name of ["corner", "body", "qx", "qy", "qz", "value"]) this.buffers[name] = gl.createBuffer();
+    const stretches = (stretched || []).map((ends, k) => "s" + k);
+    for (const name of ["corner", "body", "qx", "qy", "qz", "value", ...stretches])
+      this.buffers[name] = gl.createBuffer();
     this.squares = this.arrayWith(1);
     this.points = this.arrayWith(0);
     this.fill("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
@@ -151,7 +175,7 @@ class Balls {
       if (place < 0 || (corner && divisor === 0)) continue;
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.enableVertexAttribArray(place);
-      const type = corner ? gl.FLOAT : name === "value" ? gl.UNSIGNED_BYTE : gl.UNSIGNED_SHORT;
+      const small = /^(value|s\d)$/.test(name) ? gl.UNSIGNED_BYTE : gl.UNSIGNED_SHORT, type = corner ? gl.FLOAT : small;
       gl.vertexAttribPointer(place, corner ? 2 : 1, type, false, 0, 0);
       gl.vertexAttribDivisor(place, corner ? 0 : divisor);
     }
@@ -163,9 +187,11 @@ class Balls {
     this.gl.bufferData(this.gl.ARRAY_BUFFER, values, this.gl.DYNAMIC_DRAW);
   }
 
-  setFrame(frame, field) {
-    ["qx", "qy", "qz"].forEach((name, c) => this.fill(name, frame.x[c]));
+  /** `x`: the codes of the places; `fieldCount`: fields that come before the components of V. */
+  setFrame(x, frame, field, fieldCount) {
+    ["qx", "qy", "qz"].forEach((name, c) => this.fill(name, x[c]));
     this.fill("value", frame.fields[field] || new Uint8Array(this.count));
+    (this.stretched || []).forEach((ends, k) => this.fill("s" + k, frame.fields[fieldCount + k]));
   }
 
   /** `radii`: of each body, in units of the scene; `shown`: whether it is drawn. */
@@ -193,6 +219,12 @@ class Balls {
     gl.uniform4fv(at.cut, what.cut);
     gl.uniform1i(at.marked, what.marked);
     gl.uniform1f(at.flatness, what.flat ? 1 : 0);
+    gl.uniform1i(at.stretched, this.stretched ? 1 : 0);
+    if (this.stretched)
+      gl.uniform4fv(at.stretching, [0, 3].flatMap((k) => {
+        const [low, high] = this.stretched[k];
+        return [low, (high - low) / 254];
+      }));
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this.kinds);
     gl.uniform1i(at.bodies, 0);

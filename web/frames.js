@@ -41,6 +41,12 @@ function sumOf(bytes, at, count) {
   return numbers;
 }
 
+/** Numbers below 2^32: all lower halves, then all upper ones. */
+function largeNumbersOf(bytes) {
+  const count = bytes.length / 4, low = sumOf(bytes, 0, count), high = sumOf(bytes, 2 * count, count);
+  return Uint32Array.from(low, (number, i) => number + 65536 * high[i]);
+}
+
 /**
  * One frame: x, three arrays of codes, and fields, arrays of bytes. `last` and `before` are the two frames before it,
  * null where there are none since the key frame.
@@ -75,7 +81,9 @@ class FrameStore {
     this.take = take;
     this.packed = new Map();
     this.known = new Map();
-    const size = about.particles * (6 + about.fields.length);
+    this.lists = about.fields.length + (about.stretched ? about.stretched.length : 0);
+    this.surfaces = new Map();
+    const size = about.particles * (6 + this.lists);
     this.most = Math.max(2 * about.key_every, Math.floor(6e8 / Math.max(size, 1)));
     this.queue = Promise.resolve();
   }
@@ -92,7 +100,7 @@ class FrameStore {
   }
 
   async decodeTo(k) {
-    const key = k - (k % this.about.key_every), { particles, fields } = this.about;
+    const key = k - (k % this.about.key_every), { particles } = this.about;
     const follows = (j) => this.known.has(j - 1) && (j - 1 === key || this.known.has(j - 2));
     let from = k;
     while (from > key && !this.known.has(from) && !follows(from)) --from;
@@ -100,9 +108,18 @@ class FrameStore {
       if (this.known.has(j)) continue;
       const last = j > key ? this.known.get(j - 1) : null, before = j > key + 1 ? this.known.get(j - 2) : null;
       const bytes = await unpacked(this.bytes(j));
-      this.keep(j, decodeFrame(bytes, particles, fields.length, last, before));
+      this.keep(j, decodeFrame(bytes, particles, this.lists, last, before));
     }
     return this.known.get(k);
+  }
+
+  /** The corners of the triangles of frame `k`, three places in the list of particles each; null: there are none. */
+  facets(k) {
+    if (!this.about.facets) return Promise.resolve(null);
+    const list = this.about.facets[k];
+    if (!this.surfaces.has(list))
+      this.surfaces.set(list, unpacked(bytesOf(this.take("facets-" + list))).then(largeNumbersOf));
+    return this.surfaces.get(list);
   }
 
   bytes(k) {

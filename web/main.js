@@ -55,9 +55,9 @@ class Page {
     k = Math.min(Math.max(Math.round(k), 0), this.store.count - 1);
     if (this.wanted === k) return;
     this.wanted = k;
-    const frame = await this.store.get(k);
+    const [frame, facets] = await Promise.all([this.store.get(k), this.store.facets(k)]);
     if (this.wanted !== k) return;
-    this.scene.setFrame(k, frame, this.field);
+    this.scene.setFrame(k, frame, this.field, facets);
     byId("time").value = k;
     const time = this.frames.times[k];
     byId("clock").textContent = quantityText(time, "s") + "  (frame " + this.frames.numbers[k] + ")";
@@ -112,7 +112,12 @@ class Page {
     if (!field) return;
     this.typedUnit = shownUnit(Math.max(Math.abs(field.low), Math.abs(field.high)), field.unit);
     byId("typed-unit").textContent = this.typedUnit.unit;
-    if (this.scene.frame) this.scene.setFrame(this.wanted, this.scene.frame, this.field);
+    this.setAgain();
+  }
+
+  setAgain() {
+    const { scene } = this;
+    if (scene.frame) scene.setFrame(scene.number, scene.frame, this.field, scene.facets);
   }
 
   draw() {
@@ -157,6 +162,7 @@ class Page {
 
   async mark(particle) {
     this.scene.marked = particle;
+    if (this.scene.surface) this.setAgain();
     if (particle >= 0 && !this.first && this.frames.times[0] === 0) this.first = await this.store.get(0);
     this.tellParticle();
     this.draw();
@@ -167,7 +173,7 @@ class Page {
     box.hidden = i < 0 || !this.scene.frame;
     if (box.hidden) return;
     const body = this.frames.bodies[this.scene.bodies[i]].name;
-    const lines = ["particle " + i * this.frames.every + " of " + body,
+    const lines = ["particle " + this.scene.numberOf(i) + " of " + body,
       "x = " + this.scene.placeText(this.scene.frame, i)];
     if (this.first) lines.splice(1, 0, "at the start " + this.scene.placeText(this.first, i));
     this.frames.fields.forEach((field, f) => {
@@ -193,7 +199,7 @@ class Page {
     const { azimuth, elevation, zoom, target, perspective } = this.scene.view;
     this.address.set({
       a: azimuth.toFixed(1), e: elevation.toFixed(1), zoom: zoom.toPrecision(4),
-      to: target.map((x) => x.toPrecision(4)).join("_"), persp: perspective ? 1 : null,
+      to: target.map((x) => x.toPrecision(4)).join("_"), persp: perspective ? 1 : 0,
     });
     this.draw();
   }
@@ -374,6 +380,7 @@ function fillControls(page) {
   frames.fields.forEach((field) => byId("field").append(make("option", "", field.label)));
   byId("time").max = page.store.count - 1;
   byId("shapes-label").hidden = frames.shapes.length === 0;
+  byId("cut-row").hidden = Boolean(frames.facets);  // nothing lies inside
   const hidden = new Set(address.get("off", "").split("_").filter(Boolean).map(Number));
   frames.bodies.forEach((body, b) => {
     const box = make("input");
@@ -401,8 +408,9 @@ function restore(page) {
   view.zoom = Math.min(Math.max(address.number("zoom", page.home.zoom), 0.05), 500);
   const target = address.get("to", "").split("_").map(Number);
   if (target.length === 3 && target.every(Number.isFinite)) view.target = target;
-  byId("perspective").checked = view.perspective = address.get("persp") === "1";
-  for (const id of ["map", "range", "low", "high", "cut"]) if (address.get(id)) byId(id).value = address.get(id);
+  byId("perspective").checked = view.perspective = address.get("persp", view.perspective ? "1" : "0") === "1";
+  const cutting = page.frames.facets ? [] : ["cut"];
+  for (const id of ["map", "range", "low", "high", ...cutting]) if (address.get(id)) byId(id).value = address.get(id);
   document.querySelectorAll(".typed").forEach((label) => { label.hidden = byId("range").value !== "typed"; });
   byId("cut-place").value = 1000 * address.number("at", 0.5);
   byId("cut-side").checked = address.get("side") === "1";
@@ -418,10 +426,12 @@ async function openScene(about, address) {
   const frames = JSON.parse(text);
   const bodies = sumOf(await unpacked(bytesOf(takeText("bodies"))), 0, frames.particles);
   const plane = frames.dimension < 3;
+  const numbers = frames.facets ? largeNumbersOf(await unpacked(bytesOf(takeText("particles")))) : null;
   const view = new View(plane ? "y" : about.up, plane ? 0 : about.view[0], plane ? 0 : about.view[1]);
+  view.perspective = !plane && Boolean(about.perspective);
   let scene;
   try {
-    scene = new Scene(byId("view"), frames, bodies, view);
+    scene = new Scene(byId("view"), frames, bodies, view, numbers);
   } catch (error) {
     throw new Error("Particles cannot be drawn here (" + error.message + "); plots, tables and pictures remain.");
   }
@@ -465,8 +475,7 @@ async function start() {
   restore(page);
   bindControls(page);
   bindPointer(page);
-  if (about.failed_particle >= 0 && about.failed_particle % page.frames.every === 0)
-    page.scene.marked = about.failed_particle / page.frames.every;
+  page.scene.marked = page.scene.placeOfNumber(about.failed_particle);
   const asked = address.get("frame", about.status === "running" || about.status === "failed" ? "last" : "0");
   await page.show(asked === "last" ? page.store.count - 1 : Number(asked) || 0);
   document.documentElement.dataset.ready = "yes";

@@ -2,17 +2,21 @@
 // The scene: the frames of the run, rigid shapes and the box of the start, seen through a View.
 
 class Scene {
-  /** `about`: the page's element "frames"; bodies: the body of each particle. Throws if there is no WebGL 2. */
-  constructor(canvas, about, bodies, view) {
+  /**
+   * `about`: the page's element "frames"; bodies: the body of each particle; `numbers`: theirs in the run, null where
+   * the page holds each so many. Throws if there is no WebGL 2.
+   */
+  constructor(canvas, about, bodies, view, numbers) {
     const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL 2");
-    Object.assign(this, { canvas, about, gl, view, bodies });
+    Object.assign(this, { canvas, about, gl, view, bodies, numbers });
     this.flat = about.dimension < 3;
     this.middle = about.low.map((x, c) => x + (about.step[c] * (about.missing - 1)) / 2);
     const edges = about.low.map((x, c) => 2 * (this.middle[c] - x));
     const largest = Math.max(...about.bodies.map((body) => body.radius), 0);
     this.size = Math.hypot(...edges) + 2 * largest || 1;
-    this.balls = new Balls(gl, bodies);
+    this.balls = new Balls(gl, bodies, about.stretched);
+    this.surface = about.facets ? new Surface(gl, this.balls, bodies) : null;
     this.shown = about.bodies.map(() => true);
     this.tools = programOf(gl, shapeVertex, shapeFragment);
     this.stage = about.stage.map((p) => this.inScene(p));
@@ -87,10 +91,33 @@ class Scene {
     this.balls.setBodies(this.about.bodies.map((body) => body.radius / this.size), this.shown);
   }
 
-  setFrame(k, frame, field) {
-    this.number = k;
-    this.frame = frame;
-    this.balls.setFrame(frame, field);
+  /** `facets`: triangles of this frame; null: bodies have no surface here. */
+  setFrame(k, frame, field, facets) {
+    Object.assign(this, { number: k, frame, facets });
+    this.balls.setFrame(facets ? this.ballsBeside(frame, field, facets) : frame.x, frame, field,
+      this.about.fields.length);
+  }
+
+  /** Places of what is not part of a surface; all others are missing, but for the particle that is marked. */
+  ballsBeside(frame, field, facets) {
+    const { low, step, missing } = this.about, points = new Float32Array(3 * this.bodies.length);
+    for (let c = 0; c < 3; ++c) {
+      const from = (low[c] - this.middle[c]) / this.size, cell = step[c] / this.size, x = frame.x[c];
+      for (let i = 0; i < x.length; ++i) points[3 * i + c] = x[i] === missing ? NaN : from + x[i] * cell;
+    }
+    const alone = this.surface.setFrame(frame, field, facets, points), first = frame.x[0].slice();
+    for (let i = 0; i < first.length; ++i) if (!alone(i) && i !== this.marked) first[i] = missing;
+    return [first, frame.x[1], frame.x[2]];
+  }
+
+  /** Its number in the run, and the place of a number among the particles of the page: -1 if it is not there. */
+  numberOf(i) {
+    return this.numbers ? this.numbers[i] : i * this.about.every;
+  }
+  placeOfNumber(number) {
+    if (number < 0) return -1;
+    if (this.numbers) return this.numbers.indexOf(number);
+    return number % this.about.every === 0 ? number / this.about.every : -1;
   }
 
   camera() {
@@ -115,6 +142,7 @@ class Scene {
     gl.enable(gl.DEPTH_TEST);
     if (this.flat) gl.clear(gl.DEPTH_BUFFER_BIT);
     if (this.frame) this.balls.draw(camera, this.ballsNow());
+    if (this.frame && this.surface) this.surface.draw(camera, this.flat);
     const none = { centre: [0, 0, 0], edges: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
     if (this.showOutline) this.outline.draw(camera, none, this.dark ? [0.7, 0.7, 0.7, 1] : [0.3, 0.3, 0.3, 1], 0);
   }

@@ -41,8 +41,8 @@ class View {
   lookFrom(word) {
     const from = axesOf[word];
     if (!from) {
-      this.azimuth = 30;
-      this.elevation = 20;
+      this.azimuth = 45;
+      this.elevation = (Math.atan(Math.SQRT1_2) * 180) / Math.PI;
       return;
     }
     this.elevation = (Math.asin(Math.min(Math.max(dot(from, this.base.up), -1), 1)) * 180) / Math.PI;

@@ -58,6 +58,26 @@ TEST(Ticks, HaveTrueMinusSignsAndNoMinusZero) {
   EXPECT_TRUE(decade_ticks(2, 5).empty());
 }
 
+// An energy that is kept to round-off: there are no numbers between its ends to count through.
+TEST(Ticks, EndWhereARangeIsRoundOff) {
+  double const low = 160199.10310115656, high = std::nextafter(low, 2e5);
+  EXPECT_LE(linear_ticks(low, high).size(), 1000u);
+}
+
+TEST(Plots, ShowWhatIsConstantButForRoundOffAsConstant) {
+  double const value = 160199.10310115656;
+  Plot const plot{.title = "",
+                  .note = {},
+                  .x = {"time", "s"},
+                  .y = {"energy", "J"},
+                  .curves = {{.label = "energy", .x = {0, 1, 2}, .y = {value, std::nextafter(value, 2e5), value}}}};
+  PlotText const text = plot_text(plot);
+  std::smatch line;
+  std::regex const whole("stroke-width:1.8[^>]*d=\"M \\S+ (\\S+) L \\S+ (\\S+) \"");  // one stroke, from end to end
+  ASSERT_TRUE(std::regex_search(text.svg, line, whole));
+  EXPECT_NEAR(std::stod(line[1]), std::stod(line[2]), 1e-3);
+}
+
 TEST(Prefixes, SuitTheNumberAndTheUnit) {
   EXPECT_EQ(prefix_for(3.2e6, "J").word, "M");
   EXPECT_EQ(prefix_for(0.02, "s").word, "m");

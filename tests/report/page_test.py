@@ -16,6 +16,7 @@ import sys
 import tempfile
 import unittest
 import zlib
+from collections import Counter
 from pathlib import Path
 
 SOURCE = Path(os.environ.get("PIOLA_SOURCE_DIR", Path(__file__).resolve().parents[2]))
@@ -68,6 +69,43 @@ class Elements(html.parser.HTMLParser):
             self.data[self._at] = self.data.get(self._at, "") + text
 
 
+def halves(text):
+    """Numbers from folded differences, as encode_numbers of src/piola/report/frame_code.cpp packs them; below 2^32."""
+    packed = zlib.decompress(base64.b64decode(text))
+    count, numbers = len(packed) // 4, []
+    for at in (0, 2 * count):
+        total, part = 0, []
+        for low, high in zip(packed[at:at + count], packed[at + count:at + 2 * count]):
+            folded = low | high << 8
+            total = (total + ((folded >> 1) ^ -(folded & 1))) & 0xffff
+            part.append(total)
+        numbers.append(part)
+    return [low + 65536 * high for low, high in zip(*numbers)]
+
+
+def decoded(page, numbers):
+    """{frame: [codes of x, y, z; bytes of fields]} of a page, by the script that the browser runs."""
+    script = (SOURCE / "web" / "frames.js").read_text(encoding="utf-8") + """
+const data = JSON.parse(require("fs").readFileSync(0, "utf8"));
+(async () => {
+  const store = new FrameStore(JSON.parse(data.frames), (name) => {
+    const text = data[name];
+    delete data[name];
+    return text;
+  });
+  const out = {};
+  for (const k of JSON.parse(data.numbers)) {
+    const frame = await store.get(k), facets = await store.facets(k);
+    out[k] = [frame.x, frame.fields, [facets || []]].map((list) => list.map((values) => [...values]));
+  }
+  console.log(JSON.stringify(out));
+})();
+"""
+    done = subprocess.run(["node", "-e", script], input=json.dumps({**page.data, "numbers": json.dumps(numbers)}),
+                          capture_output=True, text=True, check=True)
+    return {int(k): lists for k, lists in json.loads(done.stdout).items()}
+
+
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -115,6 +153,20 @@ class Page(unittest.TestCase):
         self.assertLess(plot["left"], plot["right"])
         self.assertEqual(len(self.frames["times"]), 21)
         self.assertEqual([body["name"] for body in self.frames["bodies"]], ["bar"])
+
+    def test_the_view_is_that_of_the_pictures_by_angles_or_by_name(self):
+        self.assertEqual((self.about["view"], self.about["up"], self.about["perspective"]), ([30, 20], "y", False))
+        for setting, view in (('output.pictures.view="-z"', [180, 0]), ('output.pictures.view="iso"', [45, 35.264]),
+                              ("output.pictures.view=[10, 70]", [10, 70])):
+            folder = self.folder / "looked at"
+            shutil.copytree(self.run_folder, folder, dirs_exist_ok=True)
+            program("run", self.folder / "case.toml", "--quiet", "--force", "--out", folder, "--set", 'run.end="1 ms"',
+                    "--set", "output.pictures.every=0", "--set", setting, "--set", "output.pictures.perspective=20")
+            program("report", folder)
+            about = json.loads(Elements((folder / "report.html").read_text(encoding="utf-8")).data["about"])
+            self.assertTrue(about["perspective"])
+            for angle, wanted in zip(about["view"], view):
+                self.assertAlmostEqual(angle, wanted, places=3)
 
     def test_checks_are_judged_for_the_variant_that_the_run_is(self):
         rows = self.about["rows"]
@@ -174,38 +226,35 @@ class Page(unittest.TestCase):
         self.assertEqual(about["runs"][0]["plots"][0]["name"], "energies")
         self.assertNotIn("<img", text)
 
+    def test_a_verification_in_markdown_shows_what_is_measured_and_what_is_expected(self):
+        case = self.folder / "drawn" / "bar"
+        case.mkdir(parents=True)
+        (case / "case.toml").write_text(BAR, encoding="utf-8")
+        (case / "checks.toml").write_text(CHECKS + "[[check]]" + CHECKS.split("[[check]]")[1].replace(
+            "standard", "faster"), encoding="utf-8")
+        program("verify", "--cases", case.parent, "--markdown", self.folder / "md")
+        plots = re.findall(r"!\[(.*)\]\((.*\.svg)\)", (self.folder / "md" / "README.md").read_text(encoding="utf-8"))
+        self.assertEqual(plots, [("top.displacement x, measured and expected", "bar-top-displacement-x.svg")])
+        program("verify", "--cases", case.parent, "--out", self.folder / "kept")
+        program("plot", self.folder / "kept" / "bar" / "standard", "top.displacement_x",
+                "--checks", case / "checks.toml", "-o", self.folder / "one.svg")
+        lines = {name: len(re.findall(r"<path [^>]*stroke-dasharray", path.read_text(encoding="utf-8")))
+                 for name, path in (("one", self.folder / "one.svg"), ("all", self.folder / "md" / plots[0][1]))}
+        self.assertEqual(lines, {"one": 1, "all": 1})  # both variants have the same reference: it is drawn once
+
     def test_frames_are_packed_as_told(self):
         sizes = {len(zlib.decompress(base64.b64decode(text))) for name, text in self.page.data.items()
                  if re.fullmatch(r"frame-\d+", name)}
-        self.assertEqual(sizes, {self.frames["particles"] * (6 + len(self.frames["fields"]))})
+        self.assertEqual(sizes, {self.frames["particles"] * (6 + len(self.frames["fields"]) + 6)})
 
     def test_the_browser_decodes_what_is_in_the_files(self):
-        node = shutil.which("node")
-        if node is None:
-            self.skipTest("there is no node")
+        self.need_node()
         import h5py
         import numpy as np
-        script = (SOURCE / "web" / "frames.js").read_text(encoding="utf-8") + """
-const data = JSON.parse(require("fs").readFileSync(0, "utf8"));
-(async () => {
-  const store = new FrameStore(JSON.parse(data.frames), (name) => {
-    const text = data[name];
-    delete data[name];
-    return text;
-  });
-  const out = {};
-  for (const k of [20, 3, 0, 10, 11, 19, 3]) {
-    const frame = await store.get(k);
-    out[k] = [frame.x, frame.fields].map((list) => list.map((values) => [...values]));
-  }
-  console.log(JSON.stringify(out));
-})();
-"""
-        done = subprocess.run([node, "-e", script], input=json.dumps(self.page.data), capture_output=True, text=True,
-                              check=True)
-        frames, low, step = json.loads(done.stdout), self.frames["low"], self.frames["step"]
+        frames = decoded(self.page, [20, 3, 0, 10, 11, 19, 3])
+        low, step = self.frames["low"], self.frames["step"]
         extent = np.array(step) * (self.frames["missing"] - 1)
-        for number, (x, fields) in frames.items():
+        for number, (x, fields, _) in frames.items():
             with h5py.File(self.run_folder / "frames" / f"{int(number):06d}.hdf") as file:
                 points = file["VTKHDF/Points"][:]
                 pressure = file["VTKHDF/PointData/Pressure"][:]
@@ -217,6 +266,73 @@ const data = JSON.parse(require("fs").readFileSync(0, "utf8"));
             values = scale["low"] + (codes - 1) * (scale["high"] - scale["low"]) / 254
             error = np.abs(values - np.clip(pressure, scale["low"], scale["high"]))
             self.assertLessEqual(error.max(), 0.51 * (scale["high"] - scale["low"]) / 254)
+
+
+    def need_node(self):
+        if shutil.which("node") is None:
+            self.skipTest("there is no node")
+
+    def test_surfaces_are_closed_and_lie_on_the_shape(self):
+        self.need_node()
+        program("report", self.run_folder, "--surface", "-o", self.folder / "skin.html")
+        page = Elements((self.folder / "skin.html").read_text(encoding="utf-8"))
+        frames = json.loads(page.data["frames"])
+        numbers = halves(page.data["particles"])
+        inside = 3 * 3 * 7
+        self.assertEqual(frames["particles"], 5 * 5 * 9 - inside)
+        self.assertEqual(len(numbers), frames["particles"])
+        self.assertEqual(numbers, sorted(set(numbers)))
+        self.assertEqual(len(frames["facets"]), 21)
+        for number in set(frames["facets"]):
+            corners = halves(page.data[f"facets-{number}"])
+            self.assertEqual(len(corners), 3 * 2 * (2 * 4 * 4 + 4 * 4 * 8))
+            edges = Counter(tuple(sorted(pair)) for k in range(0, len(corners), 3)
+                            for pair in zip(corners[k:k + 3], (*corners[k + 1:k + 3], corners[k])))
+            self.assertEqual(set(edges.values()), {2})
+        corners = halves(page.data[f"facets-{frames['facets'][0]}"])
+        x, _, (facets,) = decoded(page, [0])[0]
+        self.assertEqual(facets, corners)
+        for axis, length in enumerate((1, 1, 2)):
+            places = [frames["low"][axis] + frames["step"][axis] * code for code in x[axis]]
+            step = frames["step"][axis]
+            self.assertLess(abs(min(places)), step)
+            self.assertLess(abs(max(places) - length), step)
+
+    def test_surfaces_need_the_case(self):
+        folder = self.folder / "without case"
+        shutil.copytree(self.run_folder, folder)
+        (folder / "case.toml").unlink()
+        self.assertIn("have no surface", program("report", folder, "--surface", code=2))
+        program("report", folder)
+        frames = json.loads(Elements((folder / "report.html").read_text(encoding="utf-8")).data["frames"])
+        self.assertIsNone(frames["stretched"])
+
+    def test_balls_are_stretched_as_the_body_is(self):
+        self.need_node()
+        import h5py
+        import numpy as np
+        folder = self.folder / "stretched"
+        program("run", self.folder / "case.toml", "--quiet", "--out", folder, "--set", 'run.end="6 ms"', "--set",
+                'output.frames.fields=["DeformationGradient"]', "--set",
+                'body.bar.initial_velocity=["9*Z","0","0"]')
+        program("report", folder, "--fields", "DeformationGradient")
+        page = Elements((folder / "report.html").read_text(encoding="utf-8"))
+        frames = json.loads(page.data["frames"])
+        ends = np.array(frames["stretched"])
+        states = decoded(page, [0, 6])
+        value = {k: ends[:, :1] + (np.array(fields[-6:]) - 1) * (ends[:, 1:] - ends[:, :1]) / 254
+                 for k, (_, fields, _) in states.items()}
+        unstretched = np.array([[1], [1], [1], [0], [0], [0]])
+        self.assertLess(np.abs(value[0] - unstretched).max(), 1e-9)
+        with h5py.File(folder / "frames" / "000006.hdf") as file:
+            points = file["VTKHDF/Points"][:]
+            gradient = file["VTKHDF/PointData/DeformationGradient"][:].reshape(-1, 3, 3)
+        xx, yy, zz, xy, yz, xz = value[6]
+        v = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
+        expected = gradient @ gradient.transpose(0, 2, 1)
+        middle = np.abs(points[:, 2] - 1) < 0.5
+        self.assertGreater(np.abs(expected - np.eye(3))[middle].max(), 0.05, "it is stretched at all")
+        self.assertLess(np.abs(v @ v - expected)[middle].max(), 0.06)
 
 
 if __name__ == "__main__":

@@ -53,6 +53,27 @@ TEST(PlotReferences, AreLinesAcrossAndUpright) {
   EXPECT_EQ(p.curves[2].y, (std::vector<double>{0, 3}));
 }
 
+TEST(PlotReferences, AreRingsAtTimesAndCurvesOfFormulas) {
+  RunFolder with = run();
+  with.spec->quantities.push_back(quantity("then", "top.twist_angle", QuantitySpec::Take::at_time));
+  with.spec->quantities.back().time = 0.05;
+  with.spec->quantities.push_back(quantity("off", "top.twist_angle", QuantitySpec::Take::relative_error));
+  with.spec->quantities.back().reference = Expression("3 * t");
+  with.spec->quantities.back().from = 0.1;
+  Plot p = plot();
+  EXPECT_EQ(add_references(p, with, {row("then", 2, "rad"), row("off", 0.01, "1", "below"), row("then", 2, "rad")},
+                           {"top.twist_angle"}),
+            2);
+  ASSERT_EQ(p.curves.size(), 3U);
+  EXPECT_TRUE(p.curves[1].marks);
+  EXPECT_EQ(p.curves[1].x, std::vector<double>{0.05});
+  EXPECT_EQ(p.curves[1].y, std::vector<double>{2});
+  EXPECT_FALSE(p.curves[2].marks);
+  EXPECT_EQ(p.curves[2].x.front(), 0.1);
+  EXPECT_EQ(p.curves[2].x.back(), 0.2);
+  EXPECT_NEAR(p.curves[2].y.back(), 0.6, 1e-15);
+}
+
 TEST(PlotReferences, LeaveOutWhatIsNoValueOfTheColumn) {
   Plot p = plot();
   EXPECT_EQ(add_references(p, run(),

@@ -90,7 +90,9 @@ TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
   RunFolder const run = open_run(results.run());
   Survey const survey = survey_frames(run, {0, 1, 2, 3, 4}, {"Velocity", "Displacement", "Pressure"});
   Plan const all{.frames = {0, 1, 2, 3, 4}, .fields = 3};
-  auto const plan = [&](double bytes) { return fitting_plan(run, survey, all, {.bytes = bytes, .least_fields = 1}); };
+  auto const plan = [&](double bytes) {
+    return fitting_plan(run, survey, all, {.bytes = bytes, .least_fields = 1}, {});
+  };
   EXPECT_EQ(plan(1e9).fields, 3u);
   EXPECT_TRUE(plan_notes(plan(1e9), all, survey, 1e9).empty());
   Plan last = plan(1e9);
@@ -113,6 +115,22 @@ TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
   ASSERT_EQ(notes.size(), 1u);
   for (char const* part : {"1 of 3 fields", "12 bits", "one particle in", "300 B"})
     EXPECT_NE(notes[0].find(part), std::string::npos) << part << " in " << notes[0];
+}
+
+TEST(Plan, LeavesBallsRoundBeforeAllElse) {
+  Results const results(40);
+  RunFolder const run = open_run(results.run());
+  Survey const survey = survey_frames(run, {0, 4}, {"Velocity"});
+  Plan const all{.frames = {0, 1}, .fields = 1, .stretched = true};
+  Plan const less = fitting_plan(run, survey, all, {.bytes = 100, .least_fields = 1}, {});
+  EXPECT_FALSE(less.stretched);
+  EXPECT_NE(plan_notes(less, all, survey, 100).at(0).find("round balls"), std::string::npos);
+}
+
+TEST(PageSurfaces, PackNumbersBelowTwoToTheThirtyTwo) {
+  auto const bytes = encode_large_numbers({5, 70000, 4294967295});
+  EXPECT_EQ(bytes.size(), 12u);
+  EXPECT_EQ(bytes[0], 10u);  // + 5, the sign in the lowest bit
 }
 
 TEST(Plan, LetsBallsGrowWhereSomeAreLeftOut) {

@@ -92,5 +92,24 @@ TEST(VerificationReport, IsAPageWithPicturesBesideIt) {
   EXPECT_EQ(testing::text_of(folder / "new/page/toys-springs-eps-1-8-2.png"), "a picture");
 }
 
+TEST(VerificationReport, DrawsPlotsBesideThePage) {
+  testing::TemporaryFolder const folder;
+  auto const plots = [](CaseVerification const& c) {
+    Plot plot{.title = c.name, .note = {}, .x = {"time", "s"}, .y = {"top | sway", "m"}, .curves = {}};
+    plot.curves = {{.label = "ours", .x = {0, 1}, .y = {0, 2}},
+                   {.label = "paper", .x = {0.5}, .y = {1}, .marks = true}};
+    Plot const nothing{.title = c.name, .note = {}, .x = {"time", "s"}, .y = {"nothing", "m"}, .curves = {}};
+    return std::vector{plot, nothing, plot};
+  };
+  write_verification_page(folder / "page", sample(""), plots);
+  std::string const page = testing::text_of(folder / "page/README.md");
+  EXPECT_NE(page.find("\n![top \\| sway, measured and expected](toys-springs-top-sway.svg)\n"), std::string::npos)
+      << page;
+  EXPECT_NE(page.find("(toys-springs-top-sway-2.svg)"), std::string::npos) << page;
+  EXPECT_EQ(page.find("nothing"), std::string::npos) << page;
+  std::string const svg = testing::text_of(folder / "page/toys-springs-top-sway.svg");
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace piola

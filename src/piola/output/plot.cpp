@@ -59,7 +59,8 @@ Scale scale_of(Plot const& plot, PlotAxis const& axis, std::vector<double> Curve
                                  axis.logarithmic ? "above 0" : "a finite number",
                                  axis.logarithmic ? " or a linear axis" : ""));
   scale.factor = prefix_for(std::max(std::abs(scale.low), std::abs(scale.high)), axis.unit).factor;
-  if (scale.low == scale.high) {
+  constexpr double round_off = 1e-11;  // of the values: what is constant but for it is drawn as constant
+  if (scale.high - scale.low <= round_off * std::max(std::abs(scale.low), std::abs(scale.high))) {
     double const air = scale.high == 0 ? 1 : 0.1 * std::abs(scale.high);
     scale.low -= scale.logarithmic ? 0.5 * scale.low : air;
     scale.high += air;
@@ -97,7 +98,7 @@ class Paper {
     y_.from = plot_.height - 52;
     y_.to = 46;
     frame();
-    for (Curve const& curve : plot_.curves) line(curve);
+    for (Curve const& curve : plot_.curves) curve.marks ? rings(curve) : line(curve);
     labels();
   }
   /// After drawing.
@@ -193,6 +194,17 @@ class Paper {
     }
     cairo_stroke(c_);
     cairo_set_dash(c_, nullptr, 0, 0);
+  }
+
+  void rings(Curve const& curve) {
+    set_pen(curve);
+    cairo_set_dash(c_, nullptr, 0, 0);
+    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+      if (!x_.shows(curve.x[i]) || !y_.shows(curve.y[i])) continue;
+      cairo_new_sub_path(c_);
+      cairo_arc(c_, x_.at(curve.x[i]), y_.at(curve.y[i]), 4.5, 0, 2 * std::acos(-1.0));
+      cairo_stroke(c_);
+    }
   }
 
   /// Names beside the last points, pushed apart where they would lie on each other.

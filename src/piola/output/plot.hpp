@@ -10,8 +10,9 @@ namespace piola {
 struct Curve {
   std::string label;
   std::vector<double> x, y;
-  int colour = 0;  ///< number in the palette of Okabe and Ito
-  int dash = 0;    ///< 0 whole, then broken in different ways
+  int colour = 0;      ///< number in the palette of Okabe and Ito
+  int dash = 0;        ///< 0 whole, then broken in different ways
+  bool marks = false;  ///< rings around the points, and no line between them
 };
 
 struct PlotAxis {

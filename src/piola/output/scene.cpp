@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::size_t most_balls = 2'000'000;    // above it there are more balls than samples
 constexpr std::size_t most_bodies = nobody / 2;  // with their hatched twins
-constexpr double least_stretch = 1.0 / 3, most_stretch = 4;
 
 /// From metres to samples.
 struct ToSamples {
@@ -173,7 +172,7 @@ class BodyDrawing {
     bool const small = as_point || !(radius > least);
     std::array<Place3, 3> S = to_samples_.axes();
     if (mesh_ && !small)
-      stretch(S, with_bounded_stretches(fitted_gradient(*mesh_, now, i), least_stretch, most_stretch));
+      stretch(S, with_bounded_stretches(fitted_gradient(*mesh_, now, i), least_ball_stretch, most_ball_stretch));
     for (Place3& row : S) row = plus({}, small ? least : radius, row);
     set_shape(e, S);
     return e;

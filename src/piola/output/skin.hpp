@@ -34,6 +34,9 @@ std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& no
 /// F - I for a linear motion.
 Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle);
 
+/// What the balls of pictures and pages are stretched by, at the least and at most.
+inline constexpr double least_ball_stretch = 1.0 / 3, most_ball_stretch = 4;
+
 /// F with its principal stretches brought between these bounds.
 Mat<3> with_bounded_stretches(Mat<3> const& F, double least, double most);
 

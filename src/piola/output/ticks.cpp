@@ -33,7 +33,11 @@ std::vector<Tick> linear_ticks(double low, double high, int about) {
   double const largest = std::max(std::abs(low), std::abs(high));
   std::vector<Tick> ticks;
   double const first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
-  for (double k = first; k <= last; ++k) ticks.push_back({k * step, tick_text(k * step, decimals, largest)});
+  constexpr int most = 1000;  // where the range is round-off, counting on may change nothing
+  for (int n = 0; n < most && first + n <= last; ++n) {
+    double const value = (first + n) * step;
+    ticks.push_back({value, tick_text(value, decimals, largest)});
+  }
   return ticks;
 }
 

@@ -7,6 +7,7 @@
 #include "piola/output/history.hpp"
 #include "piola/output/picture.hpp"
 #include "piola/simulation/history_plot.hpp"
+#include "piola/simulation/look.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
 #include <cmath>
@@ -126,28 +127,54 @@ std::optional<Json> one_plot(RunFolder const& run, std::vector<std::string> cons
   return std::nullopt;
 }
 
+/// The ends of the bytes of V, component by component; null where balls are round.
+Json stretch_json(Plan const& plan, Shaping const& shaping) {
+  if (!plan.stretched || !shaping.shapes || shaping.surfaces) return {};
+  Json list = Json::array();
+  for (std::size_t c = 0; c < BodyShapes::stretch_components; ++c) {
+    ByteScale const scale = BodyShapes::stretch_scale(c);
+    list.push_back({scale.low, scale.high});
+  }
+  return list;
+}
+
+/// The number of each frame's list of triangles; null where there are no surfaces.
+Json facets_json(Plan const& plan, Shaping const& shaping) {
+  return shaping.surfaces ? chosen(plan, shaping.surfaces->list_of) : Json();
+}
+
+/// Where the pictures of the case look from, whether it says so by angles or by a name.
+View view_of(RunFolder const& run) {
+  if (!run.spec) return {30, 20, Up::y};
+  return camera_of(run.spec->output, upwards(*run.spec), run.spec->bodies, 3).view;
+}
+
 }  // namespace
 
 Json about_run(RunFolder const& run) {
+  View const view = view_of(run);
   Json about{{"title", run.title},
              {"status", run.status},
              {"failure", run.failure},
              {"version", version()},
              {"failed_particle", failed_particle(run.failure)},
-             {"up", std::string(up_words[static_cast<std::size_t>(run.spec ? upwards(*run.spec) : Up::y)])},
-             {"view", run.spec ? run.spec->output.pictures.view : std::array{30.0, 20.0}},
+             {"up", std::string(up_words[static_cast<std::size_t>(view.upwards)])},
+             {"view", {view.azimuth, view.elevation}},
+             {"perspective", run.spec && run.spec->output.pictures.perspective > 0},
              {"case", run.case_text},
              {"log", end_of(run.log)}};
   about["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary);
   return about;
 }
 
-Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan) {
+Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan, Shaping const& shaping) {
   Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
   Json frames{{"dimension", survey.dimension},
               {"all", survey.particles},
               {"every", plan.every},
-              {"particles", plan.particles(survey.particles)},
+              {"particles", planned_bodies(survey, plan, shaping).size()},
+              {"stretched", stretch_json(plan, shaping)},
+              {"facets", facets_json(plan, shaping)},
               {"key_every", FrameCoder::key_every},
               {"low", lattice.low},
               {"step", lattice.step},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/report/plan.hpp"
+#include "piola/report/frame_content.hpp"
 #include "piola/report/run_folder.hpp"
 #include "piola/report/survey.hpp"
 #include "piola/simulation/verify.hpp"
@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 Json about_run(RunFolder const& run);
 
 /// What the script needs to show the frames: coding, times, fields with their ranges, bodies, rigid shapes.
-Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan);
+Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan, Shaping const& shaping = {});
 
 /// Plots of the history: the energies as a ledger, what quantities look at, probes, other columns of parts; at most
 /// `most`; `left` counts the columns without one. Empty if there is no history yet.

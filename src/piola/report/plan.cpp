@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/plan.hpp"
 #include "piola/base/text.hpp"
+#include "piola/report/frame_content.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,14 +13,14 @@ constexpr std::size_t least_frames = 12;
 constexpr int few_bits = 12;
 
 /// Characters of the page that the frames of a plan take, from one key frame and one that follows two others.
-double expected_size(RunFolder const& run, Survey const& survey, Plan const& plan) {
+double expected_size(RunFolder const& run, Survey const& survey, Plan const& plan, Shaping const& shaping) {
   Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
   FrameCoder coder;
   std::size_t const count = plan.frames.size(), first = count > 3 ? count / 2 - 1 : 0;
   double key = 0, other = 0;
   for (std::size_t k = first; k < std::min(count, first + 3); ++k) {
     FrameReader const frame(run.frames[survey.frames[plan.frames[k]]].second);
-    auto const bytes = coder.encode(codes_of(frame, survey, lattice, plan.fields, plan.every), k == first);
+    auto const bytes = coder.encode(planned_codes(frame, survey, lattice, plan, shaping), k == first);
     (k == first ? key : other) = static_cast<double>(packed_text(bytes).size());
   }
   double const keys = std::ceil(static_cast<double>(count) / FrameCoder::key_every);
@@ -28,11 +29,16 @@ double expected_size(RunFolder const& run, Survey const& survey, Plan const& pla
 
 }  // namespace
 
-Plan fitting_plan(RunFolder const& run, Survey const& survey, Plan plan, PlanLimits const& limits) {
-  auto const share = [&] { return limits.bytes / (limits.correction * expected_size(run, survey, plan)); };
+Plan fitting_plan(RunFolder const& run, Survey const& survey, Plan plan, PlanLimits const& limits,
+                  Shaping const& shaping) {
+  auto const share = [&] { return limits.bytes / (limits.correction * expected_size(run, survey, plan, shaping)); };
   double fits = share();
-  if (fits < 1 && plan.fields > limits.least_fields) {
-    plan.fields = limits.least_fields;
+  if (fits < 1 && plan.stretched) {
+    plan.stretched = false;
+    fits = share();
+  }
+  while (fits < 1 && plan.fields > limits.least_fields) {
+    --plan.fields;
     fits = share();
   }
   if (fits < 1 && plan.frames.size() > least_frames) {
@@ -47,13 +53,14 @@ Plan fitting_plan(RunFolder const& run, Survey const& survey, Plan plan, PlanLim
     plan.bits = few_bits;
     fits = share();
   }
-  if (fits < 1) plan.every *= static_cast<std::size_t>(std::ceil(1 / fits));
+  if (fits < 1 && !shaping.surfaces) plan.every *= static_cast<std::size_t>(std::ceil(1 / fits));
   return plan;
 }
 
 std::vector<std::string> plan_notes(Plan const& plan, Plan const& wanted, Survey const& survey, double budget) {
   auto const count = [](std::size_t n) { return count_text(static_cast<std::int64_t>(n)); };
   std::vector<std::string> held;
+  if (plan.stretched < wanted.stretched) held.push_back("round balls");
   if (plan.fields < wanted.fields) held.push_back(fmt::format("{} of {} fields", plan.fields, wanted.fields));
   if (plan.frames.size() < wanted.frames.size())
     held.push_back(fmt::format("{} of {} frames", plan.frames.size(), wanted.frames.size()));
@@ -63,10 +70,10 @@ std::vector<std::string> plan_notes(Plan const& plan, Plan const& wanted, Survey
                                count(survey.particles)));
   std::vector<std::string> notes;
   if (!held.empty())
-    notes.push_back(
-        fmt::format("to stay within {} the page holds {}; --budget, --frames, --fields and --bits choose "
-                    "otherwise",
-                    size_text(budget), joined(held)));
+    notes.push_back(fmt::format(
+        "to stay within {} the page holds {}; --budget, --frames, --fields and --bits choose "
+        "otherwise{}",
+        size_text(budget), joined(held), plan.every > wanted.every ? ", --surface leaves out what lies inside" : ""));
   if (survey.outside > 0)
     notes.push_back(fmt::format("{} particle{} flew out of the box that is shown, or went astray",
                                 count(survey.outside), survey.outside == 1 ? "" : "s"));

@@ -3,14 +3,26 @@
 #include "piola/output/plot.hpp"
 #include "piola/report/run_folder.hpp"
 #include "piola/simulation/verify.hpp"
+#include <array>
 #include <string>
 #include <vector>
 
 namespace piola::report {
 
-/// Adds to a plot over time what rows of checks expect of quantities that are taken from its columns: a broken line
-/// across for a value, a broken upright line for a time. Rows of other quantities, of quantities that are no value and
-/// no time of their column, such as a change, and bounds are left out. Returns how many were added.
+/// Lowest and highest finite value of all curves, in SI.
+struct PlotEnds {
+  std::array<double, 2> x{}, y{};
+};
+PlotEnds ends_of(Plot const& plot);
+
+/// What rows of checks expect of quantities that are taken from columns over time, within a plot of these ends: a
+/// broken line across for a value, an upright one for a time, a ring for a value at a time, a curve for a formula.
+/// Rows of other quantities, of quantities that are no value and no time of their column, such as a change, and bounds
+/// are left out; what is expected twice is there once.
+std::vector<Curve> reference_curves(RunFolder const& run, std::vector<VerificationRow> const& rows,
+                                    std::vector<std::string> const& columns, PlotEnds const& ends);
+
+/// Adds reference_curves() to a plot over time. Returns how many were added.
 int add_references(Plot& plot, RunFolder const& run, std::vector<VerificationRow> const& rows,
                    std::vector<std::string> const& columns);
 

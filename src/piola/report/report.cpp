@@ -3,11 +3,13 @@
 #include "piola/base/problems.hpp"
 #include "piola/report/about.hpp"
 #include "piola/report/check_rows.hpp"
+#include "piola/report/frame_content.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/plan.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
+#include <set>
 
 namespace piola::report {
 namespace {
@@ -15,13 +17,33 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_frames = 200, most_fields = 5, least_fields = 2, most_plots = 12;
+constexpr std::size_t most_stretched = 300'000, most_stretches = 10'000'000;
 constexpr std::uintmax_t most_picture_bytes = 3'000'000;
 
 /// The frames of a page: what is known of them, and what of them it holds.
 struct Shown {
   Survey survey;
   Plan plan;
+  Shaping shaping;
 };
+
+/// Finds surfaces if they are asked for, else how balls are stretched, as far as that takes seconds only.
+void shape(RunFolder const& run, ReportOptions const& options, Shown& shown) {
+  Survey& survey = shown.survey;
+  bool const soon = survey.particles <= most_stretched && survey.particles * survey.frames.size() <= most_stretches;
+  if (!options.surface && !(soon && survey.dimension > 1)) return;
+  shown.shaping.shapes = BodyShapes::of(run, survey.dimension, survey.body);
+  shown.plan.stretched = !options.surface && shown.shaping.shapes;
+  if (!options.surface) return;
+  if (shown.shaping.shapes) shown.shaping.surfaces = find_surfaces(run, *shown.shaping.shapes, survey);
+  auto const triangles = [](auto const& list) { return !list.empty(); };
+  if (!shown.shaping.surfaces ||
+      std::none_of(shown.shaping.surfaces->lists.begin(), shown.shaping.surfaces->lists.end(), triangles))
+    throw InputError(
+        fmt::format("{}: its bodies have no surface (a case.toml that makes these particles is needed, in "
+                    "2D or 3D) - leave out --surface",
+                    run.path.string()));
+}
 
 Shown survey_of(RunFolder const& run, ReportOptions const& options) {
   auto const wanted = options.frames > 0 ? options.frames : most_frames;
@@ -30,9 +52,10 @@ Shown survey_of(RunFolder const& run, ReportOptions const& options) {
   auto const fields = options.fields.empty()
                           ? usual_fields(first, run.spec ? run.spec->output.pictures.field : "Pressure", most_fields)
                           : options.fields;
-  Shown shown{survey_frames(run, numbers, fields), {}};
+  Shown shown{survey_frames(run, numbers, fields), {}, {}};
   shown.plan = {.frames = std::vector<std::size_t>(numbers.size()), .fields = fields.size(), .bits = options.bits};
   std::iota(shown.plan.frames.begin(), shown.plan.frames.end(), std::size_t{0});
+  shape(run, options, shown);
   return shown;
 }
 
@@ -62,22 +85,29 @@ struct PageSize {
   double all = 0, frames = 0;
 };
 
+void put_surfaces(PageFile& file, PageSurfaces const& surfaces, Plan const& plan) {
+  file.data("particles", packed_text(encode_large_numbers(surfaces.particles)));
+  std::set<std::size_t> needed;
+  for (std::size_t const k : plan.frames) needed.insert(surfaces.list_of[k]);
+  for (std::size_t const list : needed)
+    file.data(fmt::format("facets-{}", list), packed_text(encode_large_numbers(surfaces.lists[list])));
+}
+
 PageSize write_page(fs::path const& page, RunFolder const& run, Json const& about, Shown const* shown) {
   PageFile file(page, run.title);
   double before = 0, after = 0;
   file.data("about", script_text(about), true);
   if (shown != nullptr) {
-    auto const& [survey, plan] = *shown;
-    file.data("frames", script_text(about_frames(run, survey, plan)), true);
-    std::vector<std::uint16_t> body;
-    for (std::size_t i = 0; i < survey.particles; i += plan.every) body.push_back(survey.body[i]);
-    file.data("bodies", packed_text(encode_numbers(body)));
+    auto const& [survey, plan, shaping] = *shown;
+    file.data("frames", script_text(about_frames(run, survey, plan, shaping)), true);
+    file.data("bodies", packed_text(encode_numbers(planned_bodies(survey, plan, shaping))));
+    if (shaping.surfaces) put_surfaces(file, *shaping.surfaces, plan);
     Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
     FrameCoder coder;
     before = file.size();
     for (std::size_t k = 0; k < plan.frames.size(); ++k) {
       FrameReader const frame(run.frames[survey.frames[plan.frames[k]]].second);
-      auto const codes = codes_of(frame, survey, lattice, plan.fields, plan.every);
+      auto const codes = planned_codes(frame, survey, lattice, plan, shaping);
       file.data(fmt::format("frame-{}", k), packed_text(coder.encode(codes, k % FrameCoder::key_every == 0)));
     }
     after = file.size();
@@ -96,7 +126,7 @@ void write_within_budget(fs::path const& page, RunFolder const& run, ReportOptio
   PlanLimits limits{.bytes = std::max(options.budget - rest, least),
                     .least_fields = options.fields.empty() ? least_fields : all.fields};
   for (int attempt = 0; attempt < 4; ++attempt) {
-    shown.plan = fitting_plan(run, shown.survey, all, limits);
+    shown.plan = fitting_plan(run, shown.survey, all, limits, shown.shaping);
     result.notes = notes;
     if (all.frames.size() < run.frames.size() && options.frames == 0)
       result.notes.push_back(
@@ -107,6 +137,8 @@ void write_within_budget(fs::path const& page, RunFolder const& run, ReportOptio
     result.bytes = size.all;
     result.frames = shown.plan.frames.size();
     if (size.all <= options.budget) return;
+    if (shown.shaping.surfaces && attempt == 3)
+      result.notes.push_back(fmt::format("the page has {}: surfaces are not thinned out", size_text(size.all)));
     limits.correction *= std::max(1.02 * size.frames / limits.bytes, 1.0);
     limits.bytes = std::max(options.budget - (size.all - size.frames), least);
   }

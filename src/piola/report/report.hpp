@@ -16,6 +16,7 @@ struct ReportOptions {
   std::filesystem::path checks = {};       ///< a checks.toml; empty: the one in the folder, if there is one
   std::string variant = {};                ///< of it; empty: the one that the case in the folder is
   int reload = 0;                          ///< s after which the page looks for a newer one, while the run goes on
+  bool surface = false;                    ///< skins of bodies in place of their particles
   std::vector<VerificationRow> rows = {};  ///< shown besides those of `checks`
 };
 
@@ -27,7 +28,7 @@ struct ReportResult {
 };
 
 /// Writes one HTML page that shows a run without any other file: particles in space over time, plots, tables (web/).
-/// Same files, same bytes. Throws InputError (no run, no such field, check or variant), FileError.
+/// Same files, same bytes. Throws InputError (no run, no such field, check or variant, no surface), FileError.
 ReportResult write_report(std::filesystem::path const& folder, std::filesystem::path const& page,
                           ReportOptions const& options);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/run_folder.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/simulation/results_folder.hpp"
 #include "piola/simulation/scene.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -60,16 +60,6 @@ bool goes_on(RunFolder const& run) {
   return run.summary.empty() || (!error && written > fs::last_write_time(run.path / "summary.json", error));
 }
 
-std::optional<CaseSpec> readable_case(fs::path const& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) return std::nullopt;
-  try {
-    return read_case(file);
-  } catch (std::runtime_error const&) {  // the page does without
-    return std::nullopt;
-  }
-}
-
 }  // namespace
 
 std::vector<RigidShape> RunFolder::rigid_shapes(double time) const {
@@ -99,7 +89,7 @@ RunFolder open_run(fs::path const& folder) {
                     folder.string()));
   RunFolder run{.path = folder};
   read_texts(run);
-  if ((run.spec = readable_case(folder / "case.toml"))) run.rigids.emplace(folder / "history.csv", run.spec->rigids);
+  if ((run.spec = case_in_results(folder))) run.rigids.emplace(folder / "history.csv", run.spec->rigids);
   if (has_frames) run.frames = list_frames(folder);
   return run;
 }

@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/version.hpp"
 #include "piola/input/case_files.hpp"
+#include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
 #include <algorithm>
@@ -63,6 +64,16 @@ void protect_case(fs::path const& folder, fs::path const& case_file) {
 }
 
 }  // namespace
+
+std::optional<CaseSpec> case_in_results(fs::path const& folder, ParticleSet* particles) {
+  std::error_code error;
+  if (!fs::exists(folder / "case.toml", error)) return std::nullopt;
+  try {
+    return read_case(folder / "case.toml", {}, {}, particles);
+  } catch (std::runtime_error const&) {  // pictures and pages do without
+    return std::nullopt;
+  }
+}
 
 std::string log_headline(std::string const& title) {
   std::string const line = title.substr(0, title.find('\n'));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/input/case_spec.hpp"
+#include "piola/particles/particle_set.hpp"
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace piola {
@@ -19,6 +22,10 @@ void check_results(std::filesystem::path const& folder, ResultsOf const& run);
 
 /// Removes the results of an earlier run, files and folders with Piola's names only. Throws FileError.
 void clear_results(std::filesystem::path const& folder);
+
+/// The case that the run in a folder was started with, and its particles if these are wanted; nothing if it is not
+/// there or cannot be read any more.
+std::optional<CaseSpec> case_in_results(std::filesystem::path const& folder, ParticleSet* particles = nullptr);
 
 /// First line of log.txt, by which a results folder is known: "Piola VERSION: TITLE".
 std::string log_headline(std::string const& title);

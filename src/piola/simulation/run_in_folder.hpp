@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/problems.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/input/case_spec.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/picture.hpp"
+#include "piola/simulation/results_folder.hpp"
 #include "piola/simulation/rigid_history.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
@@ -25,16 +25,6 @@ inline std::string title_of_run(std::filesystem::path const& folder) {
       nlohmann::json::parse(read_text_file(folder / "summary.json", most_summary_bytes), nullptr, false);
   bool const titled = summary.is_object() && summary.contains("title") && summary["title"].is_string();
   return titled ? summary["title"].get<std::string>() : folder.filename().string();
-}
-
-/// The case that the run was started with; nothing if it is not there or cannot be read any more.
-inline std::optional<CaseSpec> case_of(std::filesystem::path const& folder, ParticleSet& particles) {
-  if (!std::filesystem::exists(folder / "case.toml")) return std::nullopt;
-  try {
-    return read_case(folder / "case.toml", {}, {}, &particles);
-  } catch (InputError const&) {
-    return std::nullopt;
-  }
 }
 
 /// A frame and what is drawn of it.
@@ -59,7 +49,7 @@ struct RunInFolder {
   std::vector<std::pair<double, std::filesystem::path>> frames;
 
   explicit RunInFolder(std::filesystem::path const& folder)
-      : title(title_of_run(folder)), spec(case_of(folder, particles)), frames(list_frames(folder)) {
+      : title(title_of_run(folder)), spec(case_in_results(folder, &particles)), frames(list_frames(folder)) {
     if (!spec) return;
     meshes = reference_meshes(particles);
     held = held_particles(*spec, particles);

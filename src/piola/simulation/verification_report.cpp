@@ -44,13 +44,19 @@ std::string file_stem(std::string const& text) {
   return out;
 }
 
+/// A file name for this text that no other file of the page has.
+std::string new_name(std::string const& text, std::string const& extension, std::set<std::string>& taken) {
+  std::string const stem = file_stem(text);
+  std::string name = stem + extension;
+  for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}{}", stem, k, extension);
+  return name;
+}
+
 /// Copies the last picture of a run beside the page; its name there, or "".
 std::string keep_picture(fs::path const& folder, std::string const& case_name, VariantRun const& run,
                          std::set<std::string>& taken) {
   if (run.picture.empty()) return "";
-  std::string const stem = file_stem(case_name + " " + run.variant);
-  std::string name = stem + ".png";
-  for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}.png", stem, k);
+  std::string const name = new_name(case_name + " " + run.variant, ".png", taken);
   std::error_code error;
   fs::copy_file(run.picture, folder / name, fs::copy_options::overwrite_existing, error);
   if (error) throw FileError(fmt::format("{}: cannot be written ({})", (folder / name).string(), error.message()));
@@ -84,6 +90,21 @@ std::string runs_text(fs::path const& folder, CaseVerification const& c, std::se
     std::string const shown = picture.empty() ? "" : fmt::format("![{}]({})", cell(run.variant), picture);
     text += fmt::format("| {} | {} | {} |\n", cell(run.variant),
                         run.summary.empty() ? "did not run" : duration_text(run.wall_seconds), shown);
+  }
+  return text;
+}
+
+/// Draws plots beside the page. One of which no value can be drawn is left out.
+std::string plots_text(fs::path const& folder, CaseVerification const& c, std::vector<Plot> const& plots,
+                       std::set<std::string>& taken) {
+  std::string text;
+  for (Plot const& plot : plots) {
+    std::string const name = new_name(c.name + " " + plot.y.name, ".svg", taken);
+    try {
+      write_plot(folder / name, plot);
+      text += fmt::format("\n![{}, measured and expected]({})\n", cell(plot.y.name), name);
+    } catch (InputError const&) {
+    }
   }
   return text;
 }
@@ -174,13 +195,15 @@ std::string verification_table(std::vector<CaseVerification> const& cases) {
   return text + evidence_text(cases) + "\n";
 }
 
-void write_verification_page(fs::path const& folder, std::vector<CaseVerification> const& cases) {
+void write_verification_page(fs::path const& folder, std::vector<CaseVerification> const& cases,
+                             PlotCase const& plots_of) {
   make_folder(folder);
   std::set<std::string> taken;
   std::string page =
       fmt::format("# Verification\n\nWritten by `piola verify`, version {}. {}\n", version(), total_text(cases));
   for (CaseVerification const& c : cases) {
     page += fmt::format("\n## {}\n\n`{}`\n\n{}\n{}", title_of(c), c.name, rows_text(c), runs_text(folder, c, taken));
+    if (plots_of) page += plots_text(folder, c, plots_of(c), taken);
   }
   write_whole_file(folder / "README.md", page);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/plot.hpp"
 #include "piola/simulation/verify.hpp"
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,13 @@ std::string evidence_text(std::vector<CaseVerification> const& cases);
 std::string verification_json(std::vector<CaseVerification> const& cases);
 std::string verification_table(std::vector<CaseVerification> const& cases);
 
+/// Makes the plots of a case.
+using PlotCase = std::function<std::vector<Plot>(CaseVerification const&)>;
+
 /// Writes the page folder/README.md: one section per case with its table, the wall time of each variant and its last
-/// picture, which is copied beside the page. Throws FileError.
-void write_verification_page(std::filesystem::path const& folder, std::vector<CaseVerification> const& cases);
+/// picture, which is copied beside the page; below it the plots of the case, SVG files beside the page. Throws
+/// FileError.
+void write_verification_page(std::filesystem::path const& folder, std::vector<CaseVerification> const& cases,
+                             PlotCase const& plots_of = {});
 
 }  // namespace piola

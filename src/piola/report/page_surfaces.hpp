@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/report/body_shapes.hpp"
+#include "piola/report/survey.hpp"
+#include <cstdint>
+#include <vector>
+
+namespace piola::report {
+
+/// The surfaces of all frames of a survey as a page holds them: particles that are part of one at some time, or alone,
+/// and lists of triangles, of which most frames share one.
+struct PageSurfaces {
+  std::vector<std::uint32_t> particles = {};           ///< their numbers in the run, rising
+  std::vector<std::vector<std::uint32_t>> lists = {};  ///< three places in `particles` for each triangle
+  std::vector<std::size_t> list_of = {};               ///< of each frame of the survey
+};
+
+/// Looks through the frames of a survey, whose box grows by what surfaces are wider than their particles.
+PageSurfaces find_surfaces(RunFolder const& run, BodyShapes const& shapes, Survey& survey);
+
+/// Numbers below 2^32 for encode_numbers(): all lower halves, then all upper ones.
+std::vector<std::uint8_t> encode_large_numbers(std::vector<std::uint32_t> const& numbers);
+
+}  // namespace piola::report

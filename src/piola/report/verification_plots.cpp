@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/report/verification_plots.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/report/plot_references.hpp"
+#include "piola/simulation/history_plot.hpp"
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace piola::report {
+namespace {
+
+constexpr std::array curve_colours{0, 1, 2, 3, 5, 6};  // black is what is expected
+
+/// A variant with the rows that look at it alone.
+struct JudgedRun {
+  std::string variant;
+  RunFolder folder;
+  std::vector<VerificationRow> rows;
+};
+
+std::vector<JudgedRun> judged_runs(CaseVerification const& c, std::filesystem::path const& results) {
+  std::vector<JudgedRun> runs;
+  for (VariantRun const& run : c.runs) {
+    std::vector<VerificationRow> rows;
+    for (VerificationRow const& row : c.rows)
+      if (row.variant == run.variant) rows.push_back(row);
+    try {
+      runs.push_back({run.variant, open_run(results / c.name / folder_of(run.variant)), std::move(rows)});
+    } catch (InputError const&) {  // a run that could not be made
+    }
+  }
+  return runs;
+}
+
+/// The columns that quantities with rows are taken from, in their order.
+std::vector<std::string> judged_columns(std::vector<JudgedRun> const& runs) {
+  std::vector<std::string> columns;
+  for (JudgedRun const& run : runs) {
+    if (!run.folder.spec) continue;
+    for (QuantitySpec const& quantity : run.folder.spec->quantities) {
+      bool const looked_at = std::any_of(run.rows.begin(), run.rows.end(),
+                                         [&](VerificationRow const& row) { return row.quantity == quantity.name; });
+      bool const known = std::find(columns.begin(), columns.end(), quantity.column) != columns.end();
+      if (looked_at && !known) columns.push_back(quantity.column);
+    }
+  }
+  return columns;
+}
+
+std::optional<Plot> plot_of_run(JudgedRun const& run, std::string const& column) try {
+  return history_plot(run.folder.path, {.columns = {column}});
+} catch (InputError const&) {  // it left no history, or has no such column
+  return std::nullopt;
+}
+
+/// What is expected of all runs is black, what of one of several alone has the colour of its curve. The plot holds the
+/// curves of the runs, in their order.
+void add_expected(Plot& plot, std::vector<JudgedRun const*> const& runs, std::string const& column) {
+  PlotEnds const ends = ends_of(plot);
+  std::vector<Curve> expected;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (Curve& curve : reference_curves(runs[k]->folder, runs[k]->rows, {column}, ends)) {
+      auto const known = std::find_if(expected.begin(), expected.end(), [&](Curve const& other) {
+        return other.label == curve.label && other.x == curve.x && other.y == curve.y;
+      });
+      if (known != expected.end()) {
+        known->colour = curve.colour;
+        continue;
+      }
+      if (runs.size() > 1) curve.colour = plot.curves[k].colour;
+      expected.push_back(std::move(curve));
+    }
+  plot.curves.insert(plot.curves.end(), expected.begin(), expected.end());
+}
+
+void add_plots(std::vector<Plot>& plots, CaseVerification const& c, std::vector<JudgedRun> const& runs,
+               std::string const& column) {
+  std::vector<JudgedRun const*> drawn;
+  Plot plot;
+  auto const finish = [&] {
+    if (drawn.empty()) return;
+    add_expected(plot, drawn, column);
+    plot.note = c.name;
+    plots.push_back(std::move(plot));
+    plot = {};
+    drawn.clear();
+  };
+  for (JudgedRun const& run : runs) {
+    auto own = plot_of_run(run, column);
+    if (!own || reference_curves(run.folder, run.rows, {column}, ends_of(*own)).empty()) continue;
+    Curve curve = std::move(own->curves.front());
+    curve.label = run.variant;
+    curve.colour = curve_colours[drawn.size()];
+    if (drawn.empty()) {
+      plot = std::move(*own);
+      plot.curves.clear();
+    }
+    plot.curves.push_back(std::move(curve));
+    drawn.push_back(&run);
+    if (drawn.size() == curve_colours.size()) finish();
+  }
+  finish();
+}
+
+}  // namespace
+
+std::vector<Plot> verification_plots(CaseVerification const& c, std::filesystem::path const& results) {
+  std::vector<Plot> plots;
+  auto const runs = judged_runs(c, results);
+  for (std::string const& column : judged_columns(runs)) add_plots(plots, c, runs, column);
+  return plots;
+}
+
+}  // namespace piola::report
