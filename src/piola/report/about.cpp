@@ -146,7 +146,7 @@ Json facets_json(Plan const& plan, Shaping const& shaping) {
 /// Where the pictures of the case look from, whether it says so by angles or by a name.
 View view_of(RunFolder const& run) {
   if (!run.spec) return {30, 20, Up::y};
-  return camera_of(run.spec->output, upwards(*run.spec), run.spec->bodies, 3).view;
+  return camera_of(run.spec->output.pictures, upwards(*run.spec), run.spec->bodies, 3).view;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/report.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include "piola/report/about.hpp"
 #include "piola/report/check_rows.hpp"
 #include "piola/report/frame_content.hpp"
