@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/envelope_cholesky.hpp"
-#include "piola/math/tensor.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <vector>
 
