@@ -8,6 +8,9 @@
 namespace piola::inline PIOLA_MACHINE {
 namespace exec {
 
+// nvcc does not read it as an alias. NOLINTNEXTLINE(modernize-use-using)
+__extension__ typedef __int128 Wide;
+
 /// N sums whose bits depend on what is added alone: not on its order, nor on how it was split into sums that were added
 /// to each other. Pre-rounded sums (Demmel and Nguyen, Parallel reproducible summation, IEEE Trans. Comput. 64, 2015):
 /// every summand is split into multiples of 2^(21 J), 2^(21 (J - 1)), ... 2^(21 (J - 3)), its folds, each of which adds
@@ -52,7 +55,6 @@ class ExactSums {
   }
 
  private:
-  __extension__ using Wide = __int128;
   static constexpr int bits = 21, folds = 4, lowest = -44, highest = 46;
 
   /// 2^e, of which neither e nor -e is an exponent of subnormal numbers.
