@@ -1,45 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
-#include "formulations/small_bodies.hpp"
-#include <map>
+#include "formulations/mirrored_parts.hpp"
 #include <numbers>
 
 namespace piola {
 namespace {
 
 using namespace testing;
-
-ParticleSet block(int dimension, Point const& low, Point const& high, std::array<int, 3> n) {
-  ShapeSpec shape;
-  shape.dimension = dimension;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) {
-    shape.min[c] = low[c];
-    shape.max[c] = high[c];
-    shape.particles[c] = n[c];
-  }
-  ParticleSet set;
-  fill(shape, "block", set);
-  return set;
-}
-
-/// Largest difference of a field between the particles of `part` and those at the same places of `whole`.
-double difference(Assembly const& part, Formulation const& f, Assembly const& whole, Formulation const& g,
-                  std::string const& field, std::size_t components) {
-  auto const key = [](Point const& X) {
-    return std::array{std::lround(X[0] * 1e6), std::lround(X[1] * 1e6), std::lround(X[2] * 1e6)};
-  };
-  std::map<std::array<long, 3>, std::size_t> place;
-  for (std::size_t k = 0; k < whole.particles.X.size(); ++k) place[key(whole.particles.X[k])] = k;
-  Values const a = sample(f, field, part.particles.X.size()), b = sample(g, field, whole.particles.X.size());
-  double most = 0;
-  for (std::size_t k = 0; k < part.particles.X.size(); ++k) {
-    auto const found = place.find(key(part.particles.X[k]));
-    if (found == place.end()) return std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < components; ++c)
-      most = std::max(most, std::fabs(a[components * k + c] - b[components * found->second + c]));
-  }
-  return most;
-}
 
 struct Setting {
   int dimension;
@@ -83,8 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(Mirrored, APartMovesAsTheWhole) {
   int const D = GetParam().dimension;
-  Assembly whole = assembly(block(D, ones(-1), ones(1), {11, 11, 11})),
-           part = assembly(block(D, {}, ones(1), {6, 6, 6}));
+  Assembly whole = assembly(box_between(D, ones(-1), ones(1), {11, 11, 11})),
+           part = assembly(box_between(D, {}, ones(1), {6, 6, 6}));
   for (int axis = 0; axis < D; ++axis) part.mirrors.push_back({0, axis, false});
   for (Assembly* a : {&whole, &part}) {
     bool const without = GetParam().variables == "displacement" || GetParam().scheme == "conservative";
@@ -106,9 +73,9 @@ TEST_P(Mirrored, APartMovesAsTheWhole) {
   double const dt = 0.5 * g->stable_time_step();
   advance(*f, dt, 20);
   advance(*g, dt, 20);
-  EXPECT_LT(difference(part, *f, whole, *g, "Velocity", 3), 1e-10);
-  EXPECT_LT(difference(part, *f, whole, *g, "DeformationGradient", 9), 1e-12);
-  EXPECT_LT(difference(part, *f, whole, *g, "Pressure", 1), 1e-4);  // of some MPa
+  EXPECT_LT(apart(part, *f, whole, *g, "Velocity", 3), 1e-10);
+  EXPECT_LT(apart(part, *f, whole, *g, "DeformationGradient", 9), 1e-12);
+  EXPECT_LT(apart(part, *f, whole, *g, "Pressure", 1), 1e-4);  // of some MPa
   auto const d = f->diagnose(), e = g->diagnose();
   double const times = 1 << D;
   EXPECT_NEAR(times * d.kinetic_energy / e.kinetic_energy, 1, 1e-11);
@@ -120,8 +87,8 @@ TEST_P(Mirrored, APartMovesAsTheWhole) {
 /// Two planes three particles apart: the kernel reaches images of images.
 TEST_P(Mirrored, AThinPartBetweenTwoPlanesMovesAsALongOne) {
   int const D = GetParam().dimension;
-  Assembly part = assembly(block(D, {}, ones(1), {3, 3, 3})),
-           whole = assembly(block(D, {}, {4, ones(1)[1], ones(1)[2]}, {9, 3, 3}));
+  Assembly part = assembly(box_between(D, {}, ones(1), {3, 3, 3})),
+           whole = assembly(box_between(D, {}, {4, ones(1)[1], ones(1)[2]}, {9, 3, 3}));
   for (Assembly* a : {&part, &whole}) {
     choose(*a, "laplacian_support", 1.2);
     a->mirrors.push_back({0, 0, true});
@@ -135,7 +102,7 @@ TEST_P(Mirrored, AThinPartBetweenTwoPlanesMovesAsALongOne) {
   double const dt = 0.5 * g->stable_time_step();
   advance(*f, dt, 10);
   advance(*g, dt, 10);
-  EXPECT_LT(difference(part, *f, whole, *g, "Velocity", 3), 1e-11);
+  EXPECT_LT(apart(part, *f, whole, *g, "Velocity", 3), 1e-11);
   Values const x = sample(*f, "Position", part.particles.X.size()), v = sample(*f, "Velocity", part.particles.X.size());
   for (std::size_t k = 0; k < part.particles.X.size(); ++k) {
     double const X = part.particles.X[k][0];
@@ -148,7 +115,7 @@ TEST_P(Mirrored, AThinPartBetweenTwoPlanesMovesAsALongOne) {
 /// What moves along a plane is free.
 TEST_P(Mirrored, ABodyFallsAlongItsPlane) {
   if (GetParam().dimension == 1) GTEST_SKIP() << "no direction along the plane";
-  Assembly a = assembly(block(GetParam().dimension, {}, ones(1), {5, 5, 5}));
+  Assembly a = assembly(box_between(GetParam().dimension, {}, ones(1), {5, 5, 5}));
   a.mirrors.push_back({0, 0, false});
   load(a, {"0", "-10", "0"}, everywhere);
   auto const f = make_formulation(a);
@@ -164,7 +131,7 @@ TEST_P(Mirrored, RunsContinueAndRepeatWithTheSameBits) {
   std::vector<Values> ends;
   for (int const threads : {1, 1, 2, 3, 7}) {
     Threads const keep(threads);
-    Assembly a = assembly(block(GetParam().dimension, {}, ones(1), {5, 5, 5}));
+    Assembly a = assembly(box_between(GetParam().dimension, {}, ones(1), {5, 5, 5}));
     for (int axis = 0; axis < GetParam().dimension; ++axis) a.mirrors.push_back({0, axis, axis == 1});
     give_velocity(a, [](Point const& X) { return Point{9 * X[0], 3 - X[1] * X[1], X[2]}; });
     auto f = make_formulation(a);
@@ -182,7 +149,7 @@ TEST_P(Mirrored, RunsContinueAndRepeatWithTheSameBits) {
 
 /// On every machine; the portable one reads lists without lanes.
 TEST(MirrorPlanes, GiveTheSameOnEveryMachine) {
-  Assembly a = assemble(block(3, {}, {1, 1, 1}, {5, 5, 5}));
+  Assembly a = assemble(box_between(3, {}, {1, 1, 1}, {5, 5, 5}));
   for (int axis = 0; axis < 3; ++axis) a.mirrors.push_back({0, axis, false});
   give_velocity(a, [](Point const& X) { return Point{9 * X[0], -3 * X[1], X[2]}; });
   std::vector<Values> ends;
@@ -196,7 +163,7 @@ TEST(MirrorPlanes, GiveTheSameOnEveryMachine) {
 }
 
 TEST(MirrorPlanes, GiveTheirParticlesTheNeighboursOfInnerOnes) {
-  Assembly a = assemble(block(3, {}, {1, 1, 1}, {6, 6, 6}));
+  Assembly a = assemble(box_between(3, {}, {1, 1, 1}, {6, 6, 6}));
   for (int axis = 0; axis < 3; ++axis) a.mirrors.push_back({0, axis, axis == 2});
   Values const neighbours = sample(*make_formulation(a), "Neighbours", 216);
   for (std::size_t k = 0; k < 216; ++k) {
@@ -211,8 +178,8 @@ TEST(MirrorPlanes, GiveTheirParticlesTheNeighboursOfInnerOnes) {
 TEST(SkewMirrorPlanes, ContinueSmallMotionsTheOppositeWay) {
   constexpr double size = 1e-6;  // m/s: the law is linear, wave speeds are so up to the strain
   for (auto const* const scheme : {"conservative", "filtered", "robust", "paper"}) {
-    Assembly half = assemble(block(2, {}, {1, 1, 0}, {6, 6, 1}), rubber("linear_elastic"));
-    Assembly whole = assemble(block(2, {}, {2, 1, 0}, {11, 6, 1}), rubber("linear_elastic"));
+    Assembly half = assemble(box_between(2, {}, {1, 1, 0}, {6, 6, 1}), rubber("linear_elastic"));
+    Assembly whole = assemble(box_between(2, {}, {2, 1, 0}, {11, 6, 1}), rubber("linear_elastic"));
     half.mirrors = {{0, 0, false, false}, {0, 0, true, true}};
     whole.mirrors = {{0, 0, false, false}, {0, 0, true, false}};
     for (Assembly* a : {&half, &whole}) {
@@ -226,13 +193,13 @@ TEST(SkewMirrorPlanes, ContinueSmallMotionsTheOppositeWay) {
     double const dt = 0.5 * g->stable_time_step();
     advance(*f, dt, 20);
     advance(*g, dt, 20);
-    EXPECT_LT(difference(half, *f, whole, *g, "Velocity", 3), 1e-6 * size) << scheme;
+    EXPECT_LT(apart(half, *f, whole, *g, "Velocity", 3), 1e-6 * size) << scheme;
     EXPECT_GT(largest(sample(*f, "Velocity", 36)), 0.1 * size);
   }
 }
 
 TEST(MirrorPlanes, AreRefusedWhereTheyCannotWork) {
-  Assembly a = assemble(block(2, {}, {1, 1, 0}, {6, 6, 1}));
+  Assembly a = assemble(box_between(2, {}, {1, 1, 0}, {6, 6, 1}));
   a.mirrors = {{0, 2, false, false}};
   EXPECT_NE(refusal(a).find("across Z in 2 dimensions"), std::string::npos) << refusal(a);
   a.mirrors = {{0, 0, false, false}};

@@ -1,49 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solids in rate form under JST-SPH.
 #include "piola/formulations/jst_sph/solid_stress.hpp"
-#include "formulations/small_bodies.hpp"
+#include "formulations/copper.hpp"
 #include <cstring>
 
 namespace piola {
 namespace {
 
 using namespace testing;
+using namespace testing::metals;
 using jst_sph::SolidPoint;
-
-constexpr double rho0 = 8930, E = 117e9, nu = 0.35, yield = 400e6, hardening = 100e6;
-
-MaterialParameters metal(std::string_view law = "isotropic_hardening") {
-  MaterialParameters m;
-  auto const info = find_law(law).value();
-  m.law = info.index;
-  for (std::size_t i = 0; i < info.parameters.size(); ++i)
-    m.value[i] = std::isnan(info.parameters[i].default_value) ? 0 : info.parameters[i].default_value;
-  m.value[0] = rho0;
-  m.value[1] = E;
-  m.value[2] = nu;
-  auto const set = [&](std::string_view name, double value) {
-    for (std::size_t i = 0; i < info.parameters.size(); ++i)
-      if (info.parameters[i].name == name) m.value[i] = value;
-  };
-  set("yield_stress", yield);
-  set("hardening_modulus", hardening);
-  set("hardening_coefficient", 292e6);
-  set("hardening_exponent", 0.31);
-  set("rate_coefficient", 0.025);
-  set("melting_temperature", 1356);
-  set("specific_heat", 383);
-  return m;
-}
 
 template <class F>
 void with_metal(F const& f) {
-  with_solid(metal(), f);
+  with_solid(copper(), f);
 }
 
 /// A tumbling block that yields: speeds of some hundred metres per second on a metre.
 Assembly yielding(int dimension, int n, std::string const& scheme, std::string_view law = "isotropic_hardening") {
   Assembly a = tumbling_box(dimension, n);
-  a.materials.assign(1, metal(law));
+  a.materials.assign(1, copper(law));
   choose(a, "scheme", scheme);
   for (auto& v : a.initial_velocity)
     for (double& c : v) c *= 10;
@@ -99,24 +75,10 @@ TEST(SolidStress, BooksTheWorkOfTheMeanStress) {
 /// Simple shear far beyond yield, all particles driven: the stress of the rate equation, integrated in small steps.
 TEST(Solids, FollowTheRateEquationInSimpleShear) {
   double const rate = 1e4, end = 2e-5;  // to a shear of 0.2
-  SymMat<3> expected;
-  double plastic_strain = 0;
-  with_metal([&](auto const& law) {
-    SolidHistory h;
-    int const n = 20000;
-    Mat<3> L;
-    L(0, 1) = rate;
-    for (int k = 0; k < n; ++k) {
-      SymMat<3> trial = law.deviator_rate(h.S, L);
-      for (int c = 0; c < 6; ++c) trial.c[c] = h.S.c[c] + end / n * trial.c[c];
-      law.update(h, trial, 0, rho0, end / n);
-    }
-    expected = h.S;
-    plastic_strain = h.plastic_strain;
-  });
+  auto const [expected, plastic_strain] = simple_shear(rate, end);
   ASSERT_GT(plastic_strain, 0.1);
   for (auto const* scheme : {"filtered", "robust", "paper"}) {
-    Assembly a = assemble(unit_box(3, 5), metal());
+    Assembly a = assemble(unit_box(3, 5), copper());
     choose(a, "scheme", scheme);
     give_velocity(a, [&](Point const& X) { return Point{rate * X[1], 0, 0}; });
     support(a, {true, true, true}, everywhere).velocity = formulas({"1e4*Y", "0", "0"});
@@ -142,7 +104,7 @@ TEST(Solids, AreHookeanAtSmallStrain) {
         advance(*f, 5e-6, 40);
         return sample(*f, "Velocity", a.particles.X.size());
       };
-      Values const expected = run(material("linear_elastic", rho0, E, nu)), found = run(metal("elastic"));
+      Values const expected = run(material("linear_elastic", rho0, E, nu)), found = run(copper("elastic"));
       EXPECT_LT(largest_difference(found, expected), 1e-6 * largest(expected)) << scheme << dimension;
     }
 }
@@ -243,7 +205,7 @@ TEST(Solids, AreLeftAsTheyAreByTheStepLimit) {
 TEST(Solids, TakeTheStepOfTheCurrentConfiguration) {
   for (auto const* scheme : {"filtered", "robust"}) {
     auto const limit = [&](double stretch) {
-      Assembly a = assemble(unit_box(3, 7), metal("perfectly_plastic"));
+      Assembly a = assemble(unit_box(3, 7), copper("perfectly_plastic"));
       choose(a, "scheme", scheme);
       double const across = 1 / std::sqrt(stretch);
       a.initial_deformation_gradient.assign(a.particles.X.size(), {across, 0, 0, 0, across, 0, 0, 0, stretch});
@@ -257,13 +219,13 @@ TEST(Solids, TakeTheStepOfTheCurrentConfiguration) {
 
 TEST(Solids, NeedTheVariablesOfTheTotalLagrangianPair) {
   for (auto const* variables : {"pFJ", "pFHJ", "displacement"}) {
-    Assembly a = assemble(unit_box(2, 5), metal());
+    Assembly a = assemble(unit_box(2, 5), copper());
     choose(a, "variables", variables);
     EXPECT_EQ(refusal(a),
               "formulation: variables other than \"pF\" need a hyperelastic law, and isotropic_hardening is a solid in "
               "rate form - leave variables out or take a hyperelastic law");
   }
-  Assembly a = assemble(unit_box(2, 5), metal());
+  Assembly a = assemble(unit_box(2, 5), copper());
   choose(a, "volumetric_filter", "on");
   EXPECT_NE(refusal(a).find("isotropic_hardening is none"), std::string::npos);
 }
@@ -275,10 +237,10 @@ TEST(Solids, OfferTheirFieldsAndHyperelasticBodiesDoNot) {
     return all;
   };
   for (std::string const name : {"EquivalentPlasticStrain", "Damage", "Temperature", "InternalEnergy"}) {
-    EXPECT_NE(names(assemble(unit_box(2, 5), metal())).find(name), std::string::npos);
+    EXPECT_NE(names(assemble(unit_box(2, 5), copper())).find(name), std::string::npos);
     EXPECT_EQ(names(assemble(unit_box(2, 5))).find(name), std::string::npos);
   }
-  Assembly a = assemble(unit_box(2, 5), metal("johnson_cook"));
+  Assembly a = assemble(unit_box(2, 5), copper("johnson_cook"));
   for (double const t : sample(*make_formulation(a), "Temperature", a.particles.X.size())) EXPECT_EQ(t, 293);
 }
 

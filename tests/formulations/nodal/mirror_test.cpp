@@ -1,47 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formulations/mirrored_parts.hpp"
 #include "formulations/nodal/nodal_bodies.hpp"
-#include <map>
 #include <numbers>
 
 namespace piola::testing {
 namespace {
 
 using Placement = ShapeSpec::Placement;
-
-ParticleSet box_between(int dimension, Point const& low, Point const& high, std::array<int, 3> n, Placement placement,
-                        double jitter = 0) {
-  ShapeSpec shape;
-  shape.dimension = dimension;
-  shape.placement = placement;
-  shape.jitter = jitter;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) {
-    shape.min[c] = low[c];
-    shape.max[c] = high[c];
-    shape.particles[c] = n[c];
-  }
-  ParticleSet set;
-  fill(shape, "box", set);
-  return set;
-}
-
-/// Largest difference of a field between the particles of `part` and those at the same places of `whole`.
-double apart(Assembly const& part, Formulation const& f, Assembly const& whole, Formulation const& g,
-             std::string const& field, std::size_t components) {
-  auto const key = [](Point const& X) {
-    return std::array{std::lround(X[0] * 1e6), std::lround(X[1] * 1e6), std::lround(X[2] * 1e6)};
-  };
-  std::map<std::array<long, 3>, std::size_t> place;
-  for (std::size_t k = 0; k < whole.particles.X.size(); ++k) place[key(whole.particles.X[k])] = k;
-  Values const a = sample(f, field, part.particles.X.size()), b = sample(g, field, whole.particles.X.size());
-  double most = 0;
-  for (std::size_t k = 0; k < part.particles.X.size(); ++k) {
-    auto const found = place.find(key(part.particles.X[k]));
-    if (found == place.end()) return std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < components; ++c)
-      most = std::max(most, std::fabs(a[components * k + c] - b[components * found->second + c]));
-  }
-  return most;
-}
 
 /// A motion that planes through the origin mirror. It is gentle: tens of percent amplify what differs a thousand times.
 void stir(Assembly& a) {

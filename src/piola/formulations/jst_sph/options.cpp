@@ -2,6 +2,7 @@
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/usable_laws.hpp"
 #include "piola/kernels/list.hpp"
 #include "piola/materials/solids.hpp"
 #include <array>
@@ -98,11 +99,6 @@ constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"}, Dia
                                  DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"hourglass_energy", "J"}};
 
-constexpr std::array<std::string_view, 11> usable_laws{
-    "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
-    "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",
-    "steinberg_guinan"};
-
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
 }  // namespace
@@ -114,7 +110,7 @@ FormulationInfo info() {
       "(Lee, Gil, Greto, Kulasegaram, Bonet 2016)",
       parameters,
       choices,
-      usable_laws,
+      total_lagrangian_laws,
       diagnostics};
   info.cell_volumes = true;
   info.pushable = true;

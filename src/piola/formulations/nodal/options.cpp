@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/usable_laws.hpp"
 #include "piola/materials/solids.hpp"
 #include <array>
 #include <cmath>
@@ -33,11 +34,6 @@ constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, Diagnost
                                  DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
                                  DiagnosticInfo{"internal_energy", "J"}};
 
-constexpr std::array<std::string_view, 11> usable_laws{
-    "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
-    "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",
-    "steinberg_guinan"};
-
 }  // namespace
 
 FormulationInfo info() {
@@ -47,7 +43,7 @@ FormulationInfo info() {
       "four points, exact masses; nothing but plastic flow dissipates, on lattices and irregular clouds alike",
       parameters,
       choices,
-      usable_laws,
+      total_lagrangian_laws,
       diagnostics};
   info.pushable = true;
   info.parts = true;
