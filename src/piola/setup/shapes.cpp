@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/geometry/packing.hpp"
+#include "piola/math/hash.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace piola {
 namespace {
@@ -139,16 +139,6 @@ double share_of_cell(ShapeSpec const& shape, Lattice const& lattice, Index3 cons
   return share;
 }
 
-/// Same numbers everywhere: the sequence of mt19937 is fixed by the C++ standard, that of its distributions is not.
-class Shaker {
- public:
-  explicit Shaker(std::uint32_t seed) : engine_(seed) {}
-  double operator()() { return (static_cast<double>(engine_()) + 0.5) / 2147483648.0 - 1; }  // in (-1, 1)
-
- private:
-  std::mt19937 engine_;
-};
-
 Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
   Vec3 X{};
   for (int d = 0; d < shape.dimension; ++d) {
@@ -161,12 +151,17 @@ Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& inde
   return X;
 }
 
-void shake(ShapeSpec const& shape, Lattice const& lattice, bool inner, Shaker& shaker, Vec3& X) {
+/// The shift of a particle is a function of the seed, its place in the lattice (x fastest) and the axis alone: whoever
+/// makes it, beside whichever others, it is the same.
+void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, Vec3& X) {
+  if (share_of_cell(shape, lattice, index) < 1) return;  // on a face
+  std::uint64_t place = 0;
+  for (std::size_t i = 3; i-- > 0;)
+    place = place * static_cast<std::uint64_t>(lattice.count[i]) + static_cast<std::uint64_t>(index[i]);
+  constexpr std::uint64_t stream = std::uint64_t{1} << 32;  // other numbers than those of a material with this seed
   for (int d = 0; d < shape.dimension; ++d) {
     auto const i = static_cast<std::size_t>(d);
-    // Drawn for every particle, moved or not, so that the shift of one does not depend on what the others are.
-    double const shift = shape.jitter * lattice.spacing[i] * shaker();
-    if (inner) X[i] += shift;
+    X[i] += shape.jitter * lattice.spacing[i] * (2 * uniform(stream + shape.seed, 3 * place + i) - 1);
   }
 }
 
@@ -294,14 +289,11 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
                                          if (!inside.contains(i)) continue;
                                          lattice_index[at] = {static_cast<int>(i), j, k};
                                          X[at] = position(shape, lattice, lattice_index[at]);
+                                         if (shape.jitter > 0) shake(shape, lattice, lattice_index[at], X[at]);
                                          volume[at] = cell * share_of_cell(shape, lattice, lattice_index[at]);
                                          ++at;
                                        }
                                      });
-  if (!(shape.jitter > 0)) return;
-  Shaker shaker(shape.seed);  // one sequence for all particles
-  for (std::size_t at = begin.front(); at < size; ++at)
-    shake(shape, lattice, share_of_cell(shape, lattice, lattice_index[at]) == 1, shaker, X[at]);
 }
 
 }  // namespace
