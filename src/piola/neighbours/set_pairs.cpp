@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -107,6 +108,9 @@ void SetPairs::build(SetPairRequest const& request, int lanes, Index filler) {
     }
     for (std::size_t k = 0; k < longest; ++k)
       for (auto const& row : rows) source_.push_back(k < row.size() ? row[k] : filler);
+    if (longest > static_cast<std::size_t>(std::numeric_limits<Index>::max() - begin_.back()))
+      throw InputError(
+          "neighbours: more pairs than one process can list (allowed: 2^31 per lane) - use larger spacings");
     begin_.push_back(begin_.back() + static_cast<Index>(longest));
   }
 }

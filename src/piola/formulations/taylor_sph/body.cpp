@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 
 namespace piola::taylor_sph {
@@ -185,6 +186,12 @@ void TaylorBody::order_slots(std::vector<Index> const& on_boundary) {
 }
 
 void TaylorBody::order_cells() {
+  constexpr std::size_t most = std::numeric_limits<Index>::max();
+  if (cells_.corner.size() > most)
+    throw InputError(
+        fmt::format("taylor_sph: body '{}' has {} corners of cells (allowed: {} in one process) - use "
+                    "larger spacings, or virtual_particles = \"lattice_cells\"",
+                    body_.name, cells_.corner.size(), most));
   state_.virtual_count = cells_.count();
   state_.virtuals = {0, aligned(cells_.count())};
   slot_of_cell_.resize(at(cells_.count()));
