@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/base/version.hpp"
+#include "piola/exec/free_memory.hpp"
 #include "commands.hpp"
 #include "hints.hpp"
 #include "streams.hpp"
@@ -54,6 +55,7 @@ int explain(CLI::App const& program, CLI::ParseError const& error, std::span<cha
 
 int main(int argc, char** argv) {
   app::secure_streams();
+  exec_host::give_back_arrays_at_once();
   app::sleep_while_waiting(argv);
   CLI::App program("Piola: smoothed particle hydrodynamics for solids at large strain");
   program.set_version_flag("--version", std::string(piola::version()));

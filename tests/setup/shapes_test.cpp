@@ -158,16 +158,60 @@ TEST(Shapes, JitterMovesOnlyInnerParticlesAndIsTheSameForASeed) {
   EXPECT_EQ(moved, 27);
   shape.seed = 8;
   EXPECT_NE(set.X, filled(shape).X);
-  // Fixed by the C++ standard: the 10000th number of mt19937 with seed 5489 is known; this is our mapping of the first.
-  EXPECT_NEAR(filled([] {
-                ShapeSpec line = box({0, 0, 0}, {2, 0, 0}, {3, 1, 1}, 1);
-                line.placement = ShapeSpec::Placement::cell_centred;
-                line.jitter = 0.3;
-                line.seed = 5489;
-                return line;
-              }())
-                  .X[0][0],
-              1.0 / 3 + 0.3 * (2.0 / 3) * ((3499211612.0 + 0.5) / 2147483648.0 - 1), 1e-15);
+}
+
+/// SplitMix64 as its authors wrote it (Vigna's splitmix64.c): the state moves on by a constant, its bits are mixed.
+std::uint64_t split_mix(std::uint64_t& state) {
+  state += 0x9E3779B97F4A7C15U;
+  std::uint64_t z = state;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+  return z ^ (z >> 31);
+}
+
+TEST(Shapes, JitterIsANumberOfSplitMix64ForThePlaceInTheLatticeAndTheAxis) {
+  ShapeSpec shape = box({0, 0, 0}, {5, 7, 4}, {5, 7, 4});
+  shape.placement = ShapeSpec::Placement::cell_centred;
+  ParticleSet const plain = filled(shape);
+  shape.jitter = 0.3;
+  shape.seed = 5489;
+  ParticleSet const set = filled(shape);
+  std::uint64_t seed = (std::uint64_t{1} << 32) + shape.seed;
+  std::uint64_t state = split_mix(seed) - 0x9E3779B97F4A7C15U;  // its first number is for place 0 and axis 0
+  for (std::size_t id = 0; id < set.X.size(); ++id)
+    for (std::size_t d = 0; d < 3; ++d) {
+      double const drawn = static_cast<double>(split_mix(state)) * 0x1p-64;
+      EXPECT_NEAR(set.X[id][d], plain.X[id][d] + 0.3 * (2 * drawn - 1), 4e-15) << id << " " << d;
+    }
+}
+
+/// Against theory: mean 0, mean square 1/3, no correlation with the next particle or the next axis; the bounds are four
+/// standard deviations of a sum of so many independent numbers.
+TEST(Shapes, JitterIsUniformAndWithoutCorrelation) {
+  ShapeSpec shape = box({0, 0, 0}, {40, 40, 40}, {40, 40, 40});
+  shape.placement = ShapeSpec::Placement::cell_centred;
+  ParticleSet const plain = filled(shape);
+  shape.jitter = 0.4;
+  ParticleSet const set = filled(shape);
+  auto const n = set.X.size();
+  auto const shift = [&](std::size_t id, std::size_t d) { return (set.X[id % n][d] - plain.X[id % n][d]) / 0.4; };
+  double const root = std::sqrt(static_cast<double>(n));
+  for (std::size_t d = 0; d < 3; ++d) {
+    double mean = 0, square = 0, next = 0, row = 0, plane = 0, axis = 0;
+    for (std::size_t id = 0; id < n; ++id) {
+      double const s = shift(id, d);
+      EXPECT_LE(std::abs(s), 1 + 1e-12);
+      mean += s;
+      square += s * s;
+      next += s * shift(id + 1, d);
+      row += s * shift(id + 40, d);
+      plane += s * shift(id + 1600, d);
+      axis += s * shift(id, (d + 1) % 3);
+    }
+    EXPECT_LE(std::abs(mean), 4 * root * std::sqrt(1.0 / 3));
+    EXPECT_LE(std::abs(square - static_cast<double>(n) / 3), 4 * root * std::sqrt(4.0 / 45));
+    for (double const correlation : {next, row, plane, axis}) EXPECT_LE(std::abs(correlation), 4 * root / 3);
+  }
 }
 
 ShapeSpec disc(double radius, double spacing) {

@@ -78,7 +78,7 @@ TEST(Estimate, TellsWhatLimitsTheStep) {
 
 // A part of a larger body: the same step, since the fastest modes are local, and the same memory per particle.
 TEST(Estimate, APartTellsAboutTheWhole) {
-  constexpr double program = 24e6;
+  constexpr double program = 35e6;
   for (char const* scheme : {"filtered", "paper"}) {
     std::string const text =
         "title = \"Plate\"\n[run]\nend = 1\n[[body]]\nname = \"plate\"\nshape = { box = { min = [0, 0], max = [1, 1] "

@@ -2,9 +2,12 @@
 #include "piola/simulation/probes.hpp"
 #include "piola/base/problems.hpp"
 #include "support/fake_formulation.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <numeric>
+#include <random>
 
 namespace piola {
 namespace {
@@ -132,6 +135,38 @@ TEST(Probe, MeasuresTheRelativeErrorOfAField) {
   EXPECT_NEAR(evaluate(s, testing::Springs(set), set)[0], std::sqrt((5.0 + 3) / (1 + 3)), 1e-15);
   EXPECT_EQ(Probe(s, set).columns()[0].name, "p.relative_error");
   EXPECT_EQ(Probe(s, set).columns()[0].unit, "1");
+}
+
+/// A plate whose particles are numbered in another order.
+ParticleSet renumbered(ParticleSet const& set, std::mt19937& random) {
+  std::vector<std::size_t> order(set.X.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), random);
+  ParticleSet other = set;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    other.X[k] = set.X[order[k]];
+    other.volume[k] = set.volume[order[k]];
+    other.lattice_index[k] = set.lattice_index[order[k]];
+  }
+  return other;
+}
+
+TEST(Probe, DoesNotDependOnTheOrderOfParticles) {
+  std::mt19937 random(6);
+  ParticleSet set = testing::make_plate(12);
+  for (double& v : set.volume.own()) v = 1 + static_cast<double>(random()) / 5e9;
+  auto average = spec(ProbeSpec::Kind::average, {"velocity_y"}), twist = spec(ProbeSpec::Kind::twist),
+       error = spec(ProbeSpec::Kind::error);
+  twist.axis = 2;
+  error.field = "Velocity";
+  error.reference = {Expression("Y/9"), Expression("X"), Expression("0.3")};
+  for (ProbeSpec const& s : {average, twist, error}) {
+    double const reference = evaluate(s, Turned(set, 0.7, 1.1), set)[0];
+    for (int k = 0; k < 30; ++k) {
+      ParticleSet const other = renumbered(set, random);
+      EXPECT_EQ(evaluate(s, Turned(other, 0.7, 1.1), other)[0], reference);
+    }
+  }
 }
 
 TEST(Probe, ComparesWithAFormulaAtTheTimeOfTheRow) {

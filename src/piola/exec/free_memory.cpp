@@ -13,4 +13,10 @@ void give_back_free_memory() {
 #endif
 }
 
+void give_back_arrays_at_once() {
+#if defined(__GLIBC__)
+  (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
 }  // namespace piola::exec_host

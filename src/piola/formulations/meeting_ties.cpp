@@ -56,8 +56,10 @@ void MeetingTies::evaluate(contact::System& system, std::vector<Vec<3>> const& x
 }
 
 void MeetingTies::hand_over(contact::System const& system) {
+  exec::ExactSum stored;
   for (std::size_t const row : ties_.released())
-    handed_over_ += system.stored_at(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other);
+    stored += system.stored_at(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other);
+  handed_over_ += stored.value();
 }
 
 void MeetingTies::add_forces(std::vector<Vec<3>>& forces) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/shared_reactions.hpp"
+#include "piola/exec/exact_sum.hpp"
 #include "piola/math/envelope_cholesky.hpp"
 #include <cmath>
 
@@ -32,15 +33,17 @@ class RigidModes {
 
 RigidModes modes_of(std::vector<SupportRow> const& rows) {
   Direction centre{};
-  double mass = 0, square = 0;
+  exec::ExactSums<4> sums;  // mass and its first moments
   for (SupportRow const& row : rows) {
-    mass += row.mass;
-    for (std::size_t c = 0; c < 3; ++c) centre[c] += row.mass * row.x[c];
+    double const of_row[]{row.mass, row.mass * row.x[0], row.mass * row.x[1], row.mass * row.x[2]};
+    sums.add(of_row);
   }
-  for (double& c : centre) c /= mass;
+  double const mass = sums.value();
+  for (std::size_t c = 0; c < 3; ++c) centre[c] = sums.value(static_cast<int>(c) + 1) / mass;
+  exec::ExactSum square;
   for (SupportRow const& row : rows)
     for (std::size_t c = 0; c < 3; ++c) square += row.mass * (row.x[c] - centre[c]) * (row.x[c] - centre[c]);
-  double const length = std::sqrt(square / mass);
+  double const length = std::sqrt(square.value() / mass);
   return {centre, length > 0 ? length : 1};
 }
 
@@ -52,11 +55,15 @@ void share_out(std::vector<SupportRow> const& rows, Impulse const& rest, std::ve
   std::array<double, RigidModes::count> z{}, size{};
   for (std::size_t m = 0; m < RigidModes::count; ++m) {
     z[m] = modes.of(m, rest);
+    exec::ExactSums<RigidModes::count> products;
     for (SupportRow const& row : rows) {
       double const own = modes.along(m, row.x, row.direction);
-      size[m] += row.mass * own * own;
-      for (std::size_t n = 0; n <= m; ++n) matrix.at(m, n) += row.mass * own * modes.along(n, row.x, row.direction);
+      double of_row[RigidModes::count]{};
+      for (std::size_t n = 0; n <= m; ++n) of_row[n] = row.mass * own * modes.along(n, row.x, row.direction);
+      products.add(of_row);
     }
+    size[m] = products.value(static_cast<int>(m));
+    for (std::size_t n = 0; n <= m; ++n) matrix.at(m, n) = products.value(static_cast<int>(n));
   }
   matrix.factorise(size);
   matrix.solve(z);

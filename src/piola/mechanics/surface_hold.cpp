@@ -187,14 +187,16 @@ void SurfaceHold::keep_velocity(FieldRef const& x, FieldRef const& v, double& wo
   auto const lambda = solved(v, [](HeldDirection const& h) { return h.speed; });
   add(lambda, v);
   FieldRef const at = places_at(x);
+  exec::ExactSum of_rows;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     HeldDirection const& h = *rows_[r].held;
     Point impulse = rows_[r].direction;
     for (double& c : impulse) c *= lambda[r];
     auto const support = static_cast<std::size_t>(h.support);
     driven_.add_impulse(support, rows_[r].of_place ? point_at(at, h.slot, D_) : point_at(x, h.slot, D_), impulse);
-    work += lambda[r] * h.speed;
+    of_rows += lambda[r] * h.speed;
   }
+  work += of_rows.value();
 }
 
 double SurfaceHold::square_of_held(FieldRef const& rate) const {
@@ -203,12 +205,12 @@ double SurfaceHold::square_of_held(FieldRef const& rate) const {
   for (Row const& row : rows_) values.push_back(value(row, rate));
   lambda = values;
   matrix_.solve(lambda);
-  double sum = 0;
+  exec::ExactSum sum;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     sum += lambda[r] * values[r];
-    if (!rows_[r].of_place) sum -= rows_[r].held->mass * values[r] * values[r];
+    if (!rows_[r].of_place) sum += -rows_[r].held->mass * values[r] * values[r];
   }
-  return sum;
+  return sum.value();
 }
 
 std::size_t SurfaceHold::bytes() const {

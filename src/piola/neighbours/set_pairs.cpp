@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -14,7 +15,7 @@ using Point = std::array<double, 3>;
 
 struct Candidate {
   double distance;
-  Index slot;
+  Index source;
 };
 
 /// Smoothing lengths grow in these steps, at most to this multiple.
@@ -29,7 +30,7 @@ class Search {
         widest_(request.h.empty() ? 1 : *std::max_element(request.h.begin(), request.h.end())),
         near_(request.sources, request.support * widest_ * (1 + request.skin)) {}
 
-  /// Leaves candidates in `found`, in order of their records; returns the smoothing length that has enough of them.
+  /// Leaves candidates in `found`, in their order in the set; returns the smoothing length that has enough of them.
   double operator()(Index target) {
     auto const t = static_cast<std::size_t>(target);
     double h = request_.h[t];
@@ -62,9 +63,9 @@ class Search {
       Point const& y = request_.sources[static_cast<std::size_t>(source)];
       double const a = x[0] - y[0], b = x[1] - y[1], c = x[2] - y[2], square = a * a + b * b + c * c;
       if (square > reach * reach || (request_.visible && !request_.visible(target, source))) return;
-      found.push_back({std::sqrt(square), request_.slot_of_source[static_cast<std::size_t>(source)]});
+      found.push_back({std::sqrt(square), source});
     });
-    std::sort(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.slot < b.slot; });
+    std::sort(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.source < b.source; });
   }
   [[noreturn]] void refuse(Index target, int has) const {
     auto const t = static_cast<std::size_t>(target);
@@ -102,11 +103,14 @@ void SetPairs::build(SetPairRequest const& request, int lanes, Index filler) {
       double const h = search(target);
       count_[static_cast<std::size_t>(target)] = search.within(h);
       inverse_h_[first + l] = 1 / h;
-      for (Candidate const& c : search.found) row.push_back(c.slot);
+      for (Candidate const& c : search.found) row.push_back(request.slot_of_source[static_cast<std::size_t>(c.source)]);
       longest = std::max(longest, row.size());
     }
     for (std::size_t k = 0; k < longest; ++k)
       for (auto const& row : rows) source_.push_back(k < row.size() ? row[k] : filler);
+    if (longest > static_cast<std::size_t>(std::numeric_limits<Index>::max() - begin_.back()))
+      throw InputError(
+          "neighbours: more pairs than one process can list (allowed: 2^31 per lane) - use larger spacings");
     begin_.push_back(begin_.back() + static_cast<Index>(longest));
   }
 }

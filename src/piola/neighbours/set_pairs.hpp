@@ -11,7 +11,7 @@ namespace piola {
 
 /// Neighbours as loops see them: plain data that crosses between machines. Targets come in groups of lanes; entry k of
 /// lane l of group g is source[(begin[g] + k) * lanes + l]. Shorter lists are filled up with a source so far away that
-/// its kernel vanishes.
+/// its kernel vanishes. Sources come in their order in the set, wherever their records are.
 struct SetPairTable {
   Index const* begin = nullptr;       ///< per group of targets, one more at the end
   Index const* source = nullptr;      ///< records of sources

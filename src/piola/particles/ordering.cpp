@@ -4,6 +4,7 @@
 #include "piola/math/hash.hpp"
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -54,9 +55,18 @@ namespace {
 
 Shuffle shuffle_of_tests;
 
-SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle) {
+}  // namespace
+
+Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_tests, shuffle); }
+
+Shuffle const& shuffle_now() { return shuffle_of_tests; }
+
+std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  if (shuffle.owners == 0) return numbers;
   constexpr std::size_t tile = exec::block_size;
-  std::size_t const whole = static_cast<std::size_t>(order.particles) / tile;
+  std::size_t const whole = count / tile;
   struct Dealt {
     std::uint64_t owner, place;
     std::size_t tile;
@@ -69,18 +79,13 @@ SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle) {
   std::sort(tiles.begin(), tiles.end(), [](Dealt const& a, Dealt const& b) {
     return std::tie(a.owner, a.place, a.tile) < std::tie(b.owner, b.place, b.tile);
   });
-  SlotOrder dealt = order;
   for (std::size_t k = 0; k < whole; ++k) {
     if (shuffle.moved != nullptr && tiles[k].tile != k) ++*shuffle.moved;
-    std::copy_n(order.id.begin() + static_cast<std::ptrdiff_t>(tiles[k].tile * tile), tile,
-                dealt.id.begin() + static_cast<std::ptrdiff_t>(k * tile));
+    std::iota(numbers.begin() + static_cast<std::ptrdiff_t>(k * tile),
+              numbers.begin() + static_cast<std::ptrdiff_t>((k + 1) * tile), tiles[k].tile * tile);
   }
-  return dealt;
+  return numbers;
 }
-
-}  // namespace
-
-Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_tests, shuffle); }
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   constexpr std::size_t rows = 8;
@@ -98,7 +103,11 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
 
 SlotOrder dealt_order(ParticleSet const& set, Body const& body) {
   SlotOrder order = pencil_order(set, body);
-  return shuffle_of_tests.owners > 0 ? dealt_out(order, shuffle_of_tests) : order;
+  if (shuffle_of_tests.owners == 0) return order;
+  auto const ids = order.id;
+  auto const numbers = dealt_numbers(static_cast<std::size_t>(order.particles), shuffle_of_tests);
+  for (std::size_t k = 0; k < numbers.size(); ++k) order.id[k] = ids[numbers[k]];
+  return order;
 }
 
 }  // namespace piola

@@ -36,6 +36,10 @@ struct Shuffle {
   std::uint64_t seed = 1;
   std::int64_t* moved = nullptr;  ///< counts tiles that stand elsewhere for it; nullptr: nobody wants to know
 };
+/// The numbers 0 ... count - 1 with the tiles among them dealt out.
+std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle);
+/// The shuffle that is set: who makes orders later takes a copy.
+Shuffle const& shuffle_now();
 /// For all that dealt_order makes from now on; returns the one before. Not while others make orders.
 Shuffle set_shuffle(Shuffle const& shuffle);
 

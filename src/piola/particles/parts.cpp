@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/parts.hpp"
+#include "piola/exec/exact_sum.hpp"
 
 namespace piola {
 
 std::vector<PartFacts> part_facts(ParticleSet const& particles, Body const& body, std::size_t parts) {
   std::vector<PartFacts> facts(parts + 1);
+  std::vector<exec::ExactSum> volumes(parts + 1);
   for (std::int64_t id = body.first; id < body.last; ++id) {
     auto const i = static_cast<std::size_t>(id);
-    PartFacts& of = facts[part_of(particles, i)];
-    ++of.particles;
-    of.volume += particles.volume[i];
+    std::size_t const part = part_of(particles, i);
+    ++facts[part].particles;
+    volumes[part] += particles.volume[i];
   }
+  for (std::size_t k = 0; k <= parts; ++k) facts[k].volume = volumes[k].value();
   return facts;
 }
 

@@ -2,6 +2,7 @@
 #include "piola/simulation/build.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/exec/exact_sum.hpp"
 #include "piola/exec/free_memory.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/formulations/make.hpp"
@@ -68,15 +69,17 @@ std::size_t index_of_body(std::string const& name, ParticleSet const& particles)
 
 /// The middle of some particles at the start [m].
 std::array<double, 3> middle_of(std::vector<std::int64_t> const& ids, ParticleSet const& particles) {
-  std::array<double, 3> sum{};
-  double volume = 0;
+  exec::ExactSums<4> sums;
   for (auto const id : ids) {
     auto const i = static_cast<std::size_t>(id);
-    volume += particles.volume[i];
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += particles.volume[i] * particles.X[i][c];
+    double const volume = particles.volume[i];
+    auto const& X = particles.X[i];
+    double const of_particle[]{volume, volume * X[0], volume * X[1], volume * X[2]};
+    sums.add(of_particle);
   }
-  for (double& c : sum) c = volume > 0 ? c / volume : 0;
-  return sum;
+  double const volume = sums.value(0);
+  if (!(volume > 0)) return {};
+  return {sums.value(1) / volume, sums.value(2) / volume, sums.value(3) / volume};
 }
 
 Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet const& particles) {
@@ -91,14 +94,14 @@ Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet co
                   .name = spec.name,
                   .about = middle_of(ids, particles)};
   if (!holds_surface(from, spec)) return support;
-  double area = 0;
-  support.about = {};
+  exec::ExactSums<4> sums;
   for (FaceShare const& share : supported_shares(particles, body, spec)) {
     support.normals.push_back(share.normal);
-    area += share.area;
-    for (std::size_t c = 0; c < 3; ++c) support.about[c] += share.area * share.middle[c];
+    double const area = share.area;
+    double const of_share[]{area, area * share.middle[0], area * share.middle[1], area * share.middle[2]};
+    sums.add(of_share);
   }
-  for (double& c : support.about) c /= area;
+  for (int c = 0; c < 3; ++c) support.about[static_cast<std::size_t>(c)] = sums.value(1 + c) / sums.value(0);
   return support;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/field_samples.hpp"
+#include "piola/exec/exact_sum.hpp"
 #include "piola/math/solve.hpp"
 #include <algorithm>
 #include <cmath>
@@ -123,7 +124,7 @@ std::optional<double> relative_difference(FieldSample const& f, FieldSample cons
   if (f.components != reference.components || f.dimension != reference.dimension) return std::nullopt;
   Near const near(reference);
   std::size_t const width = f.components;
-  double difference = 0, whole = 0;
+  exec::ExactSums<2> sums;  // of the difference and of the reference
   for (std::size_t id = 0; id < f.X.size(); ++id) {
     if (where != nullptr && (*where)(f.X[id]) == 0) continue;
     auto const weights = weights_at(f.X[id], f.body[id], reference, near);
@@ -132,11 +133,11 @@ std::optional<double> relative_difference(FieldSample const& f, FieldSample cons
       double r = 0;
       for (auto const& [other, weight] : weights) r += weight * reference.values[other * width + c];
       double const d = f.values[id * width + c] - r, volume = width == 6 && c >= 3 ? 2 * f.volume[id] : f.volume[id];
-      difference += volume * d * d;
-      whole += volume * r * r;
+      double const of_component[]{volume * d * d, volume * r * r};
+      sums.add(of_component);
     }
   }
-  double const value = std::sqrt(difference / whole);
+  double const value = std::sqrt(sums.value(0) / sums.value(1));
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

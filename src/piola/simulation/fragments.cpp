@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/fragments.hpp"
+#include "piola/exec/exact_sum.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,12 +25,17 @@ double share_below(std::vector<double> const& sorted, double limit) {
   return static_cast<double>(count) / static_cast<double>(sorted.size());
 }
 
+double mean_of(std::vector<double> const& values) {
+  exec::ExactSum sum;
+  for (double const v : values) sum += v;
+  return sum.value() / static_cast<double>(values.size());
+}
+
 double deviation(std::vector<double> const& values) {
-  auto const n = static_cast<double>(values.size());
-  double const mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double sum = 0;
+  double const mean = mean_of(values);
+  exec::ExactSum sum;
   for (double const v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / n);
+  return std::sqrt(sum.value() / static_cast<double>(values.size()));
 }
 
 std::optional<std::size_t> chosen(Measured const& measured, Cloud const& cloud, Clusters const& clusters) {
@@ -52,30 +58,31 @@ bool near_axis(ProbeSpec const& spec, Point const& x) {
 std::array<double, 4> motion(FieldCache& cache, std::vector<std::int64_t> const& ids) {
   bool const known = cache.knows("Velocity");
   auto const v = known ? cache.values("Velocity") : std::span<double const>();
-  std::array<double, 4> out{};
+  exec::ExactSums<4> sums;
   for (std::int64_t const id : ids) {
     auto const i = static_cast<std::size_t>(id);
     double const volume = cache.particles().volume[i];
-    out[0] += volume;
+    double of_particle[]{volume, 0, 0, 0};
     for (std::size_t c = 0; c < 3; ++c)
-      out[c + 1] += known ? volume * v[3 * i + c] : std::numeric_limits<double>::quiet_NaN();
+      of_particle[c + 1] = known ? volume * v[3 * i + c] : std::numeric_limits<double>::quiet_NaN();
+    sums.add(of_particle);
   }
-  for (std::size_t c = 1; c < 4; ++c) out[c] /= out[0];
-  return out;
+  double const all = sums.value(0);
+  return {all, sums.value(1) / all, sums.value(2) / all, sums.value(3) / all};
 }
 
 /// Number, mean volume and relative spread of the pieces.
 std::array<double, 3> pieces(Measured const& measured, FieldCache& cache, Cloud const& cloud,
                              Clusters const& clusters) {
-  std::vector<double> volume(clusters.size.size());
+  std::vector<exec::ExactSum> volume(clusters.size.size());
   for (std::size_t k = 0; k < cloud.id.size(); ++k)
     volume[clusters.of[k]] += cache.particles().volume[static_cast<std::size_t>(cloud.id[k])];
   std::vector<double> big;
   for (std::size_t k = 0; k < volume.size(); ++k)
-    if (clusters.size[k] >= static_cast<std::size_t>(measured.spec.least_particles)) big.push_back(volume[k]);
+    if (clusters.size[k] >= static_cast<std::size_t>(measured.spec.least_particles)) big.push_back(volume[k].value());
   if (big.empty()) return {};
   auto const n = static_cast<double>(big.size());
-  double const mean = std::accumulate(big.begin(), big.end(), 0.0) / n;
+  double const mean = mean_of(big);
   return {n, mean, deviation(big) / mean};
 }
 

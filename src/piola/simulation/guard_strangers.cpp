@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include "piola/simulation/guard.hpp"
@@ -102,9 +103,12 @@ class StrangerGuard : public Guard {
 
   /// Whether displacements differ so much that strangers can be near each other.
   bool moved() const {
-    Point mean{};
-    for (std::size_t i = 0; i < x_.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c) mean[c] += (x_[i][c] - particles_.X[i][c]) / static_cast<double>(x_.size());
+    auto const sums = exec_host::sums_of<3>(static_cast<Index>(x_.size()), [&](Index k, double* way) {
+      auto const i = static_cast<std::size_t>(k);
+      for (std::size_t c = 0; c < 3; ++c) way[c] = x_[i][c] - particles_.X[i][c];
+    });
+    auto const count = static_cast<double>(x_.size());
+    Point const mean{sums.value(0) / count, sums.value(1) / count, sums.value(2) / count};
     double const finest = *std::min_element(finest_.begin(), finest_.end());
     double const least = (finest_.size() > 1 ? 0.5 : strangers_beyond - 0.5) * finest / 2;
     return std::any_of(x_.begin(), x_.end(), [&](Point const& x) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/probes.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/exact_sum.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/probe_quantities.hpp"
 #include "piola/simulation/fragments.hpp"
@@ -70,14 +71,13 @@ std::vector<std::size_t> own_of(ProbeSpec const& spec) {
 }
 
 Point centroid(std::vector<std::int64_t> const& ids, std::vector<double> const& weight, auto const& position) {
-  Point sum{};
-  double total = 0;
+  exec::ExactSums<4> sums;
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight[k] * position(ids[k], c);
-    total += weight[k];
+    double const w = weight[k];
+    double const of_particle[]{w, w * position(ids[k], 0), w * position(ids[k], 1), w * position(ids[k], 2)};
+    sums.add(of_particle);
   }
-  for (double& s : sum) s /= total;
-  return sum;
+  return {sums.value(1) / sums.value(0), sums.value(2) / sums.value(0), sums.value(3) / sums.value(0)};
 }
 
 }  // namespace
@@ -144,19 +144,20 @@ std::vector<double> Probe::own_values(FieldCache& cache, double time) {
 double Probe::reduce(std::vector<double> const& values) const {
   auto const value = [&](std::int64_t id) { return values[static_cast<std::size_t>(id)]; };
   double const first = value(ids_.front());
-  double low = first, high = first, sum = 0, total = 0;
+  double low = first, high = first;
+  exec::ExactSums<2> sums;
   for (std::size_t k = 0; k < ids_.size(); ++k) {
     double const v = value(ids_[k]);
     low = std::min(low, v);
     high = std::max(high, v);
-    sum += weight_[k] * v;
-    total += weight_[k];
+    double const of_particle[]{weight_[k] * v, weight_[k]};
+    sums.add(of_particle);
   }
   switch (kind_) {
     case ProbeSpec::Kind::minimum: return low;
     case ProbeSpec::Kind::maximum: return high;
     case ProbeSpec::Kind::point: return first;
-    default: return sum / total;
+    default: return sums.value(0) / sums.value(1);
   }
 }
 
@@ -170,16 +171,16 @@ double Probe::twist(FieldCache& cache) {
   auto const current = [&](std::int64_t id, std::size_t c) { return x[static_cast<std::size_t>(id) * 3 + c]; };
   Point const X0 = centroid(ids_, weight_, reference), x0 = centroid(ids_, weight_, current);
   std::size_t const i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
-  double cross = 0, dot = 0;
+  exec::ExactSums<2> products;  // cross and dot
   for (std::size_t k = 0; k < ids_.size(); ++k) {
     std::int64_t const id = ids_[k];
     double const Xi = reference(id, i) - X0[i], Xj = reference(id, j) - X0[j];
     double const xi = current(id, i) - x0[i], xj = current(id, j) - x0[j];
-    cross += weight_[k] * (Xi * xj - Xj * xi);
-    dot += weight_[k] * (Xi * xi + Xj * xj);
+    double const of_particle[]{weight_[k] * (Xi * xj - Xj * xi), weight_[k] * (Xi * xi + Xj * xj)};
+    products.add(of_particle);
   }
   constexpr double turn = 2 * std::numbers::pi;
-  double const angle = std::atan2(cross, dot);
+  double const angle = std::atan2(products.value(0), products.value(1));
   double const unwrapped = angle + turn * std::round((last_angle_ - angle) / turn);
   if (std::isfinite(unwrapped)) last_angle_ = unwrapped;
   return unwrapped;
@@ -201,17 +202,17 @@ double Probe::relative_error(FieldCache& cache, double time) const {
   if (!cache.knows(field_)) return std::numeric_limits<double>::quiet_NaN();
   auto const f = cache.values(field_);
   std::size_t const width = reference_.size();
-  double difference = 0, whole = 0;
+  exec::ExactSums<2> sums;  // of the difference and of the reference
   for (std::size_t k = 0; k < ids_.size(); ++k) {
     auto const id = static_cast<std::size_t>(ids_[k]);
     for (std::size_t c = 0; c < width; ++c) {
       double const r = reference_[c](cache.particles().X[id], time), d = f[id * width + c] - r;
       double const weight = width == 6 && c >= 3 ? 2 * weight_[k] : weight_[k];
-      difference += weight * d * d;
-      whole += weight * r * r;
+      double const of_component[]{weight * d * d, weight * r * r};
+      sums.add(of_component);
     }
   }
-  return difference == 0 ? 0 : std::sqrt(difference / whole);
+  return sums.value(0) == 0 ? 0 : std::sqrt(sums.value(0) / sums.value(1));
 }
 
 /// From the stress across the ligament, n.sigma n with n normal to the direction ahead.

@@ -71,6 +71,21 @@ inline void distort(std::vector<Vec<3>>& x, int dimension, double amount) {
   }
 }
 
+/// The points of a surface in another order, in which those of the left part, x < `middle`, and of the rest keep
+/// theirs.
+inline void deal_out(Surface& surface, ParticleSet const& set, double middle, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<SurfacePoint> side[2];
+  for (SurfacePoint const& point : surface.points)
+    side[set.X[static_cast<std::size_t>(point.particle)][0] < middle ? 0 : 1].push_back(point);
+  std::size_t next[2]{};
+  for (SurfacePoint& point : surface.points) {
+    bool const any[2]{next[0] < side[0].size(), next[1] < side[1].size()};
+    std::size_t const from = any[0] && any[1] ? random() % 2 : any[0] ? 0 : 1;
+    point = side[from][next[from]++];
+  }
+}
+
 /// There are forces, without a resultant and without a moment.
 inline void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
   Vec<3> force, moment;

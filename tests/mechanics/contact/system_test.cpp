@@ -147,6 +147,65 @@ TEST_P(InDimensions, ForcesDoNotDependOnWhenListsWereMadeOrOnThreads) {
   }
 }
 
+/// All that a run is told of contact.
+std::vector<double> told_by(System const& system, std::size_t rigids) {
+  Totals const& t = system.totals();
+  std::vector<double> all{t.energy,        t.deepest,       t.frequency2,
+                          t.spring_energy, t.friction_work, static_cast<double>(t.touched)};
+  auto const put = [&](Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); };
+  for (Vec<3> const& f : system.forces()) put(f);
+  put(system.between(0, 1).force);
+  put(system.between(0, 1).moment);
+  for (std::size_t r = 0; r < rigids; ++r) {
+    put(system.on_rigid(r).force);
+    put(system.on_rigid(r).moment);
+    all.push_back(system.frequencies(r).of_shape);
+    all.push_back(system.frequencies(r).of_points);
+  }
+  return all;
+}
+
+/// Two plates whose ends rub on each other and on a free rigid shape, and whose middles are apart.
+std::vector<double> rub_at_both_ends(int D, std::uint32_t seed) {
+  Blocks plates(D, -50);
+  plates.set = {};
+  plates.surfaces.clear();
+  std::size_t const up = D == 3 ? 2 : 1;
+  std::array<double, 3> above{0.3, 0, 0};
+  above[up] = 2.8;
+  plates.add(box(D, {0, 0, 0}, {20, D == 3 ? 4 : 3, 3}, 1));
+  plates.add(box(D, above, {26, D == 3 ? 4 : 3, 3}, 0.7));
+  double const middle = 10;
+  if (seed > 0)
+    for (Surface& surface : plates.surfaces) deal_out(surface, plates.set, middle, seed++);
+  RigidSurface floor;
+  floor.dimension = D;
+  floor.axis = {{0, 0, 0}};
+  floor.axis[D - 1] = 1;
+  floor.centre = {{1, 2, 0}};
+  floor.centre[D - 1] = 0.04;
+  floor.inverse_mass = 0.3;
+  floor.inverse_inertia = identity<3>();
+  System system = plates.system({floor}, {.kinetic = 0.3});
+  auto x = places(system, plates.set);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    double const to_middle = x[k][0] / middle - 1, lift = system.ids()[k] < plates.set.bodies[1].first ? 1.5 : 5;
+    x[k][D - 1] += lift * std::pow(1 - to_middle * to_middle, 3);
+  }
+  system.set_masses(std::vector<double>(x.size(), 1.7));
+  system.start(x);
+  for (std::size_t k = 0; k < x.size(); ++k)
+    for (int c = 0; c < D; ++c) x[k][c] += 0.01 * std::sin(1.3 * static_cast<double>(k) + c);
+  system.evaluate(x, 1e-3);
+  return told_by(system, 1);
+}
+
+TEST_P(InDimensions, NoSumDependsOnTheOrderOfPoints) {
+  auto const reference = rub_at_both_ends(GetParam(), 0);
+  for (std::size_t k : {0, 3, 4, 5}) ASSERT_NE(reference[k], 0) << k;
+  for (std::uint32_t seed = 1; seed < 40; seed += 3) EXPECT_EQ(rub_at_both_ends(GetParam(), seed), reference) << seed;
+}
+
 TEST_P(InDimensions, NearBodiesThatCloseShortenTheStep) {
   int const D = GetParam();
   Blocks const blocks(D, -0.5);

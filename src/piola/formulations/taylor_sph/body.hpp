@@ -9,6 +9,7 @@
 #include "piola/neighbours/cells.hpp"
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -113,9 +114,12 @@ class TaylorBody {
   /// Memory, order of slots, tables for the cells that are there.
   void arrange(Points const& x_of_cells);
   void order_slots(std::vector<Index> const& on_boundary);
+  void order_cells();
   void fill_cell_tables(Points const& x);
   void fill_hourglass_tables();
   void fill_cell_memory();
+  double* cell_stress(Index cell) const;
+  std::span<double> patterns_of(Index cell) const;
   void restore_cells(Snapshot const& snapshot);
   void step_adjoint(Impulse const& before, double time, double dt);
   std::vector<double> reach_of_cells(Points const& x) const;
@@ -157,7 +161,9 @@ class TaylorBody {
   Boundary boundary_;
   Cells cells_, boxes_;  ///< local corners
   Points x_of_lists_, x_of_cells_, surface_positions_;
-  std::vector<Index> slot_of_, local_of_;
+  Shuffle shuffle_;  ///< tests deal out tiles of particles inside, of those on the surface, and of cells
+  std::vector<Index> slot_of_, local_of_, slot_of_cell_, cell_in_slot_;
+  std::vector<std::int64_t> id_in_slot_;
   Memory real_, virtual_;
   Field across_{"OutOfPlaneStress", "Pa", 1, Role::evolved};
   Field drift_{"Drift", "m/s", 3, Role::evolved};

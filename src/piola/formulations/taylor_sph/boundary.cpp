@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/boundary.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/exec/exact_sum.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <cmath>
@@ -198,11 +199,14 @@ void Boundary::attach_tractions() {
     }
 }
 
-std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x) {
+std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x, Shuffle const& shuffle) {
   sort_facets(surface, X_);
   particles_.clear();
   for (std::size_t k = 0; k < X_.size(); ++k)
     if (!sides_[k].empty() || !held_[k].empty()) particles_.push_back(static_cast<Index>(k));
+  auto const ascending = particles_;
+  auto const numbers = dealt_numbers(particles_.size(), shuffle);
+  for (std::size_t k = 0; k < numbers.size(); ++k) particles_[k] = ascending[numbers[k]];
   turn(X_);
   for (auto& sides : sides_)
     for (auto& side : sides) side.reference_normal = side.normal;
@@ -309,11 +313,11 @@ void Boundary::prepare_speeds(double time, double dt, Points const& x, std::func
 }
 
 double Boundary::power(std::function<Point(Index)> const& velocity, std::function<Stress(Index)> const& stress) const {
-  double sum = 0;
+  exec::ExactSum sum;
   for (Index const particle : particles_)
     for (auto const& side : sides_[static_cast<std::size_t>(particle)])
       sum += dot(velocity(particle), traction_of(stress(particle), side.area, D_));
-  return sum;
+  return sum.value();
 }
 
 Point Boundary::force_on_sides(Index particle, Stress const& stress) const {

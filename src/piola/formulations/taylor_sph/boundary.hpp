@@ -3,6 +3,7 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 #include "piola/neighbours/cells.hpp"
+#include "piola/particles/ordering.hpp"
 #include <array>
 #include <functional>
 #include <optional>
@@ -19,7 +20,7 @@ class Boundary {
 
   /// Particles with something prescribed, in increasing order: those of the surface but for the tips of cracks, and
   /// those of supports. The order of items. Throws InputError if a traction is given where there is no surface.
-  std::vector<Index> const& arrange(Surface const& surface, Points const& x);
+  std::vector<Index> const& arrange(Surface const& surface, Points const& x, Shuffle const& shuffle);
 
   /// For a step from `time` to time + dt. `x`: positions by which normals are taken; `stress_now(k)`: the stress of the
   /// item's particle, which counts as what was prescribed before where it was not: at time 0 and after a release.

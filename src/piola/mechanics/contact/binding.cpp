@@ -79,6 +79,7 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   std::vector<std::array<double, 3>> places;
   for (Plane const& plane : at.planes[b]) places.push_back({plane.y[0], plane.y[1], plane.y[2]});
   CellGrid const grid(places, pair.reach);
+  exec::ExactSum held, left;
   for (std::size_t k = 0; k < own.points.size(); ++k) {
     SurfacePoint const& point = own.points[k];
     Vec<3> const Y = vector_of(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
@@ -97,15 +98,17 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
     double const area = 0.5 * seen * point.area;
     if (far > near_enough) {
       found.left += 1;
-      found.left_area += area;
+      left += area;
       continue;
     }
     found.farthest = std::max(found.farthest, far);
     found.points[side] += 1;
-    found.area += area;
+    held += area;
     for (auto& share : shares) share.second /= gap.weight;
     add_row(tie, {a, k, b}, area, law, at, shares);
   }
+  found.area += held.value();
+  found.left_area += left.value();
 }
 
 /// c of y_p = x_p + F_p S by the positions around p; the factor of the particle itself is left to the caller.

@@ -34,8 +34,8 @@ System::Rubbed System::drag(Press const& press, Vec<3> const& jump, Vec<3> const
   FrictionLaw const& law = setting_[points_[at(press.point)].body][press.with].friction;
   Spring const before = known ? Spring{F * last->stretch, last->force} : Spring{};
   Rubbing const now = rubbing(known ? &before : nullptr, jump, n, press.stiffness, law, press.force, press.area, dt_);
-  totals_.spring_energy += now.energy;
-  totals_.friction_work += now.work;
+  sums_.spring_energy += now.energy;
+  sums_.friction_work += now.work;
   stuck_.push_back({press.point, press.with, inverse(F) * now.spring.stretch, now.spring.force, now.energy});
   if (!known) return {now.spring.force, 0};
   // What the spring did not take up.
@@ -93,7 +93,7 @@ void System::rub_on_rigid(Press const& press, std::size_t r, Vec<3> const& n) {
   Vec<3> const& f = rubbed.force;
   add_load(k, {f, {}, {}});
   trace(k, 0, 0.5 * rubbed.heat);
-  on_rigid_[r] = {on_rigid_[r].force - f, on_rigid_[r].moment - cross(y - rigids_[r].centre, f)};
+  sums_.on_rigid[r].add(-1.0 * f, -1.0 * cross(y - rigids_[r].centre, f));
 }
 
 }  // namespace piola::contact

@@ -98,9 +98,9 @@ void System::add_load(Index point, PointLoad const& load) {
 void System::add_between(Run const& run, Vec<3> const& f) {
   std::size_t const body = points_[at(run.target)].body;
   Vec<3> const moment = cross(planes_[at(run.target)].y, f);
-  Between &on_target = between_[body][run.body], &on_source = between_[run.body][body];
-  on_target = {on_target.force + f, on_target.moment + moment};
-  on_source = {on_source.force - f, on_source.moment - moment};
+  if (body < run.body) sums_.on_first[{body, run.body}].add(f, moment);
+  if (body > run.body)
+    sums_.on_first[{run.body, body}].add(-1.0 * f, -1.0 * moment);  // what a body does to itself is 0
 }
 
 /// Of the planes of a run that count: others are listed or not as it happens [1/kg].
@@ -137,7 +137,7 @@ void System::push_bodies() {
          largest_inverse_mass(run) + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;
     Layer const psi = layer(gap.gap, rule.stiffness, rule.length);
-    totals_.energy += target.area * psi.energy * seen;
+    sums_.energy += target.area * psi.energy * seen;
     ++totals_.touched;
     PointLoad const own =
         contact_loads(planes_[at(run.target)], target.area, gap, psi, theta, static_cast<Index>(run.last - run.first),
@@ -157,7 +157,7 @@ void System::note_spring(std::size_t r, Index point, Vec<3> const& n, double sti
   Vec<3> const& y = planes_[at(point)].y;
   Frequencies& f = frequencies_[r];
   f.of_points = std::max(f.of_points, 2.5 * stiffness * inverse_mass_of(point));
-  f.of_shape +=
+  sums_.springs_of_shape[r] +=
       stiffness * (with_rigid(points_[at(point)].body, r).friction.any() ? rigid.mobility(y) : rigid.mobility(y, n));
 }
 
@@ -178,13 +178,12 @@ void System::push_from_rigids() {
       if (!(d.value < 0)) continue;
       Layer const psi = layer(d.value, layer_modulus, length);
       Vec<3> const f = (-point.area * psi.slope) * d.normal;
-      totals_.energy += point.area * psi.energy;
+      sums_.energy += point.area * psi.energy;
       ++totals_.touched;
       add_load(k, {f, {}, {}});
       rub_on_rigid({k, surfaces_.size() + r, -point.area * psi.slope, layer_modulus * point.area, point.area}, r,
                    d.normal);
-      on_rigid_[r].force = on_rigid_[r].force - f;
-      on_rigid_[r].moment = on_rigid_[r].moment - cross(planes_[at(k)].y - rigids_[r].centre, f);
+      sums_.on_rigid[r].add(-1.0 * f, -1.0 * cross(planes_[at(k)].y - rigids_[r].centre, f));
     }
   }
 }
@@ -225,6 +224,21 @@ void System::evaluate(std::vector<Vec<3>> const& x, double dt) {
   remember(x);
 }
 
+void System::add_up() {
+  totals_.energy = sums_.energy.value();
+  totals_.spring_energy = sums_.spring_energy.value();
+  totals_.friction_work = sums_.friction_work.value();
+  for (std::size_t r = 0; r < rigids_.size(); ++r) {
+    on_rigid_[r] = sums_.on_rigid[r].value();
+    frequencies_[r].of_shape = sums_.springs_of_shape[r].value();
+  }
+  for (auto const& [pair, sum] : sums_.on_first) {
+    Between const on_first = sum.value();
+    between_[pair.first][pair.second] = on_first;
+    between_[pair.second][pair.first] = {-1.0 * on_first.force, -1.0 * on_first.moment};
+  }
+}
+
 void System::forget_forces() {
   for (Index const k : pushed_) {
     forces_[at(k)] = {};
@@ -239,6 +253,9 @@ void System::forget_forces() {
   std::fill(on_rigid_.begin(), on_rigid_.end(), Between{});
   std::fill(frequencies_.begin(), frequencies_.end(), Frequencies{});
   for (auto& row : between_) std::fill(row.begin(), row.end(), Between{});
+  sums_ = {};
+  sums_.on_rigid.resize(rigids_.size());
+  sums_.springs_of_shape.resize(rigids_.size());
 }
 
 void System::push_all(std::vector<Vec<3>> const& x) {
@@ -247,6 +264,7 @@ void System::push_all(std::vector<Vec<3>> const& x) {
   place_points(x);
   push_bodies();
   push_from_rigids();
+  add_up();
   std::sort(loaded_points_.begin(), loaded_points_.end());
   for (Index const k : loaded_points_) {
     Point const& p = points_[at(k)];

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/mechanics/contact/between.hpp"
 #include "piola/mechanics/contact/friction.hpp"
 #include "piola/mechanics/contact/own_neighbours.hpp"
 #include "piola/mechanics/contact/planes.hpp"
 #include "piola/mechanics/contact/rigid.hpp"
 #include "piola/mechanics/contact/surface.hpp"
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,10 +71,7 @@ class System {
   /// Indices of ids() that have a force, ascending.
   std::vector<Index> const& pushed() const { return pushed_; }
   Totals const& totals() const { return totals_; }
-  /// A force [N] and a moment [N m].
-  struct Between {
-    Vec<3> force, moment;
-  };
+  using Between = contact::Between;
   /// What bodies do to a rigid shape; the moment about its centre.
   Between const& on_rigid(std::size_t k) const { return on_rigid_[k]; }
   /// Springs between a free rigid shape and the points near it: the largest square of the frequency that one of them
@@ -147,6 +146,7 @@ class System {
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
   void push_from_rigids();
+  void add_up();
   double largest_inverse_mass(Run const& run) const;
   void note_spring(std::size_t rigid, Index point, Vec<3> const& n, double stiffness);
   void rub(Run const& run, Gap const& gap, Press const& press);
@@ -218,6 +218,14 @@ class System {
   std::vector<Frequencies> frequencies_;
   std::vector<std::vector<Between>> between_;
   Totals totals_;
+  /// Sums of an evaluation over points, which may come in any order.
+  struct Sums {
+    exec::ExactSum energy, spring_energy, friction_work;
+    std::vector<BetweenSum> on_rigid;
+    std::vector<exec::ExactSum> springs_of_shape;
+    std::map<std::pair<std::size_t, std::size_t>, BetweenSum> on_first;  ///< of two bodies, the one of the lower number
+  };
+  Sums sums_;
 };
 
 }  // namespace piola::contact

@@ -54,32 +54,32 @@ void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x) {
       sum = sum - by_particle_[j].c * pulls_[place_of(by_particle_[j].at)].by_jump;
     forces_[place_of(touched_[place_of(k)])] = sum;
   });
-  add_up();
+  std::vector<BetweenSum> on_first(rules_.size());
+  add_up(on_first);
   for (std::size_t r = 0; r < rows_.size(); ++r)
-    if (dot(pulls_[r].by_normal, pulls_[r].by_normal) > 0) turn(rows_[r], pulls_[r].by_normal, carriers, x);
+    if (dot(pulls_[r].by_normal, pulls_[r].by_normal) > 0)
+      on_first[rows_[r].tie].add(turn(rows_[r], pulls_[r].by_normal, carriers, x));
+  for (std::size_t tie = 0; tie < rules_.size(); ++tie) on_first_[tie] = on_first[tie].value();
 }
 
-void Ties::add_up() {
-  totals_ = {};
-  std::fill(on_first_.begin(), on_first_.end(), Force{});
-  double can_fail = 0, failed = 0;
+void Ties::add_up(std::vector<BetweenSum>& on_first) {
+  exec::ExactSum energy, heat, can_fail, failed;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     Row const& row = rows_[r];
     Pull const& pull = pulls_[r];
-    totals_.energy += pull.energy;
-    totals_.heat += lost_[r];
+    energy += pull.energy;
+    heat += lost_[r];
     if (rules_[row.tie].fails()) can_fail += row.area;
     if (has_failed(r)) failed += row.area;
     bool const first = row.hold.body == rules_[row.tie].bodies[0];
     Vec<3> const f = (first ? -1.0 : 1.0) * pull.by_jump, y = first ? pull.y : pull.y - pull.jump;
-    Force& sum = on_first_[row.tie];
-    sum = {sum.force + f, sum.moment + cross(y, f)};
+    on_first[row.tie].add(f, cross(y, f));
   }
-  if (can_fail > 0) totals_.failed = failed / can_fail;
+  totals_ = {energy.value(), heat.value(), can_fail.value() > 0 ? failed.value() / can_fail.value() : 0};
 }
 
 /// Forces of a load on the normal of the held point, by way of F of its particle.
-void Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x) {
+Vec<3> Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x) {
   Mat<3> const T = couple({}, row.N, carriers.F(row.carrier, x), {{}, by_normal, {}});
   std::size_t const self = place_of(carriers.self(row.carrier));
   Vec<3> moment;
@@ -90,8 +90,7 @@ void Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carrier
     forces_[self] = forces_[self] + f;
     moment = moment - cross(x[place_of(b.at)] - x[self], f);
   }
-  Force& sum = on_first_[row.tie];
-  if (row.hold.body == rules_[row.tie].bodies[0]) sum.moment = sum.moment + moment;
+  return row.hold.body == rules_[row.tie].bodies[0] ? moment : Vec<3>{};
 }
 
 std::vector<double> Ties::state() const {

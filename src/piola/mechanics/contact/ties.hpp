@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/mechanics/contact/between.hpp"
 #include "piola/mechanics/contact/cohesive.hpp"
 #include "piola/mechanics/contact/planes.hpp"
 #include "piola/mechanics/contact/surface.hpp"
@@ -55,10 +56,8 @@ class Ties {
     double failed = 0;  ///< share of the area that can fail
   };
   Totals const& totals() const { return totals_; }
-  struct Force {
-    Vec<3> force, moment;  ///< [N], about the origin [N m]
-  };
-  /// What a tie does to its first body.
+  using Force = Between;
+  /// What a tie does to its first body; the moment about the origin.
   Force const& on_first(std::size_t tie) const { return on_first_[tie]; }
   /// A bound of the square of the largest frequency of the ties with these inverse masses [1/kg], nothing failed
   /// [1/s2].
@@ -94,8 +93,9 @@ class Ties {
                std::vector<std::pair<std::size_t, double>> const& shares);
   void list_by_particle(std::size_t particles);
   void stretch(std::size_t row, Carriers const& carriers, std::vector<Vec<3>> const& x);
-  void turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x);
-  void add_up();
+  /// The moment that it has on the first body of the tie.
+  Vec<3> turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x);
+  void add_up(std::vector<BetweenSum>& on_first);
 
   std::vector<TieRule> rules_;
   std::vector<Found> found_;
