@@ -82,6 +82,20 @@ TEST(ContactMessages, WhatCannotMeetIsRefused) {
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[[contact]]\nbetween = [\"b\", \"a\"]\nlaw = \"none\"\n"), "");
 }
 
+// Estimates hold free surfaces free of stress.
+TEST(ContactMessages, EstimatesOfTaylorFeelNobody) {
+  std::string const estimates = "taylor_sph\", exchange = \"estimates", fixed = "taylor_sph\", configuration = \"fixed";
+  EXPECT_NE(
+      two(estimates, "nodal", "").find("body \"a\": nothing keeps it apart from \"b\" (estimates of taylor_sph hold"),
+      std::string::npos);
+  EXPECT_NE(two("nodal", fixed, "").find("body \"b\": nothing keeps it apart from \"a\""), std::string::npos);
+  EXPECT_EQ(two(fixed + "\", exchange = \"adjoint", "nodal", ""), "");
+  EXPECT_EQ(two(fixed, "nodal", "[contact]\nlaw = \"none\"\n"), "");
+  EXPECT_NE(two(fixed, "nodal", "[[tie]]\nname = \"glue\"\nbetween = [\"a\", \"b\"]\n")
+                .find("cannot hold body \"a\": estimates"),
+            std::string::npos);
+}
+
 // A plane of symmetry is one of all that meet there.
 TEST(ContactMessages, BodiesThatMeetShareTheirMirrors) {
   auto const mirror = [](std::string const& body, std::string const& face) {

@@ -34,6 +34,7 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
   auto const info = find_formulation(b.formulation.name);
   if (can_have_surface(spec, body)) return "";
   if (!info || !info->pushable) return "the formulation " + b.formulation.name + " cannot be pushed";
+  if (info->name == "taylor_sph" || b.shape.kind == ShapeSpec::Kind::points) return why_without_surface(spec, body);
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
                                     [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });
   return mirrored ? "it has skew mirror planes" : "its particles may turn Eulerian";
