@@ -219,6 +219,16 @@ std::string friction_text(contact::FrictionLaw const& law) {
   return text;
 }
 
+/// Who is pushed without a surface.
+void print_colours(CaseSpec const& spec) {
+  std::vector<std::string> pairs;
+  auto const& bodies = spec.bodies;
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b)
+      if (pushed_by_colour(spec, a, b)) pairs.push_back(bodies[a].name + "-" + bodies[b].name);
+  if (!pairs.empty()) say("contact by colour, without friction: {}\n", joined(pairs));
+}
+
 /// Who is pushed by whom, where surfaces meet.
 void print_surfaces(CaseSpec const& spec) {
   if (!surfaces_meet(spec)) return;
@@ -256,6 +266,7 @@ void print_contact(CaseSpec const& spec, int dimension) {
     say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension), motion);
   }
   print_surfaces(spec);
+  print_colours(spec);
   bool const own = knows_contact(spec);
   if (!own) return;
   constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "printed", "surface"};

@@ -26,15 +26,13 @@ std::string shaped(std::string const& shape, std::string const& formulation = "j
   return text;
 }
 
-TEST(ContactMessages, FormulationsWithoutContactRefuseIt) {
-  FormulationInfo const taylor = *find_formulation("taylor_sph");
-  std::string text = sample_with("neo_hookean", "linear_elastic");
-  text = test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", "name = \"taylor_sph\"");
-  EXPECT_EQ(message_of(text), "");
-  EXPECT_EQ(message_of(text + "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
-            "case.toml:23:1: " + refusal(taylor, "rigid shapes"));
-  EXPECT_EQ(message_of(text + "[contact]\nlaw = \"linear\"\n"), "case.toml:23:1: " + refusal(taylor, "contact"));
-  EXPECT_NE(refusal(taylor, "contact").find("nodal"), std::string::npos) << "who knows it";
+TEST(ContactMessages, FormulationsWithoutContactSayWhoKnowsIt) {
+  FormulationInfo const advection = *find_formulation("jst_advection");
+  EXPECT_EQ(
+      refusal(advection, "contact").find("the formulation \"jst_advection\" knows no contact (allowed: contact in "),
+      0U);
+  for (char const* who : {"nodal", "jst_sph", "taylor_sph", "adaptle"})
+    EXPECT_NE(refusal(advection, "contact").find(who), std::string::npos) << who;
 }
 
 std::string two(std::string const& a, std::string const& b, std::string const& more) {
@@ -54,38 +52,82 @@ std::string two(std::string const& a, std::string const& b, std::string const& m
 TEST(ContactMessages, FrictionNeedsTwoSurfaces) {
   std::string const friction = "[contact]\nfriction = 0.3\n";
   EXPECT_EQ(two("nodal", "jst_sph", friction), "");
-  EXPECT_EQ(two("taylor_sph", "nodal", friction),
-            "case.toml:15:12: contact.friction has nothing to act on: body \"a\" has no surface, the formulation "
-            "taylor_sph knows no contact (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D, without "
+  EXPECT_EQ(two("taylor_sph", "nodal", friction), "");
+  EXPECT_EQ(two("adaptle", "nodal", ""), "") << "they meet by colour";
+  EXPECT_EQ(two("adaptle", "nodal", friction),
+            "case.toml:15:12: contact.friction has nothing to act on: body \"a\" has no surface, particles of adaptle "
+            "that may turn Eulerian or be deleted have no surface; description = \"total_lagrangian\" without failed = "
+            "\"delete\" keeps it (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without skew "
             "mirrors) - remove it, or change the body");
-  EXPECT_NE(two("adaptle", "nodal", friction).find("body \"a\" has no surface, particles of adaptle that may turn"),
-            std::string::npos);
-  EXPECT_NE(two("jst_sph", "nodal", friction + "[[mirror]]\nbody = \"a\"\nface = \"-x\"\n")
-                .find("body \"a\" has no surface, it has mirror planes"),
+  EXPECT_EQ(two("adaptle", "nodal", "[[contact]]\nbetween = [\"a\", \"b\"]\nscale = 2\n"), "");
+  EXPECT_NE(two("adaptle", "nodal", "[[contact]]\nbetween = [\"a\", \"b\"]\nfriction = 0.1\n")
+                .find("contact.between: body \"a\" has no surface by which others could push it"),
             std::string::npos);
   EXPECT_NE(two("adaptle", "adaptle", "[contact]\nself = true\n").find("contact.self has nothing to act on"),
             std::string::npos);
-  EXPECT_NE(two("taylor_sph", "nodal", "[[contact]]\nbetween = [\"a\", \"b\"]\n").find("body \"a\" has no surface by"),
+  EXPECT_NE(two("adaptle", "nodal", "[contact]\nself = true\n").find("contact.self has nothing to act on: body \"a\""),
             std::string::npos);
 }
 
-TEST(ContactMessages, MirrorsAndLinesSaySo) {
-  std::string const mirror = "[[mirror]]\nbody = \"column\"\nface = \"-x\"\n";
+// Bodies that nothing keeps apart are refused, unless they are not to meet.
+TEST(ContactMessages, WhatCannotMeetIsRefused) {
+  std::string const skew = "[[mirror]]\nbody = \"a\"\nface = \"-x\"\nskew = true\n";
+  EXPECT_EQ(
+      two("jst_sph", "nodal", skew),
+      "case.toml:8:15: body \"a\": nothing keeps it apart from \"b\" (it has skew mirror planes), so that they "
+      "would pass through one another (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without "
+      "skew mirrors) - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] between them, "
+      "if they are not to meet");
+  EXPECT_EQ(two("jst_sph", "nodal", skew + "[contact]\nlaw = \"none\"\n"), "");
+  EXPECT_EQ(two("jst_sph", "nodal", skew + "[[contact]]\nbetween = [\"b\", \"a\"]\nlaw = \"none\"\n"), "");
+}
+
+// Estimates hold free surfaces free of stress.
+TEST(ContactMessages, EstimatesOfTaylorFeelNobody) {
+  std::string const estimates = "taylor_sph\", exchange = \"estimates", fixed = "taylor_sph\", configuration = \"fixed";
   EXPECT_NE(
-      message_of(sample_case() + mirror + "[contact]\nscale = 2\n")
-          .find("contact found no surface: body \"column\" has none, it has mirror planes (allowed: nodal, jst_sph "
-                "and total-Lagrangian adaptle in 2D and 3D, without mirrors)"),
+      two(estimates, "nodal", "").find("body \"a\": nothing keeps it apart from \"b\" (estimates of taylor_sph hold"),
       std::string::npos);
-  EXPECT_NE(message_of(sample_case() + mirror +
-                       "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -9, 0], normal = [0, 1, 0] }\n")
-                .find("rigid shapes found no surface: body \"column\" has none, it has mirror planes"),
+  EXPECT_NE(two("nodal", fixed, "").find("body \"b\": nothing keeps it apart from \"a\""), std::string::npos);
+  EXPECT_EQ(two(fixed + "\", exchange = \"adjoint", "nodal", ""), "");
+  EXPECT_EQ(two(fixed, "nodal", "[contact]\nlaw = \"none\"\n"), "");
+  EXPECT_NE(two(fixed, "nodal", "[[tie]]\nname = \"glue\"\nbetween = [\"a\", \"b\"]\n")
+                .find("cannot hold body \"a\": estimates"),
             std::string::npos);
-  std::string const line =
-      "title = \"T\"\n[run]\nend = 1\n[[body]]\nname = \"bar\"\nshape = { box = { min = [0], max = [1] }, spacing = "
-      "0.1 "
-      "}\nmaterial = { law = \"neo_hookean\", density = 1, youngs_modulus = 1, poissons_ratio = 0.3 }\nformulation = { "
-      "name = \"jst_sph\" }\n[contact]\nscale = 2\n";
-  EXPECT_NE(message_of(line).find("contact found no surface: body \"bar\" has none, it is in 1D"), std::string::npos);
+}
+
+// A plane of symmetry is one of all that meet there.
+TEST(ContactMessages, BodiesThatMeetShareTheirMirrors) {
+  auto const mirror = [](std::string const& body, std::string const& face) {
+    return "[[mirror]]\nbody = \"" + body + "\"\nface = \"" + face + "\"\n";
+  };
+  EXPECT_EQ(two("jst_sph", "jst_sph", mirror("a", "-x") + mirror("b", "-x")), "");
+  EXPECT_EQ(two("jst_sph", "jst_sph", mirror("a", "-y")), "") << "the other one stays on its side";
+  EXPECT_EQ(two("jst_sph", "jst_sph", mirror("a", "-x")),
+            "case.toml:16:8: the mirror plane of body \"a\", x = 0 m, touches body \"b\", which is no mirror there "
+            "(allowed: bodies that meet have the same mirror planes, or stay off them) - give both the mirror, or "
+            "neither");
+  EXPECT_NE(two("jst_sph", "jst_sph", mirror("b", "-y")).find("cuts through body \"a\""), std::string::npos);
+  EXPECT_NE(
+      two("jst_sph", "jst_sph",
+          mirror("a", "-x") + mirror("b", "-x") +
+              "[[rigid]]\nname = \"stone\"\nmotion = \"free\"\nmass = 1\nsphere = { centre = [0.5, 50], radius = 1 "
+              "}\n")
+          .find("the free rigid shape \"stone\" meets body \"a\", which has mirror planes"),
+      std::string::npos);
+}
+
+TEST(ContactMessages, ABarCannotTouchItself) {
+  auto const bar = [](std::string const& more) {
+    return message_of(
+        "title = \"T\"\n[run]\nend = 1\n[[body]]\nname = \"bar\"\nshape = { box = { min = [0], max = [1] }, spacing = "
+        "0.1 }\nmaterial = { law = \"neo_hookean\", density = 1, youngs_modulus = 1, poissons_ratio = 0.3 }\n"
+        "formulation = { name = \"jst_sph\" }\n[[rigid]]\nname = \"wall\"\nplane = { point = [-1], normal = [1] }\n" +
+        more);
+  };
+  EXPECT_EQ(bar("[contact]\nscale = 2\n"), "");
+  EXPECT_EQ(bar("[contact]\nself = true\n"),
+            "case.toml:13:8: contact.self is true in 1D (allowed: 2D, 3D) - remove it: a bar cannot touch itself");
 }
 
 TEST(ContactMessages, FrictionIsANumberThatIsNotNegative) {
@@ -169,7 +211,7 @@ TEST(ContactMessages, TheLawOfSurfacesNeedsSurfaces) {
   EXPECT_EQ(
       message_of(test::replaced(text, "total_lagrangian", "adaptive") + law),
       "case.toml:24:7: contact.law is \"surface\", but body \"column\" keeps none (allowed: bodies of adaptle with "
-      "description = \"total_lagrangian\", in 2D and 3D) - choose another law or description");
+      "description = \"total_lagrangian\", without failed = \"delete\") - choose another law or description");
 }
 
 TEST(ContactMessages, RigidShapesAreOfOneKind) {

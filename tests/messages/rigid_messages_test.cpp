@@ -93,11 +93,12 @@ TEST(RigidMessages, OtherShapesAreFixedOrDriven) {
 
 TEST(RigidMessages, FreeShapesNeedSurfacesAndPartners) {
   std::string const stone = std::string("[[rigid]]\nname = \"stone\"\nmotion = \"free\"\nmass = 1\n") + ball;
-  std::string text = sample_with("neo_hookean", "linear_elastic");
-  text = replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", "name = \"taylor_sph\"");
+  std::string text = sample_with("neo_hookean", "elastic");
+  text = replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", "name = \"adaptle\"");
   std::string const surfaces =
-      "(allowed: bodies with a surface: nodal, jst_sph, or adaptle with description = \"total_lagrangian\", in 2D or "
-      "3D, without mirrors, with a contact.law) - change the body, or let the shape be fixed or driven without turning";
+      "(allowed: bodies with a surface: nodal, jst_sph, taylor_sph, or adaptle with description = "
+      "\"total_lagrangian\", without skew mirrors, with a contact.law) - change the body, or let the shape be fixed or "
+      "driven without turning";
   EXPECT_NE(message_of(text + stone)
                 .find("nothing keeps the free rigid shape \"stone\" apart from body \"column\" " + surfaces),
             std::string::npos);

@@ -22,109 +22,20 @@ double with_frequency(double step, double omega2) {
 
 constexpr std::array<std::string_view, 4> offered_by_contact{"ContactPressure", "ContactGap", "Slip", "FrictionHeat"};
 
-std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
-  std::vector<contact::RigidSurface> all;
-  for (RigidShape const& shape : whole.rigid_shapes)
-    all.push_back(contact::surface_of(shape, whole.particles.dimension));
-  return all;
-}
-
-/// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own and are not tied,
-/// and such a body and a rigid shape that does not turn; what is said of a pair goes before what is said of all.
-contact::System::Setting touches_of(Assembly const& whole) {
-  auto const own = [&](std::size_t b) {
-    auto const info = find_formulation(whole.formulations[b].name);
-    return info && info->contact && whole.contact.law != ContactRule::Law::surface;
-  };
-  auto const& bodies = whole.particles.bodies;
-  std::size_t const n = bodies.size(), all = n + whole.rigid_shapes.size();
-  contact::System::Setting touches(n, std::vector<contact::System::Touch>(all));
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < all; ++b) {
-      bool const rigid = b >= n;
-      std::string const& name = rigid ? whole.rigid_shapes[b - n].name : bodies[b].name;
-      ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, name);
-      bool const surfaces = !whole.surfaces[a].points.empty() && (rigid || !whole.surfaces[b].points.empty());
-      // By the contact of their own formulation.
-      bool const apart =
-          own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b) && !contact::is_tied(whole.ties, a, b));
-      bool const others = a == b ? pair != nullptr || whole.contact.self : !apart;
-      bool const off = whole.contact.law == ContactRule::Law::none || (pair != nullptr && pair->off);
-      touches[a][b] = {surfaces && others && !off, 0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
-                       pair != nullptr ? pair->friction : whole.contact.friction};
-    }
-  return touches;
-}
-
-contact::System system_of(Assembly const& whole) {
-  return {whole.particles, whole.surfaces, rigid_surfaces(whole), touches_of(whole)};
-}
-
-/// The layer between rigid shapes is that of the stiffest body that has a surface.
-contact::RigidMotion motion_of(Assembly const& whole) {
-  contact::RigidPairs::Setting between{0, 0, whole.contact.friction};
-  for (contact::Surface const& surface : whole.surfaces) {
-    if (surface.points.empty()) continue;
-    double const k = contact::layer_stiffness(1, 0.5 * whole.contact.scale, surface.modulus, surface.spacing);
-    if (k > between.stiffness) between = {k, surface.spacing, whole.contact.friction};
-  }
-  return {whole.rigid_shapes, whole.particles.dimension, between};
-}
-
 }  // namespace
 
-Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
-    : dimension_(whole.particles.dimension),
-      shapes_(whole.rigid_shapes),
-      supports_(whole.supports),
-      system_(system_of(whole)),
-      motion_(motion_of(whole)),
-      held_(system_.ids().size()),
-      actions_(whole.supports, whole.loads, whole.rigid_shapes),
-      ties_(whole, system_) {
-  for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
-  motion_.place(system_.rigids());
-  auto const& ids = system_.ids();
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    Share share{.part = p, .at = {}, .local = {}};
-    for (std::size_t k = 0; k < ids.size(); ++k)
-      if (auto const local = parts[p].id_in_part(ids[k])) {
-        share.at.push_back(static_cast<Index>(k));
-        share.local.push_back(*local);
-      }
-    shares_.push_back(std::move(share));
-  }
-  find_held();
-  mass_.resize(ids.size());
-  x_.resize(ids.size());
-  v_.resize(ids.size());
-  std::size_t const n = names_.size();
-  pair_impulses_.resize(n * n);
-}
-
-/// The directions that supports hold of particles on surfaces. Those that hold the surface itself are the formulation's
-/// business, which gives back what moves it.
-void Meeting::find_held() {
-  auto const& ids = system_.ids();
-  for (std::size_t s = 0; s < supports_.size(); ++s) {
-    if (supports_[s].on_surface()) continue;
-    for (auto const id : supports_[s].particles) {
-      auto const found = std::lower_bound(ids.begin(), ids.end(), id);
-      if (found == ids.end() || *found != id) continue;
-      auto& here = held_[static_cast<std::size_t>(found - ids.begin())];
-      std::vector<Direction> known;
-      for (Held const& held : here) known.push_back(held.direction);
-      for (Direction d : directions_of(supports_[s], dimension_)) {
-        if (!make_orthogonal(d, known)) continue;
-        known.push_back(d);
-        here.push_back({s, d, supports_[s].until});
-      }
-    }
+void Meeting::read_masses(Formulations const& formulations) {
+  std::vector<double> m;
+  for (Share const& share : shares_) {
+    m.resize(share.local.size());
+    formulations[share.part]->read_masses(share.local, m);
+    for (std::size_t k = 0; k < share.at.size(); ++k) mass_[static_cast<std::size_t>(share.at[k])] = m[k];
   }
 }
 
 void Meeting::read_state(Formulations const& formulations) {
   std::vector<Point> x, v;
+  if (colours_.any()) read_masses(formulations);  // what was deleted has none
   for (Share const& share : shares_) {
     x.resize(share.local.size());
     v.resize(share.local.size());
@@ -134,17 +45,46 @@ void Meeting::read_state(Formulations const& formulations) {
       v_[static_cast<std::size_t>(share.at[k])] = vector_of(v[k]);
     }
   }
+  place_images();
+}
+
+void Meeting::place_images() {
+  for (Image const& image : images_) {
+    auto const at = static_cast<std::size_t>(image.at), source = static_cast<std::size_t>(image.source);
+    for (int c = 0; c < 3; ++c) {
+      double const sign = image.sign[static_cast<std::size_t>(c)];
+      x_[at][c] = sign * x_[source][c] + image.shift[static_cast<std::size_t>(c)];
+      v_[at][c] = sign * v_[source][c];
+    }
+    mass_[at] = mass_[source];
+  }
+}
+
+/// Forces on images are forces on what they are images of: the energy is one of the particles of the run.
+void Meeting::fold_images() {
+  if (images_.empty()) return;
+  std::vector<Index> real;
+  auto image = images_.begin();
+  for (Index const k : pushed_) {
+    while (image != images_.end() && image->at < k) ++image;
+    if (image == images_.end() || image->at != k) {
+      real.push_back(k);
+      continue;
+    }
+    Vec<3>&from = forces_[static_cast<std::size_t>(k)], &to = forces_[static_cast<std::size_t>(image->source)];
+    for (int c = 0; c < 3; ++c) to[c] += image->sign[static_cast<std::size_t>(c)] * from[c];
+    from = {};
+    real.push_back(image->source);
+  }
+  std::sort(real.begin(), real.end());
+  real.erase(std::unique(real.begin(), real.end()), real.end());
+  pushed_ = std::move(real);
 }
 
 void Meeting::look(Formulations const& formulations) {
-  std::vector<double> m;
-  for (Share const& share : shares_) {
-    m.resize(share.local.size());
-    formulations[share.part]->read_masses(share.local, m);
-    for (std::size_t k = 0; k < share.at.size(); ++k) mass_[static_cast<std::size_t>(share.at[k])] = m[k];
-  }
-  system_.set_masses(mass_);
+  read_masses(formulations);
   read_state(formulations);
+  system_.set_masses({mass_.begin(), mass_.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
   ties_.look(system_, x_, mass_);
   if (loaded_.empty()) {
     system_.start(x_);
@@ -152,6 +92,7 @@ void Meeting::look(Formulations const& formulations) {
   } else {
     system_.restore(x_, std::exchange(loaded_, {}));
   }
+  colours_.evaluate(x_, mass_);
   sum_forces();
   closing_ = closing_step();
 }
@@ -166,6 +107,14 @@ void Meeting::sum_forces() {
   for (Index const k : system_.pushed())
     forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
   ties_.add_forces(forces_);
+  fold_images();
+  std::vector<Index> const surfaces = std::exchange(pushed_, {});
+  std::set_union(surfaces.begin(), surfaces.end(), colours_.pushed().begin(), colours_.pushed().end(),
+                 std::back_inserter(pushed_));
+  for (Index const k : colours_.pushed()) {
+    auto const i = static_cast<std::size_t>(k);
+    forces_[i] = forces_[i] + colours_.forces()[i];
+  }
 }
 
 /// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
@@ -188,6 +137,7 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
         Vec<3> const d = vector_of(held.direction);
         Vec<3> const kept = dot(impulse, d) * d;
         impulse = impulse - kept;
+        if (held.support == plane) continue;
         kept_work += dot(kept, v_[i]);
         kept_by[held.support].add(array_of(x_[i]), array_of(-1.0 * kept));
       }
@@ -222,11 +172,17 @@ void Meeting::book(double half) {
       sum.force = sum.force + half * between.force;
       sum.moment = sum.moment + half * between.moment;
     }
+  for (std::size_t p = 0; p < colours_.pairs().size(); ++p) {
+    auto const& pair = colours_.pairs()[p];
+    auto& sum = pair_impulses_[pair.a * names_.size() + pair.b];
+    sum.force = sum.force + half * colours_.on_first(p).force;
+    sum.moment = sum.moment + half * colours_.on_first(p).moment;
+  }
   ties_.book(half);
 }
 
 double Meeting::closing_step() const {
-  return std::min(system_.closing_step(v_), motion_.closing_step(system_.rigids()));
+  return std::min({system_.closing_step(v_), motion_.closing_step(system_.rigids()), colours_.closing_step(x_, v_)});
 }
 
 void Meeting::begin(Formulations const& formulations, double time, double dt) {
@@ -245,6 +201,7 @@ void Meeting::finish(Formulations const& formulations, double time, double dt) {
   system_.evaluate(x_, dt);
   ties_.hand_over(system_);
   motion_.evaluate(system_, dt);
+  colours_.evaluate(x_, mass_);
   sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
   push(formulations, time, 0.5 * dt);
@@ -252,7 +209,8 @@ void Meeting::finish(Formulations const& formulations, double time, double dt) {
 }
 
 double Meeting::limit(double step) const {
-  double const omega2 = std::max(system_.totals().frequency2, motion_.frequency2()) + ties_.frequency2();
+  double const omega2 =
+      std::max(system_.totals().frequency2, motion_.frequency2()) + ties_.frequency2() + colours_.totals().frequency2;
   return std::min(with_frequency(step, omega2), closing_);
 }
 
@@ -263,7 +221,9 @@ std::vector<Action> Meeting::pairs() const {
   double const scale = last_dt_ > 0 ? 1 / last_dt_ : 0;
   for (std::size_t a = 0; a < names_.size(); ++a)
     for (std::size_t b = a + 1; b < names_.size(); ++b) {
-      if (!system_.meets(a, b)) continue;
+      bool const coloured = std::any_of(colours_.pairs().begin(), colours_.pairs().end(),
+                                        [&](auto const& pair) { return pair.a == a && pair.b == b; });
+      if (!system_.meets(a, b) && !coloured) continue;
       auto const& sum = pair_impulses_[a * names_.size() + b];
       all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
     }
@@ -274,7 +234,7 @@ std::vector<Action> Meeting::pairs() const {
 void Meeting::report(Diagnostics& sum) const {
   contact::Totals now = system_.totals();
   contact::RigidPairs::Totals const& between = motion_.between_shapes();
-  now.energy += between.energy;
+  now.energy += between.energy + colours_.totals().energy;
   now.spring_energy += between.spring_energy;
   double const stored = now.energy + now.spring_energy + ties_.energy(), moving = motion_.kinetic_energy();
   sum.strain_energy += stored;
@@ -295,9 +255,9 @@ void Meeting::report(Diagnostics& sum) const {
   };
   column("contact_energy") += now.energy;
   double& overlap = column("contact_overlap");
-  overlap = std::max({overlap, now.deepest, between.deepest});
+  overlap = std::max({overlap, now.deepest, between.deepest, colours_.totals().deepest});
   column("friction_heat") = friction_work_ - now.spring_energy;
-  column("contact_points") = static_cast<double>(now.touched) + between.touched;
+  column("contact_points") = static_cast<double>(now.touched) + between.touched + colours_.totals().touched;
   ties_.report(sum);
 }
 
@@ -307,8 +267,11 @@ bool Meeting::sample(std::string_view field, std::span<double> values) const {
   if (std::find(offered_by_contact.begin(), offered_by_contact.end(), field) == offered_by_contact.end()) return false;
   ObservedField const& observed = find_observed(field, offered_by_contact);
   for (auto const& at : system_.at_particles()) {
+    auto const place = std::lower_bound(system_.ids().begin(), system_.ids().end(), at.id) - system_.ids().begin();
+    auto const id = run_ids_[static_cast<std::size_t>(place)];
+    if (id < 0) continue;
     ObservedParticle p;
-    p.id = static_cast<double>(at.id);
+    p.id = static_cast<double>(id);
     p.contact_pressure = at.pressure;
     p.contact_gap = at.gap;
     p.slip = at.slid;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/continued.hpp"
 #include "piola/formulations/ensemble.hpp"
 #include "piola/formulations/meeting_ties.hpp"
 #include "piola/formulations/observed.hpp"
 #include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/contact/colour_contact.hpp"
 #include "piola/mechanics/contact/rigid_motion.hpp"
 #include "piola/mechanics/contact/system.hpp"
 #include <memory>
@@ -48,26 +50,41 @@ class Meeting {
   bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
-  std::size_t bytes() const { return system_.bytes() + ties_.bytes(); }
+  std::size_t bytes() const { return system_.bytes() + ties_.bytes() + colours_.bytes(); }
 
  private:
-  /// A direction of a particle that a support holds.
+  Meeting(Assembly const& whole, Continued const& continued, std::vector<EnsemblePart> const& parts);
+
+  /// A direction of a particle that a support holds, or a mirror plane, which tells nobody.
   struct Held {
-    std::size_t support;
+    std::size_t support;  ///< `plane`: none
     std::array<double, 3> direction;
     double until;  ///< [s]
   };
   struct Share {
     std::size_t part;
-    std::vector<Index> at;            ///< indices into System::ids()
+    std::vector<Index> at;            ///< indices into run_ids_
     std::vector<std::int64_t> local;  ///< ids in the part
   };
 
+  static constexpr std::size_t plane = static_cast<std::size_t>(-1);
+  /// An index into System::ids() behind a mirror plane: x' = sign x + shift of another one.
+  struct Image {
+    Index at, source;
+    std::array<double, 3> sign, shift;
+  };
+
+  void find_particles(Continued const& continued);
+  void find_coloured(Assembly const& whole);
+  void find_shares(std::vector<EnsemblePart> const& parts);
+  void place_images();
+  void fold_images();
+  void read_masses(Formulations const& formulations);
   void read_state(Formulations const& formulations);
   void push(Formulations const& formulations, double time, double half);
   void book(double half);
   double closing_step() const;
-  void find_held();
+  void find_held(Continued const& continued);
   void sum_forces();
 
   int dimension_;
@@ -77,12 +94,17 @@ class Meeting {
   contact::System system_;
   contact::RigidMotion motion_;
   std::vector<Share> shares_;
-  std::vector<std::vector<Held>> held_;  ///< by index into System::ids()
+  /// Of the run, by index: those of System::ids(), -1 where they are images, then particles of bodies that meet by
+  /// colour alone.
+  std::vector<std::int64_t> run_ids_;
+  std::vector<Image> images_;            ///< by `at`
+  std::vector<std::vector<Held>> held_;  ///< by index into run_ids_
   std::vector<double> mass_;
   std::vector<Vec<3>> x_, v_;
   Actions actions_;
   MeetingTies ties_;
-  std::vector<Vec<3>> forces_;  ///< of contact and ties, by index into System::ids() [N]
+  contact::ColourContact colours_;
+  std::vector<Vec<3>> forces_;  ///< of contact and ties, by index into run_ids_ [N]
   std::vector<Index> pushed_;   ///< that have one, ascending
   std::vector<contact::System::Between> pair_impulses_;
   std::vector<double> loaded_;  ///< of a checkpoint, until the state of the bodies is read

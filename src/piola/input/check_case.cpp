@@ -163,6 +163,7 @@ void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems&
   check_rigid(spec, particles, problems);
   check_free_rigids(spec, particles.dimension, problems);
   check_overlap(spec, particles, problems);
+  check_mirrored_contact(spec, particles, problems);
   check_ties(spec, particles, problems);
   check_abilities(spec, problems);
   for (ProbeSpec const& probe : spec.probes) {

@@ -8,7 +8,7 @@ namespace piola {
 namespace {
 
 constexpr std::string_view who_has_one =
-    " (allowed: nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D, without mirrors)";
+    " (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without skew mirrors)";
 
 /// Of a case in which no body can be pushed: by its formulation, or as it is there.
 std::string no_surface(CaseSpec const& spec, FormulationInfo const& first, std::string const& what) {
@@ -55,12 +55,14 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
   }
   if (bodies.size() + static_cast<std::size_t>(rigids) < 2) return;
   if (bodies.empty()) problems.add(place, "contact.between names two rigid shapes (allowed: one) - name a body");
+  bool const coloured =
+      bodies.size() == 2 && (pair.off || pushed_by_colour(spec, bodies[0], bodies[1])) && !pair.friction.any();
   for (std::size_t const body : bodies)
-    if (!has_surface(spec, body))
+    if (!has_surface(spec, body) && !coloured)
       problems.add(place, "contact.between: body " + in_quotes(spec.bodies[body].name) +
-                              " has no surface by which others could push it (allowed: nodal, jst_sph and "
-                              "total-Lagrangian adaptle in 2D and "
-                              "3D, without mirrors) - change its formulation, or remove the table");
+                              " has no surface by which others could push it, " + why_without_surface(spec, body) +
+                              std::string(who_has_one) + " - change the body, or remove " +
+                              (pair.friction.any() ? "friction" : "the table"));
   bool const own = std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return knows_contact(spec, b); });
   bool const self = bodies.size() == 2 && bodies[0] == bodies[1];
   if (own && !bodies.empty() && !self)
@@ -69,20 +71,81 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
                  "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
 }
 
+/// What is asked for of all bodies, of one that has no surface for it.
+void refuse_setting(CaseSpec const& spec, char const* key, std::size_t b, Problems& problems) {
+  problems.add(place_of(spec.contact->places, key), std::string("contact.") + key + " has nothing to act on: body " +
+                                                        in_quotes(spec.bodies[b].name) + " has no surface, " +
+                                                        why_without_surface(spec, b) + std::string(who_has_one) +
+                                                        " - remove it, or change the body");
+}
+
+/// The same where surfaces of others meet. A pair without friction of its own may be said to slide freely.
+void check_some_surfaces(CaseSpec const& spec, Problems& problems) {
+  if (spec.contact->self && spec.bodies.front().shape.dimension == 1)
+    problems.add(place_of(spec.contact->places, "self"),
+                 "contact.self is true in 1D (allowed: 2D, 3D) - remove it: a bar cannot touch itself");
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (has_surface(spec, b)) continue;
+    bool rubs = false;
+    for (std::size_t a = 0; a < spec.bodies.size() && spec.contact->friction.any(); ++a)
+      rubs = rubs || (pushed_by_colour(spec, a, b) &&
+                      find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name) == nullptr);
+    if (rubs) refuse_setting(spec, "friction", b, problems);
+    if (spec.contact->self) refuse_setting(spec, "self", b, problems);
+  }
+}
+
 /// Friction, or contact of bodies with themselves, that is asked for where bodies meet by no surface.
 void check_surface_settings(CaseSpec const& spec, Problems& problems) {
-  if (!spec.contact || spec.contact->law == ContactRule::Law::none || surfaces_meet(spec)) return;
+  if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
+  if (surfaces_meet(spec)) return check_some_surfaces(spec, problems);
   bool const rubs = spec.contact->friction.kinetic > 0 && (spec.bodies.size() > 1 || !spec.rigids.empty());
   if (!rubs && !spec.contact->self) return;
   char const* const key = rubs ? "friction" : "self";
   bool able = false;  // else told already
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) able = able || meets_rigids(spec, b);
   for (std::size_t b = 0; able && b < spec.bodies.size(); ++b)
-    if (!has_surface(spec, b))
-      problems.add(place_of(spec.contact->places, key),
-                   std::string("contact.") + key + " has nothing to act on: body " + in_quotes(spec.bodies[b].name) +
-                       " has no surface, " + why_without_surface(spec, b) + std::string(who_has_one) +
-                       " - remove it, or change the body");
+    if (!has_surface(spec, b)) refuse_setting(spec, key, b, problems);
+}
+
+bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b) {
+  ContactPairSpec const* const pair = find_pair(spec.contact_pairs, a, b);
+  return pair != nullptr && pair->off;
+}
+
+/// Bodies that nothing keeps apart from other bodies or rigid shapes.
+void check_strangers(CaseSpec const& spec, Problems& problems) {
+  if (spec.contact && spec.contact->law == ContactRule::Law::none) return;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    std::vector<std::string> through;
+    std::string const& name = spec.bodies[b].name;
+    for (std::size_t a = 0; a < spec.bodies.size(); ++a)
+      if (a != b && !kept_apart(spec, a, b) && !is_off(spec, name, spec.bodies[a].name))
+        through.push_back(in_quotes(spec.bodies[a].name));
+    for (RigidSpec const& rigid : spec.rigids)
+      if (!rigid.turns() && spec.bodies.size() > 1 && !meets_rigids(spec, b) && !is_off(spec, name, rigid.name))
+        through.push_back("the rigid shape " + in_quotes(rigid.name));
+    // Of two bodies the one that cannot be pushed is told of.
+    if (through.empty() || has_surface(spec, b)) continue;
+    problems.add(
+        place_of(spec.bodies[b].places, "formulation"),
+        "body " + in_quotes(name) + ": nothing keeps it apart from " + joined(through) + " (" +
+            why_without_surface(spec, b) + "), so that they would pass through one another" + std::string(who_has_one) +
+            " - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] between them, if they "
+            "are not to meet");
+  }
+}
+
+/// Faces of cracks are no surfaces.
+void check_cracked(CaseSpec const& spec, Problems& problems) {
+  for (CrackSpec const& crack : spec.cracks) {
+    ContactPairSpec const* const pair = find_pair(spec.contact_pairs, crack.body, crack.body);
+    if (pair != nullptr ? pair->off : !(spec.contact && spec.contact->self)) continue;
+    problems.add(place_of(crack.places, ""),
+                 "body " + in_quotes(crack.body) +
+                     " is to touch itself, but faces of cracks are no surfaces (allowed: one of the two) - remove the "
+                     "crack, or contact of the body with itself");
+  }
 }
 
 /// Whoever may turn Eulerian loses its surface.
@@ -94,8 +157,8 @@ void check_surface_law(CaseSpec const& spec, Problems& problems) {
       problems.add(
           place_of(spec.contact->places, "law"),
           "contact.law is \"surface\", but body " + in_quotes(spec.bodies[b].name) +
-              " keeps none (allowed: bodies of adaptle with description = \"total_lagrangian\", in 2D and 3D) - "
-              "choose another law or description");
+              " keeps none (allowed: bodies of adaptle with description = \"total_lagrangian\", without failed = "
+              "\"delete\") - choose another law or description");
   }
 }
 
@@ -117,6 +180,8 @@ void check_contact(CaseSpec const& spec, Problems& problems) {
   check_contact_pairs(spec, problems);
   check_surface_law(spec, problems);
   check_surface_settings(spec, problems);
+  check_strangers(spec, problems);
+  check_cracked(spec, problems);
 }
 
 }  // namespace piola

@@ -21,9 +21,14 @@ void check_bodies(CaseSpec const& spec, RigidSpec const& rigid, Problems& proble
     problems.add(place_of(rigid.places, "motion"),
                  "nothing keeps " + shape_words(rigid) + " apart from " + (without.size() > 1 ? "bodies " : "body ") +
                      joined(without) +
-                     " (allowed: bodies with a surface: nodal, jst_sph, or adaptle with description = "
-                     "\"total_lagrangian\", in 2D or 3D, without mirrors, with a contact.law) - change the body, or "
+                     " (allowed: bodies with a surface: nodal, jst_sph, taylor_sph, or adaptle with description = "
+                     "\"total_lagrangian\", without skew mirrors, with a contact.law) - change the body, or "
                      "let the shape be fixed or driven without turning");
+  if (!spec.mirrors.empty())
+    problems.add(place_of(rigid.places, "motion"),
+                 shape_words(rigid) + " meets body " + in_quotes(spec.mirrors.front().body) +
+                     ", which has mirror planes (allowed: rigid shapes that are fixed or driven without turning: what "
+                     "is behind the planes would push it, too) - model the whole, or change the motion");
   auto const named = std::find_if(spec.bodies.begin(), spec.bodies.end(),
                                   [&](BodySpec const& body) { return body.name == rigid.name; });
   if (named != spec.bodies.end())

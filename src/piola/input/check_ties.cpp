@@ -33,11 +33,11 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
   if (can_have_surface(spec, body)) return "";
-  if (b.shape.dimension < 2) return "it is in 1D";
   if (!info || !info->pushable) return "the formulation " + b.formulation.name + " cannot be pushed";
+  if (info->name == "taylor_sph" || b.shape.kind == ShapeSpec::Kind::points) return why_without_surface(spec, body);
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
-                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name; });
-  return mirrored ? "it has mirror planes" : "its particles may turn Eulerian";
+                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });
+  return mirrored ? "it has skew mirror planes" : "its particles may turn Eulerian";
 }
 
 /// Whether the bodies of all ties have surfaces.
@@ -48,11 +48,11 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
       std::string const why = why_not(spec, b);
       if (why.empty()) continue;
       sound = false;
-      problems.add(place_of(tie.places, "between"),
-                   "the tie " + in_quotes(tie.name) + " cannot hold body " + in_quotes(spec.bodies[b].name) + ": " +
-                       why +
-                       " (allowed: bodies of nodal, jst_sph and total-Lagrangian adaptle in 2D and 3D without "
-                       "mirrors) - choose another body or formulation");
+      problems.add(
+          place_of(tie.places, "between"),
+          "the tie " + in_quotes(tie.name) + " cannot hold body " + in_quotes(spec.bodies[b].name) + ": " + why +
+              " (allowed: bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without skew mirrors) - "
+              "choose another body or formulation");
     }
   return sound;
 }

@@ -17,8 +17,8 @@ bool knows_contact(CaseSpec const& spec, std::size_t body);
 /// Whether any body's formulation has.
 bool knows_contact(CaseSpec const& spec);
 
-/// Whether a body has a surface by which others and rigid shapes can push it: a body in 2D or 3D without mirrors whose
-/// formulation can be pushed, and which stays total-Lagrangian.
+/// Whether a body has a surface by which others and rigid shapes can push it: a body without skew mirrors whose
+/// formulation can be pushed, and which does not turn Eulerian.
 bool has_surface(CaseSpec const& spec, std::size_t body);
 
 /// The same, whether or not contact is switched off: ties need it, too.
@@ -32,12 +32,18 @@ bool is_tied(CaseSpec const& spec, std::size_t body);
 /// Whether the contact of their formulation keeps two bodies apart: not if they are tied.
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether something keeps two bodies apart: the contact of their formulation, or their surfaces.
+/// Whether something keeps two bodies apart: the contact of their formulation, their surfaces or colours.
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b);
 
 /// Whether two bodies push each other by their surfaces: not if their formulation keeps them apart itself. Of a body
 /// and itself: whether its surface does.
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b);
+
+/// Whether two bodies, at least one of them without a surface, push each other by their colour: not at mirror planes.
+bool pushed_by_colour(CaseSpec const& spec, std::size_t a, std::size_t b);
+
+/// Whether something pushes bodies between steps: contact other than that of their formulation, or ties.
+bool bodies_are_pushed(CaseSpec const& spec);
 
 /// Whether a rigid shape pushes a body by its surface: not if the body's formulation keeps them apart itself, which it
 /// cannot where the shape is free or turns.

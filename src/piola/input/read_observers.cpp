@@ -135,13 +135,13 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
     add_all(rigid.name, action_quantities());
     if (rigid.turns()) add_all(rigid.name, rigid_quantities());
   }
-  if (surfaces_meet(spec) || !spec.ties.empty()) {
+  if (bodies_are_pushed(spec)) {
     for (auto const& [name, unit] :
          {std::pair{"contact_energy", "J"}, {"contact_overlap", "1"}, {"contact_points", "1"}, {"friction_heat", "J"}})
       columns.push_back({name, unit});
     for (std::size_t a = 0; a < spec.bodies.size(); ++a)
       for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
-        if (pushed_by_surface(spec, a, b))
+        if (pushed_by_surface(spec, a, b) || pushed_by_colour(spec, a, b))
           add_all(spec.bodies[a].name + "-" + spec.bodies[b].name, action_quantities());
   }
   if (!spec.ties.empty())

@@ -71,6 +71,8 @@ void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& 
 
 /// Reports bodies that overlap at the start.
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+/// Bodies that meet one with a mirror plane have the same one, or stay off it.
+void check_mirrored_contact(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// Gives the particles of bodies with parts the number of theirs.
 void mark_parts(CaseSpec const& spec, ParticleSet& particles);

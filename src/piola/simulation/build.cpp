@@ -263,7 +263,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());
   a.ties.assign(spec.ties.begin(), spec.ties.end());
-  if (surfaces_meet(spec) || !spec.ties.empty()) a.surfaces = surfaces_of(spec, a);
+  if (bodies_are_pushed(spec)) a.surfaces = surfaces_of(spec, a);
   return a;
 }
 

@@ -20,23 +20,6 @@ Place place_of_doubt(BodySpec const& body, std::string const& key) {
   return place_in_table(body.places, key.substr(0, dot), key.substr(dot + 1));
 }
 
-/// Bodies that nothing keeps apart from other bodies or rigid shapes.
-void warn_of_strangers(CaseSpec const& spec, Problems& found) {
-  if (spec.contact && spec.contact->law == ContactRule::Law::none) return;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    std::vector<std::string> through;
-    for (std::size_t a = 0; a < spec.bodies.size(); ++a)
-      if (a != b && !kept_apart(spec, a, b)) through.push_back(in_quotes(spec.bodies[a].name));
-    if (!spec.rigids.empty() && !meets_rigids(spec, b)) through.emplace_back("rigid shapes");
-    // Of two bodies the one without a surface is told of.
-    if (through.empty() || (has_surface(spec, b) && spec.bodies.size() > 1)) continue;
-    found.add(place_of(spec.bodies[b].places, "formulation"),
-              fmt::format("body {}: nothing keeps it apart from {} ({}), so that they pass through one another if they "
-                          "meet - take nodal, jst_sph or adaptle without mirrors for bodies that can meet",
-                          in_quotes(spec.bodies[b].name), joined(through), why_without_surface(spec, b)));
-  }
-}
-
 bool is_given(Places const& places, char const* key) {
   Place const place = place_of(places, key), section = place_of(places, "");
   return place.line != section.line || place.column != section.column || place.file != section.file;
@@ -88,7 +71,7 @@ void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
   if (!surfaces_meet(spec) && is_given(places, "self"))
     found.add(place_of(places, "self"),
               "contact.self has no effect here (no body has a surface that could touch itself) - remove it, or take "
-              "nodal or jst_sph without mirrors");
+              "nodal or jst_sph");
   if (!surfaces_meet(spec) && is_given(places, "friction"))
     found.add(
         place_of(places, "friction"),
@@ -172,7 +155,6 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   find_slips(spec, body_facts(spec, assembly.particles), prospect.step, found);
   for (Doubt const& doubt : doubts(assembly)) found.add(place_of_doubt(spec.bodies[doubt.body], doubt.key), doubt.text);
   warn_of_thin_parts(spec, found);
-  warn_of_strangers(spec, found);
   warn_of_idle_contact(spec, found);
   warn_of_chatter(spec, found);
   warn_of_other_contact(spec, found);

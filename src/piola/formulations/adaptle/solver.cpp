@@ -76,7 +76,9 @@ class Solver final : public Formulation {
     }
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.system().reference[ids[k]].mass;
+    System const& system = particles_.system();  // what is deleted flies on and touches nobody
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      m[k] = system.state[ids[k]].alive > 0 ? system.reference[ids[k]].mass : 0;
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k)

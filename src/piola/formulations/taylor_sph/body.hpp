@@ -53,6 +53,9 @@ class TaylorBody {
   void step(double time, double dt);
   /// Multiplies the velocities that nothing prescribes, and notes the energy.
   void damp(double factor);
+  /// Adds to the velocity of a particle [m/s]; pushed() after the last of several.
+  void push(Index i, std::array<double, 3> const& change);
+  void pushed() { power_ = boundary_power(); }
   double kinetic_energy() const;                         ///< [J]
   double damping_loss() const { return damping_loss_; }  ///< [J]
   double stable_time_step() const;                       ///< cfl * spacing / c in the current configuration [s]
@@ -64,6 +67,8 @@ class TaylorBody {
   std::array<double, 3> x(Index i) const;
   std::array<double, 3> v(Index i) const;
   std::array<double, 3> displacement(Index i) const;
+  /// Where a particle is now; x() stays where it was in the configuration of the start [m].
+  std::array<double, 3> place(Index i) const;
   SymMat<3> stress(Index i) const;     ///< Cauchy stress [Pa]
   double volume_ratio(Index i) const;  ///< rho0 / rho
   double mass(Index i) const { return mass_[at(i)]; }

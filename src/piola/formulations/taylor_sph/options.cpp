@@ -89,6 +89,7 @@ FormulationInfo info() {
       diagnostics};
   info.cracks = true;
   info.mirrors = false;
+  info.pushable = true;
   info.scattered = false;  // its hourglass control needs boxes of a lattice
   return info;
 }

@@ -33,7 +33,7 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
-/// Taylor-SPH of one or more bodies that do not touch each other.
+/// Taylor-SPH of one or more bodies, which do not know of each other.
 class Solver final : public Formulation {
  public:
   explicit Solver(Assembly const& assembly)
@@ -72,6 +72,20 @@ class Solver final : public Formulation {
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
+  }
+  void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
+                   std::span<std::array<double, 3>> v) const override {
+    visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) {
+      x[k] = body.place(i);
+      v[k] = body.v(i);
+    });
+  }
+  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
+    visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) { m[k] = body.mass(i); });
+  }
+  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    visit(ids, [&](std::size_t k, TaylorBody& body, Index i) { body.push(i, change[k]); });
+    for (auto const& body : bodies_) body->pushed();
   }
   double kinetic_energy() const override {
     return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
@@ -122,6 +136,15 @@ class Solver final : public Formulation {
   }
 
  private:
+  /// f(k, body, its particle) for each ids[k].
+  template <class F>
+  void visit(std::span<std::int64_t const> ids, F const& f) const {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      auto const body = static_cast<std::size_t>(set_.body[static_cast<std::size_t>(ids[k])]);
+      f(k, *bodies_[body], static_cast<Index>(ids[k] - set_.bodies[body].first));
+    }
+  }
+
   std::int64_t particles_;
   int D_;
   ParticleSet set_;

@@ -83,7 +83,7 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   for (std::size_t k = 0; k < own.points.size(); ++k) {
     SurfacePoint const& point = own.points[k];
     Vec<3> const Y = vector_of(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
-    if (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0) continue;
+    if (point.image || (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0)) continue;
     Plane const& plane = at.planes[a][k];
     auto shares = at.weights(plane, b, grid, pair.reach);
     std::vector<double> weights(shares.size());

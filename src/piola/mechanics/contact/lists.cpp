@@ -50,7 +50,9 @@ bool System::may_touch(Index target, Index source) const {
 /// Sources of body b for every point that may be near it.
 void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high) {
   Box const box{low, high};
-  auto const reach = [&](Point const& p) { return meets(p.body, b) ? rules_[p.body][b].reach + skin_ : -1.0; };
+  auto const reach = [&](Point const& p) {
+    return meets(p.body, b) && !p.image ? rules_[p.body][b].reach + skin_ : -1.0;
+  };
   double largest = 0;
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (double const r = reach(points_[k]); r > 0 && box.holds(planes_[k].y, r)) largest = std::max(largest, r);
@@ -96,7 +98,7 @@ void System::list_points_near_rigids() {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
     bool any = false;
-    for (std::size_t r = 0; r < rigids_.size() && !any; ++r)
+    for (std::size_t r = 0; r < rigids_.size() && !any && !points_[k].image; ++r)
       any = with_rigid(points_[k].body, r).meets && distance_from(rigids_[r], planes_[k].y).value < reach;
     if (any) near_rigid_.push_back(static_cast<Index>(k));
   }

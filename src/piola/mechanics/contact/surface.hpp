@@ -13,6 +13,7 @@ struct SurfacePoint {
   Vec<3> offset;              ///< S: from the particle to the surface [m]
   Vec<3> normal;              ///< N: outward unit normal
   double area = 0;            ///< of the reference surface [m^(Dim-1)]
+  bool image = false;         ///< behind a mirror plane: others feel it, and it feels nobody
 };
 
 /// The surface of one body. Without points the body meets nobody.

@@ -25,7 +25,7 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
     if (!surface.points.empty()) skin_ = std::max(skin_, skin_in_spacings * surface.spacing);
     for (std::size_t k = 0; k < surface.points.size(); ++k) {
       SurfacePoint const& p = surface.points[k];
-      points_.push_back({carriers_.of(b, k), b, p.offset, p.normal, p.area});
+      points_.push_back({carriers_.of(b, k), b, p.offset, p.normal, p.area, p.image});
     }
     rules_.emplace_back();
     for (std::size_t o = 0; o < surfaces_.size(); ++o)

@@ -103,6 +103,7 @@ class System {
     std::size_t body;
     Vec<3> S, N;
     double area;
+    bool image;
   };
   struct Run {
     Index target;      ///< a point

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/colour_contact.hpp"
+#include "piola/exec/exact_sum.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/mechanics/contact/planes.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace piola::contact {
+namespace {
+
+constexpr double support_in_spacings = 2.4, skin_in_spacings = 0.3;
+constexpr double soon = 0.5;         // of the colour of touching faces: from here on a contact limits the step
+constexpr double in_one_step = 0.1;  // of a spacing
+
+std::size_t number(Index k) { return static_cast<std::size_t>(k); }
+double size_of(Vec<3> const& a) { return std::sqrt(dot(a, a)); }
+
+}  // namespace
+
+double ColourKernel::value(double r) const {
+  double const q = r / support, rest = 1 - q;
+  if (!(rest > 0)) return 0;
+  if (dimension == 1) return 1.25 / support * rest * rest * rest * (1 + 3 * q);
+  double const norm = dimension == 2 ? 7 / (std::numbers::pi * support * support)
+                                     : 21 / (2 * std::numbers::pi * support * support * support);
+  return norm * rest * rest * rest * rest * (1 + 4 * q);
+}
+
+double ColourKernel::slope(double r) const {
+  double const q = r / support, rest = 1 - q, square = support * support;
+  if (!(rest > 0)) return 0;
+  if (dimension == 1) return -15 / (support * square) * rest * rest;
+  double const norm = dimension == 2 ? 7 / (std::numbers::pi * square) : 21 / (2 * std::numbers::pi * square * support);
+  return -20 * norm / square * rest * rest * rest;
+}
+
+/// By sums over the layer in which a plane at distance z cuts the kernel: Simpson's rule, 64 intervals each.
+ColourKernel::Colour ColourKernel::of_half_space(double d) const {
+  constexpr int intervals = 64;
+  auto const simpson = [](double from, double to, auto const& f) {
+    double const h = (to - from) / intervals;
+    double sum = f(from) + f(to);
+    for (int k = 1; k < intervals; ++k) sum += (k % 2 == 1 ? 4 : 2) * f(from + k * h);
+    return sum * h / 3;
+  };
+  // The kernel's integral over the plane at z.
+  auto const over_plane = [&](double z) {
+    if (dimension == 1) return value(z);
+    double const widest = std::sqrt(std::max(support * support - z * z, 0.0));
+    return simpson(0, widest, [&](double s) {
+      double const around = dimension == 2 ? 2 : 2 * std::numbers::pi * s;
+      return around * value(std::hypot(s, z));
+    });
+  };
+  return {simpson(d, support, over_plane), over_plane(d)};
+}
+
+ColourContact::ColourContact(int dimension, std::vector<Body> bodies, std::vector<Pair> pairs)
+    : bodies_(std::move(bodies)), pairs_(std::move(pairs)), on_first_(pairs_.size()) {
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    for (auto const& [body, other] : {std::pair{pairs_[p].a, pairs_[p].b}, std::pair{pairs_[p].b, pairs_[p].a}}) {
+      Body const &a = bodies_[body], &b = bodies_[other];
+      PairRule const rule = pair_rule(pairs_[p].factor, a.modulus, a.spacing, b.modulus, b.spacing);
+      Pass pass{p,  body, other, {dimension, support_in_spacings * std::max(a.spacing, b.spacing)}, 0, 0, 0, 0,
+                {}, {},   {}};
+      auto const touching = pass.kernel.of_half_space(0.5 * a.spacing);
+      pass.touching = touching.value;
+      pass.slope = touching.slope;
+      pass.stiffness = rule.stiffness;
+      pass.length = rule.length;
+      skin_ = std::max(skin_, skin_in_spacings * std::max(a.spacing, b.spacing));
+      passes_.push_back(std::move(pass));
+    }
+}
+
+bool ColourContact::lists_hold(std::vector<Vec<3>> const& x, std::vector<double> const& masses) const {
+  if (listed_at_.size() != x.size()) return false;
+  double const most = 0.25 * skin_ * skin_;
+  for (Pass const& pass : passes_)
+    for (Index const k : bodies_[pass.body].at) {
+      Vec<3> const moved = x[number(k)] - listed_at_[number(k)];
+      if (!(dot(moved, moved) < most) || (masses[number(k)] > 0) != (listed_alive_[number(k)] != 0)) return false;
+    }
+  return true;
+}
+
+void ColourContact::make_lists(std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
+  for (Pass& pass : passes_) list(pass, x, masses);
+  listed_at_ = x;
+  listed_alive_.assign(masses.size(), 0);
+  for (std::size_t k = 0; k < masses.size(); ++k) listed_alive_[k] = masses[k] > 0 ? 1 : 0;
+}
+
+/// Only what is near the box around the other body is looked at.
+void ColourContact::list(Pass& pass, std::vector<Vec<3>> const& x, std::vector<double> const& masses) const {
+  double const reach = pass.kernel.support + skin_;
+  std::vector<Index> const &own = bodies_[pass.body].at, &other = bodies_[pass.other].at;
+  Vec<3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
+  std::vector<std::array<double, 3>> places;
+  std::vector<Index> source;  // places in the other body
+  for (std::size_t k = 0; k < other.size(); ++k) {
+    Vec<3> const& y = x[number(other[k])];
+    if (!(masses[number(other[k])] > 0) || !std::isfinite(y[0] + y[1] + y[2])) continue;
+    for (int c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], y[c]);
+      high[c] = std::max(high[c], y[c]);
+    }
+    places.push_back({y[0], y[1], y[2]});
+    source.push_back(static_cast<Index>(k));
+  }
+  pass.target.clear();
+  pass.source.clear();
+  pass.begin.assign(1, 0);
+  if (places.empty()) return;
+  CellGrid const grid(places, reach);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    Vec<3> const& y = x[number(own[k])];
+    bool inside = masses[number(own[k])] > 0;
+    for (int c = 0; c < 3; ++c) inside = inside && y[c] > low[c] - reach && y[c] < high[c] + reach;
+    if (!inside) continue;
+    std::size_t const first = pass.source.size();
+    grid.visit({y[0], y[1], y[2]}, [&](Index j) {
+      Vec<3> const r = y - x[number(other[number(source[number(j)])])];
+      if (dot(r, r) < reach * reach) pass.source.push_back(source[number(j)]);
+    });
+    if (pass.source.size() == first) continue;
+    std::sort(pass.source.begin() + static_cast<std::ptrdiff_t>(first), pass.source.end());
+    pass.target.push_back(static_cast<Index>(k));
+    pass.begin.push_back(pass.source.size());
+  }
+}
+
+ColourContact::Seen ColourContact::look(Pass const& pass, std::size_t target, std::vector<Vec<3>> const& x) const {
+  Body const& other = bodies_[pass.other];
+  Vec<3> const& y = x[number(bodies_[pass.body].at[number(pass.target[target])])];
+  Seen seen;
+  for (std::size_t s = pass.begin[target]; s < pass.begin[target + 1]; ++s) {
+    std::size_t const b = number(pass.source[s]);
+    Vec<3> const r = y - x[number(other.at[b])];
+    double const distance = size_of(r), V = other.volume[b];
+    seen.colour += V * pass.kernel.value(distance);
+    Vec<3> const slope = (V * pass.kernel.slope(distance)) * r;
+    seen.slope = seen.slope + slope;
+    seen.size += size_of(slope);
+  }
+  seen.size += size_of(seen.slope);
+  return seen;
+}
+
+void ColourContact::add(Index k, Vec<3> const& f) {
+  if (is_pushed_[number(k)] == 0) {
+    is_pushed_[number(k)] = 1;
+    pushed_.push_back(k);
+  }
+  forces_[number(k)] = forces_[number(k)] + f;
+}
+
+/// E = A psi(g), g = (C_touching - C) / |C'|.
+void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen, std::vector<Vec<3>> const& x,
+                         exec::ExactSum& energy) {
+  if (!(seen.colour > soon * pass.touching)) return;
+  Body const &own = bodies_[pass.body], &other = bodies_[pass.other];
+  Index const self = own.at[number(pass.target[target])];
+  double const area = own.volume[number(pass.target[target])] / own.spacing;
+  double const gap = (pass.touching - seen.colour) / pass.slope, in_lengths = std::min(gap, 0.0) / pass.length;
+  // Second derivative of the energy by C, times the sizes of the slopes.
+  double const bend = area * pass.stiffness * (1 + 3 * in_lengths * in_lengths) / (pass.slope * pass.slope) * seen.size;
+  stiffness_[number(self)] += bend * size_of(seen.slope);
+  Layer const psi = layer(gap, pass.stiffness, pass.length);
+  double const by_colour = -area * psi.slope / pass.slope;
+  Vec<3> const& y = x[number(self)];
+  for (std::size_t s = pass.begin[target]; s < pass.begin[target + 1]; ++s) {
+    std::size_t const b = number(pass.source[s]);
+    Vec<3> const r = y - x[number(other.at[b])];
+    Vec<3> const slope = (other.volume[b] * pass.kernel.slope(size_of(r))) * r;
+    stiffness_[number(other.at[b])] += bend * size_of(slope);
+    if (gap < 0) add(other.at[b], by_colour * slope);
+  }
+  if (!(gap < 0)) return;
+  Vec<3> const f = (-by_colour) * seen.slope;
+  add(self, f);
+  energy += area * psi.energy;
+  totals_.deepest = std::max(totals_.deepest, -gap / (2 * pass.length));
+  totals_.touched += 1;
+  bool const first = pass.body == pairs_[pass.pair].a;
+  On& on = on_first_[pass.pair];
+  double const sign = first ? 1 : -1;
+  on = {on.force + sign * f, on.moment + sign * cross(y, f)};
+}
+
+void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
+  if (!any()) return;
+  if (forces_.size() != x.size()) {
+    forces_.assign(x.size(), {});
+    stiffness_.assign(x.size(), 0);
+    is_pushed_.assign(x.size(), 0);
+  }
+  for (Index const k : pushed_) {
+    forces_[number(k)] = {};
+    is_pushed_[number(k)] = 0;
+  }
+  pushed_.clear();
+  std::fill(stiffness_.begin(), stiffness_.end(), 0.0);
+  std::fill(on_first_.begin(), on_first_.end(), On{});
+  totals_ = {};
+  if (!lists_hold(x, masses)) make_lists(x, masses);
+  std::vector<Seen> seen;
+  exec::ExactSum energy;
+  for (Pass const& pass : passes_) {
+    seen.resize(pass.target.size());
+    exec_host::for_each_in_set_up(static_cast<Index>(seen.size()),
+                                  [&](Index k) { seen[number(k)] = look(pass, number(k), x); });
+    for (std::size_t k = 0; k < seen.size(); ++k) push(pass, k, seen[k], x, energy);
+  }
+  totals_.energy = energy.value();
+  std::sort(pushed_.begin(), pushed_.end());
+  for (std::size_t k = 0; k < masses.size(); ++k)
+    if (stiffness_[k] > 0 && masses[k] > 0)
+      totals_.frequency2 = std::max(totals_.frequency2, stiffness_[k] / masses[k]);
+}
+
+double ColourContact::closing_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const {
+  double step = std::numeric_limits<double>::infinity();
+  for (Pass const& pass : passes_) {
+    double const dp = 2 * pass.length;
+    for (std::size_t target = 0; target < pass.target.size(); ++target) {
+      Index const self = bodies_[pass.body].at[number(pass.target[target])];
+      for (std::size_t s = pass.begin[target]; s < pass.begin[target + 1]; ++s) {
+        Index const b = bodies_[pass.other].at[number(pass.source[s])];
+        Vec<3> const r = x[number(self)] - x[number(b)];
+        double const distance = size_of(r);
+        if (!(distance < 1.5 * dp) || !(distance > 0)) continue;
+        double const speed = -dot(v[number(self)] - v[number(b)], r) / distance;
+        if (speed > 0) step = std::min(step, in_one_step * dp / speed);
+      }
+    }
+  }
+  return step;
+}
+
+std::size_t ColourContact::bytes() const {
+  std::size_t sum = forces_.size() * (3 * sizeof(Vec<3>) + sizeof(double));
+  for (Pass const& pass : passes_) sum += pass.source.size() * sizeof(Index);
+  return sum;
+}
+
+}  // namespace piola::contact
