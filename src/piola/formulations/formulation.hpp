@@ -112,6 +112,10 @@ class Formulation {
   /// Rigid shapes that are free or turn, as they stand; of the others the case tells where they are.
   virtual std::vector<RigidState> rigids() const { return {}; }
 
+  /// Where ranks share the particles: brings what the others have to rank 0, where all that follows here may then be
+  /// asked for until the next step. Every rank calls it.
+  virtual void gather() {}
+
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
   virtual Diagnostics diagnose() const = 0;
 
