@@ -97,7 +97,7 @@ class Conductor final : public Formulation {
  private:
   struct Part {
     std::unique_ptr<Formulation> formulation;
-    bool gathered = true;  ///< rank 0 has all particles as they are now: ranks set up all of them
+    bool gathered = false;  ///< rank 0 has all particles as they are now
   };
   Formulation& own() const { return *part_->formulation; }
   Formulation& whole() const {

@@ -27,7 +27,10 @@ constexpr double trust = 0.65;
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
  public:
-  Kept(BodyState const& state, int D) : slots_(state.slots.last) {
+  /// Of all slots: on ranks, trial steps also write what comes from others.
+  explicit Kept(JstBody const& body) : slots_(body.slots()) {
+    BodyState const& state = body.state();
+    int const D = state.dimension;
     for (auto const& [field, components] : {std::pair{state.x, D},
                                             {state.v, D},
                                             {state.rate, D},
@@ -230,7 +233,7 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   mode_.resize(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(body.state().dimension));
   bool const hourglass = body.options().hourglass();
   {
-    Kept const kept(body.state(), body.state().dimension);
+    Kept const kept(body);
     if (hourglass)
       measure_at_rest();
     else
@@ -287,9 +290,7 @@ void StabilityMonitor::measure_at_rest() {
 
 /// About the state as it is, with the step of the last measurement.
 void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
-  BodyState& state = body_.state();
-  int const D = state.dimension;
-  Kept const kept(state, D);
+  Kept const kept(body_);
   FailureSlot failure;
   merge();
   refresh_mode(mode_);
@@ -303,9 +304,7 @@ void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
 
 void StabilityMonitor::measure(int rounds, double wave_speed) {
   if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
-  BodyState& state = body_.state();
-  int const D = state.dimension;
-  Kept const kept(state, D);
+  Kept const kept(body_);
   wave_speed_ = wave_speed;
   merge();
   refresh_mode(mode_);
