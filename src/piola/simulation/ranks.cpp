@@ -15,8 +15,8 @@ struct Order {
 };
 
 /// How far the ranks of this run are.
-enum class Stage { reading, building, running };
-Stage stage = Stage::reading;
+enum class Phase { reading, building, running };
+Phase phase = Phase::reading;
 
 Order send(Order order) {
   ranks::broadcast_bytes(&order, sizeof order);
@@ -151,7 +151,7 @@ void refuse_on_ranks(Assembly const& assembly) {
 void agree_to_go_on() {
   ranks::Trouble const trouble = ranks::agree({});
   if (trouble.code != 0) throw ranks::Disagreement(trouble);
-  stage = stage == Stage::reading ? Stage::building : Stage::running;
+  phase = phase == Phase::reading ? Phase::building : Phase::running;
 }
 
 std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation) {
@@ -169,16 +169,16 @@ int follow(Formulation& formulation) {
 
 ranks::Trouble leave(ranks::Trouble const& own, bool others_too) {
   if (!ranks::several()) return own;
-  bool const running = stage == Stage::running, first = ranks::own() == 0;
+  bool const running = phase == Phase::running, first = ranks::own() == 0;
   if (running && first) send({Order::What::end, 0, 0, own.code});
   if (running || own.code == 0) return own;
-  if (stage == Stage::reading || others_too) return ranks::agree(own);
+  if (phase == Phase::reading || others_too) return ranks::agree(own);
   return own;
 }
 
 bool leaves_others_waiting(bool others_too) {
-  if (!ranks::several() || stage == Stage::reading) return false;
-  return stage == Stage::running ? ranks::own() != 0 : !others_too;
+  if (!ranks::several() || phase == Phase::reading) return false;
+  return phase == Phase::running ? ranks::own() != 0 : !others_too;
 }
 
 }  // namespace piola
