@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/input/read_case.hpp"
+#include "piola/simulation/ranks.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "signals.hpp"
@@ -32,6 +33,7 @@ int resume(ResumeArguments const& options) {
   PackingLine line(options.quiet);
   CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
   Simulation simulation = build(std::move(spec), std::move(particles));
+  if (ranks::own() != 0) return follow(*simulation.formulation);
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
                         options.quiet);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/read_case.hpp"
+#include "piola/simulation/ranks.hpp"
 #include "piola/simulation/results_folder.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
@@ -25,6 +26,7 @@ int run(RunArguments const& options) {
   CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
   if (options.no_pictures) spec.output.pictures.every = 0;
   Simulation simulation = build(std::move(spec), std::move(particles));
+  if (ranks::own() != 0) return follow(*simulation.formulation);
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
                          .resume = false,
                          .force = options.force,

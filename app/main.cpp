@@ -2,12 +2,16 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/free_memory.hpp"
+#include "piola/parallel/ranks.hpp"
+#include "piola/simulation/ranks.hpp"
 #include "commands.hpp"
 #include "hints.hpp"
+#include "signals.hpp"
 #include "streams.hpp"
 #include "waiting.hpp"
 #include <exception>
 #include <filesystem>
+#include <fmt/format.h>
 #include <sstream>
 
 namespace {
@@ -15,17 +19,32 @@ namespace {
 using namespace piola;
 using app::tell;
 
-int report(char const* kind, std::exception const& error, int code) {
-  tell("piola: {}{}\n", kind, error.what());
-  return code;
+/// `everywhere`: every rank finds it, if there are several.
+int report(char const* kind, std::exception const& error, int code, bool everywhere = false) {
+  ranks::Trouble trouble{code, fmt::format("{}{}", kind, error.what())};
+  bool const alone = leaves_others_waiting(everywhere);
+  if (alone) {
+    app::be_silent(false);
+    trouble.message += fmt::format(" (on rank {}, which ends all {})", ranks::own(), ranks::count());
+  } else {
+    trouble = leave(trouble, everywhere);
+  }
+  tell("piola: {}\n", trouble.message);
+  if (alone) ranks::abort_all(code);
+  return trouble.code;
 }
 
 /// Runs the chosen command; every error becomes one message and the exit code that scripts rely on.
 int perform(app::Action const& action) {
   try {
-    return action();
+    int const code = action();
+    (void)leave({code, {}}, true);
+    return code;
+  } catch (ranks::Disagreement const& error) {
+    tell("piola: {}\n", error.what());
+    return error.code();
   } catch (InputError const& error) {
-    return report("", error, app::bad_input);
+    return report("", error, app::bad_input, true);
   } catch (PhysicsError const& error) {
     return report("", error, app::physics_failed);
   } catch (FileError const& error) {
@@ -51,12 +70,16 @@ int explain(CLI::App const& program, CLI::ParseError const& error, std::span<cha
   return asked ? app::with_output(app::completed) : app::bad_input;
 }
 
-}  // namespace
+/// What the program does as one of several ranks.
+app::Action shared(CLI::App const& program, app::Action action) {
+  if (!ranks::several() || program.got_subcommand("run") || program.got_subcommand("resume")) return action;
+  return []() -> int {
+    tell("piola: several ranks (mpirun) are for 'piola run' and 'piola resume' - start this command without mpirun\n");
+    return app::bad_input;
+  };
+}
 
-int main(int argc, char** argv) {
-  app::secure_streams();
-  exec_host::give_back_arrays_at_once();
-  app::sleep_while_waiting(argv);
+int use(int argc, char** argv) {
   CLI::App program("Piola: smoothed particle hydrodynamics for solids at large strain");
   program.set_version_flag("--version", std::string(piola::version()));
   program.require_subcommand(1);
@@ -77,5 +100,21 @@ int main(int argc, char** argv) {
   } catch (CLI::ParseError const& error) {
     return explain(program, error, std::span<char const* const>(argv, static_cast<std::size_t>(argc)).subspan(1));
   }
-  return perform(action);
+  return perform(shared(program, std::move(action)));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  app::secure_streams();
+  exec_host::give_back_arrays_at_once();
+  app::sleep_while_waiting(argv);
+  ranks::start();
+  if (ranks::own() != 0) {
+    app::be_silent(true);
+    app::ignore_stop_signals();
+  }
+  int const code = use(argc, argv);
+  ranks::finish();
+  return code;
 }

@@ -64,6 +64,10 @@ void catch_stop_signals() {
   if (!is_ignored(SIGHUP)) on(SIGHUP, on_stop_signal);
 }
 
+void ignore_stop_signals() {
+  for (int const signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+}
+
 void catch_checkpoint_signals() {
   on(SIGUSR1, on_checkpoint_signal);
   on(SIGUSR2, on_checkpoint_signal);

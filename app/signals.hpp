@@ -18,6 +18,9 @@ void catch_stop_signals();
 /// Waits so many seconds; false as soon as a signal has asked to stop.
 bool wait_unless_stopped(double seconds);
 
+/// From now on signals that ask to stop do nothing: rank 0 of a run ends the others.
+void ignore_stop_signals();
+
 /// From now on SIGUSR1 and SIGUSR2 are noted; without this they end the program.
 void catch_checkpoint_signals();
 

@@ -12,6 +12,7 @@ namespace piola::app {
 namespace {
 
 int out_error = 0;  // the first error of standard output
+bool silent = false;
 
 /// Writes all of it; returns 0 or the errno of the failure. A descriptor that does not block is waited for, at most so
 /// many milliseconds (-1: for ever).
@@ -44,13 +45,17 @@ void secure_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+void be_silent(bool wish) { silent = wish; }
+
 void write_out(std::string_view text) {
+  if (silent) return;
   int const error = write_all(STDOUT_FILENO, text, -1);
   if (out_error == 0) out_error = error;
 }
 
 void write_err(std::string_view text) {
   constexpr int patience = 1000;
+  if (silent) return;
   write_all(STDERR_FILENO, text, patience);
 }
 

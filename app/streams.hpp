@@ -11,6 +11,9 @@ namespace piola::app {
 /// reader who has left (SIGPIPE) and a file size limit (SIGXFSZ) become ordinary write errors.
 void secure_streams();
 
+/// From now on nothing is written, or it is again: of ranks that share a run the first one speaks.
+void be_silent(bool silent);
+
 /// Writes to standard output, and to standard error. Neither throws, nor ends the program: a run goes on whether
 /// anybody listens or not.
 void write_out(std::string_view text);

@@ -38,6 +38,23 @@ if(PIOLA_MESH)
   piola_find_plain_library(embree embree3/rtcore.h embree3)
 endif()
 
+# The C interface alone: Open MPI's headers would bring a C++ one that is long gone from the standard.
+if(PIOLA_MPI)
+  find_path(PIOLA_MPI_INCLUDE mpi.h PATH_SUFFIXES openmpi/include
+            PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/openmpi/include)
+  find_library(PIOLA_MPI_LIBRARY NAMES mpi PATH_SUFFIXES openmpi/lib)
+  if(NOT PIOLA_MPI_INCLUDE OR NOT PIOLA_MPI_LIBRARY)
+    message(FATAL_ERROR "PIOLA_MPI needs Open MPI (header mpi.h, library mpi) - ${_piola_install_hint} --mpi")
+  endif()
+  if(NOT TARGET Piola::mpi)
+    add_library(Piola::mpi UNKNOWN IMPORTED)
+    set_target_properties(Piola::mpi PROPERTIES
+      IMPORTED_LOCATION "${PIOLA_MPI_LIBRARY}"
+      INTERFACE_INCLUDE_DIRECTORIES "${PIOLA_MPI_INCLUDE}"
+      INTERFACE_COMPILE_DEFINITIONS OMPI_SKIP_MPICXX=1)
+  endif()
+endif()
+
 # toml++ is used as headers only: the compiled Debian library aborts on some malformed files, while the headers let the
 # reader turn such an assertion into an error message.
 find_path(PIOLA_TOML_INCLUDE toml++/toml.h)

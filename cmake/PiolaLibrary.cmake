@@ -20,6 +20,11 @@ if(PIOLA_MESH)
 else()
   list(FILTER _sources EXCLUDE REGEX "/geometry/mesh(_[b-z][a-z]*)?\\.cpp$")
 endif()
+if(PIOLA_MPI)
+  list(FILTER _sources EXCLUDE REGEX "/parallel/ranks_absent\\.cpp$")
+else()
+  list(FILTER _sources EXCLUDE REGEX "/parallel/ranks_mpi\\.cpp$")
+endif()
 set(_input_sources ${_sources})
 list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")
 list(FILTER _sources EXCLUDE REGEX "/src/piola/input/")
@@ -28,6 +33,10 @@ set(_outside Piola::cairo Piola::webpmux Piola::webp Piola::hdf5 PNG::PNG Piola:
              Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)
 if(PIOLA_MESH)
   list(APPEND _outside Piola::assimp Piola::embree)
+endif()
+
+if(PIOLA_MPI)
+  list(APPEND _outside Piola::mpi)
 endif()
 
 # A library of object files that become part of piola. It does not wait for the machines, which take longest.

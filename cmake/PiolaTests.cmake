@@ -36,6 +36,7 @@ endif()
 set(_environment
   "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
   "PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>"
+  "PIOLA_MPI=$<IF:$<BOOL:${PIOLA_MPI}>,ON,OFF>"
   "PIOLA_HARDENED=$<AND:$<BOOL:${PIOLA_HARDENING}>,$<CONFIG:Release>>")
 foreach(script IN LISTS _scripts)
   file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/tests" "${script}")

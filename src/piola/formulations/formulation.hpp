@@ -128,6 +128,10 @@ class Formulation {
   /// Wall time by part of the work since the formulation was built [s], for the summary.
   virtual std::vector<std::pair<std::string, double>> costs() const { return {}; }
   virtual std::size_t memory_bytes() const = 0;
+
+  /// Where ranks share the particles: brings what the others have to rank 0, which may then be asked for all of the
+  /// state until the next step. Every rank calls it.
+  virtual void gather() {}
 };
 
 }  // namespace piola

@@ -31,6 +31,7 @@ class ImpulseSum {
  public:
   /// The impulse p [N s] of a force at x [m].
   void add(std::array<double, 3> const& x, std::array<double, 3> const& p);
+  void add(ImpulseSum const& other) { sums_.add(other.sums_); }
   Impulse value() const;
 
  private:

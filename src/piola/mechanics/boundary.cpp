@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/boundary.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <map>
 
@@ -229,11 +230,18 @@ void BodyBoundary::note_places(FieldRef const& x) {
 
 void BodyBoundary::end_step(FieldRef const& x, double& work) {
   exec::ExactSum of_step;
-  for (auto const& h : held_) of_step += h.work;
-  for (auto const& p : loaded_) of_step += p.work;
+  for (auto const& h : held_)
+    if (is_own(own_, h.slot)) of_step += h.work;
+  for (auto const& p : loaded_)
+    if (is_own(own_, p.slot)) of_step += p.work;
+  if (own_)
+    ranks::combine(of_step, [](void const* other, void* mine) {
+      *static_cast<exec::ExactSum*>(mine) += *static_cast<exec::ExactSum const*>(other);
+    });
   work += of_step.value();
   for (std::size_t k = 0; k < held_.size(); ++k) {
     HeldDirection const& h = held_[k];
+    if (!is_own(own_, h.slot)) continue;
     auto const along_it = [&](double change) {
       double const p = h.mass * change;
       return Point{p * h.direction[0], p * h.direction[1], p * h.direction[2]};
@@ -247,6 +255,7 @@ void BodyBoundary::end_step(FieldRef const& x, double& work) {
     if (load.name.empty() || has_ended(load.until, begun_)) continue;
     for (auto const& item : load.items) {
       LoadedParticle const& p = loaded_[item.place];
+      if (!is_own(own_, p.slot)) continue;
       Point first = acting(load, item, false), second = acting(load, item, true);
       for (std::size_t c = 0; c < 3; ++c) {
         double const half = static_cast<int>(c) < D_ ? 0.5 * (ended_ - begun_) * p.mass : 0;
@@ -270,6 +279,10 @@ void BodyBoundary::take_out_ended(FieldRef const& rate) const {
 }
 
 void BodyBoundary::hand_over(Actions& actions) {
+  if (own_) {
+    ranks::add(std::span(of_supports_));
+    ranks::add(std::span(of_loads_));
+  }
   for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_supports_[k].value());
   for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(of_loads_[k].value());
   of_supports_.assign(of_supports_.size(), {});

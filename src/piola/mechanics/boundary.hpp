@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/field.hpp"
+#include "piola/exec/parallel.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/held.hpp"
 #include "piola/mechanics/prescribed.hpp"
@@ -11,6 +12,11 @@
 #include <vector>
 
 namespace piola {
+
+/// Whether a slot is one of those that a rank answers for; nothing: it answers for all.
+inline bool is_own(std::optional<Range> const& own, Index slot) {
+  return !own || (slot >= own->first && slot < own->last);
+}
 
 /// Supports and loads of one body, for schemes that prescribe velocities and add accelerations at the ends of a step:
 /// which directions of which particles are held at a time and how fast, the loads at both ends, releases, and what all
@@ -47,6 +53,9 @@ class BodyBoundary {
   void add_load(std::size_t load, LoadedPlace const& place);
   /// Gives the particles that supports hold the velocities of t = 0, after a first begin_step.
   void start(FieldRef const& v) const;
+  /// Ranks share the body: this one answers for the particles in these slots. Work and impulses are then sums over all
+  /// ranks, and end_step and hand_over collective.
+  void share(Range own) { own_ = own; }
 
   /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends. Whether the directions
   /// that are held are others than before.
@@ -122,6 +131,7 @@ class BodyBoundary {
   std::vector<Point> held_start_, loaded_start_;  ///< at the start of the step [m]
   std::vector<ImpulseSum> of_supports_, of_loads_;
   double begun_ = 0, ended_ = 0;  ///< start and end of the step that `held_` and `loaded_` are for
+  std::optional<Range> own_;      ///< nothing: all slots
   int released_ = -1;             ///< supports and loads that had ended when it began
 };
 

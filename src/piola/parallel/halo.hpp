@@ -3,6 +3,11 @@
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
 
+namespace piola {
+class HaloPlan;
+void exchange(HaloPlan& plan, FieldRef const& field);
+}  // namespace piola
+
 namespace piola::inline PIOLA_MACHINE {
 
 /// Gives one copy its values.
@@ -21,16 +26,19 @@ struct UpdateCopy {
   }
 };
 
-/// Brings copies up to date: those of neighbours that other ranks own, of which there are none on one rank, and those
-/// that a body has of its own particles. Keeps the count that finds forgotten refreshes.
+/// Brings copies up to date: those of neighbours that other ranks own, of which there are none on one rank, then those
+/// that a body has of particles, which may be of other ranks. Keeps the count that finds forgotten refreshes.
 struct Halo {
+  HaloPlan* plan = nullptr;  ///< nullptr: one rank
+
   template <class... Ref>
   void refresh(Ref const&... fields) const {
     (update(fields), ...);
   }
 
  private:
-  static void update(FieldRef const& f) {
+  void update(FieldRef const& f) const {
+    if (plan != nullptr) exchange(*plan, f);
     if (f.copies != nullptr) exec::for_each_item(f.copies->count, UpdateCopy{f, *f.copies});
     if (f.version != nullptr) f.version->halo = f.version->owner;
   }

@@ -14,6 +14,7 @@
 #include "piola/neighbours/cell_moments.hpp"
 #include "piola/particles/parts.hpp"
 #include "piola/setup/contact_surface.hpp"
+#include "piola/simulation/ranks.hpp"
 #include "piola/simulation/warnings.hpp"
 #include <algorithm>
 #include <string_view>
@@ -276,9 +277,12 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
     simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
-  simulation.formulation = make_formulation(assembly);
+  refuse_on_ranks(assembly);
+  agree_to_go_on();
+  simulation.formulation = conducted(make_formulation(assembly));
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);
+  agree_to_go_on();
   double const step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
   Prospect prospect{.step = step};
   if (any_contact(spec)) prospect.start = simulation.formulation->diagnose();

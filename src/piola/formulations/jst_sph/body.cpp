@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -486,10 +487,14 @@ double JstBody::filtered_energy() const {
 }
 
 double JstBody::kinetic_energy() const {
-  return 0.5 * state_.constants.rho0 * exec_host::sum_of(order_.particles, [&](Index i) {
-           auto const v = this->v(i);
-           return volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-         });
+  Range const mine = own();
+  auto sum = exec_host::sums_of<1>(mine.last - mine.first, [&](Index k, double* at) {
+    Index const i = mine.first + k;
+    auto const v = this->v(i);
+    *at = volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  });
+  if (shared()) ranks::add(sum);
+  return 0.5 * state_.constants.rho0 * sum.value();
 }
 
 Mat<3> JstBody::F(Index slot) const {

@@ -8,6 +8,7 @@
 #include "piola/formulations/mirror_images.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
+#include "piola/parallel/halo_plan.hpp"
 #include <memory>
 #include <vector>
 
@@ -27,15 +28,23 @@ class JstBody {
   Body const& body() const { return body_; }
   Options const& options() const { return options_; }
   Index particles() const { return order_.particles; }
+  Index slots() const { return order_.slots(); }
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   ReferencePairs const& pairs() const { return *pairs_; }
   ParticleSet const& set() const { return *set_; }
   std::size_t bytes() const;
+  /// Of all ranks that share the particles this one takes a part: from now on it works on that. Collective.
+  void share(int lanes);
+  bool shared() const { return halo_ != nullptr; }
+  /// Slots of particles that this rank works on: all of them on one rank.
+  Range own() const;
+  /// Of a field that all ranks have in part, what the others have comes to rank 0. Collective.
+  void gather(FieldRef const& field, int components);
   /// From `time` to time + dt, with supports and loads.
   void step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that nothing prescribes, and notes the energy.
   void damp(double factor);
-  double kinetic_energy() const;    ///< [J]
+  double kinetic_energy() const;    ///< of all ranks, which all ask for it [J]
   double hourglass_energy() const;  ///< as observed last [J]
   double filtered_energy() const;  ///< of the filtered volume ratio as observed last, where that has a viscous part [J]
   /// The next time at which a support or a load ends.
@@ -66,6 +75,8 @@ class JstBody {
   /// Of the body and of its mirror images.
   Index all_slots() const { return order_.slots() + images_.count(); }
   void mark_images();
+  void mark_halo();
+  std::vector<Index> slots_read(int lanes) const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
   /// Memory that fields share because sweeps read them together at neighbours.
@@ -113,6 +124,7 @@ class JstBody {
   std::vector<double> partial_;
   FailureSlot failure_;
   BodyState state_;
+  std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles
 };
 
 }  // namespace piola::jst_sph

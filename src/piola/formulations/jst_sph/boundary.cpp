@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <limits>
 #include <map>
 #include <set>
@@ -123,6 +124,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
 void Boundary::end_step(BodyState& state) {
   for (std::size_t k = 0; k < plain_.size(); ++k) {
     SupportComponent const& s = plain_[k];
+    if (!is_own(own_, s.slot)) continue;
     std::array<double, 3> before{}, after{};
     before[static_cast<std::size_t>(s.component)] = plain_owner_[k].mass * s.at_start;
     after[static_cast<std::size_t>(s.component)] = plain_owner_[k].mass * s.at_end;
@@ -143,6 +145,13 @@ void Boundary::hand_over(Actions& actions) {
   driven_.hand_over(actions);
   for (std::size_t k = 0; multipliers_ && k < multipliers_->impulses().size() && k < actions.supports.size(); ++k)
     actions.supports[k].add(multipliers_->impulses()[k]);
+}
+
+void Boundary::merge() {
+  std::vector<double> removed;
+  for (SupportComponent const& s : plain_) removed.push_back(is_own(own_, s.slot) ? s.removed : 0);
+  ranks::merge(removed);
+  restore(removed);
 }
 
 std::vector<double> Boundary::state() const {

@@ -28,7 +28,14 @@ class Boundary {
   void end_step(BodyState& state);
   /// Multiplies the velocities of the body by `factor`, but not along the directions that were held in the last step.
   void damp(BodyState& state, double factor) const { driven_.damp(state.v, state.slots.last, factor); }
-  /// Adds what supports and loads did in the last step.
+  /// Ranks share the body: this one answers for the particles in these slots.
+  void share(Range own) {
+    own_ = own;
+    driven_.share(own);
+  }
+  /// On ranks: brings what a checkpoint holds to all of them. Collective.
+  void merge();
+  /// Adds what supports and loads did in the last step; collective where ranks share the body.
   void hand_over(Actions& actions);
   /// What a checkpoint holds beside fields: accelerations that supports made up for at the end of the last step.
   std::vector<double> state() const;
@@ -58,6 +65,7 @@ class Boundary {
   std::vector<PlainOwner> plain_owner_;
   std::vector<std::array<double, 3>> plain_start_;  ///< at the start of the step [m]
   std::optional<Multipliers> multipliers_;
+  std::optional<Range> own_;  ///< nothing: all slots
 };
 
 }  // namespace piola::jst_sph

@@ -89,7 +89,7 @@ struct PrepareFilter {
 template <class Loader>
 class Filter {
  public:
-  Filter(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
+  Filter(BodyState& body, Loader const& loader) : b_(body), loader_(loader), halo_{body.halo} {}
 
   /// g of the first pass, where no other pass has left it.
   void prepare() const {

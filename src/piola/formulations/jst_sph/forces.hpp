@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/jst_sph/passes.hpp"
+#include "piola/parallel/reduce.hpp"
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
@@ -66,7 +67,7 @@ class Forces {
         read(b_.kernel_force_sum),
         read(b_.hourglass_force),
         read(b_.viscous_work)};
-    return project(exec::reduce<At::size>(b_.slots, pass, b_.partial), time);
+    return project(reduce_over_ranks<At::size>(b_.halo != nullptr, b_.slots, pass, b_.partial), time);
   }
 
   /// Projections of T and D (47)-(49) and their powers.

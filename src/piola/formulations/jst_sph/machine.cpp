@@ -3,6 +3,7 @@
 #include "piola/exec/peak.hpp"
 #include "piola/formulations/jst_sph/step.hpp"
 #include "piola/formulations/jst_sph/verlet_step.hpp"
+#include "piola/parallel/ranks.hpp"
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 namespace {
@@ -60,6 +61,7 @@ double largest_wave_speed(BodyState& body) {
   exec::for_each_block(body.slots, LargestWaveSpeed{read(body.wave_speed), body.partial});
   double largest = 0;
   for (Index k = 0; k < exec::block_count(body.slots); ++k) largest = maximum(largest, body.partial[k]);
+  if (body.halo != nullptr) ranks::take_largest(largest);
   return largest;
 }
 

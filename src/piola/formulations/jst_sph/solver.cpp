@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/solver.hpp"
+#include "piola/base/problems.hpp"
 #include "piola/formulations/bodies.hpp"
 #include "piola/formulations/checkpoint.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
@@ -8,12 +9,20 @@
 #include "piola/formulations/slots_by_id.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace piola::jst_sph {
 namespace {
+
+[[noreturn]] void refuse_multipliers(std::string const& body) {
+  throw InputError(
+      fmt::format("body '{}': supports = \"multipliers\" runs on one rank (allowed on several: \"direct\") - "
+                  "start it without mpirun, or take direct supports",
+                  body));
+}
 
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
@@ -32,7 +41,9 @@ class Solver final : public Formulation {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
+      if (options.multipliers && ranks::several()) refuse_multipliers(set_.bodies[k].name);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
+      bodies_.back()->share(machine_->lanes);
       alpha_.push_back(options.cfl);
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
     }
@@ -86,7 +97,9 @@ class Solver final : public Formulation {
     find_largest_speeds();
     for (std::size_t k = 0; k < monitors_.size(); ++k)
       if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
+    if (ranks::several()) share_failures();
   }
+  void gather() override;
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
@@ -156,11 +169,15 @@ class Solver final : public Formulation {
   /// stage; observers want that of x.
   void refresh(JstBody const& body) const {
     BodyState seen = body.state();
+    seen.slots = {0, body.slots()};  // on ranks, after gather(), rank 0 looks at all particles by itself
+    seen.halo = nullptr;
     if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
     if (body.options().hourglass()) machine_->observe_energy(seen);
   }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
+  void share_failures();
+  void place_stages(JstBody& body) const;
   template <class F>
   void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
 
@@ -262,16 +279,57 @@ void Solver::save(StateWriter& writer) const {
   writer.put("actions", actions_.state());
 }
 
+/// The positions of a stage are, between steps, those of the particles.
+void Solver::place_stages(JstBody& body) const {
+  if (body.options().variables != Variables::displacement) return;
+  for (Index i = 0; i < body.particles(); ++i)
+    for (int c = 0; c < set_.dimension; ++c) JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
+}
+
+/// What a checkpoint holds is all that observers see, too.
+void Solver::gather() {
+  for (std::size_t k = 0; ranks::several() && k < bodies_.size(); ++k) {
+    JstBody& body = *bodies_[k];
+    each_evolved(body, k,
+                 [&](std::string const&, FieldRef const& field, int components) { body.gather(field, components); });
+    if (ranks::own() == 0) place_stages(body);
+    body.boundary().merge();
+    if (monitors_[k]) monitors_[k]->merge();
+  }
+}
+
+/// Of the ranks' first failures the first; then rank 0 is told all that there is to say about it.
+void Solver::share_failures() {
+  bool failed = false;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    struct Found {
+      std::uint64_t id;
+      Index index;
+      int code;
+    };
+    FailureSlot& slot = *bodies_[k]->state().failure;
+    bool const any = slot.index < bodies_[k]->particles();
+    Found first{any ? static_cast<std::uint64_t>(bodies_[k]->id(slot.index)) : ~std::uint64_t{0}, slot.index,
+                slot.code};
+    ranks::combine(first, [](void const* other, void* mine) {
+      auto const& a = *static_cast<Found const*>(other);
+      auto& b = *static_cast<Found*>(mine);
+      if (a.id < b.id) b = a;
+    });
+    slot.index = first.index;
+    slot.code = first.code;
+    failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
+  }
+  if (failed) gather();
+}
+
 void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
       load_field(reader, name, body, field, components);
     });
-    if (body.options().variables == Variables::displacement)
-      for (Index i = 0; i < body.particles(); ++i)
-        for (int c = 0; c < set_.dimension; ++c)
-          JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
+    place_stages(body);
     std::array<double, 5> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.state().totals = {books[0], books[1], books[2], books[3], books[4]};

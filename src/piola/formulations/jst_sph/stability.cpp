@@ -3,6 +3,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/modes.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,7 +27,10 @@ constexpr double trust = 0.65;
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
  public:
-  Kept(BodyState const& state, int D) : slots_(state.slots.last) {
+  /// Of all slots: on ranks, trial steps also write what comes from others.
+  explicit Kept(JstBody const& body) : slots_(body.slots()) {
+    BodyState const& state = body.state();
+    int const D = state.dimension;
     for (auto const& [field, components] : {std::pair{state.x, D},
                                             {state.v, D},
                                             {state.rate, D},
@@ -97,12 +101,15 @@ class Operator {
     k.hourglass.bulk_ahead = factor * own.hourglass.bulk_ahead;
   }
 
-  /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u.
+  /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u; on ranks that of the
+  /// particles of this rank, and zeros.
   double dominant(std::vector<double>& u, int rounds) {
+    forget_others(u);
     double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
     double ratio = 0;
     for (int round = 0; round < rounds; ++round) {
-      double const most = largest_of(u);
+      double most = largest_of(u);
+      if (body_.shared()) ranks::take_largest(most);
       if (!(most > 0) || !std::isfinite(most)) return 0;
       each_particle([&](Index i) {
         for (int c = 0; c < D_; ++c) u[at(i, c)] *= size / most;
@@ -122,14 +129,24 @@ class Operator {
   std::size_t kept_at(Index i, int c) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(D_) + c; }
   template <class F>
   void each_particle(F const& f) const {
-    exec_host::for_each_in_set_up(body_.particles(), f);
+    Range const own = body_.own();
+    exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) { f(own.first + k); });
+  }
+  void forget_others(std::vector<double>& u) const {
+    for (Index i = 0; i < body_.particles() && body_.shared(); ++i)
+      for (int c = 0; c < D_; ++c)
+        if (i < body_.own().first || i >= body_.own().last) u[at(i, c)] = 0;
   }
   double square(std::vector<double> const& u) const {
-    return exec_host::sum_of(body_.particles(), [&](Index i) {
+    Range const own = body_.own();
+    auto sums = exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
+      Index const i = own.first + k;
       double sum = 0;
       for (int c = 0; c < D_; ++c) sum += u[at(i, c)] * u[at(i, c)];
-      return body_.volume(i) * sum;
+      *x = body_.volume(i) * sum;
     });
+    if (body_.shared()) ranks::add(sums);
+    return sums.value();
   }
   /// Makes of the displacement u its rates, minus those without displacement if there are any to take away. Hourglass
   /// forces see positions, too.
@@ -216,7 +233,7 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   mode_.resize(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(body.state().dimension));
   bool const hourglass = body.options().hourglass();
   {
-    Kept const kept(body.state(), body.state().dimension);
+    Kept const kept(body);
     if (hourglass)
       measure_at_rest();
     else
@@ -259,6 +276,7 @@ void StabilityMonitor::measure_at_rest() {
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
+  merge();
   refresh_mode(mode_);
   Operator forces(body_, trial, machine_, nullptr);
   limit_at_rest_ = k.h_min / k.c_p0;
@@ -272,10 +290,9 @@ void StabilityMonitor::measure_at_rest() {
 
 /// About the state as it is, with the step of the last measurement.
 void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
-  BodyState& state = body_.state();
-  int const D = state.dimension;
-  Kept const kept(state, D);
+  Kept const kept(body_);
   FailureSlot failure;
+  merge();
   refresh_mode(mode_);
   Operator tangent(body_, trial_of(body_, failure), machine_, &kept);
   tangent.multiply_damping(2 / limit_);
@@ -287,10 +304,9 @@ void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
 
 void StabilityMonitor::measure(int rounds, double wave_speed) {
   if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
-  BodyState& state = body_.state();
-  int const D = state.dimension;
-  Kept const kept(state, D);
+  Kept const kept(body_);
   wave_speed_ = wave_speed;
+  merge();
   refresh_mode(mode_);
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
@@ -314,6 +330,10 @@ double StabilityMonitor::step(double wave_speed) const {
   // A wave speed that has fallen says nothing: the largest one may have been elsewhere than the fastest mode.
   double const measured = frequency_ * std::max(1.0, wave_speed / wave_speed_);
   return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
+}
+
+void StabilityMonitor::merge() {
+  if (body_.shared()) ranks::merge(mode_);
 }
 
 std::vector<double> StabilityMonitor::state() const {

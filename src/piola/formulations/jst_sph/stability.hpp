@@ -37,6 +37,8 @@ class StabilityMonitor {
 
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
+  /// On ranks: brings what state() tells to all of them. Collective.
+  void merge();
   /// Everything that the next step limit depends on.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);

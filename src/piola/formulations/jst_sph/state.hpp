@@ -6,6 +6,10 @@
 #include "piola/mechanics/held.hpp"
 #include "piola/neighbours/tables.hpp"
 
+namespace piola {
+class HaloPlan;
+}
+
 /// One body of a JST-SPH run as its loops see it: plain data that crosses between machines.
 namespace piola::jst_sph {
 
@@ -168,6 +172,7 @@ struct BodyState {
   void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
+  HaloPlan* halo = nullptr;   ///< where ranks share the particles: `slots` are those of this rank
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;
   StepTotals totals;

@@ -6,6 +6,7 @@
 #include "piola/formulations/jst_sph/stress_passes.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/parallel/halo.hpp"
+#include "piola/parallel/reduce.hpp"
 
 /// One time step of JST-SPH, line by line as Algorithm 1 of Lee et al. (2016); equation numbers at the right.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
@@ -13,7 +14,7 @@ namespace piola::jst_sph::inline PIOLA_MACHINE {
 template <int D, class Loader>
 class Step {
  public:
-  Step(BodyState& body, Loader const& loader) : b_(body), loader_(loader), forces_(body, loader) {}
+  Step(BodyState& body, Loader const& loader) : b_(body), loader_(loader), forces_(body, loader), halo_{body.halo} {}
 
   /// From t^n to t^(n+1) = t^n + dt by TVD Runge-Kutta of second order.
   void operator()(double dt) {
@@ -112,7 +113,7 @@ class Step {
   RigidRate minus_rigid_motion() const {
     using At = MotionTotals<D>;
     SumMotion<D> const pass{b_.constants, read_reference(b_.V), read(b_.x), read(b_.v)};
-    auto const sums = exec::reduce<At::size>(b_.slots, pass, b_.partial);
+    auto const sums = reduce_over_ranks<At::size>(b_.halo != nullptr, b_.slots, pass, b_.partial);
     return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
   }
 

@@ -6,6 +6,7 @@
 #include "piola/formulations/jst_sph/hourglass_passes.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/parallel/halo.hpp"
+#include "piola/parallel/reduce.hpp"
 
 /// One time step of the schemes "conservative" and "filtered": kick, drift, forces, kick. Derivation:
 /// docs/theory/jst-sph-conservative.md, docs/theory/jst-sph-filtered.md.
@@ -14,7 +15,8 @@ namespace piola::jst_sph::inline PIOLA_MACHINE {
 template <int D, class Loader>
 class VerletStep {
  public:
-  VerletStep(BodyState& body, Loader const& loader) : b_(body), loader_(loader), forces_(body, loader) {}
+  VerletStep(BodyState& body, Loader const& loader)
+      : b_(body), loader_(loader), forces_(body, loader), halo_{body.halo} {}
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations a^n of the state are made.
   void operator()(double dt) {
@@ -81,7 +83,7 @@ class VerletStep {
   RigidRate kick_and_drift(double dt) {
     KickAndDrift<D> const pass{dt,         b_.constants, read_reference(b_.V), read(b_.rate),
                                read(b_.v), read(b_.x),   write(b_.v),          write(b_.x)};
-    auto const sums = exec::reduce<At::size>(b_.slots, pass, b_.partial);
+    auto const sums = reduce_over_ranks<At::size>(b_.halo != nullptr, b_.slots, pass, b_.partial);
     if (b_.constants.mirrored) return {};
     return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
   }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ranks: every rank makes the whole body and then works on its share of the slots. What its particles read of others
+// comes by messages. The slots of a particle are the same on all ranks, so nothing else of the body changes.
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/jst_sph/body.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <algorithm>
+
+namespace piola::jst_sph {
+
+Range JstBody::own() const {
+  return {std::min(state_.slots.first, order_.particles), std::min(state_.slots.last, order_.particles)};
+}
+
+void JstBody::share(int lanes) {
+  if (!ranks::several()) return;
+  state_.slots = share_of(order_.slots(), ranks::own(), ranks::count());
+  halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read(lanes));
+  state_.halo = halo_.get();
+  mark_halo();
+  boundary_.share(state_.slots);
+}
+
+/// Where the particles of this rank find what they read of neighbours: those themselves, or those that images copy.
+std::vector<Index> JstBody::slots_read(int lanes) const {
+  std::vector<Index> read;
+  for (Index i = own().first; i < own().last; ++i) {
+    if (!state_.regular) {
+      auto const& list = state_.list;
+      for (auto k = list.begin[i]; k < list.begin[i + 1]; ++k) {
+        Index const b = list.neighbour[k];
+        read.push_back(b < order_.slots() ? b
+                                          : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
+      }
+      continue;
+    }
+    StencilTable const& table = state_.stencil;
+    StencilPattern const& pattern = table.patterns[table.pattern_of[i / lanes]];
+    for (auto const* run : {pattern.inner, pattern.outer})
+      for (std::int32_t k = run[0]; k < run[1]; ++k) {
+        StencilEntry const& entry = table.entries[k];
+        if (entry.weights < 0 || table.weights[entry.weights + i % lanes] != 0) read.push_back(i + entry.delta);
+      }
+  }
+  return read;
+}
+
+/// What sweeps read at neighbours, field by field, as place_gathered() has laid it out; alpha and beta never change.
+void JstBody::mark_halo() {
+  auto const& s = state_;
+  bool const smoothed_J = options_.smoothed_volume(), stabilised = options_.biharmonic != Biharmonic::none;
+  halo_->add(s.u, 0, D_ + (gathers_position() ? D_ : smoothed_J ? 1 : 0));
+  int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
+  int const before_A = options_.biharmonic == Biharmonic::adjoint ? smoothed + D_ + 1 : smoothed;
+  halo_->add(s.second, 0, smoothed);
+  halo_->add(s.second, before_A, D_ * D_);
+  halo_->add(s.ahead, 0, D_ + D_ * D_ + 1);
+  halo_->add(s.kernel_force, 0, D_);
+  for (FieldRef const& source : s.filter_source) halo_->add(source, 0, 1);
+}
+
+void JstBody::gather(FieldRef const& field, int components) {
+  auto const n = static_cast<std::size_t>(components);
+  Range const mine = own();
+  std::vector<double> values(static_cast<std::size_t>(mine.last - mine.first) * n);
+  exec_host::for_each_in_set_up(mine.last - mine.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      values[static_cast<std::size_t>(k) * n + c] = value(field, mine.first + k, static_cast<int>(c));
+  });
+  std::vector<double> const all = ranks::gather(values);
+  exec_host::for_each_in_set_up(static_cast<Index>(all.size() / n), [&](Index i) {
+    for (std::size_t c = 0; c < n; ++c) set(field, i, static_cast<int>(c), all[static_cast<std::size_t>(i) * n + c]);
+  });
+}
+
+}  // namespace piola::jst_sph

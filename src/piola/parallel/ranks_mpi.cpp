@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only place with MPI. ranks_absent.cpp takes its place in builds without it.
+#include "piola/parallel/ranks.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <map>
+#include <mpi.h>
+#include <numeric>
+
+namespace piola::ranks {
+namespace {
+
+struct World {
+  bool started = false;
+  int own = 0, count = 1;
+  MPI_Op op = MPI_OP_NULL;
+  Combine combine = nullptr;                  // of the call in progress, which `op` has no argument for
+  std::size_t bytes = 0;                      // per item
+  std::map<std::size_t, MPI_Datatype> types;  // of items with so many bytes
+  Traffic traffic;
+};
+World world;
+
+/// Called by MPI with items of other ranks.
+void combine_items(void* others, void* mine, int* count, MPI_Datatype*) {
+  for (int k = 0; k < *count; ++k) {
+    std::size_t const at = static_cast<std::size_t>(k) * world.bytes;
+    world.combine(static_cast<char const*>(others) + at, static_cast<char*>(mine) + at);
+  }
+}
+
+MPI_Datatype type_of(std::size_t bytes) {
+  auto const [at, is_new] = world.types.try_emplace(bytes);
+  if (is_new) {
+    MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &at->second);
+    MPI_Type_commit(&at->second);
+  }
+  return at->second;
+}
+
+/// Whether a launcher has started this process as one of several: MPI is left alone otherwise.
+bool launched() {
+  for (char const* const size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS", "SLURM_STEP_NUM_TASKS"})
+    if (char const* const text = std::getenv(size); text != nullptr && std::atoi(text) > 1) return true;
+  return false;
+}
+
+/// Where the parts of so many items begin.
+std::vector<int> starts_of(std::vector<int> const& counts) {
+  std::vector<int> starts(counts.size(), 0);
+  std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
+  return starts;
+}
+
+constexpr int halo_tag = 1;
+
+}  // namespace
+
+void start() {
+  if (!launched()) return;
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  world.started = true;
+  MPI_Comm_rank(MPI_COMM_WORLD, &world.own);
+  MPI_Comm_size(MPI_COMM_WORLD, &world.count);
+  MPI_Op_create(&combine_items, 1, &world.op);
+}
+
+void finish() {
+  if (!world.started) return;
+  for (auto& [bytes, type] : world.types) MPI_Type_free(&type);
+  MPI_Op_free(&world.op);
+  MPI_Finalize();
+  world = {};
+}
+
+int own() { return world.own; }
+int count() { return world.count; }
+
+void combine_bytes(void* items, std::size_t count, std::size_t bytes, Combine combine) {
+  if (!several()) return;
+  world.combine = combine;
+  world.bytes = bytes;
+  MPI_Allreduce(MPI_IN_PLACE, items, static_cast<int>(count), type_of(bytes), world.op, MPI_COMM_WORLD);
+}
+
+void take_largest(double& value) {
+  combine(value, [](void const* other, void* mine) {
+    double const a = *static_cast<double const*>(other);
+    double& b = *static_cast<double*>(mine);
+    if (std::isnan(a) || a > b) b = a;
+  });
+}
+
+void merge(std::span<double> values) {
+  if (!several() || values.empty()) return;
+  static_assert(sizeof(double) == sizeof(std::uint64_t));
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T, MPI_BOR, MPI_COMM_WORLD);
+}
+
+std::vector<double> gather(std::span<double const> values) {
+  if (!several()) return {values.begin(), values.end()};
+  int const mine = static_cast<int>(values.size());
+  std::vector<int> counts(static_cast<std::size_t>(world.count), 0);
+  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+  std::vector<int> const starts = starts_of(counts);
+  std::vector<double> all;
+  if (world.own == 0) all.resize(static_cast<std::size_t>(starts.back() + counts.back()));
+  MPI_Gatherv(values.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  return all;
+}
+
+void broadcast_bytes(void* data, std::size_t bytes) {
+  if (several()) MPI_Bcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD);
+}
+
+std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to) {
+  if (!several()) return to;
+  static_assert(sizeof(Index) == sizeof(int));
+  auto const n = static_cast<std::size_t>(world.count);
+  std::vector<int> sent(n), received(n);
+  std::vector<Index> out;
+  for (std::size_t r = 0; r < n; ++r) {
+    sent[r] = static_cast<int>(to[r].size());
+    out.insert(out.end(), to[r].begin(), to[r].end());
+  }
+  MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::vector<int> const out_at = starts_of(sent), in_at = starts_of(received);
+  std::vector<Index> in(static_cast<std::size_t>(in_at.back() + received.back()));
+  MPI_Alltoallv(out.data(), sent.data(), out_at.data(), MPI_INT, in.data(), received.data(), in_at.data(), MPI_INT,
+                MPI_COMM_WORLD);
+  std::vector<std::vector<Index>> from(n);
+  for (std::size_t r = 0; r < n; ++r) from[r].assign(in.begin() + in_at[r], in.begin() + in_at[r] + received[r]);
+  return from;
+}
+
+void exchange(std::span<Message const> receives, std::span<Message const> sends) {
+  std::vector<MPI_Request> requests(receives.size() + sends.size(), MPI_REQUEST_NULL);
+  std::size_t k = 0;
+  for (Message const& m : receives)
+    MPI_Irecv(m.values, static_cast<int>(m.count), MPI_DOUBLE, m.rank, halo_tag, MPI_COMM_WORLD, &requests[k++]);
+  for (Message const& m : sends) {
+    MPI_Isend(m.values, static_cast<int>(m.count), MPI_DOUBLE, m.rank, halo_tag, MPI_COMM_WORLD, &requests[k++]);
+    world.traffic.messages += 1;
+    world.traffic.bytes += static_cast<std::int64_t>(m.count * sizeof(double));
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+Traffic traffic() { return world.traffic; }
+
+Trouble agree(Trouble const& own) {
+  if (!several()) return own;
+  int lowest = own.code != 0 ? world.own : world.count;
+  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  if (lowest == world.count) return {};
+  Trouble r = own;
+  int sizes[2] = {own.code, static_cast<int>(own.message.size())};
+  MPI_Bcast(sizes, 2, MPI_INT, lowest, MPI_COMM_WORLD);
+  r.code = sizes[0];
+  r.message.resize(static_cast<std::size_t>(sizes[1]));
+  MPI_Bcast(r.message.data(), sizes[1], MPI_CHAR, lowest, MPI_COMM_WORLD);
+  if (lowest != 0) r.message = "on rank " + std::to_string(lowest) + ": " + r.message;
+  return r;
+}
+
+void abort_all(int code) {
+  if (world.started) MPI_Abort(MPI_COMM_WORLD, code);
+}
+
+}  // namespace piola::ranks

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/ranks.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+/// What rank 0 wants of the others.
+struct Order {
+  enum class What : std::int64_t { step, damp, kinetic_energy, gather, load, end } what;
+  double first = 0, second = 0;  // time and dt, factor
+  std::int64_t code = 0;
+};
+
+/// How far the ranks of this run are.
+enum class Phase { reading, building, running };
+Phase phase = Phase::reading;
+
+Order send(Order order) {
+  ranks::broadcast_bytes(&order, sizeof order);
+  return order;
+}
+
+/// Rank 0 has not found what it looked for in a checkpoint.
+struct NotThere : std::runtime_error {
+  NotThere() : std::runtime_error("rank 0 could not read a checkpoint") {}
+};
+
+/// Gives all ranks what rank 0 reads.
+class SharedReader final : public StateReader {
+ public:
+  explicit SharedReader(StateReader* of_first) : reader_(of_first) {}
+  void get(std::string_view name, std::span<double> values) override {
+    int good = 1;
+    if (reader_ == nullptr) {
+      ranks::broadcast_bytes(&good, sizeof good);
+      if (good == 0) throw NotThere();
+    } else {
+      try {
+        reader_->get(name, values);
+      } catch (...) {
+        good = 0;
+        ranks::broadcast_bytes(&good, sizeof good);
+        throw;
+      }
+      ranks::broadcast_bytes(&good, sizeof good);
+    }
+    ranks::broadcast_bytes(values.data(), values.size_bytes());
+  }
+
+ private:
+  StateReader* reader_;
+};
+
+/// The formulation of rank 0, whose calls the other ranks take part in.
+class Conductor final : public Formulation {
+ public:
+  explicit Conductor(std::unique_ptr<Formulation> formulation)
+      : part_(std::make_unique<Part>(Part{std::move(formulation)})) {}
+
+  double stable_time_step() const override { return own().stable_time_step(); }
+  double settled_time_step() const override { return own().settled_time_step(); }
+  StepRule step_rule() const override { return own().step_rule(); }
+  void step(double time, double dt) override {
+    send({Order::What::step, time, dt});
+    own().step(time, dt);
+    part_->gathered = false;
+  }
+  void damp(double factor) override {
+    send({Order::What::damp, factor});
+    own().damp(factor);
+    part_->gathered = false;
+  }
+  double kinetic_energy() const override {
+    send({Order::What::kinetic_energy});
+    return own().kinetic_energy();
+  }
+  std::vector<RigidState> rigids() const override { return own().rigids(); }
+  std::optional<Failure> failure() const override { return own().failure(); }
+  Diagnostics diagnose() const override { return whole().diagnose(); }
+  std::vector<FieldInfo> fields() const override { return own().fields(); }
+  std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().fields_of(body); }
+  void sample(std::string_view field, std::span<double> values) const override { whole().sample(field, values); }
+  void save(StateWriter& writer) const override { whole().save(writer); }
+  void load(StateReader& reader) override {
+    send({Order::What::load});
+    SharedReader shared(&reader);
+    own().load(shared);
+    part_->gathered = true;
+  }
+  int stages_per_step() const override { return own().stages_per_step(); }
+  std::vector<std::pair<std::string, double>> costs() const override { return own().costs(); }
+  std::size_t memory_bytes() const override { return own().memory_bytes(); }
+
+ private:
+  struct Part {
+    std::unique_ptr<Formulation> formulation;
+    bool gathered = false;  ///< rank 0 has all particles as they are now
+  };
+  Formulation& own() const { return *part_->formulation; }
+  Formulation& whole() const {
+    if (!part_->gathered) {
+      send({Order::What::gather});
+      own().gather();
+      part_->gathered = true;
+    }
+    return own();
+  }
+
+  std::unique_ptr<Part> part_;
+};
+
+void obey(Formulation& formulation, Order const& order) {
+  switch (order.what) {
+    case Order::What::step: return formulation.step(order.first, order.second);
+    case Order::What::damp: return formulation.damp(order.first);
+    case Order::What::kinetic_energy: return void(formulation.kinetic_energy());
+    case Order::What::gather: return formulation.gather();
+    case Order::What::load: {
+      SharedReader shared(nullptr);
+      try {
+        formulation.load(shared);
+      } catch (NotThere const&) {
+        return;  // rank 0 says why, and what is next
+      }
+      return;
+    }
+    default: return;
+  }
+}
+
+}  // namespace
+
+void refuse_on_ranks(Assembly const& assembly) {
+  if (!ranks::several()) return;
+  Problems problems;
+  auto const refuse = [&](std::string const& what) {
+    problems.add({}, fmt::format("{} on one rank (started on {}) - start it without mpirun", what, ranks::count()));
+  };
+  for (std::size_t k = 0; k < assembly.formulations.size(); ++k)
+    if (auto const& name = assembly.formulations[k].name; name != "jst_sph")
+      refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name, name));
+  if (!assembly.rigid_shapes.empty()) refuse("rigid shapes run");
+  if (!assembly.ties.empty()) refuse("ties run");
+  if (!assembly.surfaces.empty() && assembly.ties.empty()) refuse("contact of surfaces runs");
+  problems.raise_if_any();
+}
+
+void agree_to_go_on() {
+  ranks::Trouble const trouble = ranks::agree({});
+  if (trouble.code != 0) throw ranks::Disagreement(trouble);
+  phase = phase == Phase::reading ? Phase::building : Phase::running;
+}
+
+std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation) {
+  if (!ranks::several() || ranks::own() != 0) return formulation;
+  return std::make_unique<Conductor>(std::move(formulation));
+}
+
+int follow(Formulation& formulation) {
+  for (;;) {
+    Order const order = send({Order::What::end});  // overwritten by what rank 0 sends
+    if (order.what == Order::What::end) return static_cast<int>(order.code);
+    obey(formulation, order);
+  }
+}
+
+ranks::Trouble leave(ranks::Trouble const& own, bool others_too) {
+  if (!ranks::several()) return own;
+  bool const running = phase == Phase::running, first = ranks::own() == 0;
+  if (running && first) send({Order::What::end, 0, 0, own.code});
+  if (running || own.code == 0) return own;
+  if (phase == Phase::reading || others_too) return ranks::agree(own);
+  return own;
+}
+
+bool leaves_others_waiting(bool others_too) {
+  if (!ranks::several() || phase == Phase::reading) return false;
+  return phase == Phase::running ? ranks::own() != 0 : !others_too;
+}
+
+}  // namespace piola

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <memory>
+
+/// A run that several ranks share. Every rank reads the case and builds the simulation; then rank 0 runs it as if it
+/// were alone, and each call of its formulation that needs the others makes them do the same (conducted, follow). So
+/// nothing else of a run knows of ranks: rank 0 has the loop, the observers, the files and the words.
+namespace piola {
+
+/// Throws InputError with all that this case asks for and that runs on one rank only; nothing on one rank.
+void refuse_on_ranks(Assembly const& assembly);
+
+/// All ranks come here, those with trouble, too; throws ranks::Disagreement if one has some.
+void agree_to_go_on();
+
+/// On rank 0 of several: the formulation as the run sees it. Elsewhere, and on one rank, the formulation itself.
+std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation);
+
+/// On the other ranks: does what rank 0 does until that says the end; returns the exit code that it says.
+int follow(Formulation& formulation);
+
+/// Before a rank leaves with an exit code and a message: tells the others; returns what the whole run ends with.
+/// `others_too`: the trouble is one of the case, which every rank finds.
+ranks::Trouble leave(ranks::Trouble const& own, bool others_too);
+/// Whether the others could not learn by leave() that this rank has trouble: only ranks::abort_all ends them.
+bool leaves_others_waiting(bool others_too);
+
+}  // namespace piola

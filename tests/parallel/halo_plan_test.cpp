@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace piola {
+namespace {
+
+TEST(ShareOf, CoversAllSlotsOnceAndStartsWithBlocks) {
+  for (Index const slots : {0, 16, 64, 80, 1000, 106'144})
+    for (int const count : {1, 2, 3, 5, 7, 64}) {
+      Index next = 0;
+      for (int r = 0; r < count; ++r) {
+        Range const own = share_of(slots, r, count);
+        ASSERT_EQ(own.first, next) << slots << " slots, rank " << r << " of " << count;
+        ASSERT_TRUE(own.first % exec::block_size == 0 || own.first == slots);
+        ASSERT_LE(own.last - own.first, (slots / exec::block_size / count + 2) * exec::block_size);
+        next = own.last;
+      }
+      ASSERT_EQ(next, slots);
+    }
+}
+
+TEST(ShareOf, HasNothingForRanksBeyondTheBlocks) {
+  int with_particles = 0;
+  for (int r = 0; r < 7; ++r) with_particles += share_of(130, r, 7).first < share_of(130, r, 7).last ? 1 : 0;
+  EXPECT_EQ(with_particles, 3);
+}
+
+TEST(HaloPlan, OfOneRankReceivesNothing) {
+  HaloPlan const plan(640, {1, 5, 5, 639});
+  EXPECT_EQ(plan.received(), 0);
+}
+
+TEST(Ranks, AreOneWithoutALauncher) {
+  EXPECT_EQ(ranks::count(), 1);
+  EXPECT_EQ(ranks::own(), 0);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  ranks::take_largest(value);
+  EXPECT_TRUE(std::isnan(value));
+  std::vector<double> const values{1, -0.0, 3};
+  EXPECT_EQ(ranks::gather(values), values);
+  EXPECT_EQ(ranks::agree({2, "no such file"}).message, "no such file");
+}
+
+}  // namespace
+}  // namespace piola

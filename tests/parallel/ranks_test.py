@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ranks: every case of jst_sph that can, on 1, 2, 3 and 5 ranks, has the same bits: history, frames, checkpoints,
+pictures. A run goes on with another number of ranks; what is refused is said once; a killed rank ends all of them.
+
+Needs a build with PIOLA_MPI and mpirun; is skipped otherwise.
+"""
+import hashlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(os.environ.get("PIOLA_SOURCE_DIR", Path(__file__).resolve().parents[2]))
+PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
+STEPS = 20
+ONE_RANK = re.compile(r'"(nodal|adaptle|taylor_sph|jst_advection)"|\[\[rigid|\[\[tie|"multipliers"|^\[contact', re.M)
+failures = 0
+
+
+def expect(holds, text):
+    global failures
+    if not holds:
+        print("FAILED: " + text, flush=True)
+        failures += 1
+
+
+def command(ranks, *words):
+    launcher = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] if ranks > 1 else []
+    return [*launcher, PROGRAM, *map(str, words)]
+
+
+def piola(ranks, *words, threads=1):
+    return subprocess.run(command(ranks, *words), capture_output=True, text=True, timeout=250,
+                          env={**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads)})
+
+
+def checkpoint(file):
+    """Everything in it but how long the run took."""
+    found = {}
+    with h5py.File(file) as h:
+        h.visititems(lambda name, item: found.update({name: np.asarray(item).tobytes()})
+                     if isinstance(item, h5py.Dataset) else None)
+    return {name: hashlib.sha256(data).hexdigest() for name, data in found.items()}
+
+
+def contents(folder):
+    """What a run has computed, by name."""
+    found = {}
+    for file in sorted(folder.rglob("*")):
+        name = str(file.relative_to(folder))
+        if not file.is_file() or name in ("log.txt", "summary.json"):
+            continue
+        if file.suffix == ".h5":
+            found.update({f"{name} {key}": value for key, value in checkpoint(file).items()})
+        else:
+            found[name] = hashlib.sha256(file.read_bytes()).hexdigest()
+    return found
+
+
+def differences(a, b):
+    return sorted(name for name in a.keys() | b.keys() if a.get(name) != b.get(name))
+
+
+def able_cases():
+    files = [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if '"jst_sph"' in file.read_text()]
+    return [file for file in files if not ONE_RANK.search(file.read_text())]
+
+
+def first_step(file, work):
+    """[s], as the run says it; the run itself is as short as can be."""
+    told = piola(1, "run", file, "--no-pictures", "--out", work / "first", "--set", 'run.end="1e-12 s"').stdout
+    value, unit = re.search(r"first step ([\d.e+-]+) (\w+)", told).groups()
+    return float(value) * {"s": 1, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "ps": 1e-12}[unit]
+
+
+def compare_case(file, work):
+    end = f'run.end="{STEPS * first_step(file, work):.9e} s"'
+    reference, name = work / "one", file.parent.relative_to(SOURCE / "cases")
+    one = piola(1, "run", file, "--out", reference, "--set", end)
+    expect(one.returncode == 0, f"{name} on one rank: {one.stderr}")
+    expected = contents(reference)
+    expect(any(key.startswith("checkpoints") for key in expected), f"{name}: no checkpoint to compare")
+    for ranks, threads in ((2, 2), (3, 1), (5, 1)):
+        several = work / str(ranks)
+        run = piola(ranks, "run", file, "--out", several, "--set", end, threads=threads)
+        expect(run.returncode == 0, f"{name} on {ranks} ranks: {run.stdout}{run.stderr}")
+        expect(run.stdout.count("completed at") == 1, f"{name} on {ranks} ranks speaks with several voices")
+        different = differences(expected, contents(several)) if several.is_dir() else ["everything"]
+        expect(not different, f"{name} on {ranks} ranks with {threads} threads differs in {different[:8]}")
+        shutil.rmtree(several, ignore_errors=True)
+    print(f"{name}: {len(expected)} files and datasets compared", flush=True)
+
+
+def compare_restarts(bar, work):
+    """2 to 3 to 1 rank against a run without interruption."""
+    whole, parts = work / "whole", work / "parts"
+    piola(1, "run", bar, "--out", whole)
+    expect(piola(2, "run", bar, "--out", parts, "--set", 'run.end="7.3 ms"').returncode == 0, "the first part")
+    for ranks, end in ((3, "13.1 ms"), (1, "20 ms")):
+        resumed = piola(ranks, "resume", parts, "--set", f'run.end="{end}"')
+        expect(resumed.returncode == 0, f"resumed on {ranks} ranks: {resumed.stderr}")
+    final = sorted((whole / "checkpoints").iterdir())[-1].name
+    expect((parts / "checkpoints" / final).is_file(), f"the resumed run does not end with {final}")
+    expect(not differences(checkpoint(whole / "checkpoints" / final), checkpoint(parts / "checkpoints" / final)),
+           "the run resumed on 2, 3 and 1 ranks ends in another state")
+    expect((whole / "history.csv").read_bytes() == (parts / "history.csv").read_bytes(),
+           "the run resumed on 2, 3 and 1 ranks has another history")
+
+
+def check_words(bar, work):
+    """One message, whoever finds what is wrong, and the exit code of one rank."""
+    for words, code, text in (
+            (["run", bar, "--set", "run.ende=1"], 2, "ende"),
+            (["run", "nothing.toml"], 2, "no such case file"),
+            (["run", SOURCE / "cases/nodal/swinging_cube", "--out", work / "no"], 2, 'formulation "nodal" runs on one'),
+            (["check", bar], 2, "start this command without mpirun"),
+            (["fly"], 2, "fly")):
+        told = piola(2, *words)
+        expect(told.returncode == code, f"{words}: exit code {told.returncode} instead of {code}: {told.stderr}")
+        expect(told.stderr.count(text) == 1, f"{words}: '{text}' is said {told.stderr.count(text)} times")
+    wrong = bar.read_text().replace('youngs_modulus = "17 MPa"', 'youngs_modulus = "17 Pa"')
+    (work / "soft.toml").write_text(wrong)
+    alone, shared = (piola(n, "run", work / "soft.toml", "--out", work / f"soft{n}", "--set", 'run.end="3 s"')
+                     for n in (1, 3))
+    expect(alone.returncode == 3, f"the soft bar does not fail: {alone.stdout}{alone.stderr}")
+    expect(shared.returncode == 3, f"the soft bar on 3 ranks: exit code {shared.returncode}")
+    said = [line for line in alone.stderr.splitlines() if "particle" in line][:1]
+    expect(said and said[0] in shared.stderr, f"the failure on 3 ranks is another one: {shared.stderr}")
+
+
+def check_killed(bar, work):
+    """A rank that is killed ends all; the run goes on from its last checkpoint with the same bits."""
+    folder = work / "killed"
+    run = subprocess.Popen(command(2, "run", bar, "--out", folder, "--quiet"), stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    for _ in range(600):
+        if (folder / "checkpoints").is_dir() and any((folder / "checkpoints").glob("*.h5")):
+            break
+        time.sleep(0.05)
+    children = subprocess.run(["pgrep", "-P", str(run.pid)], capture_output=True, text=True).stdout.split()
+    if run.poll() is None and len(children) == 2:
+        os.kill(int(children[1]), signal.SIGKILL)
+        expect(run.wait(60) != 0, "a run goes on, or ends well, without one of its ranks")
+    else:
+        print("killed: the run was over before a rank could be killed")
+        run.wait(60)
+    expect(piola(2, "resume", folder).returncode in (0, 2), "the run of the killed rank does not resume")
+    expect((folder / "history.csv").read_bytes() == (work / "whole" / "history.csv").read_bytes(),
+           "the run whose rank was killed has another history")
+
+
+if os.environ.get("PIOLA_MPI") != "ON" or not PROGRAM or not shutil.which("mpirun"):
+    print("skipped: needs a build with PIOLA_MPI, and mpirun")
+    sys.exit(77)
+
+with tempfile.TemporaryDirectory() as folder:
+    work = Path(folder)
+    bar = work / "bar.toml"
+    shutil.copy(SOURCE / "tests/app/bar.toml", bar)
+    chosen = sys.argv[1:] or ["cases", "restarts", "words", "killed"]
+    cases = able_cases()
+    expect(len(cases) >= 10, f"only {len(cases)} cases of jst_sph run on ranks")
+    for number, file in enumerate(cases if "cases" in chosen else []):
+        own = work / f"case{number}"
+        own.mkdir()
+        compare_case(file, own)
+        shutil.rmtree(own)
+    if "restarts" in chosen:
+        compare_restarts(bar, work)
+    if "words" in chosen:
+        check_words(bar, work)
+    if "killed" in chosen:
+        check_killed(bar, work)
+sys.exit(1 if failures else 0)
