@@ -35,6 +35,13 @@ class Frame:
         with _open(self.path) as file:
             return ["Position"] + sorted(file["VTKHDF/PointData"])
 
+    @property
+    def units(self) -> Dict[str, str]:
+        """The SI unit of each field, e.g. {"Pressure": "Pa"}."""
+        with _open(self.path) as file:
+            data = file["VTKHDF/PointData"]
+            return {"Position": "m"} | {name: _text(data[name].attrs.get("unit", "")) for name in sorted(data)}
+
     def __getitem__(self, name: str) -> np.ndarray:
         with _open(self.path) as file:
             data = file["VTKHDF/PointData"]
@@ -107,15 +114,17 @@ class Results:
         return pandas.DataFrame(self.history).set_index("time")
 
     def to_xarray(self):
-        """All fields of all frames as an xarray.Dataset with the dimensions time and particle."""
+        """All fields of all frames as an xarray.Dataset with the dimensions time and particle, in the order of the
+        particles' ids; attrs["units"] of each variable is its SI unit."""
         import xarray
         frames = list(self.frames)
+        units = frames[0].units if frames else {}
         variables = {}
         for name in frames[0].fields if frames else []:
             values = np.stack([frame[name] for frame in frames])
             more = () if values.ndim == 2 else (f"component_{values.shape[2]}",)
-            variables[name] = (("time", "particle") + more, values)
-        return xarray.Dataset(variables, coords={"time": self.frames.times})
+            variables[name] = (("time", "particle") + more, values, {"units": units[name]})
+        return xarray.Dataset(variables, coords={"time": ("time", self.frames.times, {"units": "s"})})
 
 
 def _open(path: str):
@@ -124,6 +133,10 @@ def _open(path: str):
         return h5py.File(path, "r")
     except OSError as error:
         raise FileError(f"{path}: cannot be read ({error})") from error
+
+
+def _text(value) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def _json(path: str) -> dict:

@@ -123,6 +123,57 @@ TEST(Skin, OpensWhereParticlesHaveParted) {
   EXPECT_NEAR(area(s.skin()), 7 + 2 * 0.5 - step * 3, 1e-9) << "two faces more";
 }
 
+/// The places under a linear motion.
+void move(Subject& s, Mat<3> const& F) {
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    Vec<3> const y = F * Vec<3>{{s.mesh.X[i][0], s.mesh.X[i][1], s.mesh.X[i][2]}};
+    s.x[i] = {y[0], y[1], y[2]};
+  }
+}
+
+TEST(Skin, StaysClosedWhereMaterialFlows) {
+  Mat<3> F = identity<3>();
+  F(0, 0) = 4;
+  F(1, 1) = F(2, 2) = 0.5;
+  ShapeSpec packed = drawn_box(4, ShapeSpec::Placement::cell_centred);
+  Subject lattice(packed), simplices(packed);
+  simplices.set.bodies.front().scattered = true;  // Delaunay's cells, the flat ones among them
+  for (std::size_t i = 0; i < simplices.set.X.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      simplices.set.X[i][c] += 0.02 * simplices.mesh.spacing * std::sin(7.0 * static_cast<double>(i * (c + 1)));
+  simplices.mesh = reference_mesh(simplices.set, simplices.set.bodies.front());
+  for (Subject* s : {&lattice, &simplices}) {
+    move(*s, F);
+    EXPECT_TRUE(torn_cells(s->mesh, s->now(), {}).empty()) << s->mesh.cells.corners;
+    EXPECT_NEAR(volume(s->skin()), 1, 0.02) << "outer corners follow what is drawn out, too";
+  }
+  Mat<3> open = F;
+  open(1, 1) = 1.1;  // 2.2 times the volume: no metal and no rubber, but a gap
+  move(lattice, open);
+  EXPECT_EQ(torn_cells(lattice.mesh, lattice.now(), {}).size(), static_cast<std::size_t>(lattice.mesh.cells.count()));
+}
+
+TEST(Skin, OpensWhereOneParticleFliesOff) {
+  Subject s(drawn_box(4, ShapeSpec::Placement::on_boundary));
+  s.x.back() = plus(s.x.back(), 2 * s.mesh.spacing, {1, 1, 1});
+  EXPECT_EQ(torn_cells(s.mesh, s.now(), {}), std::vector<Index>{s.mesh.cells.count() - 1}) << "the cell at the corner";
+}
+
+TEST(Skin, OpensWhereItIsShearedOff) {
+  Subject s(drawn_box(4, ShapeSpec::Placement::on_boundary));
+  auto const sheared = [&](double by) {
+    Mat<3> F = identity<3>();
+    F(0, 1) = by;
+    move(s, F);
+    return s.now();
+  };
+  EXPECT_TRUE(torn_cells(s.mesh, sheared(7.5), {}).empty()) << "keeps its volume";
+  auto const torn = torn_cells(s.mesh, sheared(8.5), {});
+  EXPECT_EQ(torn.size(), static_cast<std::size_t>(s.mesh.cells.count()));
+  EXPECT_EQ(torn_cells(s.mesh, sheared(7.5), torn), torn) << "as it was";
+  EXPECT_TRUE(torn_cells(s.mesh, sheared(5.5), torn).empty());
+}
+
 TEST(Skin, LeavesOutWhatHasLostItsNeighbours) {
   Subject const s(drawn_box(3, ShapeSpec::Placement::on_boundary));
   std::vector<std::uint8_t> loose(s.x.size(), 0);

@@ -7,6 +7,7 @@ Environment: PYTHONPATH finds piola; PIOLA_PROGRAM and PIOLA_SOURCE_DIR.
 import ast
 import contextlib
 import gc
+import importlib.util
 import inspect
 import io
 import os
@@ -300,6 +301,37 @@ class Folders(InFolder):
             results.frames[0]["Nothing"]
         with self.assertRaises(piola.FileError):
             piola.Results("elsewhere")
+
+    def test_units_of_frames(self):
+        run = piola.Run(column(), out="results")
+        run.finish()
+        units = piola.Results("results").frames[0].units
+        self.assertEqual(set(units), set(piola.Results("results").frames[0].fields))
+        for name, (unit, _) in run.fields.items():
+            self.assertEqual(units.get(name, unit), unit, name)
+        self.assertEqual((units["Position"], units["CauchyStress"]), ("m", "Pa"))
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "needs python3-pandas")
+    def test_pandas(self):
+        run = piola.Run(column(), out="results")
+        run.finish()
+        table = piola.Results("results").to_pandas()
+        self.assertEqual(table.index.name, "time")
+        self.assertEqual(set(table.columns), set(run.history) - {"time"})
+        np.testing.assert_array_equal(table["kinetic_energy"].to_numpy(), run.history["kinetic_energy"])
+        np.testing.assert_array_equal(table.index.to_numpy(), run.history["time"])
+
+    @unittest.skipUnless(importlib.util.find_spec("xarray"), "needs python3-xarray")
+    def test_xarray(self):
+        piola.Run(column(), out="results").finish()
+        results = piola.Results("results")
+        data = results.to_xarray()
+        self.assertEqual(dict(data.sizes), {"time": 5, "particle": 54, "component_3": 3, "component_6": 6,
+                                            "component_9": 9})
+        np.testing.assert_array_equal(data.time, results.frames.times)
+        self.assertEqual((data.Pressure.attrs["units"], data.time.attrs["units"]), ("Pa", "s"))
+        for name in results.frames[3].fields:
+            np.testing.assert_array_equal(data[name].isel(time=3), results.frames[3][name], name)
 
     def test_study(self):
         key = "body.column.material.poissons_ratio"

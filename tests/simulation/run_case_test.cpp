@@ -166,6 +166,44 @@ TEST(RunCase, DrawsTheSamePicturesAfterAStop) {
   }
 }
 
+/// Half of the plate sets off along x: it is drawn out to 2.55 times its spacing at the fourth picture, and is back at
+/// 2.41 at the last one.
+Simulation torn() {
+  Simulation s = pictured();
+  s.spec.output.pictures.labels = false;
+  std::vector<double> u(3 * s.particles.X.size()), v = u;
+  for (std::size_t i = 0; i < s.particles.X.size(); ++i)
+    if (s.particles.X[i][0] > 1.5) v[3 * i] = 3.1;
+  NamedState state;
+  state.put("u", u);
+  state.put("v", v);
+  state.put("steps", std::array{0.0});
+  s.formulation->load(state);
+  return s;
+}
+
+// The last picture shows it torn only because it was torn before the stop.
+TEST(RunCase, RemembersWhatIsTornOverAStop) {
+  TemporaryFolder const folder;
+  Simulation whole = torn(), first = torn(), second = torn();
+  run(whole, folder / "whole");
+  std::atomic<int> stop{0};
+  springs(first).stop_at = 85;
+  springs(first).stop = &stop;
+  run(first, folder / "parts", false, &stop);
+  run(second, folder / "parts", true);
+  std::string const last = "pictures/Displacement-000004.png";
+  Image const image = read_png(folder / "whole" / last);
+  EXPECT_EQ(image.at(image.width / 2, image.height / 2), (Colour{255, 255, 255})) << "a gap between the halves";
+  EXPECT_TRUE(text_of(folder / "whole" / last) == text_of(folder / "parts" / last));
+
+  Simulation never = torn();  // has no picture of the moment when it is torn
+  never.spec.output.pictures.every = 0.5;
+  run(never, folder / "never");
+  Image const closed = read_png(folder / "never/pictures/Displacement-000002.png");
+  EXPECT_NE(closed.at(closed.width / 2, closed.height / 2), (Colour{255, 255, 255}));
+}
+
 /// Two panels: the same field from two sides, or two fields.
 Simulation pictured_twice(std::string const& other_field) {
   Simulation s = pictured();

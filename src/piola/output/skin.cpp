@@ -5,6 +5,7 @@
 #include "piola/neighbours/cell_facets.hpp"
 #include "piola/output/points.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace piola {
 namespace {
@@ -18,7 +19,9 @@ bool is_longer(ReferenceMesh const& mesh, Configuration const& now, Index a, Ind
 bool has_parted(ReferenceMesh const& mesh, Configuration const& now, Index a, Index b) {
   auto const i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
   if (!now.loose.empty() && (now.loose[i] != 0 || now.loose[j] != 0)) return true;
-  return is_longer(mesh, now, a, b, parting_stretch);
+  if (!is_longer(mesh, now, a, b, parting.stretch)) return false;
+  std::array<Index, 2> const edge{std::min(a, b), std::max(a, b)};
+  return !std::binary_search(now.drawn_out.begin(), now.drawn_out.end(), edge);
 }
 
 /// Whether an edge of a cell is as `f` says, which takes its ends.
@@ -31,6 +34,47 @@ bool any_edge(ReferenceMesh const& mesh, Index cell, F const& f) {
   });
 }
 
+/// The determinant of as many directions as the mesh has dimensions [m^dimension].
+double volume_of(std::array<Place3, 3> const& d, int dimension) {
+  if (dimension == 1) return length(d[0]);
+  return dimension == 2 ? d[0][0] * d[1][1] - d[0][1] * d[1][0] : dot(d[0], cross(d[1], d[2]));
+}
+
+/// By how much the volume of a cell has grown at the corner where it has grown most. Flat simplices, which packed
+/// bodies have, count as a tenth of a cube: their own volume says nothing.
+double growth_of(ReferenceMesh const& mesh, Configuration const& now, Index cell) {
+  auto const corner = mesh.cells.of(cell);
+  auto const dimension = static_cast<std::size_t>(mesh.dimension);
+  bool const simplex = corner.size() == dimension + 1;
+  double const least = simplex ? 0.1 * std::pow(mesh.spacing, mesh.dimension) : 0;
+  double most = 0;
+  for (std::size_t c = 0; c < (simplex ? 1 : corner.size()); ++c) {
+    std::array<Place3, 3> d{}, D{};
+    for (std::size_t k = 0; k < dimension; ++k) {
+      std::size_t const bit = std::size_t{1} << k;
+      auto const from = static_cast<std::size_t>(corner[simplex ? 0 : c & ~bit]),
+                 to = static_cast<std::size_t>(corner[simplex ? k + 1 : c | bit]);
+      d[k] = minus(now.x[to], now.x[from]);
+      D[k] = minus(mesh.X[to], mesh.X[from]);
+    }
+    most = std::max(most, volume_of(d, mesh.dimension) / std::max(std::abs(volume_of(D, mesh.dimension)), least));
+  }
+  return most;
+}
+
+bool is_beyond(TearBounds const& bounds, ReferenceMesh const& mesh, Configuration const& now, Index cell) {
+  auto const longer_than = [&](double stretch) {
+    return any_edge(mesh, cell, [&](Index a, Index b) { return is_longer(mesh, now, a, b, stretch); });
+  };
+  return longer_than(bounds.stretch) && (longer_than(bounds.sheared_off) || growth_of(mesh, now, cell) > bounds.growth);
+}
+
+bool has_loose_corner(ReferenceMesh const& mesh, Configuration const& now, Index cell) {
+  auto const corner = mesh.cells.of(cell);
+  return !now.loose.empty() && std::any_of(corner.begin(), corner.end(),
+                                           [&](Index c) { return now.loose[static_cast<std::size_t>(c)] != 0; });
+}
+
 std::vector<std::uint8_t> whole_cells(ReferenceMesh const& mesh, Configuration const& now) {
   std::vector<std::uint8_t> whole(static_cast<std::size_t>(mesh.cells.count()), 1);
   if (now.torn) {
@@ -40,9 +84,32 @@ std::vector<std::uint8_t> whole_cells(ReferenceMesh const& mesh, Configuration c
   }
   exec_host::for_each_in_set_up(mesh.cells.count(), [&](Index cell) {
     whole[static_cast<std::size_t>(cell)] =
-        any_edge(mesh, cell, [&](Index a, Index b) { return has_parted(mesh, now, a, b); }) ? 0 : 1;
+        has_loose_corner(mesh, now, cell) || is_beyond(parting, mesh, now, cell) ? 0 : 1;
   });
   return whole;
+}
+
+/// See Configuration::drawn_out.
+std::vector<std::array<Index, 2>> drawn_out_edges(ReferenceMesh const& mesh, Configuration const& now,
+                                                  std::vector<std::uint8_t> const& whole) {
+  auto const is_long = [&](Index a, Index b) { return is_longer(mesh, now, a, b, parting.stretch); };
+  std::vector<std::uint8_t> has_one(whole.size(), 0);
+  exec_host::for_each_in_set_up(mesh.cells.count(), [&](Index cell) {
+    auto const k = static_cast<std::size_t>(cell);
+    has_one[k] = whole[k] != 0 && any_edge(mesh, cell, is_long) ? 1 : 0;
+  });
+  std::vector<std::array<Index, 2>> edges;
+  for (Index cell = 0; cell < mesh.cells.count(); ++cell) {
+    if (has_one[static_cast<std::size_t>(cell)] == 0) continue;
+    auto const corner = mesh.cells.of(cell);
+    for (auto const& e : edges_of(mesh.cells)) {
+      Index const a = corner[static_cast<std::size_t>(e[0])], b = corner[static_cast<std::size_t>(e[1])];
+      if (is_long(a, b)) edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
 }
 
 void add_triangles(std::span<Index const> corner, std::vector<SkinFacet>& facets) {
@@ -158,8 +225,7 @@ void cut_tetrahedron(std::array<Index, 4> const& corner, std::span<double const>
 std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& now, std::span<Index const> before) {
   auto whole = whole_cells(mesh, {now.x, now.loose, {}});
   for (Index const cell : before)
-    if (any_edge(mesh, cell, [&](Index a, Index b) { return is_longer(mesh, now, a, b, joining_stretch); }))
-      whole[static_cast<std::size_t>(cell)] = 0;
+    if (is_beyond(joining, mesh, now, cell)) whole[static_cast<std::size_t>(cell)] = 0;
   std::vector<Index> torn;
   for (Index cell = 0; cell < mesh.cells.count(); ++cell)
     if (whole[static_cast<std::size_t>(cell)] == 0) torn.push_back(cell);
@@ -218,11 +284,13 @@ Skin make_skin(ReferenceMesh const& mesh, Configuration const& now) {
       for (Index const c : mesh.cells.of(cell)) skin.inside[static_cast<std::size_t>(c)] = 1;
   skin.place.assign(now.x.begin(), now.x.end());
   skin.reference = mesh.X;
+  auto const drawn_out = drawn_out_edges(mesh, now, skin.whole);
+  Configuration const with_drawn_out{now.x, now.loose, now.torn, drawn_out};
   exec_host::for_each_in_set_up(static_cast<Index>(mesh.count), [&](Index k) {
     auto const i = static_cast<std::size_t>(k);
     Place3 const& S = mesh.outward[i];
     if (dot(S, S) == 0 || skin.inside[i] == 0) return;
-    Vec<3> const s = fitted_gradient(mesh, now, i) * Vec<3>{{S[0], S[1], S[2]}};
+    Vec<3> const s = fitted_gradient(mesh, with_drawn_out, i) * Vec<3>{{S[0], S[1], S[2]}};
     skin.place[i] = plus(skin.place[i], 1, {s[0], s[1], s[2]});
     skin.reference[i] = plus(skin.reference[i], 1, S);
   });

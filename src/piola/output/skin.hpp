@@ -10,28 +10,36 @@
 
 namespace piola {
 
-/// Particles have parted where an edge of the mesh is longer than so many times its length in the reference
-/// configuration.
-inline constexpr double parting_stretch = 2.5;
-/// What has parted belongs together again where no edge is longer than that: in between, it stays as it was, so that
-/// skins do not flicker from picture to picture.
-inline constexpr double joining_stretch = 2;
+/// When a cell of the mesh is torn: an edge is longer than `stretch` times its length in the reference configuration,
+/// and the cell has opened (at a corner, its volume has grown to more than `growth` times what it was), or is sheared
+/// off (an edge is longer than `sheared_off` times). Stretch alone does not tell: a metal that flows is drawn out to
+/// three times its length and keeps its volume within a tenth, while a gap is volume that was not there.
+struct TearBounds {
+  double stretch, growth, sheared_off;
+};
+inline constexpr TearBounds parting{2.5, 2, 8};
+/// What is torn belongs together again where it is below all of these: in between, it stays as it was, so that skins do
+/// not flicker from picture to picture.
+inline constexpr TearBounds joining{2, 1.5, 6};
 
 /// The particles of one body at one moment: positions [m], and which have lost their neighbours for good (not 0;
 /// empty: none).
 struct Configuration {
   std::span<Place3 const> x;
   std::span<std::uint8_t const> loose;
-  std::optional<std::span<Index const>> torn = {};  ///< cells that are, rising; nothing: those that have parted
+  std::optional<std::span<Index const>> torn = {};  ///< cells that are, rising; nothing: as `parting` says
+  /// Edges of cells that are whole although these are longer than parting.stretch, each with its lower end first,
+  /// rising.
+  std::span<std::array<Index, 2> const> drawn_out = {};
 };
 
-/// The cells that are torn, rising: an edge of theirs has parted, one of their particles is loose, or they were torn
-/// (`before`, rising) and have an edge that has not joined again.
+/// The cells that are torn, rising: as `parting` says, one of their particles is loose or not a number, or they were
+/// torn (`before`, rising) and are not below `joining` again.
 std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& now, std::span<Index const> before);
 
 /// F of a particle: the linear map that fits the places of those around it best (least squares over the edges of the
-/// mesh that are whole), with a little of the identity, which decides in directions that nobody marks. Exact to 1e-3 of
-/// F - I for a linear motion.
+/// mesh that are not longer than parting.stretch, or drawn out), with a little of the identity, which decides in
+/// directions that nobody marks. Exact to 1e-3 of F - I for a linear motion.
 Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle);
 
 /// What the balls of pictures and pages are stretched by, at the least and at most.
@@ -55,8 +63,8 @@ struct Skin {
   std::vector<SkinFacet> facets;
 };
 
-/// The surface of what hangs together: outer facets of the cells none of whose edges has parted and none of whose
-/// particles is loose; in 2D all of these cells. A torn cell leaves a ragged hole with its own thickness.
+/// The surface of what hangs together: outer facets of the cells that are not torn; in 2D all of these cells. A torn
+/// cell leaves a ragged hole with its own thickness.
 Skin make_skin(ReferenceMesh const& mesh, Configuration const& now);
 
 /// The section of a body of three dimensions with the surface on which `beyond`, one value per particle, is zero:
