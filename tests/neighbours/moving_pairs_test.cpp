@@ -11,7 +11,8 @@
 namespace piola {
 namespace {
 
-using Points = std::vector<std::array<double, 3>>;
+using Point = std::array<double, 3>;
+using Points = std::vector<Point>;
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
@@ -158,6 +159,21 @@ TEST(MovingPairs, ComeInTheSameOrderFromEveryMachine) {
     Search const s{dimension, cloud(dimension, 1500, 8), dimension == 2 ? 0.11 : 0.2};
     auto const first = s.lists("auto");
     for (auto names = adaptle::machine_names(); *names != nullptr; ++names) EXPECT_EQ(s.lists(*names), first) << *names;
+  }
+}
+
+/// Cells stay where they are when others go far: so does the order of neighbours.
+TEST(MovingPairs, ComeInTheSameOrderHoweverFarOthersReach) {
+  for (int const dimension : {2, 3}) {
+    Search s{dimension, cloud(dimension, 900, 11), dimension == 2 ? 0.11 : 0.2};
+    auto const before = s.lists("auto");
+    Point const far[] = {{-3.03, 4.1, 0}, {2.9, 7.77, dimension == 3 ? -1.234 : 0}, {0, 3.3, dimension == 3 ? 2.5 : 0}};
+    for (Point const& p : far) {
+      s.x.push_back(p);
+      auto after = s.lists("auto");
+      after.resize(before.size());
+      EXPECT_EQ(after, before);
+    }
   }
 }
 

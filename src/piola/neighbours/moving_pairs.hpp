@@ -12,7 +12,7 @@ namespace piola {
 struct MovingSearch {
   int dimension = 3;
   Index sources = 0;
-  float const* place[3] = {};           ///< coordinates in units of a cell, from the corner of the grid
+  float const* place[3] = {};           ///< coordinates in units of a cell
   std::int32_t const* group = nullptr;  ///< of each sorted particle: null: all pairs
   bool across = false;                  ///< pairs of different groups, else of the same group
   Index const* cell = nullptr;          ///< of each sorted particle: its cell, x fastest
@@ -30,9 +30,12 @@ struct MovingSearch {
 /// Particles sorted by cubic cells, cell by cell with x fastest, in order of their numbers within a cell.
 class MovingGrid {
  public:
-  /// positions: `stride` doubles apart; `use`: whether a particle counts. cell: edge [m], not below the largest search
-  /// radius. Particles far outside of the others share cells at the border, which costs time but loses no pair.
-  void sort(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell);
+  /// x: positions, `stride` doubles apart. cell: edge [m], not below the largest search radius. origin: a corner of
+  /// cells [m]. With the same edge and origin the order does not depend on how far the particles reach, and pairs at
+  /// the edge of the search hardly do. Particles far outside of the others share cells at the border, which costs time
+  /// but loses no pair.
+  void sort(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell,
+            std::array<double, 3> const& origin = {});
 
   Index const* slots() const { return slot_.data(); }     ///< of each sorted particle
   Index const* sorted() const { return sorted_.data(); }  ///< of each particle

@@ -24,6 +24,7 @@ struct ImpactSubject {
   char const* description;
   char const* correction;
   double artificial_stress;
+  bool lattice = false;  ///< places are not jittered
 };
 
 Assembly body(ImpactSubject const& subject, int cube_side, std::string const& machine) {
@@ -32,7 +33,7 @@ Assembly body(ImpactSubject const& subject, int cube_side, std::string const& ma
   ShapeSpec shape;
   shape.dimension = subject.dimension;
   shape.placement = ShapeSpec::Placement::cell_centred;
-  shape.jitter = 0.2;
+  shape.jitter = subject.lattice ? 0 : 0.2;
   for (int c = 0; c < subject.dimension; ++c) {
     auto const k = static_cast<std::size_t>(c);
     shape.particles[k] = side;
@@ -104,6 +105,7 @@ AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options) {
                                     {"cube, Eulerian, artificial stress", 3, "eulerian", "none", 0.3},
                                     {"cube, Eulerian, corrected", 3, "eulerian", "mixed", 0},
                                     {"cube, total-Lagrangian", 3, "total_lagrangian", "material", 0},
+                                    {"cube, total-Lagrangian, lattice", 3, "total_lagrangian", "material", 0, true},
                                     {"cube, half and half", 3, "patch", "material", 0},
                                     {"plate, Eulerian", 2, "eulerian", "none", 0},
                                     {"plate, total-Lagrangian", 2, "total_lagrangian", "material", 0}};

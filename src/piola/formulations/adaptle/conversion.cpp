@@ -58,6 +58,7 @@ bool Particles::wishes_by_formula() {
 
 /// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not.
 void Particles::convert(double dt) {
+  ConversionSums sums;
   for (Index i = 0; i < system_.particles; ++i) {
     if (wish_[at(i)] == 0) continue;
     auto const body = static_cast<std::size_t>(body_of_[at(i)]);
@@ -68,14 +69,17 @@ void Particles::convert(double dt) {
     bool const guard = wish_[at(i)] == 2;
     if (!guard)
       material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].material_h, reference_,
-                               [&](Index j) { make_eulerian(j, dt, false); });
-    make_eulerian(i, dt, guard);
+                               [&](Index j) { make_eulerian(j, dt, false, sums); });
+    make_eulerian(i, dt, guard, sums);
   }
+  books_.converted_mass += sums.value(0);
+  books_.energy_change += sums.value(1);
+  books_.momentum_change += sums.value(2);
   choose_material();
 }
 
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
-void Particles::make_eulerian(Index i, double dt, bool by_guard) {
+void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums) {
   State& s = state_[at(i)];
   if (s.phi == 1) return;
   Share const before(s, reference_[at(i)]);
@@ -85,10 +89,10 @@ void Particles::make_eulerian(Index i, double dt, bool by_guard) {
   Share const after(s, reference_[at(i)]);
   books_.converted += 1;
   books_.by_guard += by_guard ? 1 : 0;
-  books_.converted_mass += reference_[at(i)].mass;
-  books_.energy_change += std::abs(after.energy - before.energy);
-  books_.momentum_change += std::hypot(after.momentum[0] - before.momentum[0], after.momentum[1] - before.momentum[1],
-                                       after.momentum[2] - before.momentum[2]);
+  double const jump[3]{reference_[at(i)].mass, std::abs(after.energy - before.energy),
+                       std::hypot(after.momentum[0] - before.momentum[0], after.momentum[1] - before.momentum[1],
+                                  after.momentum[2] - before.momentum[2])};
+  sums.add(jump);
 }
 
 /// Bears no stress any more and leaves the sums of its neighbours; its deformation stays as it is.

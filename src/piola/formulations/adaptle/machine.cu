@@ -15,10 +15,12 @@ void launch_law(Range r, void const* pass) {
   exec::for_each_block(r, exec::as<Finish<D, Law>>(pass));
 }
 
-template <int D, class Gradient>
+template <int D, MaterialForm Form>
 void launch_material(Range r, void const* pass) {
-  exec::for_each_block(r, exec::as<DeformSweep<D, Gradient>>(pass));
-  exec::for_each_block(r, exec::as<MaterialSweep<D, Gradient>>(pass));
+  exec::for_each_block(r, exec::as<DeformLists<D, Form>>(pass));
+  exec::for_each_block(r, exec::as<DeformRows<D, Form>>(pass));
+  exec::for_each_block(r, exec::as<ForceLists<D, Form>>(pass));
+  exec::for_each_block(r, exec::as<ForceRows<D, Form>>(pass));
 }
 
 template <int D>
@@ -29,10 +31,10 @@ void launch_all(Range r, void const* pass) {
   launch_law<D, Solid<JohnsonHolmquist, PolynomialEos>>(r, pass);
   launch_law<D, Solid<SteinbergGuinan, MieGrueneisen>>(r, pass);
   launch_law<D, Solid<PerfectPlasticity, JwlEos>>(r, pass);
-  launch_material<D, float>(r, pass);
-  launch_material<D, double>(r, pass);
-  exec::for_each_block(r, exec::as<PublishedDeformSweep<D>>(pass));
-  exec::for_each_block(r, exec::as<PublishedMaterialSweep<D>>(pass));
+  launch_material<D, MaterialForm::corrected>(r, pass);
+  launch_material<D, MaterialForm::plain>(r, pass);
+  launch_material<D, MaterialForm::published>(r, pass);
+  launch_material<D, MaterialForm::published_plain>(r, pass);
   exec::for_each_block(r, exec::as<SpatialSweep<D, false, false>>(pass));
   exec::for_each_block(r, exec::as<SpatialSweep<D, false, true>>(pass));
   exec::for_each_block(r, exec::as<SpatialSweep<D, true, false>>(pass));

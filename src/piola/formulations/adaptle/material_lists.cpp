@@ -11,16 +11,6 @@ namespace {
 
 constexpr Correction plain{1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
 
-template <int D>
-void kernel_of(double h, double square, double& s, double& W) {
-  Kernel<D>(h).evaluate(square, s, W);
-}
-
-void kernel_of(int dimension, double h, double square, double& s, double& W) {
-  if (dimension == 2) return kernel_of<2>(h, square, s, W);
-  kernel_of<3>(h, square, s, W);
-}
-
 /// The inverse of the first moments, or nothing where it is singular.
 template <int D>
 bool invert_moments(double const* A, double* K) {
@@ -46,15 +36,28 @@ void MaterialLists::build(ParticleSet const& set, std::vector<BodyConstants> con
   begin_.assign(1, 0);
   begin_.reserve(at(particles_) + 1);
   filled_.reserve(at(particles_));
-  for (BodyConstants const& body : bodies) list(set, body, reference, lanes);
-  if (!published_) return invert(reference, set.dimension, settings.corrected_material);
-  correction_.assign(at(particles_), plain);
-  if (settings.corrected_material) correct(reference, bodies, set.dimension);
+  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, set.bodies[b], bodies[b], reference, lanes);
+  if (published_) {
+    correction_.assign(at(particles_), plain);
+    moments_.resize(at(particles_));
+    if (settings.corrected_material) correct(reference, bodies, set.dimension);
+    sum_gradients([](Index) { return true; }, reference);
+  } else {
+    invert(reference, set.dimension, settings.corrected_material);
+  }
+  int const components =
+      set.dimension == 2 ? MaterialRecord<2>::values(published_) : MaterialRecord<3>::values(published_);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    rows_.emplace_back(set, set.bodies[b], bodies[b].material_h, begin_, neighbour_, lanes, rounded_, components);
+  for (LatticeRows& rows : rows_) row_views_.push_back(rows.view());
+  for (BodyConstants const& body : bodies) bodies_.emplace_back(body.first, body.last);
 }
 
-void MaterialLists::list(ParticleSet const& set, BodyConstants const& body, std::vector<Reference> const& reference,
-                         int lanes) {
+void MaterialLists::list(ParticleSet const& set, Body const& geometry, BodyConstants const& body,
+                         std::vector<Reference> const& reference, int lanes) {
   double const reach = 2 * body.material_h * (1 - 1e-9);
+  bool const lattice = geometry.regular && !geometry.scattered;
+  auto const& place = set.lattice_index.seen();
   std::vector<std::array<double, 3>> const points(set.X.begin() + body.first, set.X.begin() + body.last);
   CellGrid const grid(points, reach);
   std::vector<Index> near;
@@ -74,6 +77,8 @@ void MaterialLists::list(ParticleSet const& set, BodyConstants const& body, std:
         double const d = reference[at(j)].X[c] - reference[at(i)].X[c];
         square += d * d;
       }
+      // Of a lattice: the same number wherever the pair is, as patterns have it.
+      if (lattice) square = lattice_square(geometry, place[at(i)], place[at(j)]);
       add_pair(set.dimension, body.material_h, j, square);
     }
     std::size_t const found = neighbour_.size();
@@ -120,16 +125,19 @@ void MaterialLists::invert(std::vector<Reference> const& reference, int dimensio
   }
 }
 
-/// The sums of V0 s r anew, without deleted neighbours.
-void MaterialLists::sum_gradients(std::vector<State> const& state, std::vector<Reference> const& reference) {
+/// The sums of V0 s r and V0 W anew, without deleted neighbours.
+template <class F>
+void MaterialLists::sum_gradients(F const& alive, std::vector<Reference> const& reference) {
   for (Index i = 0; i < particles_; ++i) {
-    double* G = moments_[at(i)].G;
-    for (int c = 0; c < 3; ++c) G[c] = 0;
+    MaterialCorrection& m = moments_[at(i)];
+    for (int c = 0; c < 3; ++c) m.G[c] = 0;
+    m.W = 0;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
       Index const j = neighbour_[at(k)];
-      if (j >= particles_ || !(state[at(j)].alive > 0)) continue;
+      if (j >= particles_ || !alive(j)) continue;
       double const Vs = reference[at(j)].volume * gradient(k);
-      for (int c = 0; c < 3; ++c) G[c] += Vs * (reference[at(j)].X[c] - reference[at(i)].X[c]);
+      for (int c = 0; c < 3; ++c) m.G[c] += Vs * (reference[at(j)].X[c] - reference[at(i)].X[c]);
+      if (published_) m.W += reference[at(j)].volume * W_[at(k)];
     }
   }
 }
@@ -168,21 +176,34 @@ void MaterialLists::correct(std::vector<Reference> const& reference, std::vector
 
 void MaterialLists::choose(std::vector<State> const& state, std::vector<Reference> const& reference, bool printed,
                            std::vector<Deformation>& deformation) {
-  kinematic_.clear();
-  target_.clear();
   bool const deleted = std::any_of(state.begin(), state.end(), [](State const& s) { return !(s.alive > 0); });
-  if (!published_ && (deleted || deleted_)) sum_gradients(state, reference);
+  if (deleted || deleted_) sum_gradients([&](Index j) { return state[at(j)].alive > 0; }, reference);
   deleted_ = deleted;
+  using Part = MaterialPart;
+  part_.assign(at(particles_) + 16, 0);
   auto const lagrangian = [&](Index i) { return state[at(i)].phi < 1; };
   for (Index i = 0; i < particles_; ++i) {
-    bool const own = lagrangian(i);
+    bool const own = lagrangian(i), other = state[at(i)].phi > 0;
     bool beside = false;
-    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && !own && !beside; ++k)
-      beside = neighbour_[at(k)] < particles_ && lagrangian(neighbour_[at(k)]);
+    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && other; ++k) {
+      Index const j = neighbour_[at(k)];
+      if (j >= particles_) continue;
+      part_[at(j)] |= Part::mixed;
+      beside = beside || lagrangian(j);
+    }
     bool const kinematic = own || (printed && beside);
-    if (kinematic) kinematic_.push_back(i);
-    if (own || (beside && !printed)) target_.push_back(i);
+    if (kinematic) part_[at(i)] |= Part::kinematic;
+    if (own || (beside && !printed)) part_[at(i)] |= Part::target;
     deformation[at(i)].gap = kinematic ? std::max(deformation[at(i)].gap, 0.0) : -1;
+  }
+  kinematic_.clear();
+  target_.clear();
+  for (std::size_t b = 0; b < rows_.size(); ++b) {
+    if (rows_[b].has_rows()) continue;
+    for (Index i = bodies_[b].first; i < bodies_[b].second; ++i) {
+      if ((part_[at(i)] & Part::kinematic) != 0) kinematic_.push_back(i);
+      if ((part_[at(i)] & Part::target) != 0) target_.push_back(i);
+    }
   }
 }
 
@@ -197,13 +218,18 @@ void MaterialLists::put_into(MaterialTable& table) const {
   table.kinematic = kinematic_.data();
   table.kinematics = static_cast<Index>(kinematic_.size());
   table.target = target_.data();
+  table.part = part_.data();
+  table.rows_of = row_views_.data();
   table.targets = static_cast<Index>(target_.size());
 }
 
 std::size_t MaterialLists::bytes() const {
-  return sizeof(Offset) * begin_.size() + sizeof(Index) * (neighbour_.size() + kinematic_.size() + target_.size()) +
-         sizeof(float) * gradient_.size() + sizeof(double) * (s_.size() + W_.size()) + filled_.size() +
-         sizeof(Correction) * correction_.size() + sizeof(MaterialCorrection) * moments_.size();
+  std::size_t rows = 0;
+  for (LatticeRows const& of_body : rows_) rows += of_body.bytes();
+  return rows + part_.size() + sizeof(Offset) * begin_.size() +
+         sizeof(Index) * (neighbour_.size() + kinematic_.size() + target_.size()) + sizeof(float) * gradient_.size() +
+         sizeof(double) * (s_.size() + W_.size()) + filled_.size() + sizeof(Correction) * correction_.size() +
+         sizeof(MaterialCorrection) * moments_.size();
 }
 
 }  // namespace piola::adaptle

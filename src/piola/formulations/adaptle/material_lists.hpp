@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/state.hpp"
-#include "piola/particles/particle_set.hpp"
+#include "piola/formulations/adaptle/material_rows.hpp"
+#include <algorithm>
 #include <vector>
 
 namespace piola::adaptle {
@@ -37,6 +37,10 @@ class MaterialLists {
 
   void put_into(MaterialTable& table) const;
   bool built() const { return !begin_.empty(); }
+  /// Whether some body has lists only, so that records are read from a table of all particles.
+  bool needs_records() const {
+    return std::any_of(rows_.begin(), rows_.end(), [](LatticeRows const& rows) { return !rows.has_rows(); });
+  }
   int neighbours(Index a) const {
     auto const i = static_cast<std::size_t>(a);
     return static_cast<int>(begin_[i + 1] - begin_[i]) - filled_[i];
@@ -44,11 +48,13 @@ class MaterialLists {
   std::size_t bytes() const;
 
  private:
-  void list(ParticleSet const& set, BodyConstants const& body, std::vector<Reference> const& reference, int lanes);
+  void list(ParticleSet const& set, Body const& geometry, BodyConstants const& body,
+            std::vector<Reference> const& reference, int lanes);
   void add_pair(int dimension, double h, Index j, double square);
   void correct(std::vector<Reference> const& reference, std::vector<BodyConstants> const& bodies, int dimension);
   void invert(std::vector<Reference> const& reference, int dimension, bool corrected);
-  void sum_gradients(std::vector<State> const& state, std::vector<Reference> const& reference);
+  template <class F>
+  void sum_gradients(F const& alive, std::vector<Reference> const& reference);
   /// s of pair k as the sums see it.
   double gradient(Offset k) const {
     auto const place = static_cast<std::size_t>(k);
@@ -64,6 +70,10 @@ class MaterialLists {
   std::vector<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
   std::vector<Correction> correction_;
   std::vector<MaterialCorrection> moments_;
+  std::vector<std::uint8_t> part_;
+  std::vector<LatticeRows> rows_;        ///< per body
+  std::vector<MaterialRows> row_views_;  ///< per body
+  std::vector<std::pair<Index, Index>> bodies_;
 };
 
 }  // namespace piola::adaptle

@@ -245,26 +245,16 @@ void Particles::set_descriptions(Assembly const& assembly) {
     for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
   system_.deformation = deformation_.data();
   material_.build(assembly.particles, body_, reference_, options_.settings, machine_->lanes);
-  auto const records = [&](int stride) { return Memory((state_.size() + 1) * static_cast<std::size_t>(stride)); };
-  bool const flat = system_.dimension == 2;
-  if (!options_.settings.published) {
-    int const stride = flat ? MaterialRecord<2>::stride : MaterialRecord<3>::stride;
-    material_records_ = records(stride);
-    double* filler = material_records_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
-    filler[flat ? MaterialRecord<2>::viscosity : MaterialRecord<3>::viscosity] = 1;
-    system_.material.record = material_records_.data();
-    return;
-  }
-  motion_ = records(flat ? MotionRecord<2>::stride : MotionRecord<3>::stride);
-  force_ = records(flat ? ForceRecord<2>::stride : ForceRecord<3>::stride);
-  int const stride = flat ? ViscousRecord<2>::stride : ViscousRecord<3>::stride;
-  viscous_ = records(stride);
-  double* filler = viscous_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
-  filler[flat ? ViscousRecord<2>::inverse_J : ViscousRecord<3>::inverse_J] = 1;
-  filler[flat ? ViscousRecord<2>::rho : ViscousRecord<3>::rho] = 1;
-  system_.material.motion = motion_.data();
-  system_.material.force = force_.data();
-  system_.material.viscous = viscous_.data();
+  if (!material_.needs_records()) return;
+  using Flat = MaterialRecord<2>;
+  using Deep = MaterialRecord<3>;
+  bool const flat = system_.dimension == 2, published = options_.settings.published;
+  int const stride = flat ? Flat::stride(published) : Deep::stride(published);
+  material_records_ = Memory((state_.size() + 1) * static_cast<std::size_t>(stride));
+  double* filler = material_records_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
+  filler[flat ? Flat::viscosity : Deep::viscosity] = 1;
+  if (published) filler[flat ? Flat::inverse_J : Deep::inverse_J] = 1;
+  system_.material.record = material_records_.data();
 }
 
 void Particles::choose_material() {
@@ -475,8 +465,7 @@ std::size_t Particles::bytes() const {
   return state_.size() *
              (sizeof(Reference) + sizeof(State) + sizeof(Rates) + sizeof(Half) + sizeof(Sums) + sizeof(int)) +
          sizeof(Deformation) * deformation_.size() + sizeof(double) * position_.size() +
-         correction_.size() * sizeof(Correction) + material_records_.bytes() + motion_.bytes() + force_.bytes() +
-         viscous_.bytes() + material_.bytes() + spatial_.bytes();
+         correction_.size() * sizeof(Correction) + material_records_.bytes() + material_.bytes() + spatial_.bytes();
 }
 
 void Particles::resumed() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/exact_sum.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/point_factors.hpp"
@@ -80,7 +81,9 @@ class Particles {
   void evaluate(double dt);
   void convert(double dt);
   bool wishes_by_formula();
-  void make_eulerian(Index i, double dt, bool by_guard);
+  /// Mass, change of energy and of momentum of those that convert in a step.
+  using ConversionSums = exec::ExactSums<3>;
+  void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
   void remove(Index i);
 
   Options options_;
@@ -100,7 +103,7 @@ class Particles {
   std::vector<std::uint8_t> eulerian_;
   MaterialLists material_;
   SpatialLists spatial_;
-  Memory material_records_, motion_, force_, viscous_;
+  Memory material_records_;
   std::vector<ContactPair> contact_pairs_;
   std::vector<double> partial_, rigid_power_;
   PointFactors factors_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/viscosity.hpp"
+#include "piola/formulations/adaptle/material_pairs.hpp"
 #include "piola/materials/solids.hpp"
 
 /// What happens at one particle between the sweeps. The scheme drifts half a step, evaluates everything once at half
@@ -47,6 +47,7 @@ struct Predict {
   Sums* sums;
   double* position;
   MaterialTable material;
+  bool published;  ///< material sums
   OwnFactors own;
   FailureSlot* failure;
 
@@ -77,17 +78,13 @@ struct Predict {
     out.thickness = s.thickness + step * k.thickness;
     out.rho = s.rho + step * k.rho;
     sums[i] = Sums{};
-    if (!material.used) return;
-    if (material.record != nullptr)
-      write_record(i, s, out);
-    else
-      write_published(i, s, out);
+    if (material.used) write_record(i, s, out);
   }
 
   /// Deleted particles have no volume; the rest of what they say does not matter.
   PIOLA_FN void write_record(Index i, State const& s, Half const& h) const {
     using R = MaterialRecord<D>;
-    double* record = material.record + static_cast<std::ptrdiff_t>(i) * R::stride;
+    RecordPlace const record = record_of<D>(material, published, i);
     for (int c = 0; c < D; ++c) {
       double const X = reference[i].X[c];
       record[R::u + c] = s.x[c] - X;
@@ -97,17 +94,6 @@ struct Predict {
     record[R::volume] = s.alive > 0 ? reference[i].volume : 0;
     double const factor = s.viscosity > 1e-300 ? s.viscosity : 1e-300;
     record[R::viscosity] = s.phi > 0 && s.alive > 0 ? -factor : factor;
-  }
-
-  PIOLA_FN void write_published(Index i, State const& s, Half const& h) const {
-    using R = MotionRecord<D>;
-    double* record = material.motion + static_cast<std::ptrdiff_t>(i) * R::stride;
-    for (int c = 0; c < D; ++c) {
-      record[R::X + c] = reference[i].X[c];
-      record[R::u + c] = s.x[c] - reference[i].X[c];
-      record[R::v + c] = h.v[c];
-    }
-    record[R::volume] = s.alive > 0 ? reference[i].volume : 0;
   }
 };
 
@@ -158,39 +144,48 @@ struct HalfState {
       for (int q = p; q < D; ++q) plane(p, q) = stress(p, q);
     if (spatial.record != nullptr && (spatial.near == nullptr || spatial.near[i] != 0)) write_spatial(i, s, h, plane);
     if (!material.used) return;
-    if (material.record != nullptr)
-      write_record(i, s, h, plane, J);
-    else
+    if (settings.published)
       write_published(i, s, h, plane, J);
+    else
+      write_record(i, s, h, plane, J);
+  }
+
+  /// The halves of damping and springs that A carries, per unit of dF/dt and of F - I: of total-Lagrangian particles.
+  PIOLA_FN void add_hourglass(Index i, State const& s, RecordPlace const& A) const {
+    if (s.phi > 0) return;
+    Deformation const& d = deformation[i];
+    double const share = 0.5 * reference[i].volume, damping = share * damping_of(body),
+                 stiffness = settings.published ? 0 : share * stiffness_of(body);
+    for (int p = 0; p < D; ++p)
+      for (int q = 0; q < D; ++q)
+        A[p * D + q] -= damping * d.rate[3 * p + q] + stiffness * (d.F[3 * p + q] - (p == q ? 1 : 0));
   }
 
   /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from the density where that
   /// is evolved.
   PIOLA_FN void write_record(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
-    using R = MaterialRecord<D>;
-    double* A = material.record + static_cast<std::ptrdiff_t>(i) * R::stride + R::A;
+    RecordPlace const record = record_of<D>(material, false, i),
+                      A{record.value + MaterialRecord<D>::A * record.step, record.step};
     if (!(s.phi < 1 && s.alive > 0)) {
       for (int c = 0; c < D * D; ++c) A[c] = 0;
       return;
     }
     double const* K = material.moments[i].K;
-    Deformation const& d = deformation[i];
     Mat<D> F, N;
     for (int p = 0; p < D; ++p)
       for (int q = 0; q < D; ++q) {
-        F(p, q) = d.F[3 * p + q];
+        F(p, q) = deformation[i].F[3 * p + q];
         N(p, q) = K[SymMat<D>::at(p, q)];
       }
-    double const V0 = reference[i].volume, weight = (1 - s.phi) * (s.phi > 0 ? h.volume * h.thickness : J * V0),
-                 share = s.phi > 0 ? 0 : 0.5 * V0, damping = share * damping_of(body),
-                 stiffness = share * stiffness_of(body);
+    double const weight = (1 - s.phi) * (s.phi > 0 ? h.volume * h.thickness : J * reference[i].volume);
     Mat<D> const FN = transpose(inverse(F)) * N;
     for (int p = 0; p < D; ++p)
       for (int q = 0; q < D; ++q) {
         double sum = 0;
         for (int l = 0; l < D; ++l) sum += stress(p, l) * FN(l, q);
-        A[p * D + q] = weight * sum - damping * d.rate[3 * p + q] - stiffness * (d.F[3 * p + q] - (p == q ? 1 : 0));
+        A[p * D + q] = weight * sum;
       }
+    add_hourglass(i, s, A);
   }
 
   PIOLA_FN void write_spatial(Index i, State const& s, Half const& h, SymMat<D> const& stress) const {
@@ -216,28 +211,16 @@ struct HalfState {
       for (int c = R::M + SymMat<D>::size; c < R::R; ++c) r[c] = 0;
   }
 
+  /// Of set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over that of the start.
   PIOLA_FN void write_published(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
-    using R = ForceRecord<D>;
-    using V = ViscousRecord<D>;
-    double *r = material.force + static_cast<std::ptrdiff_t>(i) * R::stride,
-           *v = material.viscous + static_cast<std::ptrdiff_t>(i) * V::stride;
-    Reference const& ref = reference[i];
-    for (int c = 0; c < D; ++c) {
-      r[R::X + c] = ref.X[c];
-      r[R::x + c] = s.x[c];
-      r[R::v + c] = h.v[c];
-    }
+    using R = MaterialRecord<D>;
+    RecordPlace const r = record_of<D>(material, true, i);
     bool const printed = settings.interface_form == Interface::printed;
-    r[R::phi] = s.alive > 0 ? s.phi : 1;
-    r[R::volume] = s.alive > 0 ? ref.volume : 0;
     double const weight = s.alive > 0 ? (printed ? 1 : 1 - s.phi) : 0;
     // Eulerian particles of the printed interface have a deformation gradient only near total-Lagrangian ones.
     if (weight == 0 || (s.phi == 1 && !(deformation[i].gap >= 0))) {
-      for (int c = R::A; c < R::volume; ++c) r[c] = 0;
-      for (int c = 0; c < V::inverse_J; ++c) v[c] = 0;
-      v[V::inverse_J] = v[V::rho] = 1;
-      v[V::c] = body.c;
-      v[V::viscosity] = s.viscosity;
+      for (int c = R::A; c < R::inverse_J; ++c) r[c] = 0;
+      r[R::inverse_J] = 1;
       return;
     }
     Correction const& k = material.correction[i];
@@ -248,24 +231,24 @@ struct HalfState {
         F(p, q) = deformation[i].F[3 * p + q];
         N(p, q) = k.K[3 * p + q] / k.S;
       }
-    Mat<D> const F_inverse_transposed = transpose(inverse(F)), FN = F_inverse_transposed * N;
+    Mat<D> const FN = transpose(inverse(F)) * N;
     // V sigma = V0 P F^T: with the current volume, which follows from the density where that is evolved.
-    double const volume = s.phi > 0 && !printed ? h.volume * h.thickness : J * ref.volume;
+    double const volume = weight * (s.phi > 0 && !printed ? h.volume * h.thickness : J * reference[i].volume);
     for (int p = 0; p < D; ++p) {
-      r[R::a + p] = v[V::n + p] = 0;
+      double a = 0, n = 0;
       for (int q = 0; q < D; ++q) {
         double A = 0;
         for (int l = 0; l < D; ++l) A += stress(p, l) * FN(l, q);
-        r[R::A + p * D + q] = weight * volume * A;
-        v[V::N + p * D + q] = FN(p, q);
-        r[R::a + p] += weight * volume * A * k.G[q] / k.S;
-        v[V::n + p] += FN(p, q) * k.G[q] / k.S;
+        r[R::A + p * D + q] = volume * A;
+        r[R::N + p * D + q] = FN(p, q);
+        a += volume * A * k.G[q] / k.S;
+        n += FN(p, q) * k.G[q] / k.S;
       }
+      r[R::a + p] = a;
+      r[R::n + p] = n;
     }
-    v[V::inverse_J] = h.thickness / J;
-    v[V::rho] = h.rho * h.thickness;
-    v[V::c] = body.c;
-    v[V::viscosity] = s.viscosity;
+    r[R::inverse_J] = h.rho * h.thickness / body.rho0;
+    add_hourglass(i, s, {r.value + R::A * r.step, r.step});
   }
 };
 

@@ -27,33 +27,15 @@ struct SpatialRecord {
 };
 
 /// For sums over reference neighbours. Displacement, velocity of half time, reference volume, factor of the viscosity
-/// (negative: not total-Lagrangian), reference position; the first sweep reads so far. A = (1 - phi) V0 P K; the second
-/// reads X and A, in three dimensions the second and third cache line.
+/// (negative: not total-Lagrangian), reference position; the first sweep reads so far. The second reads A = (1 - phi)
+/// V0 P K, in three dimensions the second and third cache line; with the sums of set (2) also a = (1 - phi) V0 P n, the
+/// F^-T N and F^-T n of the viscosity, and 1/J. On lattices each component is an array of its own (MaterialRows).
 template <int D>
 struct MaterialRecord {
-  static constexpr int u = 0, v = D, volume = 2 * D, viscosity = 2 * D + 1, X = 2 * D + 2, A = X + D,
-                       values = A + D * D, stride = whole(values);
-};
-
-/// As published, for the sums of the deformation gradient: reference position, displacement, velocity, reference
-/// volume.
-template <int D>
-struct MotionRecord {
-  static constexpr int X = 0, u = D, v = 2 * D, volume = 3 * D, values = 3 * D + 1, stride = whole(values);
-};
-
-/// As published, for material forces: A = (1 - phi) V0 P N and a = (1 - phi) V0 P n.
-template <int D>
-struct ForceRecord {
-  static constexpr int X = 0, x = D, v = 2 * D, A = 3 * D, a = A + D * D, volume = a + D, phi = volume + 1,
-                       values = phi + 1, stride = whole(values);
-};
-
-/// As published, for viscosity in the material description: N = F^-T K/S, n = F^-T K G/S^2.
-template <int D>
-struct ViscousRecord {
-  static constexpr int N = 0, n = D * D, inverse_J = n + D, rho = inverse_J + 1, c = rho + 1, viscosity = c + 1,
-                       values = viscosity + 1, stride = whole(values);
+  static constexpr int u = 0, v = D, volume = 2 * D, viscosity = 2 * D + 1, X = 2 * D + 2, A = X + D, a = A + D * D,
+                       N = a + D, n = N + D * D, inverse_J = n + D;
+  static constexpr int values(bool published) { return published ? inverse_J + 1 : a; }
+  static constexpr int stride(bool published) { return whole(values(published)); }
 };
 
 /// A kernel of one smoothing length.

@@ -10,6 +10,12 @@ namespace {
 constexpr double far_away = 1e20;
 constexpr Index most_neighbours = 4096;
 
+/// The first particle of the case, where it starts: not of the moment, so that cells stay where they are.
+std::array<double, 3> origin_of_cells(System const& s) {
+  double const* X = s.reference[0].X;
+  return {X[0], X[1], X[2]};
+}
+
 /// Calls f(cell) for the cells around one.
 template <class F>
 void each_cell_around(Index cell, std::array<Index, 3> const& shape, int dimension, F const& f) {
@@ -75,7 +81,7 @@ void SpatialLists::build(System const& s, Machine const& machine) {
   if (!eulerian_ && !touching) return;
   widest_ = 0;
   for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
-  grid_.sort(s.position, 3, s.particles, s.dimension, widest_);
+  grid_.sort(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
   everyone_ = s.eulerians == s.particles && !touching;
   if (everyone_) {
     spatial_.target.resize(at(s.particles));

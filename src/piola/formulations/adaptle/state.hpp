@@ -3,6 +3,7 @@
 #include "piola/exec/parallel.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/moving_pairs.hpp"
+#include "piola/neighbours/tables.hpp"
 
 /// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay in the order of their
 /// ids; what spatial sums read is gathered into the order of the cell grid in every step.
@@ -85,8 +86,9 @@ struct Correction {
 
 /// Sums over reference neighbours that never change, with s = -W'(r)/r and r = X_b - X_a.
 struct MaterialCorrection {
-  double K[6];  ///< inverse of sum_b V0_b s r (x) r, as a symmetric matrix of D dimensions
+  double K[6];  ///< inverse of sum_b V0_b s r (x) r, as a symmetric matrix of D dimensions; 0 as published
   double G[3];  ///< sum_b V0_b s r of those that are not deleted
+  double W;     ///< sum_b V0_b W of these; 0 but as published
 };
 
 /// Results of the sweeps.
@@ -154,21 +156,39 @@ struct SpatialTable {
   int stride = 0;  ///< of records
 };
 
+/// Who takes part in material sums: bits of MaterialTable::part.
+struct MaterialPart {
+  static constexpr std::uint8_t kinematic = 1;  ///< its F is needed
+  static constexpr std::uint8_t target = 2;     ///< it feels material forces
+  static constexpr std::uint8_t mixed = 4;      ///< not all of its neighbours are total-Lagrangian
+};
+
+/// A body that is a regular lattice: what its particles read of each other lies in arrays, and neighbours at distances
+/// that whole groups of lanes share. Components as in MaterialRecord.
+struct MaterialRows {
+  Index first = 0;            ///< slot of place 0
+  double* record = nullptr;   ///< component c of place i: record[c * stride + i]; null: the body has lists
+  std::ptrdiff_t stride = 0;  ///< between components
+  Index empty = 0;            ///< a place without a particle
+  StencilTable stencil;       ///< s without volumes, and W
+};
+
 struct MaterialTable {
   Offset const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
   Index const* neighbour = nullptr;
   bool used = false;                ///< some particle is not wholly Eulerian
-  double* record = nullptr;         ///< a filler after the last
+  double* record = nullptr;         ///< of bodies with lists; a filler after the last
+  MaterialRows rows;                ///< of the body that a loop is about
   float const* gradient = nullptr;  ///< per pair: -W'(r)/r in the reference configuration, the same from both ends
   double const *s = nullptr, *W = nullptr;      ///< the same in double, with plain gradients; W(r), as published
   MaterialCorrection const* moments = nullptr;  ///< per slot
-  Index const* kinematic = nullptr;             ///< slots whose F is needed
+  Correction const* correction = nullptr;       ///< per slot, as published
+  std::uint8_t const* part = nullptr;           ///< per slot: MaterialPart
+  Index const* kinematic = nullptr;             ///< slots with lists whose F is needed
   Index kinematics = 0;
-  Index const* target = nullptr;  ///< slots that feel material forces
+  Index const* target = nullptr;  ///< slots with lists that feel material forces
   Index targets = 0;
-  // In place of record, gradient and moments where sums are as published (Settings::published):
-  double *motion = nullptr, *force = nullptr, *viscous = nullptr;  ///< records; a filler after the last
-  Correction const* correction = nullptr;                          ///< per slot
+  MaterialRows const* rows_of = nullptr;  ///< per body
 };
 
 struct ContactTable {

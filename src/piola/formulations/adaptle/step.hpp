@@ -2,8 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
-#include "piola/formulations/adaptle/material_sweep.hpp"
-#include "piola/formulations/adaptle/published_sweep.hpp"
+#include "piola/formulations/adaptle/force_sweep.hpp"
 #include "piola/formulations/adaptle/riemann_sweep.hpp"
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
 #include "piola/neighbours/moving_search.hpp"
@@ -20,21 +19,14 @@ struct Step {
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b),
-                             Predict<D, std::decay_t<decltype(law)>>{law, dt, s.reference, s.state, s.rates, s.half,
-                                                                     s.sums, s.position, s.material, s.own, s.failure});
+        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{
+                                                law, dt, s.reference, s.state, s.rates, s.half, s.sums, s.position,
+                                                material_of(b), s.settings.published, s.own, s.failure});
       });
   }
 
   void deform() const {
-    Range const kinematics{0, s.material.kinematics};
-    if (s.settings.published)
-      exec::for_each_block(kinematics, PublishedDeformSweep<D>{s.material, s.state, s.half, s.body, s.body_of,
-                                                               s.settings.corrected_material, s.deformation});
-    else if (s.settings.corrected_material)
-      exec::for_each_block(kinematics, deform_sweep<float>());
-    else
-      exec::for_each_block(kinematics, deform_sweep<double>());
+    with_form([&](auto form) { deform_as<form()>(); });
   }
 
   template <bool Corrected>
@@ -43,7 +35,7 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>{
                                                 law, s.body[b], s.settings, dt, s.reference, s.state, s.half,
-                                                s.deformation, s.own, s.spatial, s.material, s.failure});
+                                                s.deformation, s.own, s.spatial, material_of(b), s.failure});
       });
   }
 
@@ -61,7 +53,7 @@ struct Step {
       sweep_space<true>(targets);
     else
       sweep_space<false>(targets);
-    sweep_material();
+    with_form([&](auto form) { add_material_forces<form()>(); });
     exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
                                                                       s.bodies, s.state, s.half, s.sums});
     if (s.rigids > 0)
@@ -93,24 +85,60 @@ struct Step {
   }
 
  private:
-  void sweep_material() const {
-    Range const targets{0, s.material.targets};
-    if (s.settings.published)
-      exec::for_each_block(targets, PublishedMaterialSweep<D>{s.material, s.settings, s.body, s.body_of, s.reference,
-                                                              s.state, s.deformation, s.sums});
-    else if (s.settings.corrected_material)
-      exec::for_each_block(targets, material_sweep<float>());
-    else
-      exec::for_each_block(targets, material_sweep<double>());
+  /// The table of material sums for one body.
+  MaterialTable material_of(int b) const {
+    MaterialTable table = s.material;
+    if (table.rows_of != nullptr) table.rows = table.rows_of[b];
+    return table;
   }
 
-  template <class Gradient>
-  DeformSweep<D, Gradient> deform_sweep() const {
-    return {s.material, s.state, s.half, s.reference, s.body, s.body_of, s.deformation, s.sums};
+  /// f(form), which is known when it is compiled.
+  template <class F>
+  void with_form(F const& f) const {
+    using Form = MaterialForm;
+    if (s.settings.published && s.settings.corrected_material)
+      f(std::integral_constant<Form, Form::published>{});
+    else if (s.settings.published)
+      f(std::integral_constant<Form, Form::published_plain>{});
+    else if (s.settings.corrected_material)
+      f(std::integral_constant<Form, Form::corrected>{});
+    else
+      f(std::integral_constant<Form, Form::plain>{});
   }
-  template <class Gradient>
-  MaterialSweep<D, Gradient> material_sweep() const {
-    return {s.material, s.body, s.body_of, s.reference, s.state, s.deformation, s.sums};
+
+  /// f(body, its table, its places) for the bodies that are lattices.
+  template <class F>
+  void each_lattice(F const& f) const {
+    if (!s.material.used) return;
+    for (int b = 0; b < s.bodies; ++b) {
+      MaterialTable const table = material_of(b);
+      if (table.rows.record != nullptr) f(s.body[b], table, Range{0, s.body[b].last - s.body[b].first});
+    }
+  }
+
+  template <MaterialForm Form>
+  void deform_as() const {
+    auto const end = [&](MaterialTable const& table, BodyConstants const& b) {
+      return Deform<D, Form>{table,       s.particles,   s.state, s.half,
+                             s.reference, s.deformation, s.sums,  {PairConstants(b)}};
+    };
+    exec::for_each_block(Range{0, s.material.kinematics},
+                         DeformLists<D, Form>{end(s.material, s.body[0]), s.body, s.body_of});
+    each_lattice([&](BodyConstants const& b, MaterialTable const& table, Range places) {
+      exec::for_each_block(places, DeformRows<D, Form>{end(table, b), b.last});
+    });
+  }
+
+  template <MaterialForm Form>
+  void add_material_forces() const {
+    auto const end = [&](MaterialTable const& table) {
+      return MaterialForces<D, Form>{table,       s.settings, s.particles,   s.body, s.body_of,
+                                     s.reference, s.state,    s.deformation, s.sums};
+    };
+    exec::for_each_block(Range{0, s.material.targets}, ForceLists<D, Form>{end(s.material)});
+    each_lattice([&](BodyConstants const& b, MaterialTable const& table, Range places) {
+      exec::for_each_block(places, ForceRows<D, Form>{end(table), b});
+    });
   }
 
   template <bool Corrected>

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/material_sweep.hpp"
+
+/// Sums over reference neighbours, second sweep: what needs the stress and the deformation of neighbours.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// Stress forces with t_ab = V0_b (A_a s r - a_a W), F_a += sum_b t_ab - t_ba. The own part is made of the constants
+/// sum_b V0_b s r and sum_b V0_b W. A of total-Lagrangian particles carries their half of damping and springs, -(zeta
+/// rho0 c h dF/dt + kappa (F - I)) V0/2, which is meant for total-Lagrangian neighbours alone. As published also
+///   m_a m_b Pi/2 (J_a^-1 F_b^-T G_ba - J_b^-1 F_a^-T G_ab)
+/// between total-Lagrangian particles, half its power as heat on each side.
+template <int D, MaterialForm Form>
+struct ForcePairs {
+  using R = MaterialRecord<D>;
+  static constexpr bool published = is_published(Form), shifts = Form == MaterialForm::published;
+  static constexpr int Q = 0, heat = D, mu = D + 1, sums = published ? mu + 1 : D, extrema = published ? 1 : 0;
+  static constexpr int first_component = published ? R::u : R::X, last_component = published ? R::inverse_J + 1 : R::a;
+  double alpha, beta, h, rho0, c;
+  bool printed;  ///< interface: total-Lagrangian particles feel the viscosity of Eulerian ones, too
+
+  template <class V>
+  struct Own {
+    Vec<D, V> u, v, n;
+    V N[D * D], inverse_J, viscosity;
+    bool feels;  ///< some viscosity
+  };
+  template <class V>
+  [[gnu::always_inline]] PIOLA_FN static auto own_at(RecordPlace const& p) {
+    Own<V> own;
+    if constexpr (published) {
+      for (int k = 0; k < D; ++k) {
+        own.u[k] = load_own<V>(p, R::u + k);
+        own.v[k] = load_own<V>(p, R::v + k);
+        own.n[k] = load_own<V>(p, R::n + k);
+      }
+      for (int k = 0; k < D * D; ++k) own.N[k] = load_own<V>(p, R::N + k);
+      own.inverse_J = load_own<V>(p, R::inverse_J);
+      own.viscosity = load_own<V>(p, R::viscosity);
+      own.feels = any(own.viscosity > 0.0);
+    }
+    return own;
+  }
+
+  template <class V, class Fields>
+  [[gnu::always_inline]] PIOLA_FN void add(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
+                                           Fields const& f) const {
+    for (int p = 0; p < D; ++p) {
+      Lanes reaction = f(R::A + p * D) * g.r[0];
+      for (int q = 1; q < D; ++q) reaction += f(R::A + p * D + q) * g.r[q];
+      sum[Q + p] += g.s * reaction;
+      if constexpr (shifts) sum[Q + p] += f(R::a + p) * g.kernel;
+    }
+    if constexpr (published)
+      if (own.feels) add_viscosity(sum, own, g, f);
+  }
+
+ private:
+  template <class V, class Fields>
+  [[gnu::always_inline]] PIOLA_FN void add_viscosity(Lanes (&sum)[sums], Own<V> const& own,
+                                                     PairGeometry<D, Lanes> const& g, Fields const& f) const {
+    Vec<D, Lanes> x, w;
+    for (int k = 0; k < D; ++k) {
+      x[k] = g.r[k] + (f(R::u + k) - own.u[k]);
+      w[k] = f(R::v + k) - own.v[k];
+    }
+    Lanes const there = f(R::viscosity);
+    Lanes const here(own.viscosity);
+    Lanes closing = minimum(dot(w, x), Lanes(0.0));
+    closing = select(g.s != 0.0, closing, Lanes(0.0));
+    closing = select((printed ? here : minimum(here, there)) < 0.0, Lanes(0.0), closing);
+    if (!any(closing < 0.0)) return;
+    auto const [speed, plain] =
+        viscous_pair(alpha, beta, h, closing, dot(x, x), Lanes(2 * c), rho0 * (f(R::inverse_J) + own.inverse_J));
+    sum[mu] = minimum(sum[mu], speed);
+    Lanes const size = maximum(there, -1.0 * there);
+    Lanes const weight = (-0.5 * rho0) * (f(R::volume) * plain * (0.5 * (size + here)));
+    Lanes power = Lanes(0.0);
+    for (int p = 0; p < D; ++p) {
+      Lanes mine = Lanes(0.0), other = Lanes(0.0);
+      for (int q = 0; q < D; ++q) {
+        mine += own.N[p * D + q] * g.r[q];
+        other += f(R::N + p * D + q) * g.r[q];
+      }
+      mine = g.s * mine;
+      other = g.s * other;
+      if constexpr (shifts) {
+        mine -= own.n[p] * g.kernel;
+        other += f(R::n + p) * g.kernel;
+      }
+      Lanes const extra = (rho0 * weight) * (own.inverse_J * other + f(R::inverse_J) * mine);
+      sum[Q + p] += extra;
+      power += extra * w[p];
+    }
+    sum[heat] += 0.5 * power;
+  }
+};
+
+/// From the sums of the second sweep to forces.
+template <int D, MaterialForm Form>
+struct MaterialForces {
+  using R = MaterialRecord<D>;
+  using S = ForcePairs<D, Form>;
+  MaterialTable table;
+  Settings settings;
+  Index particles;
+  BodyConstants const* body;
+  int const* body_of;
+  Reference const* reference;
+  State const* state;
+  Deformation const* deformation;
+  Sums* sums;
+
+  PIOLA_FN bool takes_part(Index i, RecordPlace const& own) const {
+    if (!(state[i].alive > 0)) return false;
+    // In the printed interface Eulerian particles have their forces from spatial sums alone.
+    return own[R::viscosity] > 0 || settings.interface_form == Interface::owner;
+  }
+
+  PIOLA_FN S pairs_of(BodyConstants const& b) const {
+    return {b.alpha, b.beta, b.material_h, b.rho0, b.c, settings.interface_form == Interface::printed};
+  }
+
+  template <class Totals>
+  PIOLA_FN void store(Index i, RecordPlace const& own, Totals const& a) const {
+    BodyConstants const& b = body[body_of[i]];
+    bool const leaves = !(own[R::viscosity] > 0) && (b.hourglass > 0 || b.hourglass_stiffness > 0);
+    Vec<D> extra{};
+    if (leaves) extra = hourglass_of_neighbours(i, own, b);
+    double const volume = reference[i].volume;
+    MaterialCorrection const& k = table.moments[i];
+    Sums& to = sums[i];
+    for (int p = 0; p < D; ++p) {
+      double force = volume * (a[S::Q + p] + extra[p]);
+      for (int q = 0; q < D; ++q) force += own[R::A + p * D + q] * k.G[q];
+      if constexpr (S::shifts) force -= own[R::a + p] * k.W;
+      to.force[p] += force;
+    }
+    if constexpr (S::published) {
+      to.heat += volume * a[S::heat];
+      to.compression = maximum(to.compression, -a[S::mu]);
+    }
+  }
+
+ private:
+  /// Particles that are not total-Lagrangian do not feel the damping and the springs that come with A of their
+  /// neighbours: what takes them out again, over V0.
+  PIOLA_FN Vec<D> hourglass_of_neighbours(Index i, RecordPlace const& own, BodyConstants const& b) const {
+    double const damping = 0.5 * damping_of(b), stiffness = S::published ? 0 : 0.5 * stiffness_of(b);
+    Lanes sum[D];
+    for (auto& s : sum) s = Lanes(0.0);
+    for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
+      Lanes f[R::A];
+      load_listed<D>(table, S::published, k, particles, f);
+      Lanes const s = load_gradients(gradients_of<Form>(table) + k),
+                  weight = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
+      if (!any(weight > 0.0)) continue;
+      constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 tensors, rows of three
+      constexpr auto stride = static_cast<int>(sizeof(Deformation) / sizeof(double));
+      Lanes F[used], rate[used];
+      load_components<used>(deformation->F, stride, table.neighbour + k, F);
+      load_components<used>(deformation->rate, stride, table.neighbour + k, rate);
+      for (int q = 0; q < D; ++q) {
+        Lanes const r = weight * (f[R::X + q] - own[R::X + q]);
+        for (int p = 0; p < D; ++p)
+          sum[p] += (damping * rate[3 * p + q] + stiffness * (F[3 * p + q] - (p == q ? 1.0 : 0.0))) * r;
+      }
+    }
+    double a[whole(D)];
+    add_lanes(sum, a);
+    Vec<D> r;
+    for (int p = 0; p < D; ++p) r[p] = a[p];
+    return r;
+  }
+};
+
+/// The second sweep over bodies with lists.
+template <int D, MaterialForm Form>
+struct ForceLists {
+  MaterialForces<D, Form> end;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    for (Index t = block.first; t < block.last; ++t) visit(end.table.target[t]);
+  }
+
+ private:
+  PIOLA_FN void visit(Index i) const {
+    RecordPlace const own = record_of<D>(end.table, is_published(Form), i);
+    if (!end.takes_part(i, own)) return;
+    double a[whole(ForcePairs<D, Form>::sums + 1)];
+    sum_listed<D, Form>(end.table, i, end.pairs_of(end.body[end.body_of[i]]), own, a);
+    end.store(i, own, Column{a, 1});
+  }
+};
+
+/// The second sweep over a body on a lattice, by places.
+template <int D, MaterialForm Form>
+struct ForceRows {
+  MaterialForces<D, Form> end;
+  BodyConstants own_body;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    each_in_rows<D, Form>(end.table, end.pairs_of(own_body), block, own_body.last, MaterialPart::target,
+                          [&](Index i, RecordPlace const& own, Column const& a) {
+                            if (end.takes_part(i, own)) end.store(i, own, a);
+                          });
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/viscosity.hpp"
+#include "piola/neighbours/loaders.hpp"
+
+/// What the two sweeps over reference neighbours share: their forms, and how values of neighbours arrive.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// Forms of the sums over reference neighbours.
+enum class MaterialForm {
+  corrected,       ///< G_ab = K_a s r, viscosity along the line of centres
+  plain,           ///< the same with K_a = 1
+  published,       ///< set (2) with the correction (4), (5): G_ab = K_a (s r S - G W) / S^2
+  published_plain  ///< set (2) with G_ab = s r
+};
+constexpr bool is_published(MaterialForm form) {
+  return form == MaterialForm::published || form == MaterialForm::published_plain;
+}
+
+/// s of the pairs as they are stored: floats where K makes up for the rounding, else doubles.
+template <MaterialForm Form>
+PIOLA_FN auto gradients_of(MaterialTable const& table) {
+  if constexpr (Form == MaterialForm::corrected)
+    return table.gradient;
+  else
+    return table.s;
+}
+
+/// The record of one particle, wherever it is.
+struct RecordPlace {
+  double* value;
+  std::ptrdiff_t step;  ///< between components
+  PIOLA_FN double& operator[](int c) const { return value[c * step]; }
+};
+template <int D>
+PIOLA_FN RecordPlace record_of(MaterialTable const& table, bool published, Index slot) {
+  if (table.rows.record != nullptr) return {table.rows.record + (slot - table.rows.first), table.rows.stride};
+  return {table.record + static_cast<std::ptrdiff_t>(slot) * MaterialRecord<D>::stride(published), 1};
+}
+
+/// Components [0, N) of the records of listed neighbours from pair k on, also of lattices, where this is slow.
+template <int D, int N>
+PIOLA_FN void load_listed(MaterialTable const& table, bool published, Offset k, Index filler, Lanes (&f)[N]) {
+  MaterialRows const& rows = table.rows;
+  if (rows.record == nullptr)
+    return load_components<N>(table.record, MaterialRecord<D>::stride(published), table.neighbour + k, f);
+  double gathered[N][lane_count];
+  for (int l = 0; l < lane_count; ++l) {
+    Index const j = table.neighbour[k + l], place = j == filler ? rows.empty : j - rows.first;
+    for (int c = 0; c < N; ++c) gathered[c][l] = rows.record[c * rows.stride + place];
+  }
+  for (int c = 0; c < N; ++c) f[c] = load<Lanes>(gathered[c]);
+}
+
+/// Sums of one particle among those of several.
+struct Column {
+  double const* value;
+  int step;
+  PIOLA_FN double operator[](int c) const { return value[c * step]; }
+};
+
+/// Loads a value of the particle itself: one for all lanes of neighbours, or those of as many particles.
+template <class V>
+PIOLA_FN V load_own(RecordPlace const& p, int c) {
+  return load<V>(p.value + c * p.step);
+}
+
+/// The sums of `Pairs` for the particle that `own` belongs to, over its list; extrema come after sums. f: components
+/// from `first` on.
+template <int D, MaterialForm Form, class Pairs>
+PIOLA_FN void sum_listed(MaterialTable const& table, Index slot, Pairs const& pairs, RecordPlace const& own,
+                         double (&a)[whole(Pairs::sums + 1)]) {
+  using R = MaterialRecord<D>;
+  constexpr int first = Pairs::first_component, last = Pairs::last_component > R::A ? Pairs::last_component : R::A,
+                values = last - first;  // with X
+  constexpr int stride = R::stride(is_published(Form));
+  Lanes sums[Pairs::sums];
+  Lanes const zeros = zeros_from(own[R::volume]);
+  for (auto& s : sums) s = zeros;
+  auto const mine = pairs.template own_at<double>(own);
+  for (Offset k = table.begin[slot]; k < table.begin[slot + 1]; k += lane_count) {
+    Lanes f[values];
+    load_components<values>(table.record + first, stride, table.neighbour + k, f);
+    PairGeometry<D, Lanes> g;
+    for (int c = 0; c < D; ++c) g.r[c] = f[R::X - first + c] - own[R::X + c];
+    g.s = load_gradients(gradients_of<Form>(table) + k);
+    if constexpr (Form == MaterialForm::published) g.kernel = load<Lanes>(table.W + k);
+    pairs.add(sums, mine, g, [&](int c) { return f[c - first]; });
+  }
+  if constexpr (Pairs::extrema > 0) {
+    Lanes const least = sums[Pairs::sums - 1];
+    sums[Pairs::sums - 1] = Lanes(0.0);
+    add_lanes(sums, a);
+    a[Pairs::sums - 1] = -largest_of(-1.0 * least);
+  } else {
+    add_lanes(sums, a);
+  }
+}
+
+/// The sums of `Pairs` for the particles of a group of lanes on a lattice. Values are loaded where they are used: there
+/// are more of them than registers.
+template <int D, MaterialForm Form, class Pairs>
+PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs, Lanes (&result)[Pairs::sums]) {
+  StencilTable const& table = rows.stencil;
+  Lanes sums[Pairs::sums];
+  for (auto& s : sums) s = Lanes(0.0);
+  auto const mine = pairs.template own_at<Lanes>(RecordPlace{rows.record + place, rows.stride});
+  StencilPattern const& pattern = table.patterns[table.pattern_of[place / lane_count]];
+  for (std::int32_t k = pattern.inner[0]; k < pattern.inner[1]; ++k) {
+    StencilEntry const& entry = table.entries[k];
+    StencilOffset const& offset = table.offsets[entry.offset];
+    double const* const there = rows.record + (place + entry.delta);
+    PairGeometry<D, Lanes> g;
+    g.s = Lanes(offset.s);
+    if constexpr (Form == MaterialForm::published) g.kernel = Lanes(table.kernel[entry.offset]);
+    for (int c = 0; c < D; ++c) g.r[c] = Lanes(offset.r[c]);
+    if (entry.weights >= 0) {
+      Lanes const weight = load<Lanes>(table.weights + entry.weights);
+      g.s = weight * g.s;
+      if constexpr (Form == MaterialForm::published) g.kernel = weight * g.kernel;
+    }
+    pairs.add(sums, mine, g, [&](int c) { return load<Lanes>(there + c * rows.stride); });
+  }
+  for (int c = 0; c < Pairs::sums; ++c) result[c] = sums[c];
+}
+
+/// f(slot, own record, sums) for the particles of a block of places on a lattice whose `part` has a bit.
+template <int D, MaterialForm Form, class Pairs, class F>
+PIOLA_FN void each_in_rows(MaterialTable const& table, Pairs const& pairs, Range block, Index last, std::uint8_t bit,
+                           F const& f) {
+  MaterialRows const& rows = table.rows;
+  for (Index i = block.first; i < block.last; i += lane_count) {
+    Index const slot = rows.first + i, end = slot + lane_count < last ? slot + lane_count : last;
+    bool wanted = false;
+    for (Index k = slot; k < end; ++k) wanted = wanted || (table.part[k] & bit) != 0;
+    if (!wanted) continue;
+    Lanes sums[Pairs::sums];
+    sum_rows<D, Form>(rows, i, pairs, sums);
+    double a[Pairs::sums][lane_count];
+    for (int c = 0; c < Pairs::sums; ++c) store(sums[c], a[c]);
+    for (Index k = slot; k < end; ++k)
+      if ((table.part[k] & bit) != 0)
+        f(k, RecordPlace{rows.record + (k - rows.first), rows.stride}, Column{a[0] + (k - slot), lane_count});
+  }
+}
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

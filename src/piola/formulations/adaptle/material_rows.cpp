@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/material_rows.hpp"
+#include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace piola::adaptle {
+namespace {
+
+/// Below this share of lanes that have the neighbour of an entry, lists are faster.
+constexpr double least_fill = 0.6;
+constexpr Index absent = 2147483647;
+
+/// Entries of one group of lanes: offset, distance in memory, bits of the lanes that have it.
+using GroupShape = std::vector<std::int32_t>;
+
+/// distance: [offset][lane].
+GroupShape shape_of_group(std::vector<Index> const& distance, int lanes) {
+  GroupShape shape;
+  auto const W = static_cast<std::size_t>(lanes);
+  for (std::size_t o = 0; o * W < distance.size(); ++o) {
+    Index const* const row = distance.data() + o * W;
+    for (std::size_t first = 0; first < W; ++first) {
+      if (row[first] == absent || std::find(row, row + first, row[first]) != row + first) continue;
+      std::int32_t bits = 0;
+      for (std::size_t l = first; l < W; ++l) bits |= row[l] == row[first] ? 1 << l : 0;
+      shape.insert(shape.end(), {static_cast<std::int32_t>(o), row[first], bits});
+    }
+  }
+  return shape;
+}
+
+}  // namespace
+
+void kernel_of(int dimension, double h, double square, double& s, double& W) {
+  if (dimension == 2) return Kernel<2>(h).evaluate(square, s, W);
+  Kernel<3>(h).evaluate(square, s, W);
+}
+
+double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to) {
+  double square = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double const d = (to[c] - from[c]) * body.spacing[c];
+    square += d * d;
+  }
+  return square;
+}
+
+LatticeRows::LatticeRows(ParticleSet const& set, Body const& body, double h, std::span<Offset const> begin,
+                         std::span<Index const> neighbour, int lanes, bool rounded, int components)
+    : first_(static_cast<Index>(body.first)) {
+  if (!body.regular || body.scattered) return;
+  find_offsets(body, set.dimension, h, rounded);
+  find_patterns(set, body, begin, neighbour, lanes);
+  if (has_rows()) allocate(body, components);
+}
+
+void LatticeRows::find_offsets(Body const& body, int dimension, double h, bool rounded) {
+  for (std::size_t c = 0; c < 3; ++c)
+    reach_[c] = static_cast<int>(c) < dimension ? static_cast<int>(2 * h / body.spacing[c]) + 1 : 0;
+  std::array<int, 3> n{};
+  for (n[2] = -reach_[2]; n[2] <= reach_[2]; ++n[2])
+    for (n[1] = -reach_[1]; n[1] <= reach_[1]; ++n[1])
+      for (n[0] = -reach_[0]; n[0] <= reach_[0]; ++n[0]) {
+        double s = 0, W = 0;
+        double const square = lattice_square(body, {}, n);
+        if (square > 0) kernel_of(dimension, h, square, s, W);
+        number_.push_back(W > 0 ? static_cast<std::int32_t>(offsets_.size()) : -1);
+        if (!(W > 0)) continue;
+        StencilOffset o{};
+        o.s = rounded ? static_cast<double>(static_cast<float>(s)) : s;
+        for (std::size_t c = 0; c < 3; ++c) {
+          o.r[c] = n[c] * body.spacing[c];
+          o.sr[c] = o.s * o.r[c];
+        }
+        o.r2 = square;
+        offsets_.push_back(o);
+        kernel_.push_back(W);
+      }
+}
+
+void LatticeRows::find_patterns(ParticleSet const& set, Body const& body, std::span<Offset const> begin,
+                                std::span<Index const> neighbour, int lanes) {
+  auto const& place = set.lattice_index.seen();
+  Index const last = static_cast<Index>(body.last);
+  auto const W = static_cast<std::size_t>(lanes);
+  std::vector<Index> distance(offsets_.size() * W);
+  std::map<GroupShape, std::int32_t> known;
+  std::int64_t present = 0, all = 0;
+  for (Index group = first_; group < last; group += lanes) {
+    std::fill(distance.begin(), distance.end(), absent);
+    for (Index i = group; i < std::min(group + lanes, last); ++i)
+      for (Offset k = begin[at(i)]; k < begin[at(i) + 1]; ++k) {
+        Index const j = neighbour[at(k)];
+        if (j >= static_cast<Index>(set.size())) continue;
+        std::int32_t cell = 0;
+        for (std::size_t c = 3; c-- > 0;)
+          cell = cell * (2 * reach_[c] + 1) + place[at(j)][c] - place[at(i)][c] + reach_[c];
+        std::int32_t const o = number_[at(cell)];
+        if (o < 0) return;  // not a lattice after all
+        distance[at(o) * W + at(i - group)] = j - i;
+        farthest_ = std::max(farthest_, std::abs(j - i));
+        ++present;
+      }
+    GroupShape shape = shape_of_group(distance, lanes);
+    all += std::ssize(shape) / 3 * lanes;
+    auto const [found, is_new] = known.try_emplace(std::move(shape), static_cast<std::int32_t>(known.size()));
+    pattern_of_.push_back(found->second);
+    if (!is_new) continue;
+    GroupShape const& entries = found->first;
+    StencilPattern pattern{};
+    pattern.inner[0] = static_cast<std::int32_t>(entries_.size());
+    for (std::size_t e = 0; e < entries.size(); e += 3)
+      entries_.push_back(
+          {entries[e + 1], entries[e], entries[e + 2] == (1 << lanes) - 1 ? -1 : entries[e + 2] * lanes});
+    pattern.inner[1] = pattern.outer[0] = pattern.outer[1] = static_cast<std::int32_t>(entries_.size());
+    patterns_.push_back(pattern);
+  }
+  if (static_cast<double>(present) < least_fill * static_cast<double>(all)) entries_.clear();
+  for (std::int32_t bits = 0; bits < 1 << lanes; ++bits)
+    for (int l = 0; l < lanes; ++l) weights_.push_back(((bits >> l) & 1) != 0 ? 1.0 : 0.0);
+}
+
+/// Room for what whole lanes read beyond both ends of the body.
+void LatticeRows::allocate(Body const& body, int components) {
+  constexpr Index line = 8;
+  auto const up = [](Index n) { return (n + line - 1) / line * line; };
+  margin_ = up(farthest_ + line);
+  stride_ = 2 * static_cast<std::ptrdiff_t>(margin_) + up(static_cast<Index>(body.last - body.first)) + line;
+  // Components that are equal modulo 4 KiB would evict each other from the first-level cache.
+  while (stride_ % 512 != 264) stride_ += line;
+  record_ = Memory(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(components));
+}
+
+MaterialRows LatticeRows::view() {
+  MaterialRows r;
+  if (!has_rows()) return r;
+  r.first = first_;
+  r.record = record_.data() + margin_;
+  r.stride = stride_;
+  r.empty = -1;
+  r.stencil = {offsets_.data(), entries_.data(), patterns_.data(), pattern_of_.data(), weights_.data(), kernel_.data()};
+  return r;
+}
+
+std::size_t LatticeRows::bytes() const {
+  return record_.bytes() + sizeof(StencilEntry) * entries_.size() + sizeof(StencilPattern) * patterns_.size() +
+         sizeof(std::int32_t) * (pattern_of_.size() + number_.size()) + sizeof(double) * weights_.size();
+}
+
+}  // namespace piola::adaptle

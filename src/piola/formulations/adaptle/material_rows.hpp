@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/memory.hpp"
+#include "piola/formulations/adaptle/state.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <span>
+#include <vector>
+
+namespace piola::adaptle {
+
+/// Reference neighbours of a body that is a regular lattice, as patterns of groups of lanes, and the memory of what
+/// they read of each other.
+class LatticeRows {
+ public:
+  /// begin, neighbour: lists of all bodies. Bodies that are no lattice, or whose groups of lanes have too few
+  /// neighbours in common, keep their lists: has_rows() is false. components: of a record.
+  LatticeRows(ParticleSet const& set, Body const& body, double h, std::span<Offset const> begin,
+              std::span<Index const> neighbour, int lanes, bool rounded, int components);
+
+  bool has_rows() const { return !entries_.empty(); }
+  MaterialRows view();
+  std::size_t bytes() const;
+
+ private:
+  void find_offsets(Body const& body, int dimension, double h, bool rounded);
+  void find_patterns(ParticleSet const& set, Body const& body, std::span<Offset const> begin,
+                     std::span<Index const> neighbour, int lanes);
+  void allocate(Body const& body, int components);
+
+  std::array<int, 3> reach_{};
+  std::vector<std::int32_t> number_;  ///< of each offset in the box of +- reach_; negative: no neighbour
+  std::vector<StencilOffset> offsets_;
+  std::vector<StencilEntry> entries_;
+  std::vector<StencilPattern> patterns_;
+  std::vector<std::int32_t> pattern_of_;
+  std::vector<double> weights_, kernel_;
+  Index first_ = 0, farthest_ = 0, margin_ = 0;
+  std::ptrdiff_t stride_ = 0;
+  Memory record_;
+};
+
+/// The square of the distance between two particles of a lattice: the same number for all pairs of one offset [m2].
+double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to);
+
+/// s = -W'(r)/r and W(r) of the cubic spline.
+void kernel_of(int dimension, double h, double square, double& s, double& W);
+
+}  // namespace piola::adaptle
