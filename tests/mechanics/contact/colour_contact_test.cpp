@@ -30,7 +30,8 @@ class Colour : public ::testing::TestWithParam<int> {
           for (int k = 0; k < (D > 2 ? 7 : 1); ++k) {
             bodies[b].at.push_back(static_cast<Index>(r.x.size()));
             bodies[b].volume.push_back(std::pow(dp, D));
-            Vec<3> x{{b == 0 ? -(i + 0.5) * dp : (i + 0.5) * dp - depth, (j - 3) * dp, (k - 3) * dp}};
+            Vec<3> x{{b == 0 ? -(i + 0.5) * dp : (i + 0.5) * dp - depth, D > 1 ? (j - 3) * dp : 0,
+                      D > 2 ? (k - 3) * dp : 0}};
             for (int c = 0; c < D; ++c) x[c] += some(random);
             r.x.push_back(x);
             r.masses.push_back(1000 * std::pow(dp, D));
