@@ -54,28 +54,39 @@ namespace {
 
 Shuffle shuffle_of_tests;
 
-SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle) {
-  constexpr std::size_t tile = exec::block_size;
-  std::size_t const whole = static_cast<std::size_t>(order.particles) / tile;
+constexpr std::size_t tile_size = exec::block_size;
+
+/// Tiles change places with others of their kind; those of a negative kind stay.
+SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle, std::vector<int> const& kind) {
   struct Dealt {
+    int kind;
     std::uint64_t owner, place;
     std::size_t tile;
   };
   std::vector<Dealt> tiles;
-  for (std::size_t k = 0; k < whole; ++k) {
+  std::vector<std::size_t> places;  // kind after kind
+  for (std::size_t k = 0; k < kind.size(); ++k) {
+    if (kind[k] < 0) continue;
     std::uint64_t const random = mixed(shuffle.seed * 0x9E3779B97F4A7C15U + k);
-    tiles.push_back({random % static_cast<std::uint64_t>(shuffle.owners), mixed(random), k});
+    tiles.push_back({kind[k], random % static_cast<std::uint64_t>(shuffle.owners), mixed(random), k});
+    places.push_back(k);
   }
   std::sort(tiles.begin(), tiles.end(), [](Dealt const& a, Dealt const& b) {
-    return std::tie(a.owner, a.place, a.tile) < std::tie(b.owner, b.place, b.tile);
+    return std::tie(a.kind, a.owner, a.place, a.tile) < std::tie(b.kind, b.owner, b.place, b.tile);
   });
+  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return kind[a] < kind[b]; });
   SlotOrder dealt = order;
-  for (std::size_t k = 0; k < whole; ++k) {
-    if (shuffle.moved != nullptr && tiles[k].tile != k) ++*shuffle.moved;
-    std::copy_n(order.id.begin() + static_cast<std::ptrdiff_t>(tiles[k].tile * tile), tile,
-                dealt.id.begin() + static_cast<std::ptrdiff_t>(k * tile));
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    if (shuffle.moved != nullptr && tiles[k].tile != places[k]) ++*shuffle.moved;
+    std::copy_n(order.id.begin() + static_cast<std::ptrdiff_t>(tiles[k].tile * tile_size), tile_size,
+                dealt.id.begin() + static_cast<std::ptrdiff_t>(places[k] * tile_size));
   }
   return dealt;
+}
+
+/// Of each whole tile.
+std::vector<int> one_kind(SlotOrder const& order) {
+  return std::vector<int>(static_cast<std::size_t>(order.particles) / tile_size, 0);
 }
 
 }  // namespace
@@ -98,7 +109,22 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
 
 SlotOrder dealt_order(ParticleSet const& set, Body const& body) {
   SlotOrder order = pencil_order(set, body);
-  return shuffle_of_tests.owners > 0 ? dealt_out(order, shuffle_of_tests) : order;
+  return shuffle_of_tests.owners > 0 ? dealt_out(order, shuffle_of_tests, one_kind(order)) : order;
 }
+
+SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order) {
+  if (shuffle_of_tests.owners == 0) return order;
+  std::vector<int> kind = one_kind(order);
+  for (std::size_t k = 0; k < kind.size(); ++k) {
+    auto const part = [&](std::size_t slot) {
+      return static_cast<int>(part_of(set, static_cast<std::size_t>(order.id[slot])));
+    };
+    int const first = part(k * tile_size);
+    kind[k] = part((k + 1) * tile_size - 1) == first ? first : -1;
+  }
+  return dealt_out(order, shuffle_of_tests, kind);
+}
+
+bool shuffle_takes_lists() { return shuffle_of_tests.owners > 0 || shuffle_of_tests.lists; }
 
 }  // namespace piola
