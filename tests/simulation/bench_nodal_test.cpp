@@ -14,6 +14,7 @@ NodalBenchOptions small() {
   NodalBenchOptions options;
   options.cube_side = 6;
   options.cloud_side = 5;
+  options.lengths = {12};
   options.repeats = 1;
   options.threads = {1};
   return options;
@@ -28,12 +29,13 @@ TEST(NodalBench, MeasuresLatticesAndCloudsBesideTheirScalarPathAndTheirSetUp) {
     EXPECT_GT(row.neighbours, 15) << row.name;
     EXPECT_LT(row.neighbours, 57) << row.name;
   }
-  ASSERT_EQ(report.set_up.size(), 5U);
-  long const particles[]{216, 125, 625, 625, 117};
+  ASSERT_EQ(report.set_up.size(), 6U);
+  long const particles[]{216, 125, 625, 625, 117, 300};
   for (std::size_t k = 0; k < report.set_up.size(); ++k) {
     auto const& row = report.set_up[k];
     EXPECT_EQ(row.particles, particles[k]);
     EXPECT_GT(row.iterations, 0) << row.name;
+    EXPECT_GE(row.tight, row.iterations) << row.name;
     for (double const part : {row.cells, row.fits, row.closure, row.masses, row.tables, row.right_side})
       EXPECT_GT(part, 0) << row.name;
   }
@@ -47,7 +49,7 @@ TEST(NodalBench, MeasuresWhatItIsAskedForAndPrintsIt) {
   NodalBenchReport report;
   report.machine = "v4";
   report.rows.push_back({"cube, lattice", "v4", 2, 216, 40.5, 900, 6e6, 3e6});
-  report.set_up.push_back({"cube, lattice", 216, 0.001, 0.004, 0.003, 0.0005, 0.0005, 12, 0.002});
+  report.set_up.push_back({"cube, lattice", 216, 0.001, 0.004, 0.003, 0.0005, 0.0005, 12, 30, 0.002});
   auto const json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["rows"][0]["stages_per_second"], 6e6);
   EXPECT_EQ(json["set_up"][0]["closure_iterations"], 12);

@@ -27,14 +27,17 @@ SurfaceHold::SurfaceHold(int dimension, std::vector<Support> const& supports, st
                          std::vector<double> const& mass, std::vector<Point> const& X)
     : D_(dimension), driven_(dimension, supports, {}, false) {
   if (places.empty()) return;
+  // Numbered as places name them, not as they stand: sums over them are taken in this order.
   std::vector<std::size_t> number(mass.size(), mass.size());
   for (auto const& place : places)
-    for (auto const& w : place.weights) number[static_cast<std::size_t>(w.slot)] = 0;
-  for (std::size_t slot = 0; slot < mass.size(); ++slot) {
-    if (number[slot] != 0) continue;
-    number[slot] = particles_.size();
-    particles_.push_back({static_cast<Index>(slot), mass[slot], X[slot]});
-  }
+    for (auto const& w : place.weights) {
+      auto const slot = static_cast<std::size_t>(w.slot);
+      if (number[slot] < mass.size()) continue;
+      number[slot] = particles_.size();
+      number_of_slot_.emplace_back(w.slot, particles_.size());
+      particles_.push_back({w.slot, mass[slot], X[slot]});
+    }
+  std::sort(number_of_slot_.begin(), number_of_slot_.end());
   std::vector<HeldPlace const*> order;
   for (auto const& place : places) order.push_back(&place);
   std::size_t const along = longest_extent(places);
@@ -76,10 +79,8 @@ void SurfaceHold::begin_step(FieldRef const& x, std::span<HeldDirection> particl
 }
 
 std::size_t SurfaceHold::particle_in(Index slot) const {
-  auto const at = std::lower_bound(particles_.begin(), particles_.end(), slot,
-                                   [](Particle const& p, Index wanted) { return p.slot < wanted; });
-  bool const found = at != particles_.end() && at->slot == slot;
-  return found ? static_cast<std::size_t>(at - particles_.begin()) : particles_.size();
+  auto const at = std::lower_bound(number_of_slot_.begin(), number_of_slot_.end(), std::pair(slot, std::size_t{0}));
+  return at != number_of_slot_.end() && at->first == slot ? at->second : particles_.size();
 }
 
 void SurfaceHold::make_rows(std::span<HeldDirection> particles) {
@@ -215,7 +216,7 @@ double SurfaceHold::square_of_held(FieldRef const& rate) const {
 
 std::size_t SurfaceHold::bytes() const {
   return matrix_.bytes() + weights_.size() * sizeof(Weight) + rows_.size() * sizeof(Row) +
-         particles_.size() * sizeof(Particle) + places_.size() * sizeof(Place) +
+         particles_.size() * (sizeof(Particle) + sizeof(number_of_slot_.front())) + places_.size() * sizeof(Place) +
          place_coordinates_.size() * sizeof(double);
 }
 

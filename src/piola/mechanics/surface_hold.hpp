@@ -5,6 +5,7 @@
 #include "piola/mechanics/boundary.hpp"
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -16,7 +17,7 @@ struct HeldPlace {
     double weight;
   };
   std::array<double, 3> X{};               ///< its middle in the reference configuration [m]
-  std::vector<Weight> weights = {};        ///< in the order of slots; they sum to one
+  std::vector<Weight> weights = {};        ///< in an order of the body; they sum to one
   std::vector<std::size_t> supports = {};  ///< that hold it
 };
 
@@ -89,8 +90,9 @@ class SurfaceHold {
 
   int D_;
   BodyBoundary driven_;              ///< of the places, as if they were particles of unit mass
-  std::vector<Particle> particles_;  ///< within the reach of places, in the order of slots
-  std::vector<Weight> weights_;      ///< place by place, then the particles themselves
+  std::vector<Particle> particles_;  ///< within the reach of places, in the order in which these name them
+  std::vector<std::pair<Index, std::size_t>> number_of_slot_;  ///< of them, by slot
+  std::vector<Weight> weights_;                                ///< place by place, then the particles themselves
   std::vector<Place> places_;
   std::vector<Row> rows_;
   EnvelopeCholesky matrix_{{}};            ///< C M^-1 C^T

@@ -55,6 +55,47 @@ namespace {
 
 Shuffle shuffle_of_tests;
 
+constexpr std::size_t tile_size = exec::block_size;
+
+/// Who comes to each place of `count`: tiles change places with others of their kind, those of a negative kind stay, and
+/// so does what fills no tile.
+std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind) {
+  struct Dealt {
+    int kind;
+    std::uint64_t owner, place;
+    std::size_t tile;
+  };
+  std::vector<Dealt> tiles;
+  std::vector<std::size_t> places;  // kind after kind
+  for (std::size_t k = 0; k < kind.size(); ++k) {
+    if (kind[k] < 0) continue;
+    std::uint64_t const random = mixed(shuffle.seed * 0x9E3779B97F4A7C15U + k);
+    tiles.push_back({kind[k], random % static_cast<std::uint64_t>(shuffle.owners), mixed(random), k});
+    places.push_back(k);
+  }
+  std::sort(tiles.begin(), tiles.end(), [](Dealt const& a, Dealt const& b) {
+    return std::tie(a.kind, a.owner, a.place, a.tile) < std::tie(b.kind, b.owner, b.place, b.tile);
+  });
+  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return kind[a] < kind[b]; });
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    if (shuffle.moved != nullptr && tiles[k].tile != places[k]) ++*shuffle.moved;
+    auto const to = numbers.begin() + static_cast<std::ptrdiff_t>(places[k] * tile_size);
+    std::iota(to, to + static_cast<std::ptrdiff_t>(tile_size), tiles[k].tile * tile_size);
+  }
+  return numbers;
+}
+
+SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle, std::vector<int> const& kind) {
+  SlotOrder dealt = order;
+  auto const numbers = dealt_places(static_cast<std::size_t>(order.particles), shuffle, kind);
+  for (std::size_t k = 0; k < numbers.size(); ++k) dealt.id[k] = order.id[numbers[k]];
+  return dealt;
+}
+
+std::vector<int> one_kind(std::size_t count) { return std::vector<int>(count / tile_size, 0); }
+
 }  // namespace
 
 Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_tests, shuffle); }
@@ -62,29 +103,7 @@ Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_te
 Shuffle const& shuffle_now() { return shuffle_of_tests; }
 
 std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle) {
-  std::vector<std::size_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  if (shuffle.owners == 0) return numbers;
-  constexpr std::size_t tile = exec::block_size;
-  std::size_t const whole = count / tile;
-  struct Dealt {
-    std::uint64_t owner, place;
-    std::size_t tile;
-  };
-  std::vector<Dealt> tiles;
-  for (std::size_t k = 0; k < whole; ++k) {
-    std::uint64_t const random = mixed(shuffle.seed * 0x9E3779B97F4A7C15U + k);
-    tiles.push_back({random % static_cast<std::uint64_t>(shuffle.owners), mixed(random), k});
-  }
-  std::sort(tiles.begin(), tiles.end(), [](Dealt const& a, Dealt const& b) {
-    return std::tie(a.owner, a.place, a.tile) < std::tie(b.owner, b.place, b.tile);
-  });
-  for (std::size_t k = 0; k < whole; ++k) {
-    if (shuffle.moved != nullptr && tiles[k].tile != k) ++*shuffle.moved;
-    std::iota(numbers.begin() + static_cast<std::ptrdiff_t>(k * tile),
-              numbers.begin() + static_cast<std::ptrdiff_t>((k + 1) * tile), tiles[k].tile * tile);
-  }
-  return numbers;
+  return dealt_places(count, shuffle, shuffle.owners > 0 ? one_kind(count) : std::vector<int>{});
 }
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
@@ -104,10 +123,22 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
 SlotOrder dealt_order(ParticleSet const& set, Body const& body) {
   SlotOrder order = pencil_order(set, body);
   if (shuffle_of_tests.owners == 0) return order;
-  auto const ids = order.id;
-  auto const numbers = dealt_numbers(static_cast<std::size_t>(order.particles), shuffle_of_tests);
-  for (std::size_t k = 0; k < numbers.size(); ++k) order.id[k] = ids[numbers[k]];
-  return order;
+  return dealt_out(order, shuffle_of_tests, one_kind(static_cast<std::size_t>(order.particles)));
 }
+
+SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order) {
+  if (shuffle_of_tests.owners == 0) return order;
+  std::vector<int> kind = one_kind(static_cast<std::size_t>(order.particles));
+  for (std::size_t k = 0; k < kind.size(); ++k) {
+    auto const part = [&](std::size_t slot) {
+      return static_cast<int>(part_of(set, static_cast<std::size_t>(order.id[slot])));
+    };
+    int const first = part(k * tile_size);
+    kind[k] = part((k + 1) * tile_size - 1) == first ? first : -1;
+  }
+  return dealt_out(order, shuffle_of_tests, kind);
+}
+
+bool shuffle_takes_lists() { return shuffle_of_tests.owners > 0 || shuffle_of_tests.lists; }
 
 }  // namespace piola

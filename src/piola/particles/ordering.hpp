@@ -35,6 +35,9 @@ struct Shuffle {
   int owners = 0;  ///< 0: particles stand in the order of the body
   std::uint64_t seed = 1;
   std::int64_t* moved = nullptr;  ///< counts tiles that stand elsewhere for it; nullptr: nobody wants to know
+  /// Formulations that have loops for whole lattices, which dealt bodies cannot take, take those for lists also where
+  /// nothing is dealt: what a dealt body is compared with.
+  bool lists = false;
 };
 /// The numbers 0 ... count - 1 with the tiles among them dealt out.
 std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle);
@@ -45,5 +48,11 @@ Shuffle set_shuffle(Shuffle const& shuffle);
 
 /// pencil_order, dealt out as the shuffle says: of formulations that promise not to depend on it.
 SlotOrder dealt_order(ParticleSet const& set, Body const& body);
+
+/// The same of any order in which the particles of a part stand together: tiles of one part change places with each
+/// other, those with particles of several parts stay.
+SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order);
+/// Whether bodies are dealt out, or compared with ones that are: see Shuffle::lists.
+bool shuffle_takes_lists();
 
 }  // namespace piola

@@ -7,10 +7,11 @@
 namespace piola {
 
 struct NodalBenchOptions {
-  bool rates = true, set_up = true;  ///< what to measure
-  int cube_side = 60;                ///< particles per side of the cube on a lattice
-  int cloud_side = 40;               ///< of the jittered cube
-  int repeats = 8;                   ///< time steps per measurement; the fastest counts
+  bool rates = true, set_up = true;            ///< what to measure
+  int cube_side = 60;                          ///< particles per side of the cube on a lattice
+  int cloud_side = 40;                         ///< of the jittered cube
+  std::vector<int> lengths{40, 80, 160, 320};  ///< of jittered columns 5 x 5 that are set up
+  int repeats = 8;                             ///< time steps per measurement; the fastest counts
   std::vector<int> threads{1, 2};
   std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
 };
@@ -21,6 +22,7 @@ struct NodalSetUpRow {
   long particles = 0;
   double cells = 0, fits = 0, closure = 0, masses = 0, tables = 0;
   int iterations = 0;     ///< of the solve for the divergence theorem
+  int tight = 0;          ///< the same where it goes on to 1e-6 of the first residual; 0: not measured
   double right_side = 0;  ///< one right-hand side of the body
   double total() const { return cells + fits + closure + masses + tables; }
 };
@@ -35,7 +37,7 @@ struct NodalBenchReport {
 /// Measures inside the real solver, neo-Hookean rubber, double:
 ///  - rates: whole steps of given length (both sweeps, points, Verlet) of a large cube and of the small columns of the
 ///    examples, on a lattice and on jittered clouds, beside the same machine's scalar path;
-///  - set_up: what it costs, part by part, beside one right-hand side.
+///  - set_up: what it costs, part by part, beside one right-hand side; of long jittered columns, too.
 /// Throws InputError if the machine is unknown or not usable here.
 NodalBenchReport bench_nodal(NodalBenchOptions const& options);
 

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/dealt_reference.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/materials/solids.hpp"
@@ -34,8 +35,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(slot_order(set, body_)),
-      images_(make_images(assembly, body)),
+      order_(dealt_within_parts(set, slot_order(set, body_))),
+      images_(make_images(assembly, body, order_)),
       set_(&set),
       fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids) {
   if (!assembly.initial_deformation_gradient.empty())
@@ -44,8 +45,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "initial_deformation_gradient",
         body_.name));
   set_materials(materials_of(assembly, body));
-  reference_ = make_reference({set, body_, order_, assembly.loads, assembly.supports, densities(), options_.least_mass,
-                               machine, images_.empty() ? nullptr : &images_});
+  set_up(assembly, body, machine);
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes (allowed: "
@@ -63,9 +63,18 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   machine.step(state_, 0);  // the accelerations of the start
 }
 
+/// In the order of the body, whatever order its particles stand in.
+void NodalBody::set_up(Assembly const& assembly, std::size_t body, Machine const& machine) {
+  SlotOrder const order = slot_order(*set_, body_);
+  MirrorImages const images = make_images(assembly, body, order);
+  reference_ = make_reference({*set_, body_, order, assembly.loads, assembly.supports, densities(), options_.least_mass,
+                               machine, images.empty() ? nullptr : &images});
+  if (order.id != order_.id) reference_ = dealt_reference(reference_, order, order_);
+}
+
 /// Of the whole body: what is set up are its cells, fits and masses. Between two planes it has no end; what is eight
 /// spacings away is not seen.
-MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body) const {
+MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body, SlotOrder const& order) const {
   constexpr double far = 8;
   std::array<double, 3> reach = body_.spacing;  // of directions without planes: any
   for (auto const& plane : assembly.mirrors) {
@@ -81,7 +90,7 @@ MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body) 
     double const length = body_.spacing[axis] * (body_.lattice[axis] + 1);
     reach[axis] = endless ? far * body_.spacing[axis] : 2 * length;
   }
-  return {assembly, body, order_, reach};
+  return {assembly, body, order, reach};
 }
 
 /// How images follow: records of motion have X and mu of their own, which stay.

@@ -67,7 +67,8 @@ class NodalBody {
   double share(Index slot) const {
     return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
   }
-  MirrorImages make_images(Assembly const& assembly, std::size_t body) const;
+  void set_up(Assembly const& assembly, std::size_t body, Machine const& machine);
+  MirrorImages make_images(Assembly const& assembly, std::size_t body, SlotOrder const& order) const;
   void attach_images();
   void keep_own_side();
   int step(Machine const& machine, double time, double dt, int halvings);

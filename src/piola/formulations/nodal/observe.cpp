@@ -77,7 +77,7 @@ Diagnostics finish(NodalObservation const& o) {
   d.more = {{"least_jacobian", o.least_jacobian},
             {"repeated_steps", o.repeated_steps},
             {"cell_pressure_oscillation", o.of_cells.finish().pressure_oscillation},
-            {"plastic_work", o.plastic_work},
+            {"plastic_work", o.plastic_work.value()},
             {"internal_energy", d.strain_energy}};
   return d;
 }

@@ -9,8 +9,8 @@ namespace piola::nodal {
 struct NodalObservation : Observation {
   double least_jacobian = 0;  ///< at a point of a cell
   double repeated_steps = 0;
-  double plastic_work = 0;  ///< [J]
-  Observation of_cells;     ///< of the pressure of cells, which is not smoothed
+  exec::ExactSum plastic_work;  ///< [J]
+  Observation of_cells;         ///< of the pressure of cells, which is not smoothed
 };
 
 void observe(NodalBody const& body, NodalObservation& observation);

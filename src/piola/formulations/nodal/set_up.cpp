@@ -18,8 +18,6 @@
 namespace piola::nodal {
 namespace {
 
-/// Of the residual that the gradients leave in the divergence theorem; less changes no answer.
-constexpr double closure_tolerance = 1e-3;
 /// A cell smaller than this share of a spacing's volume is none.
 constexpr double least_cell = 1e-3;
 
@@ -260,10 +258,10 @@ std::vector<ScaledCell> heavy_cells(SetUp const& from, std::vector<ScaledCell> c
 }
 
 /// The lattice of a body that loops may take for one. Pressures that follow a face ask for gradients particle by
-/// particle, which lists give, and images have no place in a lattice.
+/// particle, which lists give, images have no place in a lattice, and neither has a body that is dealt out.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr) return std::nullopt;
+  if (follows || from.images != nullptr || shuffle_takes_lists()) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 
@@ -288,8 +286,8 @@ Reference make(SetUp const& from) {
   Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
   std::optional<Fold<D>> fold;
   if (from.images != nullptr) fold.emplace(*from.images, scaled.particles);
-  Closure const closure =
-      divergence.solve(closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr, fold ? &*fold : nullptr);
+  Closure const closure = divergence.solve(from.closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr,
+                                           fold ? &*fold : nullptr);
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));

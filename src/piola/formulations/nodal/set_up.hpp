@@ -32,6 +32,8 @@ struct SetUp {
   double least_mass;                     ///< of a particle over that of its cell
   Machine const& machine;                ///< whose loops solve for the divergence theorem
   MirrorImages const* images = nullptr;  ///< the whole body behind its mirror planes; nullptr: it has none
+  /// Of the residual that the gradients leave in the divergence theorem; less changes no answer.
+  double closure_tolerance = 1e-3;
 };
 
 /// What a particle answers for of a loaded face.

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/dealt_reference.hpp"
+#include "piola/base/contracts.hpp"
+#include <algorithm>
+#include <unordered_map>
+
+namespace piola::nodal {
+namespace {
+
+/// Where the particles of one order stand in another one.
+class Dealing {
+ public:
+  Dealing(SlotOrder const& from, SlotOrder const& to) : old_(to.id.size()), new_(to.id.size()) {
+    PIOLA_EXPECTS(from.slots() == to.slots() && from.particles == to.particles);
+    std::unordered_map<std::int64_t, std::size_t> at;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(from.particles); ++i) at[from.id[i]] = i;
+    for (std::size_t i = 0; i < old_.size(); ++i) {
+      old_[i] = i < static_cast<std::size_t>(to.particles) ? at.at(to.id[i]) : i;
+      new_[old_[i]] = i;
+    }
+  }
+
+  std::size_t slots() const { return old_.size(); }
+  std::size_t old_slot(std::size_t slot) const { return old_[slot]; }
+  /// Of a slot, or of an image, which come after the slots and stay.
+  Index new_slot(Index old) const {
+    auto const k = static_cast<std::size_t>(old);
+    return k < new_.size() ? static_cast<Index>(new_[k]) : old;
+  }
+  /// As many values per slot as there are; what follows the slots stays.
+  template <class T>
+  void deal(std::vector<T>& values, std::size_t size = 1) const {
+    if (values.empty()) return;
+    std::vector<T> const before = values;
+    for (std::size_t i = 0; i < std::min(slots(), values.size() / size); ++i)
+      std::copy_n(before.begin() + static_cast<std::ptrdiff_t>(old_[i] * size), size,
+                  values.begin() + static_cast<std::ptrdiff_t>(i * size));
+  }
+
+ private:
+  std::vector<std::size_t> old_, new_;
+};
+
+void deal_lists(Reference const& r, Dealing const& dealing, Reference& to) {
+  to.neighbour.clear();
+  to.weight.clear();
+  to.begin.assign(1, 0);
+  for (std::size_t i = 0; i < dealing.slots(); ++i) {
+    std::size_t const a = dealing.old_slot(i);
+    for (auto k = static_cast<std::size_t>(r.begin[a]); k < static_cast<std::size_t>(r.begin[a + 1]); ++k) {
+      to.neighbour.push_back(dealing.new_slot(r.neighbour[k]));
+      to.weight.push_back(r.weight[k]);
+    }
+    to.begin.push_back(std::ssize(to.neighbour));
+  }
+}
+
+}  // namespace
+
+Reference dealt_reference(Reference const& r, SlotOrder const& from, SlotOrder const& to) {
+  PIOLA_EXPECTS(!r.lattice && r.group_of_k.empty());
+  Dealing const dealing(from, to);
+  Reference dealt = r;
+  for (auto* values : {&dealt.V, &dealt.mass, &dealt.L, &dealt.g, &dealt.k, &dealt.own, &dealt.centroid, &dealt.share})
+    dealing.deal(*values, values->size() / dealing.slots());
+  std::size_t const places = dealing.slots() + r.images.size();  // images have values of their own there
+  for (auto* values : {&dealt.mu, &dealt.X}) dealing.deal(*values, values->size() / places);
+  for (auto& parts : dealt.parts) dealing.deal(parts);
+  for (HeldPlace& place : dealt.held)
+    for (auto& weight : place.weights) weight.slot = dealing.new_slot(weight.slot);
+  for (Index& source : dealt.source_of_image) source = dealing.new_slot(source);
+  deal_lists(r, dealing, dealt);
+  return dealt;
+}
+
+}  // namespace piola::nodal
