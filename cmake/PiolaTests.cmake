@@ -49,6 +49,10 @@ foreach(script IN LISTS _scripts)
     "${_environment};PYTHONPATH=${PROJECT_BINARY_DIR}/python")
 endforeach()
 
+if(PIOLA_MPI)
+  set_tests_properties(parallel/ranks_test.py PROPERTIES TIMEOUT 1200 RUN_SERIAL ON)
+endif()
+
 # The stored inputs of every fuzz target are ordinary tests; finding new ones needs clang (PiolaFuzz.cmake).
 file(GLOB _fuzz CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/fuzz/*_fuzz.cpp")
 foreach(source IN LISTS _fuzz)

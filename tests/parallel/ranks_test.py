@@ -109,7 +109,10 @@ def compare_restarts(bar, work):
         expect(resumed.returncode == 0, f"resumed on {ranks} ranks: {resumed.stderr}")
     final = sorted((whole / "checkpoints").iterdir())[-1].name
     expect((parts / "checkpoints" / final).is_file(), f"the resumed run does not end with {final}")
-    expect(not differences(checkpoint(whole / "checkpoints" / final), checkpoint(parts / "checkpoints" / final)),
+    # The case says another end, and pictures note those of the ends before: on one rank, too.
+    state = [{name: value for name, value in checkpoint(folder / "checkpoints" / final).items()
+              if name != "case" and not name.startswith("observers/picture")} for folder in (whole, parts)]
+    expect(len(state[0]) > 5 and not differences(*state),
            "the run resumed on 2, 3 and 1 ranks ends in another state")
     expect((whole / "history.csv").read_bytes() == (parts / "history.csv").read_bytes(),
            "the run resumed on 2, 3 and 1 ranks has another history")
@@ -118,7 +121,7 @@ def compare_restarts(bar, work):
 def check_words(bar, work):
     """One message, whoever finds what is wrong, and the exit code of one rank."""
     for words, code, text in (
-            (["run", bar, "--set", "run.ende=1"], 2, "ende"),
+            (["run", bar, "--set", "run.ende=1"], 2, "is not a key of run"),
             (["run", "nothing.toml"], 2, "no such case file"),
             (["run", SOURCE / "cases/nodal/swinging_cube", "--out", work / "no"], 2, 'formulation "nodal" runs on one'),
             (["check", bar], 2, "start this command without mpirun"),
@@ -128,8 +131,8 @@ def check_words(bar, work):
         expect(told.stderr.count(text) == 1, f"{words}: '{text}' is said {told.stderr.count(text)} times")
     wrong = bar.read_text().replace('youngs_modulus = "17 MPa"', 'youngs_modulus = "17 Pa"')
     (work / "soft.toml").write_text(wrong)
-    alone, shared = (piola(n, "run", work / "soft.toml", "--out", work / f"soft{n}", "--set", 'run.end="3 s"')
-                     for n in (1, 3))
+    alone, shared = (piola(n, "run", work / "soft.toml", "--out", work / f"soft{n}", "--no-pictures", "--set",
+                           'run.end="3 s"') for n in (1, 3))
     expect(alone.returncode == 3, f"the soft bar does not fail: {alone.stdout}{alone.stderr}")
     expect(shared.returncode == 3, f"the soft bar on 3 ranks: exit code {shared.returncode}")
     said = [line for line in alone.stderr.splitlines() if "particle" in line][:1]
@@ -164,7 +167,8 @@ if os.environ.get("PIOLA_MPI") != "ON" or not PROGRAM or not shutil.which("mpiru
 with tempfile.TemporaryDirectory() as folder:
     work = Path(folder)
     bar = work / "bar.toml"
-    shutil.copy(SOURCE / "tests/app/bar.toml", bar)
+    # The default interval of the history would follow the end of the run.
+    bar.write_text((SOURCE / "tests/app/bar.toml").read_text() + '[output.history]\nevery = "0.5 ms"\n')
     chosen = sys.argv[1:] or ["cases", "restarts", "words", "killed"]
     cases = able_cases()
     expect(len(cases) >= 10, f"only {len(cases)} cases of jst_sph run on ranks")
