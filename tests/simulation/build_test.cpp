@@ -96,6 +96,8 @@ formulation = { name = "jst_sph" }
 body = "second"
 face = "+z"
 skew = true
+[contact]
+law = "none"
 )");
   ASSERT_EQ(a.mirrors.size(), 1u);
   EXPECT_EQ(a.mirrors[0].body, 1u);

@@ -57,8 +57,8 @@ Shuffle shuffle_of_tests;
 
 constexpr std::size_t tile_size = exec::block_size;
 
-/// Who comes to each place of `count`: tiles change places with others of their kind, those of a negative kind stay, and
-/// so does what fills no tile.
+/// Who comes to each place of `count`: tiles change places with others of their kind, those of a negative kind stay,
+/// and so does what fills no tile.
 std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind) {
   struct Dealt {
     int kind;
