@@ -22,6 +22,57 @@ SOURCE = Path(os.environ.get("PIOLA_SOURCE_DIR", Path(__file__).resolve().parent
 PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
 STEPS = 20
 ONE_RANK = re.compile(r'"(nodal|adaptle|taylor_sph|jst_advection)"|\[\[rigid|\[\[tie|"multipliers"|^\[contact', re.M)
+# What no case of one rank has together: two bodies, a metal, jitter, a mirror plane, loads, a release.
+MIXED = """title = "Two bodies"
+contact = "none"
+[run]
+end = "1 ms"
+[[body]]
+name = "rubber"
+shape = { box = { min = ["0 mm", "0 mm", "0 mm"], max = ["40 mm", "20 mm", "10 mm"] }, spacing = "2 mm", jitter = 0.1 }
+material = { law = "neo_hookean", density = 1100, youngs_modulus = "5 MPa", poissons_ratio = 0.45 }
+formulation = { name = "jst_sph" }
+initial_velocity = ["50*X", "0", "3 m/s"]
+[[body]]
+name = "copper"
+shape = { box = { min = ["60 mm", "0 mm", "0 mm"], max = ["90 mm", "16 mm", "10 mm"] }, spacing = "2 mm" }
+material = { name = "copper_ofhc", damage = "none" }
+formulation = { name = "jst_sph" }
+initial_velocity = ["-3000*(X - 0.06)", "0", "0"]
+[[mirror]]
+body = "rubber"
+face = "-x"
+[[load]]
+body = "rubber"
+face = "+x"
+traction = ["1 kPa", "0", "0"]
+[[load]]
+body = "copper"
+face = "+z"
+pressure = "2 MPa"
+[[load]]
+body = "copper"
+acceleration = ["0 m/s^2", "-9.81 m/s^2", "0 m/s^2"]
+[[support]]
+body = "rubber"
+where = "Y < 1e-6"
+fix = "y"
+until = "20 us"
+[[support]]
+body = "copper"
+where = "X < 0.0601"
+fix = "xyz"
+[[probe]]
+name = "top"
+body = "rubber"
+kind = "average"
+where = "Z > 9e-3"
+quantities = ["velocity_x", "pressure"]
+[output.frames]
+every = "10 ms"
+[output.checkpoints]
+every = "10 ms"
+"""
 failures = 0
 
 
@@ -81,9 +132,9 @@ def first_step(file, work):
     return float(value) * {"s": 1, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "ps": 1e-12}[unit]
 
 
-def compare_case(file, work):
+def compare_case(file, name, work):
     end = f'run.end="{STEPS * first_step(file, work):.9e} s"'
-    reference, name = work / "one", file.parent.relative_to(SOURCE / "cases")
+    reference = work / "one"
     one = piola(1, "run", file, "--out", reference, "--set", end)
     expect(one.returncode == 0, f"{name} on one rank: {one.stderr}")
     expected = contents(reference)
@@ -169,14 +220,17 @@ with tempfile.TemporaryDirectory() as folder:
     bar = work / "bar.toml"
     # The default interval of the history would follow the end of the run.
     bar.write_text((SOURCE / "tests/app/bar.toml").read_text() + '[output.history]\nevery = "0.5 ms"\n')
-    chosen = sys.argv[1:] or ["cases", "restarts", "words", "killed"]
+    chosen = sys.argv[1:] or ["cases", "mixed", "restarts", "words", "killed"]
     cases = able_cases()
     expect(len(cases) >= 10, f"only {len(cases)} cases of jst_sph run on ranks")
     for number, file in enumerate(cases if "cases" in chosen else []):
         own = work / f"case{number}"
         own.mkdir()
-        compare_case(file, own)
+        compare_case(file, file.parent.relative_to(SOURCE / "cases"), own)
         shutil.rmtree(own)
+    if "mixed" in chosen:
+        (work / "mixed.toml").write_text(MIXED)
+        compare_case(work / "mixed.toml", "two bodies", work)
     if "restarts" in chosen:
         compare_restarts(bar, work)
     if "words" in chosen:
