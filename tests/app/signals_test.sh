@@ -100,10 +100,10 @@ exec 3>&-
 # The wall time: in time, with a checkpoint.
 folder=timed
 begin=$(date +%s%N)
-expect 4 "the wall time is used up" "$program" run bar.toml --set run.end='"1000 s"' --out timed --wall-time "2000 ms"
+expect 4 "the wall time is used up" "$program" run bar.toml --set run.end='"1000 s"' --out timed --wall-time "4000 ms"
 spent=$((($(date +%s%N) - begin) / 1000000))
-check test $spent -lt 4000
-check test $spent -gt 1000
+check test $spent -lt 6000
+check test $spent -gt 2000  # a slow disk or a busy machine makes it leave more time for the checkpoint
 check test -s "$(newest timed)"
 check grep -q "the wall time is used up" timed/log.txt
 expect 0 "completed" "$program" run bar.toml --out enough --wall-time 2h
