@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/continued.hpp"
+#include "piola/particles/body_ends.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -27,25 +28,13 @@ struct SymmetryPlane {
   double at;  ///< [m]
 };
 
-/// Planes go through the outermost particles, or half a spacing outside of them where the body does.
 std::vector<SymmetryPlane> planes_of(Assembly const& whole, std::size_t b) {
-  Body const& body = whole.particles.bodies[b];
+  BodyEnds const ends = ends_of(whole.particles, whole.particles.bodies[b]);
   std::vector<SymmetryPlane> planes;
   for (MirrorPlane const& mirror : whole.mirrors) {
     if (mirror.body != b) continue;
     auto const axis = static_cast<std::size_t>(mirror.axis);
-    double low = whole.particles.X[static_cast<std::size_t>(body.first)][axis], high = low;
-    for (auto id = body.first; id < body.last; ++id) {
-      double const X = whole.particles.X[static_cast<std::size_t>(id)][axis];
-      low = std::min(low, X);
-      high = std::max(high, X);
-    }
-    double const inside = rounding * body.spacing[axis];
-    if (body.outline.min[axis] < low - inside && body.outline.max[axis] > high + inside) {
-      low = body.outline.min[axis];
-      high = body.outline.max[axis];
-    }
-    planes.push_back({axis, mirror.upper, mirror.upper ? high : low});
+    planes.push_back({axis, mirror.upper, ends.at[axis][mirror.upper ? 1 : 0]});
   }
   return planes;
 }
@@ -59,7 +48,7 @@ class BodyImages {
     std::vector<SymmetryPlane> const planes = planes_of(whole, b);
     for (auto id = body.first; id < body.last; ++id) all_.push_back({id, {1, 1, 1}, {0, 0, 0}, false});
     for (std::size_t k = 0; !planes.empty() && k < all_.size(); ++k) known_.insert(key_of(all_[k]));
-    // BodyImages of images behind edges; between two planes the body goes on without end.
+    // Images of images behind edges; between two planes the body goes on without end.
     for (std::size_t before = 0; !planes.empty() && before != all_.size();) {
       before = all_.size();
       for (SymmetryPlane const& plane : planes) reflect(plane, depth);

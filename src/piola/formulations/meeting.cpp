@@ -175,8 +175,9 @@ void Meeting::book(double half) {
   for (std::size_t p = 0; p < colours_.pairs().size(); ++p) {
     auto const& pair = colours_.pairs()[p];
     auto& sum = pair_impulses_[pair.a * names_.size() + pair.b];
-    sum.force = sum.force + half * colours_.on_first(p).force;
-    sum.moment = sum.moment + half * colours_.on_first(p).moment;
+    auto const between = colours_.on_first(p);
+    sum.force = sum.force + half * between.force;
+    sum.moment = sum.moment + half * between.moment;
   }
   ties_.book(half);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/mirror_images.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/particles/body_ends.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,22 +20,12 @@ MirrorImages::MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder
   add_images(assembly, order, reach);
 }
 
-/// Where the body ends, as far as planes are concerned.
 void MirrorImages::find_places(Assembly const& assembly, std::size_t body) {
-  auto const& set = assembly.particles;
-  Body const& b = set.bodies[body];
-  low_ = high_ = set.X[static_cast<std::size_t>(b.first)];
-  for (auto id = b.first; id < b.last; ++id)
-    for (std::size_t c = 0; c < 3; ++c) {
-      low_[c] = std::min(low_[c], set.X[static_cast<std::size_t>(id)][c]);
-      high_[c] = std::max(high_[c], set.X[static_cast<std::size_t>(id)][c]);
-    }
-  tolerance_ = 1e-6 * *std::min_element(b.spacing.begin(), b.spacing.begin() + D_);
-  for (std::size_t c = 0; c < 3; ++c) {
-    at_[c] = {low_[c], high_[c]};
-    if (b.outline.min[c] < low_[c] - tolerance_ && b.outline.max[c] > high_[c] + tolerance_)
-      at_[c] = {b.outline.min[c], b.outline.max[c]};
-  }
+  BodyEnds const ends = ends_of(assembly.particles, assembly.particles.bodies[body]);
+  low_ = ends.low;
+  high_ = ends.high;
+  at_ = ends.at;
+  tolerance_ = ends.tolerance;
 }
 
 void MirrorImages::find_planes(Assembly const& assembly, std::size_t body, SlotOrder const& order) {

@@ -2,6 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
+#include "piola/particles/body_ends.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -18,14 +19,8 @@ struct SymmetryPlace {
 
 SymmetryPlace place_of_plane(MirrorSpec const& mirror, ParticleSet const& particles, Body const& body) {
   auto const axis = static_cast<std::size_t>(mirror.face.axis);
-  double low = particles.X[static_cast<std::size_t>(body.first)][axis], high = low;
-  for (auto id = body.first; id < body.last; ++id) {
-    low = std::min(low, particles.X[static_cast<std::size_t>(id)][axis]);
-    high = std::max(high, particles.X[static_cast<std::size_t>(id)][axis]);
-  }
-  low = std::min(low, body.outline.min[axis]);
-  high = std::max(high, body.outline.max[axis]);
-  return {axis, mirror.face.upper ? high : low, mirror.face.upper ? -1.0 : 1.0};
+  bool const upper = mirror.face.upper;
+  return {axis, ends_of(particles, body).at[axis][upper ? 1 : 0], upper ? -1.0 : 1.0};
 }
 
 /// How far the particles of a body stay off a plane, on its side, in spacings; negative: beyond it.

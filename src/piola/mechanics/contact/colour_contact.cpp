@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/colour_contact.hpp"
-#include "piola/exec/exact_sum.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/kernels/wendland_c2.hpp"
 #include "piola/mechanics/contact/planes.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace piola::contact {
@@ -24,20 +23,14 @@ double size_of(Vec<3> const& a) { return std::sqrt(dot(a, a)); }
 }  // namespace
 
 double ColourKernel::value(double r) const {
-  double const q = r / support, rest = 1 - q;
-  if (!(rest > 0)) return 0;
-  if (dimension == 1) return 1.25 / support * rest * rest * rest * (1 + 3 * q);
-  double const norm = dimension == 2 ? 7 / (std::numbers::pi * support * support)
-                                     : 21 / (2 * std::numbers::pi * support * support * support);
-  return norm * rest * rest * rest * rest * (1 + 4 * q);
+  double const h = support / WendlandC2::support;
+  return WendlandC2::sigma(dimension) / std::pow(h, dimension) * WendlandC2::w(dimension, r / h);
 }
 
 double ColourKernel::slope(double r) const {
-  double const q = r / support, rest = 1 - q, square = support * support;
-  if (!(rest > 0)) return 0;
-  if (dimension == 1) return -15 / (support * square) * rest * rest;
-  double const norm = dimension == 2 ? 7 / (std::numbers::pi * square) : 21 / (2 * std::numbers::pi * square * support);
-  return -20 * norm / square * rest * rest * rest;
+  double const h = support / WendlandC2::support;
+  if (!(r > 0)) return 0;  // it multiplies the vector of length r
+  return WendlandC2::sigma(dimension) / std::pow(h, dimension + 1) * WendlandC2::dw(dimension, r / h) / r;
 }
 
 /// By sums over the layer in which a plane at distance z cuts the kernel: Simpson's rule, 64 intervals each.
@@ -189,9 +182,8 @@ void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen,
   totals_.deepest = std::max(totals_.deepest, -gap / (2 * pass.length));
   totals_.touched += 1;
   bool const first = pass.body == pairs_[pass.pair].a;
-  On& on = on_first_[pass.pair];
   double const sign = first ? 1 : -1;
-  on = {on.force + sign * f, on.moment + sign * cross(y, f)};
+  on_first_[pass.pair].add(sign * f, sign * cross(y, f));
 }
 
 void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
@@ -207,7 +199,7 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
   }
   pushed_.clear();
   std::fill(stiffness_.begin(), stiffness_.end(), 0.0);
-  std::fill(on_first_.begin(), on_first_.end(), On{});
+  on_first_.assign(pairs_.size(), {});
   totals_ = {};
   if (!lists_hold(x, masses)) make_lists(x, masses);
   std::vector<Seen> seen;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/exact_sum.hpp"
 #include "piola/math/lanes.hpp"
 #include "piola/math/tensor.hpp"
+#include "piola/mechanics/contact/between.hpp"
 #include <cstddef>
 #include <vector>
 
@@ -56,12 +56,9 @@ class ColourContact {
   Totals const& totals() const { return totals_; }
   /// The step in which the fastest near particles of two bodies close a tenth of a spacing [s]. v [m/s].
   double closing_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const;
-  /// A force [N] and its moment about the origin [N m].
-  struct On {
-    Vec<3> force, moment;
-  };
   std::vector<Pair> const& pairs() const { return pairs_; }
-  On const& on_first(std::size_t pair) const { return on_first_[pair]; }  ///< what body b does to body a
+  /// What body b does to body a, the moment about the origin.
+  Between on_first(std::size_t pair) const { return on_first_[pair].value(); }
   std::size_t bytes() const;
 
  private:
@@ -99,7 +96,7 @@ class ColourContact {
   std::vector<double> stiffness_;  ///< by particle, a bound of its row of second derivatives [N/m]
   std::vector<char> is_pushed_;
   std::vector<Index> pushed_;
-  std::vector<On> on_first_;
+  std::vector<BetweenSum> on_first_;
   Totals totals_;
 };
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/particles/particle_set.hpp"
+#include <array>
+
+namespace piola {
+
+/// Where a body ends along the axes, as far as mirror planes are concerned.
+struct BodyEnds {
+  std::array<double, 3> low, high;          ///< of its particles [m]
+  std::array<std::array<double, 2>, 3> at;  ///< where the lower and the upper plane across an axis are, if any [m]
+  double tolerance;                         ///< two places are the same [m]
+};
+
+/// A plane goes through the outermost particles, or half a spacing outside of them where the body does on both sides.
+BodyEnds ends_of(ParticleSet const& set, Body const& body);
+
+}  // namespace piola
