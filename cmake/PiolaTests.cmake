@@ -14,6 +14,8 @@ endif()
 if(_sources)
   add_executable(piola_tests ${_sources})
   target_include_directories(piola_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  # A quarter less to compile; what is hot is in the library.
+  target_compile_options(piola_tests PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(piola_tests PRIVATE
     PIOLA_VERSION="${PROJECT_VERSION}" PIOLA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     $<$<TARGET_EXISTS:piola_app>:PIOLA_PROGRAM="$<TARGET_FILE:piola_app>">)
