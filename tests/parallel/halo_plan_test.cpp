@@ -34,6 +34,19 @@ TEST(HaloPlan, OfOneRankReceivesNothing) {
   EXPECT_EQ(plan.received(), 0);
 }
 
+TEST(HaloPlan, TellsFieldsOfWhichNothingChangesFromForgottenOnes) {
+  std::vector<double> still(640, 1), forgotten(640, 1);
+  FieldRef field;
+  field.data = still.data();
+  HaloPlan plan(640, {1, 639});
+  plan.add(field, 0, 0);
+  EXPECT_NO_THROW(plan.exchange(field));
+  field.data = forgotten.data();
+#if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
+  EXPECT_ANY_THROW(plan.exchange(field));
+#endif
+}
+
 TEST(Ranks, AreOneWithoutALauncher) {
   EXPECT_EQ(ranks::count(), 1);
   EXPECT_EQ(ranks::own(), 0);

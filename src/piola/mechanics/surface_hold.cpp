@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/surface_hold.hpp"
 #include "piola/mechanics/constraint_matrix.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include <algorithm>
 #include <tuple>
 
@@ -51,10 +52,17 @@ SurfaceHold::SurfaceHold(int dimension, std::vector<Support> const& supports, st
       for (auto const& d : directions_of(supports[s], D_)) driven_.add_row(at, s, d);
   }
   for (std::size_t a = 0; a < particles_.size(); ++a) weights_.push_back({a, 1});
+  for (Particle const& p : particles_) slots_.push_back(p.slot);
   place_coordinates_.resize(places_.size() * static_cast<std::size_t>(D_));
 }
 
+/// On ranks: the values of all particles within reach of places.
+void SurfaceHold::complete(FieldRef const& field) const {
+  if (own_) merge_slots(field, *own_, slots_, D_);
+}
+
 FieldRef SurfaceHold::places_at(FieldRef const& x) {
+  complete(x);
   FieldRef at{};
   at.data = place_coordinates_.data();
   at.component_stride = 1;
@@ -121,6 +129,7 @@ double SurfaceHold::value(Row const& row, FieldRef const& field) const {
 /// lambda that gives the places their wanted(row) of a field; particles have theirs.
 template <class Of>
 std::vector<double> SurfaceHold::solved(FieldRef const& field, Of const& wanted) const {
+  complete(field);
   std::vector<double> lambda(rows_.size(), 0);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     if (!rows_[r].of_place) continue;
@@ -149,6 +158,7 @@ void SurfaceHold::set_velocity(FieldRef const& v) const {
 
 void SurfaceHold::kick_first(FieldRef const& v, FieldRef const& rate, double dt) {
   if (rows_.empty()) return;
+  complete(v);
   for (Row& row : rows_) {
     if (!row.of_place) continue;
     double const now = value(row, v);
@@ -202,6 +212,7 @@ void SurfaceHold::keep_velocity(FieldRef const& x, FieldRef const& v, double& wo
 
 double SurfaceHold::square_of_held(FieldRef const& rate) const {
   if (rows_.empty()) return 0;
+  complete(rate);
   std::vector<double> values, lambda;
   for (Row const& row : rows_) values.push_back(value(row, rate));
   lambda = values;

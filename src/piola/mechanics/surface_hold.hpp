@@ -36,6 +36,9 @@ class SurfaceHold {
               std::vector<double> const& mass, std::vector<Point> const& X);
 
   bool empty() const { return places_.empty(); }
+  /// Ranks share the body: this one has the particles in these slots right. What follows but hand_over() is then
+  /// collective; every rank solves for all places.
+  void share(Range own) { own_ = own; }
   /// Whether the motion of a place depends on the particle.
   bool reaches(Index slot) const { return particle_in(slot) < particles_.size(); }
   /// Before a step from `time` to time + dt, after supports have chosen which `particles` they hold: those within the
@@ -87,6 +90,7 @@ class SurfaceHold {
   void add(std::vector<double> const& lambda, FieldRef const& to) const;
   double value(Row const& row, FieldRef const& field) const;
   FieldRef places_at(FieldRef const& x);
+  void complete(FieldRef const& field) const;
 
   int D_;
   BodyBoundary driven_;              ///< of the places, as if they were particles of unit mass
@@ -97,6 +101,8 @@ class SurfaceHold {
   std::vector<Row> rows_;
   EnvelopeCholesky matrix_{{}};            ///< C M^-1 C^T
   std::vector<double> place_coordinates_;  ///< of the places, D each [m]
+  std::vector<Index> slots_;               ///< of particles_
+  std::optional<Range> own_;               ///< nothing: all slots
 };
 
 }  // namespace piola

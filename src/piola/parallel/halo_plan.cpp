@@ -47,13 +47,19 @@ HaloPlan::HaloPlan(Index slots, std::vector<Index> read) {
 }
 
 void HaloPlan::add(FieldRef const& field, int first, int count) {
-  if (field.data != nullptr && count > 0) values_.push_back({field.data, first, count});
+  if (field.data != nullptr) values_.push_back({field.data, first, count});
 }
 
 void HaloPlan::exchange(FieldRef const& field) {
   std::size_t per_particle = 0;
-  for (Values const& v : values_) per_particle += v.data == field.data ? static_cast<std::size_t>(v.count) : 0;
-  PIOLA_EXPECTS(per_particle > 0);
+  bool known = false;
+  for (Values const& v : values_) {
+    if (v.data != field.data) continue;
+    known = true;
+    per_particle += static_cast<std::size_t>(v.count);
+  }
+  PIOLA_EXPECTS(known);
+  if (per_particle == 0) return;
   auto const each_run = [&](Side const& side, auto const& f) {
     std::size_t start = 0;
     for (Values const& v : values_) {

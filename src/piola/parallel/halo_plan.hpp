@@ -17,7 +17,8 @@ class HaloPlan {
   /// `read`: slots that the particles of this rank read, in any order, as often as they like. Collective.
   HaloPlan(Index slots, std::vector<Index> read);
 
-  /// Values [first, first + count) of a field are what neighbours read of it. A field may have several such runs.
+  /// Values [first, first + count) of a field are what neighbours read of it. A field may have several such runs; one
+  /// of no values, where all that neighbours read of it never changes or comes with another field.
   void add(FieldRef const& field, int first, int count);
   /// Brings the values of a field that others own up to date. Only the ranks that read from each other take part.
   void exchange(FieldRef const& field);

@@ -54,6 +54,8 @@ void take_largest(double& value);
 void merge(std::span<double> values);
 /// The values of rank 0, then those of rank 1, and so on; on rank 0 alone, elsewhere nothing.
 std::vector<double> gather(std::span<double const> values);
+/// Rank r has values[starts[r]] to values[starts[r + 1] - 1]; afterwards all ranks have all of them.
+void complete(std::span<double> values, std::span<std::size_t const> starts);
 /// What rank 0 has.
 void broadcast_bytes(void* data, std::size_t bytes);
 /// to[r] goes to rank r; what comes from rank r is in place r.

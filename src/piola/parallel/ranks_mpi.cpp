@@ -112,6 +112,17 @@ std::vector<double> gather(std::span<double const> values) {
   return all;
 }
 
+void complete(std::span<double> values, std::span<std::size_t const> starts) {
+  if (!several()) return;
+  std::vector<int> counts, first;
+  for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
+    first.push_back(static_cast<int>(starts[r]));
+    counts.push_back(static_cast<int>(starts[r + 1] - starts[r]));
+  }
+  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, values.data(), counts.data(), first.data(), MPI_DOUBLE,
+                 MPI_COMM_WORLD);
+}
+
 void broadcast_bytes(void* data, std::size_t bytes) {
   if (several()) MPI_Bcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD);
 }

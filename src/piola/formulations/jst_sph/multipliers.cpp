@@ -4,6 +4,7 @@
 #include "piola/mechanics/constraint_matrix.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -180,10 +181,20 @@ void Multipliers::correct(std::vector<Point> const& v, std::vector<double> const
       for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) change_[a][c] += eta[m] * modes_[a][m][c];
 }
 
+/// On ranks all have the motion of all particles within reach, and then solve alike.
+void Multipliers::complete(BodyState const& body, bool kick, bool stage) const {
+  auto const merge = [&](FieldRef const& field) { merge_slots(field, body.slots, slots_, D_); };
+  merge(body.x);
+  merge(body.v);
+  if (stage) merge(body.v_n);
+  if (kick) merge(body.rate);
+}
+
 void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   if (rows_.empty()) return;
   double const dt = call.dt;
   bool const kick = call.when == MultiplierCall::When::first_kick, stage = call.when == MultiplierCall::When::stage_1;
+  if (body.halo != nullptr) complete(body, kick, stage);
   std::vector<Point> v, x;
   for (auto const slot : slots_) {
     v.push_back(point_at(body.v, slot, D_));

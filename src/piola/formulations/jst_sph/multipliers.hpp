@@ -28,7 +28,7 @@ class Multipliers {
  public:
   Multipliers(std::span<HeldDirection const> held, Cloud const& cloud);
 
-  /// Corrects the velocity of the body, or the acceleration that leads to it.
+  /// Corrects the velocity of the body, or the acceleration that leads to it. On ranks that share it collective.
   void enforce(BodyState& body, MultiplierCall const& call);
   /// Impulses of the corrections since they were forgotten, by support; those of a particle count for the support of
   /// the held particle that weighs most there. Their sum vanishes unless the rows prescribe a rigid motion.
@@ -51,6 +51,7 @@ class Multipliers {
   void find_weights(std::span<HeldDirection const> held, Cloud const& cloud);
   void set_modes(std::vector<Point> const& x);
   void find_owners(std::span<HeldDirection const> held);
+  void complete(BodyState const& body, bool kick, bool stage) const;
   void correct(std::vector<Point> const& v, std::vector<double> const& wanted);
 
   int D_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ranks: every rank makes the whole body and then works on its share of the slots. What its particles read of others
 // comes by messages. The slots of a particle are the same on all ranks, so nothing else of the body changes.
-#include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 
@@ -59,18 +59,6 @@ void JstBody::mark_halo() {
   for (FieldRef const& source : s.filter_source) halo_->add(source, 0, 1);
 }
 
-void JstBody::gather(FieldRef const& field, int components) {
-  auto const n = static_cast<std::size_t>(components);
-  Range const mine = own();
-  std::vector<double> values(static_cast<std::size_t>(mine.last - mine.first) * n);
-  exec_host::for_each_in_set_up(mine.last - mine.first, [&](Index k) {
-    for (std::size_t c = 0; c < n; ++c)
-      values[static_cast<std::size_t>(k) * n + c] = value(field, mine.first + k, static_cast<int>(c));
-  });
-  std::vector<double> const all = ranks::gather(values);
-  exec_host::for_each_in_set_up(static_cast<Index>(all.size() / n), [&](Index i) {
-    for (std::size_t c = 0; c < n; ++c) set(field, i, static_cast<int>(c), all[static_cast<std::size_t>(i) * n + c]);
-  });
-}
+void JstBody::gather(FieldRef const& field, int components) { gather_slots(field, own(), components); }
 
 }  // namespace piola::jst_sph

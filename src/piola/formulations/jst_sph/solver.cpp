@@ -9,6 +9,7 @@
 #include "piola/formulations/slots_by_id.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,6 @@
 
 namespace piola::jst_sph {
 namespace {
-
-[[noreturn]] void refuse_multipliers(std::string const& body) {
-  throw InputError(
-      fmt::format("body '{}': supports = \"multipliers\" runs on one rank (allowed on several: \"direct\") - "
-                  "start it without mpirun, or take direct supports",
-                  body));
-}
 
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
@@ -41,7 +35,6 @@ class Solver final : public Formulation {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
-      if (options.multipliers && ranks::several()) refuse_multipliers(set_.bodies[k].name);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
       bodies_.back()->share(machine_->lanes);
       alpha_.push_back(options.cfl);
@@ -302,22 +295,8 @@ void Solver::gather() {
 void Solver::share_failures() {
   bool failed = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    struct Found {
-      std::uint64_t id;
-      Index index;
-      int code;
-    };
     FailureSlot& slot = *bodies_[k]->state().failure;
-    bool const any = slot.index < bodies_[k]->particles();
-    Found first{any ? static_cast<std::uint64_t>(bodies_[k]->id(slot.index)) : ~std::uint64_t{0}, slot.index,
-                slot.code};
-    ranks::combine(first, [](void const* other, void* mine) {
-      auto const& a = *static_cast<Found const*>(other);
-      auto& b = *static_cast<Found*>(mine);
-      if (a.id < b.id) b = a;
-    });
-    slot.index = first.index;
-    slot.code = first.code;
+    share_failure(slot);
     failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
   }
   if (failed) gather();

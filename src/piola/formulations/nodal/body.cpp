@@ -7,6 +7,8 @@
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/own_slots.hpp"
+#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -126,6 +128,7 @@ void NodalBody::keep_own_side() {
 void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) {
   state_.dimension = D_;
   state_.slots = {0, order_.slots()};
+  state_.all_slots = order_.slots();
   state_.particles = order_.particles;
   double const spacing = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
   Index first = 0;
@@ -279,6 +282,7 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
   boundary_->begin_step(state_, time, dt);
   state_.constants.least_share = halvings < most_halvings ? least_share : 0;
   machine.step(state_, dt);
+  if (shared()) share_failure(failure_);
   if (!failed() || halvings == most_halvings) {
     boundary_->end_step(state_);
     return 0;
@@ -290,14 +294,14 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
 }
 
 double NodalBody::kinetic_energy() const {
-  return exec_host::sum_of(order_.particles, [&](Index i) {
+  return sum_over_slots(shared(), own(), [&](Index i) {
     auto const v = this->v(i);
     return 0.5 * mass(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   });
 }
 
 double NodalBody::strain_energy() const {
-  return exec_host::sum_of(order_.particles, [&](Index i) { return volume(i) * value(state_.cell, i, 0); });
+  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.cell, i, 0); });
 }
 
 double NodalBody::viscous_loss() const {

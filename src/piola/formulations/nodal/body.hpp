@@ -9,6 +9,8 @@
 #include "piola/formulations/nodal/smoothing.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/math/tensor.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,6 +35,13 @@ class NodalBody {
   Index particles() const { return order_.particles; }
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   Reference const& reference() const { return reference_; }
+  /// Of all ranks that share the particles this one takes a part: from now on it works on that. Collective.
+  void share();
+  bool shared() const { return halo_ != nullptr; }
+  /// Slots of particles that this rank works on: all of them on one rank.
+  Range own() const;
+  /// Of a field that all ranks have in part, what the others have comes to rank 0. Collective.
+  void gather(FieldRef const& field, int components) const;
   /// Made when it is asked for the first time.
   Smoothing const& smoothing() const;
   std::size_t bytes() const;
@@ -42,8 +51,8 @@ class NodalBody {
   int step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
   void damp(double factor);
-  double kinetic_energy() const;                          ///< [J]
-  double strain_energy() const;                           ///< [J], of what observers see
+  double kinetic_energy() const;                          ///< of all ranks, which all ask for it [J]
+  double strain_energy() const;                           ///< likewise, of what observers see [J]
   double damping_loss() const { return damping_loss_; }   ///< since the start [J]
   double viscous_loss() const;                            ///< since the start [J]
   bool remembers() const { return fields_.with_solids; }  ///< solids in rate form
@@ -80,6 +89,7 @@ class NodalBody {
   void fill_initial(Assembly const& assembly);
   void fill_histories();
   bool failed() const { return failure_.index < order_.particles; }
+  std::vector<Index> slots_read() const;
 
   Body body_;
   Options options_;
@@ -98,6 +108,7 @@ class NodalBody {
   double damping_loss_ = 0;
   FailureSlot failure_;
   BodyState state_;
+  std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles
 };
 
 }  // namespace piola::nodal

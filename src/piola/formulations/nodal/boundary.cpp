@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/boundary.hpp"
+#include "piola/parallel/ranks.hpp"
 
 namespace piola::nodal {
 namespace {
@@ -106,14 +107,18 @@ void Boundary::damp(BodyState& state, double factor) const {
 }
 
 double Boundary::square_of_held(BodyState const& state) const {
-  double sum = surface_.square_of_held(state.a);
+  double const of_surface = surface_.square_of_held(state.a);
+  exec::ExactSums<1> sum;
   for (Index n = 0; n < state.held_count; ++n) {
     HeldDirection const& h = state.held[n];
+    if (!is_own(own_, h.slot)) continue;
     double along = 0;
     for (int c = 0; c < D_; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];
-    sum += h.mass * along * along;
+    double const of_particle = h.mass * along * along;
+    sum.add(&of_particle);
   }
-  return sum;
+  if (own_) ranks::add(sum);
+  return of_surface + sum.value();
 }
 
 }  // namespace piola::nodal

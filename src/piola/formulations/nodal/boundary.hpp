@@ -6,6 +6,7 @@
 #include "piola/mechanics/boundary.hpp"
 #include "piola/mechanics/surface_hold.hpp"
 #include "piola/particles/ordering.hpp"
+#include <optional>
 #include <vector>
 
 namespace piola::nodal {
@@ -27,6 +28,13 @@ class Boundary {
 
   /// Gives the particles that supports hold the velocities of t = 0, and the loads of that time.
   void attach(BodyState& state);
+  /// Ranks share the body: this one answers for the particles in these slots. Then every rank calls what changes or
+  /// measures the state.
+  void share(Range own) {
+    own_ = own;
+    driven_.share(own);
+    surface_.share(own);
+  }
   /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends.
   void begin_step(BodyState& state, double time, double dt);
   /// After it: adds the work and the impulses, and takes loads that end now out of the acceleration with which the next
@@ -61,6 +69,7 @@ class Boundary {
   SurfaceHold surface_;
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to these [m]
   double work_ = 0;
+  std::optional<Range> own_;  ///< nothing: all slots
 };
 
 }  // namespace piola::nodal

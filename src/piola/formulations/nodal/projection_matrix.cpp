@@ -46,6 +46,7 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
     field->allocate_tiled(slots_);
   state_.dimension = D;
   state_.slots = {0, slots_};
+  state_.all_slots = slots_;
   state_.V = f.V.ref();
   state_.mass = f.mass.ref();
   state_.own = f.own.ref();

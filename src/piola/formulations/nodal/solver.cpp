@@ -7,6 +7,7 @@
 #include "piola/formulations/slots_by_id.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +28,7 @@ class Solver final : public Formulation {
       Options const options =
           read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
+      bodies_.back()->share();
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }
     if (assembly.pushed) slots_ = SlotsById(set_, bodies_);
@@ -63,7 +65,9 @@ class Solver final : public Formulation {
     }
     time_ = time + dt;
     ends_step_ = true;
+    if (failed()) gather();  // rank 0 is told all that there is to say about it
   }
+  void gather() override;
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
@@ -134,10 +138,16 @@ class Solver final : public Formulation {
     FailureSlot failure;
     BodyState seen = body.state();
     seen.failure = &failure;
+    seen.slots = {0, seen.all_slots};  // on ranks, after gather(), rank 0 looks at all particles by itself
+    seen.halo = nullptr;
     machine_.observe(seen);
   }
   template <class F>
   void each_evolved(NodalBody const& body, std::size_t number, F const& f) const;
+  bool failed() const {
+    return std::any_of(bodies_.begin(), bodies_.end(),
+                       [](auto const& body) { return body->state().failure->index < body->particles(); });
+  }
 
   ParticleSet set_;
   SlotsById slots_;
@@ -211,6 +221,16 @@ void Solver::save(StateWriter& writer) const {
   }
   writer.put("actions", actions_.state());
   writer.put("time", std::array{time_, repeated_});
+}
+
+/// What a checkpoint holds is all that observers see, too.
+void Solver::gather() {
+  for (std::size_t k = 0; ranks::several() && k < bodies_.size(); ++k) {
+    NodalBody const& body = *bodies_[k];
+    each_evolved(body, k,
+                 [&](std::string const&, FieldRef const& field, int components) { body.gather(field, components); });
+    monitors_[k]->merge();
+  }
 }
 
 void Solver::load(StateReader& reader) {

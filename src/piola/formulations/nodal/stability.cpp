@@ -2,6 +2,8 @@
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/mechanics/modes.hpp"
+#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -84,8 +86,14 @@ std::size_t StabilityMonitor::place(Index i, int c) const {
 }
 
 template <class F>
+void StabilityMonitor::each_particle(F const& f) const {
+  Range const own = body_.own();
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) { f(own.first + k); });
+}
+
+template <class F>
 void StabilityMonitor::each_number(F const& f) const {
-  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+  each_particle([&](Index i) {
     for (int c = 0; c < body_.state().dimension; ++c) f(place(i, c));
   });
 }
@@ -93,7 +101,7 @@ void StabilityMonitor::each_number(F const& f) const {
 StabilityMonitor::Vector StabilityMonitor::positions() const {
   int const D = body_.state().dimension;
   Vector x(mode_.size());
-  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+  each_particle([&](Index i) {
     for (int c = 0; c < D; ++c) x[place(i, c)] = value_at(body_.state().x, i, c);
   });
   return x;
@@ -101,7 +109,7 @@ StabilityMonitor::Vector StabilityMonitor::positions() const {
 
 void StabilityMonitor::put_moved(Vector const& x, double scale, Vector const& mode) {
   int const D = body_.state().dimension;
-  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+  each_particle([&](Index i) {
     for (int c = 0; c < D; ++c) value_at(body_.state().x, i, c) = x[place(i, c)] + scale * mode[place(i, c)];
   });
 }
@@ -114,16 +122,34 @@ StabilityMonitor::Vector StabilityMonitor::accelerations() {
   trial.failure = &failure;
   machine_.accelerate(trial);
   Vector a(mode_.size());
-  exec_host::for_each_in_set_up(body_.particles(), [&](Index i) {
+  each_particle([&](Index i) {
     for (int c = 0; c < D; ++c) a[place(i, c)] = value_at(trial.a, i, c);
   });
   return a;
 }
 
+/// What this rank does not have becomes zero.
+void StabilityMonitor::keep_own(Vector& u) const {
+  if (!body_.shared()) return;
+  Vector own(u.size(), 0);
+  each_number([&](std::size_t i) { own[i] = u[i]; });
+  u = std::move(own);
+}
+
+double StabilityMonitor::largest_on_ranks(Vector const& u) const {
+  double most = largest_of(u);
+  if (body_.shared()) ranks::take_largest(most);
+  return most;
+}
+
+void StabilityMonitor::merge() {
+  if (body_.shared()) ranks::merge(mode_);
+}
+
 /// sum m u.v
 double StabilityMonitor::product(Vector const& u, Vector const& v) const {
   int const D = body_.state().dimension;
-  return exec_host::sum_of(body_.particles(), [&](Index i) {
+  return sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
     double sum = 0;
     for (int c = 0; c < D; ++c) sum += u[place(i, c)] * v[place(i, c)];
     return body_.mass(i) * sum;
@@ -134,7 +160,7 @@ double StabilityMonitor::product(Vector const& u, Vector const& v) const {
 double StabilityMonitor::square_of_accelerations() const {
   auto const& state = body_.state();
   int const D = state.dimension;
-  double const all = exec_host::sum_of(body_.particles(), [&](Index i) {
+  double const all = sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
     double sum = 0;
     for (int c = 0; c < D; ++c) sum += value_at(state.a, i, c) * value_at(state.a, i, c);
     return body_.mass(i) * sum;
@@ -154,7 +180,7 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
     if (k > 0) beside.push_back(length);
     each_number([&](std::size_t i) { next[i] /= length; });
     basis.push_back(next);
-    double const scale = size / largest_of(next);
+    double const scale = size / largest_on_ranks(next);
     put_moved(x, scale, next);
     next = accelerations();
     each_number([&](std::size_t i) { next[i] = (rest[i] - next[i]) / scale; });
@@ -180,12 +206,14 @@ void StabilityMonitor::measure(int cycles) {
   machine_.keep(body_.state());
   machine_.observe(body_.state());
   double const energy = body_.kinetic_energy() + body_.strain_energy();
+  merge();
   refresh_mode(mode_);
   for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane
     MirroredParticle const& p = body_.state().mirrored[k];
     for (int c = 0; c < body_.state().dimension; ++c)
       if ((p.axes >> c & 1) != 0) mode_[place(p.slot, c)] = 0;
   }
+  keep_own(mode_);
   auto const x = positions();
   body_.state().marks = true;
   auto const rest = accelerations();
@@ -209,7 +237,9 @@ void StabilityMonitor::update(int halvings) {
   if (body_.options().cfl > 0) return;
   ++steps_;
   caution_ = halvings > 0 ? std::max(least_caution, halved * caution_) : std::min(1.0, recovery * caution_);
-  bool const strained = machine_.largest_change(body_.state()) >= (steps_ < fewest ? much : change);
+  double most = machine_.largest_change(body_.state());
+  if (body_.shared()) ranks::take_largest(most);
+  bool const strained = most >= (steps_ < fewest ? much : change);
   if (steps_ < interval_ && !strained) return;
   double const before = frequency_;
   pace_ = steps_;

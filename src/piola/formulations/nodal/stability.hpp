@@ -27,19 +27,27 @@ class StabilityMonitor {
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 
+  /// Brings the parts of the mode that ranks have to all of them. Collective.
+  void merge();
+
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
  private:
-  using Vector = std::vector<double>;  ///< D values per particle, in slot order
+  using Vector = std::vector<double>;  ///< D values per particle, in the order of ids; of other ranks zeros
   /// An approximate eigenvalue omega^2, and by how much the nearest true one differs at most.
   struct Estimate {
     double square = 0, error = 0;
   };
   /// Of component c of the particle in slot i in a Vector.
   std::size_t place(Index i, int c) const;
-  /// f(place) for all numbers of a Vector.
+  /// f(slot) for the particles of this rank.
+  template <class F>
+  void each_particle(F const& f) const;
+  /// f(place) for the numbers of a Vector that this rank has.
   template <class F>
   void each_number(F const& f) const;
+  void keep_own(Vector& u) const;
+  double largest_on_ranks(Vector const& u) const;
   void measure(int cycles);
   Estimate iterate(Vector const& x, Vector const& rest, double size);
   Vector accelerations();

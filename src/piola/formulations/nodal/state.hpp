@@ -9,6 +9,7 @@
 
 namespace piola {
 class SurfaceHold;
+class HaloPlan;
 }
 
 /// One body of a nodal run as its loops see it: plain data that crosses between machines.
@@ -63,7 +64,8 @@ struct MirroredParticle {
 
 struct BodyState {
   int dimension = 3;
-  Range slots;
+  Range slots;          ///< that loops work on: on several ranks those of this rank
+  Index all_slots = 0;  ///< that there are, from 0 on
   Constants constants{};
   ViscousConstants viscosity{};
   MaterialRange const* materials = nullptr;  ///< in the order of slots; together all particles
@@ -102,6 +104,7 @@ struct BodyState {
   bool marks = false;         ///< forces at x also leave F^T F there in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
+  HaloPlan* halo = nullptr;  ///< of several ranks; nullptr: one rank has all particles
 };
 
 /// What the system of the divergence theorem at set-up needs beside the state's volumes and sums: per particle the

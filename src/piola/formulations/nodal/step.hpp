@@ -13,7 +13,7 @@ namespace piola::nodal::inline PIOLA_MACHINE {
 template <int D>
 class Step {
  public:
-  explicit Step(BodyState& body) : b_(body) {}
+  explicit Step(BodyState& body) : b_(body), halo_{body.halo} {}
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations of the state are made.
   void operator()(double dt) {
@@ -70,7 +70,7 @@ class Step {
   LatticeSums<D> of_lattice() const {
     bool const corrected = b_.mu.data != nullptr;
     return {b_.lattice,
-            b_.slots.last,
+            b_.all_slots,
             read_neighbours(b_.x),
             read(b_.first),
             read_reference(b_.own).stored,
@@ -128,14 +128,12 @@ class Step {
     for (Index k = 0; k < b_.material_count; ++k) update_stress<Observed>(b_.materials[k], dt);
   }
 
-  /// Of the particles of one material, in whole groups of lanes.
+  /// Of the particles of one material that this rank has.
   template <bool Observed>
   void update_stress(MaterialRange const& range, double dt) {
-    Index const group = range.first - range.first % lane_count,
-                end = (range.last + lane_count - 1) / lane_count * lane_count;
-    Range const slots{group, range.last < b_.particles ? end : b_.slots.last};
-    if (range.first == range.last) return;
-    SharedLanes<D> const others(b_, group, range.first);
+    Range const slots = groups_of(range);
+    if (slots.first >= slots.last) return;
+    SharedLanes<D> const others(b_, group_of(range.first), range.first);
     Constants constants = range.constants;
     constants.least_share = b_.constants.least_share;
     auto const update_with = [&](auto const& law) {
@@ -168,6 +166,15 @@ class Step {
       update_with(Cells(law, range, b_, maximum(dt, 0.0), wanted));
     });
     others.put_back();
+  }
+
+  static Index group_of(Index slot) { return slot - slot % lane_count; }
+  /// The particles of one material that this rank has, in whole groups of lanes.
+  Range groups_of(MaterialRange const& range) const {
+    if (range.first == range.last) return {};
+    Index const first = group_of(range.first), last = group_of(range.last + lane_count - 1);
+    return {first > b_.slots.first ? first : b_.slots.first,
+            range.last < b_.particles && last < b_.slots.last ? last : b_.slots.last};
   }
 
   BodyState& b_;

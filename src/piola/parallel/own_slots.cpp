@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/parallel/own_slots.hpp"
+#include "piola/base/contracts.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <cstdint>
+#include <vector>
+
+namespace piola {
+namespace {
+
+Range part_of(Range whole, int rank) {
+  Range const share = share_of(whole.last - whole.first, rank, ranks::count());
+  return {whole.first + share.first, whole.first + share.last};
+}
+
+}  // namespace
+
+Range own_part(Range whole) { return part_of(whole, ranks::own()); }
+
+void complete_slots(double* data, std::ptrdiff_t size, Range whole) {
+  if (!ranks::several()) return;
+  std::vector<std::size_t> starts{0};
+  for (int rank = 0; rank < ranks::count(); ++rank)
+    starts.push_back(static_cast<std::size_t>(part_of(whole, rank).last - whole.first) *
+                     static_cast<std::size_t>(size));
+  ranks::complete({data + whole.first * size, starts.back()}, starts);
+}
+
+void complete_slots(FieldRef const& field, int components, Range whole) {
+  PIOLA_EXPECTS(field.particle_stride == 1 && field.tile_extra == 0);
+  for (int c = 0; c < components; ++c) complete_slots(field.data + c * field.component_stride, 1, whole);
+}
+
+void gather_slots(FieldRef const& field, Range own, int components) {
+  auto const n = static_cast<std::size_t>(components);
+  std::vector<double> values(static_cast<std::size_t>(own.last - own.first) * n);
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      values[static_cast<std::size_t>(k) * n + c] = value_at(field, own.first + k, static_cast<int>(c));
+  });
+  std::vector<double> const all = ranks::gather(values);
+  exec_host::for_each_in_set_up(static_cast<Index>(all.size() / n), [&](Index i) {
+    for (std::size_t c = 0; c < n; ++c)
+      value_at(field, i, static_cast<int>(c)) = all[static_cast<std::size_t>(i) * n + c];
+  });
+}
+
+void merge_slots(FieldRef const& field, Range own, std::span<Index const> slots, int components) {
+  if (!ranks::several()) return;
+  std::vector<double> values;
+  for (Index const i : slots)
+    for (int c = 0; c < components; ++c) values.push_back(i >= own.first && i < own.last ? value_at(field, i, c) : 0);
+  ranks::merge(values);
+  auto from = values.begin();
+  for (Index const i : slots)
+    for (int c = 0; c < components; ++c) value_at(field, i, c) = *from++;
+}
+
+void share_failure(FailureSlot& slot) {
+  struct Found {
+    std::uint64_t id;
+    Index index;
+    int code;
+  };
+  auto const id = slot.index == FailureSlot::none ? -1 : slot.id != nullptr ? slot.id[slot.index] : slot.index;
+  Found first{static_cast<std::uint64_t>(id), slot.index, slot.code};  // the largest number where there is none
+  ranks::combine(first, [](void const* other, void* mine) {
+    auto const& a = *static_cast<Found const*>(other);
+    auto& b = *static_cast<Found*>(mine);
+    if (a.id < b.id) b = a;
+  });
+  slot.index = first.index;
+  slot.code = first.code;
+}
+
+}  // namespace piola
