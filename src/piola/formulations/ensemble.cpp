@@ -118,6 +118,9 @@ class Ensemble : public Formulation {
     for (auto const& formulation : formulations_) formulation->damp(factor);
     if (meeting_) meeting_->damp(factor);
   }
+  void gather() override {
+    for (auto const& formulation : formulations_) formulation->gather();
+  }
   double kinetic_energy() const override {
     double sum = 0;
     for (auto const& formulation : formulations_) sum += formulation->kinetic_energy();

@@ -102,7 +102,7 @@ class Formulation {
   virtual void damp(double factor) = 0;
   virtual double kinetic_energy() const { return diagnose().kinetic_energy; }  ///< [J]
   /// What acts between bodies pushes them between steps, when all stand at one instant. Only of formulations whose
-  /// FormulationInfo says `pushable`, built from an Assembly that says `pushed`.
+  /// FormulationInfo says `pushable`, built from an Assembly that says `pushed`. On ranks all read, and push, the same.
   virtual void read_motion(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3>> /*x*/,
                            std::span<std::array<double, 3>> /*v*/) const {}                          ///< [m], [m/s]
   virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]

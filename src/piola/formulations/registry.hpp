@@ -43,6 +43,7 @@ struct FormulationInfo {
   bool parts = false;             ///< whether bodies may consist of parts of several materials
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their cells
   bool surface_supports = false;  ///< whether supports can hold a patch itself, where particles lie inside
+  bool on_ranks = false;          ///< whether several ranks share its bodies; else each computes all of them
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
 };
 

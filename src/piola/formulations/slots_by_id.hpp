@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/field.hpp"
+#include "piola/exec/parallel.hpp"
 #include "piola/math/lanes.hpp"
+#include "piola/parallel/ranks.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <span>
@@ -34,14 +36,21 @@ class SlotsById {
   std::vector<Index> slot_;
 };
 
-/// The three things that Formulation asks of bodies that are pushed between steps.
+/// The three things that Formulation asks of bodies that are pushed between steps. On ranks that share the bodies the
+/// first is collective, and all ranks have what it reads; each pushes all particles, of which its own count.
 template <class Bodies>
 void read_motion_of(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
                     std::span<std::array<double, 3>> x, std::span<std::array<double, 3>> v) {
   slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
-    x[k] = bodies[body]->x(slot);
-    v[k] = bodies[body]->v(slot);
+    Range const own = bodies[body]->own();
+    bool const mine = slot >= own.first && slot < own.last;
+    x[k] = mine ? bodies[body]->x(slot) : std::array<double, 3>{};
+    v[k] = mine ? bodies[body]->v(slot) : std::array<double, 3>{};
   });
+  if (!ranks::several()) return;
+  static_assert(sizeof(x[0]) == 3 * sizeof(double));
+  for (auto const values : {x, v})
+    if (!values.empty()) ranks::merge({values.front().data(), 3 * values.size()});
 }
 /// mass(body, slot) [kg]
 template <class Bodies, class F>

@@ -285,7 +285,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   agree_to_go_on();
   double const step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
   Prospect prospect{.step = step};
-  if (any_contact(spec)) prospect.start = simulation.formulation->diagnose();
+  if (any_contact(spec) && ranks::own() == 0) prospect.start = simulation.formulation->diagnose();
   simulation.warnings = warnings_of(spec, assembly, prospect);
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);

@@ -2,6 +2,7 @@
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/parallel/ranks.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace piola {
@@ -139,12 +140,15 @@ void refuse_on_ranks(Assembly const& assembly) {
   auto const refuse = [&](std::string const& what) {
     problems.add({}, fmt::format("{} on one rank (started on {}) - start it without mpirun", what, ranks::count()));
   };
-  for (std::size_t k = 0; k < assembly.formulations.size(); ++k)
-    if (auto const& name = assembly.formulations[k].name; name != "jst_sph")
-      refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name, name));
-  if (!assembly.rigid_shapes.empty()) refuse("rigid shapes run");
-  if (!assembly.ties.empty()) refuse("ties run");
-  if (!assembly.surfaces.empty() && assembly.ties.empty()) refuse("contact of surfaces runs");
+  auto const shares = [](FormulationSpec const& spec) {
+    auto const info = find_formulation(spec.name);
+    return info && info->on_ranks;
+  };
+  // Beside bodies that ranks share each of them may well do all of the others by itself.
+  bool const any = std::any_of(assembly.formulations.begin(), assembly.formulations.end(), shares);
+  for (std::size_t k = 0; k < assembly.formulations.size() && !any; ++k)
+    refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name,
+                       assembly.formulations[k].name));
   problems.raise_if_any();
 }
 

@@ -114,6 +114,7 @@ FormulationInfo info() {
       diagnostics};
   info.cell_volumes = true;
   info.pushable = true;
+  info.on_ranks = true;
   return info;
 }
 

@@ -46,6 +46,7 @@ FormulationInfo info() {
       total_lagrangian_laws,
       diagnostics};
   info.pushable = true;
+  info.on_ranks = true;
   info.parts = true;
   info.surface_supports = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
