@@ -135,6 +135,7 @@ class TaylorBody {
   void prepare_boundary(double time, double dt, double ahead);
   std::array<double, 3> place_at(Index i, double ahead) const;
   void prepare_loads(double time);
+  CellMeasures place_cells();
   void follow_motion();
   void renew_lists();
   /// Half the impulse of a traction on a particle.

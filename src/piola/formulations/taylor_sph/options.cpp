@@ -90,6 +90,7 @@ FormulationInfo info() {
   info.cracks = true;
   info.mirrors = false;
   info.pushable = true;
+  info.on_ranks = true;
   info.scattered = false;  // its hourglass control needs boxes of a lattice
   return info;
 }

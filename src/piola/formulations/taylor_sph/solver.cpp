@@ -9,6 +9,7 @@
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -33,6 +34,17 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
+/// Every rank makes all cells, one after the other.
+void check_on_ranks(Body const& body, Options const& options) {
+  constexpr std::int64_t most = 2'000'000;
+  std::int64_t const particles = body.last - body.first;
+  if (!ranks::several() || options.lattice_cells || particles <= most) return;
+  throw InputError(
+      fmt::format("body '{}' has {} particles, and triangulations are made by every rank (allowed on several: {} "
+                  "particles) - take virtual_particles = \"lattice_cells\", or start it without mpirun",
+                  body.name, particles, most));
+}
+
 /// Taylor-SPH of one or more bodies, which do not know of each other.
 class Solver final : public Formulation {
  public:
@@ -44,6 +56,7 @@ class Solver final : public Formulation {
     for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
       bool const whole = is_whole_lattice(assembly.particles, assembly.particles.bodies[k]);
       Options const options = read_options(assembly.formulations[k], D_, assembly.cfl, whole);
+      check_on_ranks(assembly.particles.bodies[k], options);
       bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, machine));
     }
     set_ = assembly.particles;
