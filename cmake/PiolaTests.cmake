@@ -52,7 +52,7 @@ foreach(script IN LISTS _scripts)
 endforeach()
 
 if(PIOLA_MPI)
-  set_tests_properties(parallel/ranks_test.py PROPERTIES TIMEOUT 1200 RUN_SERIAL ON)
+  set_tests_properties(parallel/ranks_test.py PROPERTIES TIMEOUT 3600 RUN_SERIAL ON)
 endif()
 
 # The stored inputs of every fuzz target are ordinary tests; finding new ones needs clang (PiolaFuzz.cmake).

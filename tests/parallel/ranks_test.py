@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ranks: every case of jst_sph that can, on 1, 2, 3 and 5 ranks, has the same bits: history, frames, checkpoints,
-pictures. A run goes on with another number of ranks; what is refused is said once; a killed rank ends all of them.
+"""Ranks: every case that can, on 1, 2, 3 and 5 ranks, has the same bits: history, frames, checkpoints, pictures. A run
+goes on with another number of ranks; what is refused is said once; a killed rank ends all of them.
 
-Needs a build with PIOLA_MPI and mpirun; is skipped otherwise.
+Needs a build with PIOLA_MPI and mpirun; is skipped otherwise. Words choose: cases, own, mixed, restarts, words, killed;
+a part of the name of a case, cases/contact for example, chooses among the cases of the first two.
 """
 import hashlib
 import os
@@ -18,10 +19,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from cases_on_ranks import FAILING, MANY_TRIANGLES, OWN_CASES
+
 SOURCE = Path(os.environ.get("PIOLA_SOURCE_DIR", Path(__file__).resolve().parents[2]))
 PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
 STEPS = 20
-ONE_RANK = re.compile(r'"(nodal|adaptle|taylor_sph|jst_advection)"|\[\[rigid|\[\[tie|"multipliers"|^\[contact', re.M)
+SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph)"')  # the formulations of bodies that ranks share
 # What no case of one rank has together: two bodies, a metal, jitter, a mirror plane, loads, a release.
 MIXED = """title = "Two bodies"
 contact = "none"
@@ -121,8 +124,7 @@ def differences(a, b):
 
 
 def able_cases():
-    files = [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if '"jst_sph"' in file.read_text()]
-    return [file for file in files if not ONE_RANK.search(file.read_text())]
+    return [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if SHARED.search(file.read_text())]
 
 
 def first_step(file, work):
@@ -139,6 +141,10 @@ def compare_case(file, name, work):
     expect(one.returncode == 0, f"{name} on one rank: {one.stderr}")
     expected = contents(reference)
     expect(any(key.startswith("checkpoints") for key in expected), f"{name}: no checkpoint to compare")
+    if name == "crushed cells":
+        last = (reference / "history.csv").read_text().strip().splitlines()[-1].split(",")
+        names = [line for line in (reference / "history.csv").read_text().splitlines() if "repeated_steps" in line][-1]
+        expect(float(last[names.split(",").index("repeated_steps")]) > 0, "no step is taken again")
     for ranks, threads in ((2, 2), (3, 1), (5, 1)):
         several = work / str(ranks)
         run = piola(ranks, "run", file, "--out", several, "--set", end, threads=threads)
@@ -169,12 +175,32 @@ def compare_restarts(bar, work):
            "the run resumed on 2, 3 and 1 ranks has another history")
 
 
+def compare_own_restart(name, text, work):
+    """2 to 3 to 1 rank against one rank. The default interval of the history would follow the end of the run."""
+    work.mkdir()
+    file = work / "case.toml"
+    file.write_text(text)
+    step = first_step(file, work)
+    file.write_text(f'{text}\n[output.history]\nevery = "{step:.9e} s"\n')
+    piola(1, "run", file, "--no-pictures", "--out", work / "whole", "--set", f'run.end="{30 * step:.9e} s"')
+    for ranks, steps in ((2, 11), (3, 19), (1, 30)):
+        words = ["run", file, "--no-pictures", "--out", work / "parts"] if steps == 11 else ["resume", work / "parts"]
+        told = piola(ranks, *words, "--set", f'run.end="{steps * step:.9e} s"')
+        expect(told.returncode == 0, f"{name} to step {steps} on {ranks} ranks: {told.stderr}")
+    last = [sorted((work / folder / "checkpoints").iterdir())[-1] for folder in ("whole", "parts")]
+    state = [{key: value for key, value in checkpoint(file).items()
+              if key != "case" and not key.startswith("observers/picture")} for file in last]
+    expect(len(state[0]) > 5 and not differences(*state), f"{name} on 2, 3, 1 ranks ends in {differences(*state)[:8]}")
+
+
 def check_words(bar, work):
     """One message, whoever finds what is wrong, and the exit code of one rank."""
+    (work / "many.toml").write_text(MANY_TRIANGLES)
     for words, code, text in (
+            (["run", work / "many.toml", "--out", work / "no"], 2, "triangulations are made by every rank"),
             (["run", bar, "--set", "run.ende=1"], 2, "is not a key of run"),
             (["run", "nothing.toml"], 2, "no such case file"),
-            (["run", SOURCE / "cases/nodal/swinging_cube", "--out", work / "no"], 2, 'formulation "nodal" runs on one'),
+            (["run", SOURCE / "cases/adaptle/noh", "--out", work / "no"], 2, 'formulation "adaptle" runs on one'),
             (["check", bar], 2, "start this command without mpirun"),
             (["fly"], 2, "fly")):
         told = piola(2, *words)
@@ -188,6 +214,12 @@ def check_words(bar, work):
     expect(shared.returncode == 3, f"the soft bar on 3 ranks: exit code {shared.returncode}")
     said = [line for line in alone.stderr.splitlines() if "particle" in line][:1]
     expect(said and said[0] in shared.stderr, f"the failure on 3 ranks is another one: {shared.stderr}")
+    (work / "crushed.toml").write_text(FAILING)
+    alone, shared = (piola(n, "run", work / "crushed.toml", "--out", work / f"crushed{n}") for n in (1, 3))
+    expect(alone.returncode == 3 and shared.returncode == 3,
+           f"crushed cells end with {alone.returncode}, on 3 ranks with {shared.returncode}: {shared.stderr}")
+    different = differences(*(contents(work / f"crushed{n}") for n in (1, 3)))
+    expect(not different, f"what the failure leaves differs on 3 ranks in {different[:8]}")
 
 
 def check_killed(bar, work):
@@ -220,19 +252,26 @@ with tempfile.TemporaryDirectory() as folder:
     bar = work / "bar.toml"
     # The default interval of the history would follow the end of the run.
     bar.write_text((SOURCE / "tests/app/bar.toml").read_text() + '[output.history]\nevery = "0.5 ms"\n')
-    chosen = sys.argv[1:] or ["cases", "mixed", "restarts", "words", "killed"]
-    cases = able_cases()
-    expect(len(cases) >= 10, f"only {len(cases)} cases of jst_sph run on ranks")
-    for number, file in enumerate(cases if "cases" in chosen else []):
-        own = work / f"case{number}"
-        own.mkdir()
-        compare_case(file, file.parent.relative_to(SOURCE / "cases"), own)
-        shutil.rmtree(own)
+    chosen = sys.argv[1:] or ["cases", "own", "mixed", "restarts", "words", "killed"]
+    cases = [(file, f"cases/{file.parent.relative_to(SOURCE / 'cases')}", "cases") for file in able_cases()]
+    expect(len(cases) >= 45, f"only {len(cases)} cases run on ranks")
+    for name, text in OWN_CASES.items():
+        file = work / f"{re.sub('[^a-z]+', '_', name.lower())}.toml"
+        file.write_text(text)
+        cases.append((file, name, "own"))
+    for file, name, kind in cases:
+        if kind in chosen or any(word in name for word in chosen):
+            own = work / file.stem / name.replace(" ", "_").replace("/", "_")
+            own.mkdir(parents=True)
+            compare_case(file, name, own)
+            shutil.rmtree(own)
     if "mixed" in chosen:
         (work / "mixed.toml").write_text(MIXED)
         compare_case(work / "mixed.toml", "two bodies", work)
     if "restarts" in chosen:
         compare_restarts(bar, work)
+        for name in ("touching bodies", "mirrored copper", "adjoint, triangles"):
+            compare_own_restart(name, OWN_CASES[name], work / f"restart_{name.replace(chr(32), chr(95))}")
     if "words" in chosen:
         check_words(bar, work)
     if "killed" in chosen:
