@@ -5,8 +5,8 @@
 #include "piola/neighbours/moving_pairs.hpp"
 #include "piola/neighbours/tables.hpp"
 
-/// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay in the order of their
-/// ids; what spatial sums read is gathered into the order of the cell grid in every step.
+/// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay where they are, those
+/// of a body together; what spatial sums read is gathered into the order of the cell grid in every step.
 namespace piola::adaptle {
 
 enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
@@ -230,7 +230,8 @@ struct System {
   Index particles = 0;
   Settings settings;
   BodyConstants const* body = nullptr;
-  int const* body_of = nullptr;  ///< per slot
+  int const* body_of = nullptr;    ///< per slot
+  Index const* slot_of = nullptr;  ///< per id; null: slots are ids
   Reference const* reference = nullptr;
   State* state = nullptr;
   Rates* rates = nullptr;
@@ -252,9 +253,10 @@ struct System {
   std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
   double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
   double* reaction = nullptr;             ///< per slot: force of supports in the step, 3 values [N]; null: none
-  double* rigid_action = nullptr;  ///< [block][shape]: force [N] and moment about the origin [N m] of rigid shapes
-  std::int8_t* wish = nullptr;     ///< per slot: 0, 1 converts with its neighbours, 2 alone
-  double* partial = nullptr;       ///< room for reductions, 16 per block
+  double* rigid_action =
+      nullptr;  ///< [block of a body][shape]: force [N] and moment about the origin [N m] of rigid shapes
+  std::int8_t* wish = nullptr;  ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  double* partial = nullptr;    ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
 
