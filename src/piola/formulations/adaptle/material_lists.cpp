@@ -9,7 +9,7 @@
 namespace piola::adaptle {
 namespace {
 
-constexpr Correction plain{1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+constexpr FoldedCorrection plain{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
 
 /// The inverse of the first moments, or nothing where it is singular.
 template <int D>
@@ -167,11 +167,11 @@ void MaterialLists::correct(std::vector<Reference> const& reference, std::vector
       double A[9];
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q) A[3 * p + q] = (S * moments[3 * p + q] - G[p] * xW[q]) / (S * S);
-      Correction k = plain;
-      bool const regular = dimension == 2 ? invert_moments<2>(A, k.K) : invert_moments<3>(A, k.K);
+      FoldedCorrection k = plain;
+      bool const regular = dimension == 2 ? invert_moments<2>(A, k.N) : invert_moments<3>(A, k.N);
       if (!regular) continue;
-      k.S = S;
-      std::copy_n(G, 3, k.G);
+      for (double& N : k.N) N /= S;
+      for (int c = 0; c < 3; ++c) k.G[c] = G[c] / S;
       correction_[at(i)] = k;
     }
 }
@@ -230,7 +230,7 @@ std::size_t MaterialLists::bytes() const {
   for (LatticeRows const& of_body : rows_) rows += of_body.bytes();
   return rows + part_.size() + sizeof(Offset) * begin_.size() +
          sizeof(Index) * (neighbour_.size() + kinematic_.size() + target_.size()) + sizeof(float) * gradient_.size() +
-         sizeof(double) * (s_.size() + W_.size()) + filled_.size() + sizeof(Correction) * correction_.size() +
+         sizeof(double) * (s_.size() + W_.size()) + filled_.size() + sizeof(FoldedCorrection) * correction_.size() +
          sizeof(MaterialCorrection) * moments_.size();
 }
 

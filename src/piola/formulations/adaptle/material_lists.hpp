@@ -68,7 +68,7 @@ class MaterialLists {
   std::vector<float> gradient_;
   std::vector<double> s_, W_;
   std::vector<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
-  std::vector<Correction> correction_;
+  std::vector<FoldedCorrection> correction_;
   std::vector<MaterialCorrection> moments_;
   std::vector<std::uint8_t> part_;
   std::vector<LatticeRows> rows_;        ///< per body

@@ -475,6 +475,11 @@ std::size_t Particles::bytes() const {
          correction_.size() * sizeof(Correction) + material_records_.bytes() + material_.bytes() + spatial_.bytes();
 }
 
+/// Whether some particle is.
+bool Particles::deleted() const {
+  return std::any_of(state_.begin(), state_.end(), [](State const& s) { return !(s.alive > 0); });
+}
+
 void Particles::resumed() {
   set_factors();
   choose_material();

@@ -53,12 +53,14 @@ class Particles {
   int reference_neighbours(Index i) const { return material_.built() ? material_.neighbours(i) : 0; }
   std::size_t bytes() const;
 
-  /// f(name, first double of slot 0, doubles per particle) for everything that a checkpoint holds.
+  /// f(name, first double of slot 0, doubles per particle) for everything that a checkpoint holds. Deformation follows
+  /// from positions, but for particles that were deleted; of those the state is told first.
   template <class F>
   void each_array(F const& f) {
     f("state", reinterpret_cast<double*>(state_.data()), State::values);
     f("rates", reinterpret_cast<double*>(rates_.data()), Rates::values);
-    if (!deformation_.empty()) f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
+    if (!deformation_.empty() && deleted())
+      f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
   }
   double* books_data() { return reinterpret_cast<double*>(&books_); }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
@@ -66,6 +68,7 @@ class Particles {
   void resumed();
 
  private:
+  bool deleted() const;
   void set_bodies(Assembly const& assembly);
   void set_particles(Assembly const& assembly);
   void set_descriptions(Assembly const& assembly);

@@ -84,6 +84,11 @@ struct Correction {
   double S, G[3], K[9];
 };
 
+/// The same of sums over reference neighbours, which never changes: gt_ab = N (g - G W), with N = K/S and G over S.
+struct FoldedCorrection {
+  double N[9], G[3];
+};
+
 /// Sums over reference neighbours that never change, with s = -W'(r)/r and r = X_b - X_a.
 struct MaterialCorrection {
   double K[6];  ///< inverse of sum_b V0_b s r (x) r, as a symmetric matrix of D dimensions; 0 as published
@@ -180,11 +185,11 @@ struct MaterialTable {
   double* record = nullptr;         ///< of bodies with lists; a filler after the last
   MaterialRows rows;                ///< of the body that a loop is about
   float const* gradient = nullptr;  ///< per pair: -W'(r)/r in the reference configuration, the same from both ends
-  double const *s = nullptr, *W = nullptr;      ///< the same in double, with plain gradients; W(r), as published
-  MaterialCorrection const* moments = nullptr;  ///< per slot
-  Correction const* correction = nullptr;       ///< per slot, as published
-  std::uint8_t const* part = nullptr;           ///< per slot: MaterialPart
-  Index const* kinematic = nullptr;             ///< slots with lists whose F is needed
+  double const *s = nullptr, *W = nullptr;       ///< the same in double, with plain gradients; W(r), as published
+  MaterialCorrection const* moments = nullptr;   ///< per slot
+  FoldedCorrection const* correction = nullptr;  ///< per slot, as published
+  std::uint8_t const* part = nullptr;            ///< per slot: MaterialPart
+  Index const* kinematic = nullptr;              ///< slots with lists whose F is needed
   Index kinematics = 0;
   Index const* target = nullptr;  ///< slots with lists that feel material forces
   Index targets = 0;
