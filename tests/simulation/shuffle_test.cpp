@@ -83,7 +83,7 @@ std::vector<std::string> differences(Told const& a, Told const& b) {
   return names;
 }
 
-/// Those with a body of a formulation that takes a dealt order; others have orders of their own.
+/// Those with a body of a formulation that takes a dealt order: all of them.
 std::vector<std::string> shuffled_cases() {
   std::vector<std::string> cases;
   fs::path const root = fs::path(PIOLA_SOURCE_DIR) / "cases";
@@ -91,14 +91,14 @@ std::vector<std::string> shuffled_cases() {
     if (entry.path().filename() != "case.toml") continue;
     std::string const text = testing::text_of(entry.path());
     auto const has = [&](char const* name) { return text.find(name) != std::string::npos; };
-    if (has("\"jst_sph\"") || has("\"taylor_sph\"") || has("\"nodal\""))
+    if (has("\"jst_sph\"") || has("\"taylor_sph\"") || has("\"nodal\"") || has("\"adaptle\""))
       cases.push_back(entry.path().parent_path().lexically_relative(root));
   }
   std::sort(cases.begin(), cases.end());
   return cases;
 }
 
-TEST(ShuffledCases, AreThere) { EXPECT_GE(shuffled_cases().size(), 53U); }
+TEST(ShuffledCases, AreThere) { EXPECT_GE(shuffled_cases().size(), 74U); }
 
 /// Three of the numbers of owners from 1 to 7, on one to three threads. What was told in the order of the bodies;
 /// nothing where no tile could be moved. Bodies of nodal that fill lattices take lists in all these runs: their own
@@ -127,18 +127,19 @@ TEST_P(ShuffledCase, TakesTheSameStepsWhoeverOwnsTheParticles) {
     GTEST_SKIP() << "its bodies are smaller than two tiles";
 }
 
-/// What acts between bodies, with bodies of several tiles on both sides.
-struct Between {
+/// What no first steps of a case show, with bodies of several tiles: what acts between bodies, and what happens to
+/// particles of AdapTLE.
+struct Acting {
   char const* name;
   char const* folder;
   char const* acts;  ///< a column that is above 0 after the first steps
   std::vector<std::string> overrides;
 };
-void PrintTo(Between const& value, std::ostream* to) { *to << value.name; }
+void PrintTo(Acting const& value, std::ostream* to) { *to << value.name; }
 
 constexpr char const* jst = ".formulation={ name = \"jst_sph\" }";
 
-std::vector<Between> between_bodies() {
+std::vector<Acting> between_bodies() {
   auto const body = [](std::string const& name, std::string const& rest) { return "body." + name + rest; };
   return {{"rubbing",
            "contact/braked_block",
@@ -155,18 +156,68 @@ std::vector<Between> between_bodies() {
           {"bolted", "contact/press_fit", "column contact_points", {}}};
 }
 
-class ShuffledContact : public ::testing::TestWithParam<Between> {};
+/// Particles that convert at a small strain, because the guard wants it, by a formula, or are deleted; patches of both
+/// descriptions in both interfaces; all sums over neighbours in space; jittered lattices, which have lists; shapes.
+std::vector<Acting> of_adaptle() {
+  auto const disc = [](std::string const& rest) { return "body.disc." + rest; };
+  auto const plate = [](std::string const& rest) { return "body.plate." + rest; };
+  auto const sheet = [](std::string const& rest) { return "body.sheet.formulation." + rest; };
+  // Coarser than the case, and nearer.
+  std::string const near = disc(
+      R"(shape={ sphere = { centre = ["-5.2 mm", 0], radius = "5 mm", arrangement = "rings" }, spacing = "0.25 mm" })");
+  std::string const coarse =
+      plate(R"(shape={ box = { min = [0, "-9 mm"], max = ["2 mm", "9 mm"] }, spacing = "0.25 mm" })");
+  char const* const touching = "column contact_overlap";
+  std::string const eulerian = sheet("description=eulerian"), patch = sheet("description=patch"),
+                    upper = sheet("eulerian_where=Y > 0.5");
+  return {
+      {"torn",
+       "adaptle/impact_2d",
+       "column converted_particles",
+       {near, coarse, plate("formulation.convert_strain=0.05")}},
+      {"guarded",
+       "adaptle/impact_2d",
+       "column guard_conversions",
+       {near, coarse, plate("formulation.jacobian_min=0.98")}},
+      {"by_formula",
+       "adaptle/impact_2d",
+       "column converted_particles",
+       {near, coarse, plate("formulation.convert_when=plastic_strain > 0.02")}},
+      {"deleted",
+       "adaptle/expanding_ring",
+       "column deleted_particles",
+       {"body.ring.formulation.description=total_lagrangian", "body.ring.formulation.failed=delete",
+        "body.ring.material.d1=0.00001"}},
+      {"released", "adaptle/expanding_ring", "column failed_particles", {"body.ring.material.d1=0.00001"}},
+      {"touching", "adaptle/impact_2d", touching, {near, coarse}},
+      {"jittered", "adaptle/tensile_patch", "column eulerian_particles", {patch, upper, "body.sheet.shape.jitter=0.2"}},
+      {"blended", "adaptle/tensile_patch", "column eulerian_particles", {patch, upper, sheet("blend=4")}},
+      {"printed",
+       "adaptle/tensile_patch",
+       "column eulerian_particles",
+       {patch, upper, sheet("interface=printed"), sheet("correction=material")}},
+      {"corrected", "adaptle/tensile_patch", "column eulerian_particles", {eulerian}},
+      {"fluxes",
+       "adaptle/colliding_halves",
+       "column eulerian_particles",
+       {"body.bar.formulation.description=eulerian", "body.bar.formulation.viscosity=riemann"}},
+      {"on_a_wall", "adaptle/taylor_bar", touching, {"body.bar.shape.spacing=0.8 mm"}}};
+}
+
+class ShuffledContact : public ::testing::TestWithParam<Acting> {};
 
 TEST_P(ShuffledContact, IsTheSameWhoeverOwnsTheParticles) {
-  Between const& c = GetParam();
+  Acting const& c = GetParam();
   ReadCase const read(fs::path(PIOLA_SOURCE_DIR) / "cases" / c.folder / "case.toml", c.overrides);
   Told const told = expect_same_steps(read, static_cast<int>(std::strlen(c.name)));
   ASSERT_FALSE(told.empty());
   EXPECT_GT(told.at(c.acts).front(), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Between, ShuffledContact, ::testing::ValuesIn(between_bodies()),
-                         [](auto const& value) { return std::string(value.param.name); });
+std::string name_of(::testing::TestParamInfo<Acting> const& value) { return value.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Between, ShuffledContact, ::testing::ValuesIn(between_bodies()), name_of);
+INSTANTIATE_TEST_SUITE_P(AdapTLE, ShuffledContact, ::testing::ValuesIn(of_adaptle()), name_of);
 
 INSTANTIATE_TEST_SUITE_P(Cases, ShuffledCase, ::testing::ValuesIn(shuffled_cases()), [](auto const& value) {
   std::string name = value.param;

@@ -110,13 +110,18 @@ class Solid {
   /// Rate of the deviator, 2 mu dev D + W S - S W [Pa/s], D and W the parts of the velocity gradient L [1/s].
   PIOLA_FN SymMat<3> deviator_rate(SymMat<3> const& S, Mat<3> const& L) const {
     double const mean = (L(0, 0) + L(1, 1) + L(2, 2)) / 3;
+    // W S - S W with the three components of W: x = W_xy, y = W_xz, z = W_yz.
+    double const x = 0.5 * (L(0, 1) - L(1, 0)), y = 0.5 * (L(0, 2) - L(2, 0)), z = 0.5 * (L(1, 2) - L(2, 1));
+    double const xy = S(0, 1), xz = S(0, 2), yz = S(1, 2);
     SymMat<3> rate;
     for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) {
-        double sum = mu * (L(i, j) + L(j, i)) - (i == j ? 2 * mu * mean : 0);
-        for (int k = 0; k < 3; ++k) sum += 0.5 * ((L(i, k) - L(k, i)) * S(k, j) - S(i, k) * (L(k, j) - L(j, k)));
-        rate(i, j) = sum;
-      }
+      for (int j = i; j < 3; ++j) rate(i, j) = mu * (L(i, j) + L(j, i)) - (i == j ? 2 * mu * mean : 0);
+    rate(0, 0) += 2 * (x * xy + y * xz);
+    rate(1, 1) += 2 * (z * yz - x * xy);
+    rate(2, 2) -= 2 * (y * xz + z * yz);
+    rate(0, 1) += x * (S(1, 1) - S(0, 0)) + y * yz + z * xz;
+    rate(0, 2) += y * (S(2, 2) - S(0, 0)) + x * yz - z * xy;
+    rate(1, 2) += z * (S(2, 2) - S(1, 1)) - x * xz - y * xy;
     return rate;
   }
 

@@ -71,7 +71,7 @@ std::array<CellSpan, 3> fit(double const* x, std::ptrdiff_t stride, Index partic
 }  // namespace
 
 void MovingGrid::sort(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell,
-                      std::array<double, 3> const& origin) {
+                      std::array<double, 3> const& origin, Index const* order) {
   auto const D = static_cast<std::size_t>(dimension);
   auto const n = static_cast<std::size_t>(particles);
   if (particles == 0) return;
@@ -104,7 +104,8 @@ void MovingGrid::sort(double const* x, std::ptrdiff_t stride, Index particles, i
   sorted_.resize(n);
   cell_.resize(n);
   double extent = 0;  // the largest number in place_
-  for (Index i = 0; i < particles; ++i) {
+  for (Index k = 0; k < particles; ++k) {
+    Index const i = order != nullptr ? order[k] : k;
     Index const key = key_[static_cast<std::size_t>(i)], to = begin_[static_cast<std::size_t>(key)]++;
     slot_[static_cast<std::size_t>(to)] = i;
     sorted_[static_cast<std::size_t>(i)] = to;

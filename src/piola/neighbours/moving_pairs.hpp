@@ -27,15 +27,15 @@ struct MovingSearch {
   Index* found = nullptr;   ///< without filling
 };
 
-/// Particles sorted by cubic cells, cell by cell with x fastest, in order of their numbers within a cell.
+/// Particles sorted by cubic cells, cell by cell with x fastest; within a cell in an order that is given.
 class MovingGrid {
  public:
   /// x: positions, `stride` doubles apart. cell: edge [m], not below the largest search radius. origin: a corner of
   /// cells [m]. With the same edge and origin the order does not depend on how far the particles reach, and pairs at
   /// the edge of the search hardly do. Particles far outside of the others share cells at the border, which costs time
-  /// but loses no pair.
+  /// but loses no pair. order: where the first, second, ... particle of a cell stands in x; null: as in x.
   void sort(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell,
-            std::array<double, 3> const& origin = {});
+            std::array<double, 3> const& origin = {}, Index const* order = nullptr);
 
   Index const* slots() const { return slot_.data(); }     ///< of each sorted particle
   Index const* sorted() const { return sorted_.data(); }  ///< of each particle

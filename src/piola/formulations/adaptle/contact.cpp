@@ -37,7 +37,7 @@ double potential(System const& s, Index i, Index j, double r) {
 
 template <int D>
 double energy_of_contacts(System const& s) {
-  double energy = 0;
+  exec::ExactSum energy;
   for (Index t = 0; t < s.contact.targets; ++t) {
     Index const i = s.spatial.slot[s.contact.target[t]];
     for (Index k = 0; k < s.contact.length[t]; ++k) {
@@ -54,7 +54,7 @@ double energy_of_contacts(System const& s) {
       double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], s.state[i].x, normal);
       if (depth > 0) energy += s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
     }
-  return energy;
+  return energy.value();
 }
 
 /// What a body bears before it flows away, 3 sy + rho v^2 / 2 [Pa].

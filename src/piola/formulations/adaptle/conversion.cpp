@@ -47,7 +47,7 @@ bool Particles::wishes_by_formula() {
                                 s.temperature,
                                 strain_of(system_.dimension, deformation_[at(i)], stress, b),
                                 s.rho};
-        if (formula(X_[at(i)], books_.time, values) == 0) continue;
+        if (formula(X(i), books_.time, values) == 0) continue;
         wish_[at(i)] = 1;
         any_wish = true;
       }
@@ -56,22 +56,23 @@ bool Particles::wishes_by_formula() {
   return any_wish;
 }
 
-/// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not.
+/// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not. Those that the guard
+/// alone wants come last, so that nothing depends on who comes first.
 void Particles::convert(double dt) {
   ConversionSums sums;
   for (Index i = 0; i < system_.particles; ++i) {
     if (wish_[at(i)] == 0) continue;
-    auto const body = static_cast<std::size_t>(body_of_[at(i)]);
-    if (body_[body].deletes) {
+    std::size_t const body = at(body_of_[at(i)]);
+    if (body_[body].deletes)
       remove(i);
-      continue;
-    }
-    bool const guard = wish_[at(i)] == 2;
-    if (!guard)
+    else if (wish_[at(i)] == 1) {
       material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].material_h, reference_,
                                [&](Index j) { make_eulerian(j, dt, false, sums); });
-    make_eulerian(i, dt, guard, sums);
+      make_eulerian(i, dt, false, sums);
+    }
   }
+  for (Index i = 0; i < system_.particles; ++i)
+    if (wish_[at(i)] == 2 && !body_[at(body_of_[at(i)])].deletes) make_eulerian(i, dt, true, sums);
   books_.converted_mass += sums.value(0);
   books_.energy_change += sums.value(1);
   books_.momentum_change += sums.value(2);

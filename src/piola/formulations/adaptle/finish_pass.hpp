@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/adaptle/point_passes.hpp"
+#include "piola/formulations/adaptle/step_limits.hpp"
 
 /// The second half of a step, from the sums of half time.
 namespace piola::adaptle::inline PIOLA_MACHINE {
@@ -29,10 +30,6 @@ PIOLA_FN double equivalent_strain(double const* F, SymMat<3> const& stress, Body
   return std::sqrt(2.0 / 3.0 * square);
 }
 
-/// Share of a volume, or of a spacing between bodies, that a step may take: with 0.1 the error in time of an impact at
-/// several km/s shows in the fourth digit of its energy.
-inline constexpr double largest_change = 0.07;
-
 /// Kick, second drift, and update of density, stress, energy and history; stable step and wishes to convert.
 template <int D, class Law>
 struct Finish {
@@ -47,12 +44,13 @@ struct Finish {
   PIOLA_FN void operator()(Range block, Index number) const {
     double* m = partial + static_cast<std::ptrdiff_t>(number) * BlockMeasures::size;
     for (int c = 0; c < BlockMeasures::size; ++c) m[c] = 0;
-    m[BlockMeasures::dt] = 1e300;
-    for (Index i = block.first; i < block.last; ++i) visit(i, m);
+    StepLimits limits;
+    for (Index i = block.first; i < block.last; ++i) visit(i, m, limits);
+    m[BlockMeasures::dt] = limits.shortest(settings.cfl, body.h);
   }
 
  private:
-  PIOLA_FN void visit(Index i, double* m) const {
+  PIOLA_FN void visit(Index i, double* m, StepLimits& limits) const {
     State& p = s.state[i];
     Rates& k = s.rates[i];
     Half const& h = s.half[i];
@@ -98,8 +96,7 @@ struct Finish {
     m[BlockMeasures::viscous] += sum.heat;
     if (rigid_power != nullptr) m[BlockMeasures::rigid] += rigid_power[i];
     m[BlockMeasures::overlap] = sum.overlap > m[BlockMeasures::overlap] ? sum.overlap : m[BlockMeasures::overlap];
-    double const step = stable_step(p, k, h, sum, mass, F_inverse, trace_L);
-    m[BlockMeasures::dt] = step < m[BlockMeasures::dt] ? step : m[BlockMeasures::dt];
+    limit_step(p, k, h, sum, mass, F_inverse, trace_L, limits);
     s.wish[i] = wish_of(i, p, h, S_half, F_inverse);
     m[BlockMeasures::wishes] += s.wish[i] != 0 ? 1 : 0;
     check(i, p);
@@ -127,8 +124,9 @@ struct Finish {
   }
 
   PIOLA_FN void kick(Index i, State& p, Rates& k, Sums const& sum, double mass, double* m) const {
+    double const per_mass = 1 / mass;
     for (int c = 0; c < D; ++c) {
-      double a = sum.force[c] / mass;
+      double a = sum.force[c] * per_mass;
       double const before = p.v[c];
       if (s.load != nullptr) {
         double const push = s.load[3 * i + c];
@@ -164,8 +162,8 @@ struct Finish {
   /// V sigma : L, with the volume that carries the stress.
   PIOLA_FN double stress_power(Half const& h, SymMat<3> const& S, Mat<3> const& L) const {
     double power = 0;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) power += (S(a, b) - (a == b ? h.pressure : 0)) * L(a, b);
+    for (int a = 0; a < 3; ++a) power += (S(a, a) - h.pressure) * L(a, a);
+    power += S(0, 1) * (L(0, 1) + L(1, 0)) + S(0, 2) * (L(0, 2) + L(2, 0)) + S(1, 2) * (L(1, 2) + L(2, 1));
     return h.volume * h.thickness * power;
   }
 
@@ -213,41 +211,12 @@ struct Finish {
     }
   }
 
-  /// CFL h / c with the current speed of sound, the compressed length of material pairs and the quadratic viscosity;
-  /// 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts; no volume changes and no two bodies close by more than
-  /// `largest_change`, of itself or of a spacing, in a step.
-  PIOLA_FN double stable_step(State const& p, Rates const& k, Half const& h, Sums const& sum, double mass,
-                              Mat<3> const& F_inverse, double divergence) const {
-    double length = p.phi < 1 ? minimum(body.h, body.material_h) : body.h;
-    if (p.phi < 1 && p.alive > 0) {
-      double const square = largest_square(F_inverse);
-      if (square > 1) length /= std::sqrt(square);
-    }
-    double step = settings.cfl * length / (h.c + 0.6 * body.beta * sum.compression);
-    double const a = std::sqrt(k.a[0] * k.a[0] + k.a[1] * k.a[1] + k.a[2] * k.a[2]);
-    if (a > 0) {
-      double const limit = 0.25 * std::sqrt(body.h / a);
-      step = limit < step ? limit : step;
-    }
-    if (sum.stiffness > 0) {
-      double const limit = 0.5 * std::sqrt(mass / sum.stiffness);
-      step = limit < step ? limit : step;
-    }
+  PIOLA_FN void limit_step(State const& p, Rates const& k, Half const& h, Sums const& sum, double mass,
+                           Mat<3> const& F_inverse, double divergence, StepLimits& limits) const {
+    double const length = p.phi < 1 ? minimum(body.h, body.material_h) : body.h;
     double const rate = std::fabs(divergence) > sum.closing ? std::fabs(divergence) : sum.closing;
-    return rate * step > largest_change ? largest_change / rate : step;
-  }
-
-  /// The largest eigenvalue of A A^T, or a little more: with q = tr/3 and p^2 = B:B/6 of the rest, q + 2 p.
-  PIOLA_FN static double largest_square(Mat<3> const& A) {
-    double q = 0, B = 0;
-    for (double const a : A.c) q += a * a / 3;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        double sum = a == b ? -q : 0;
-        for (int k = 0; k < 3; ++k) sum += A(a, k) * A(b, k);
-        B += sum * sum;
-      }
-    return q + 2 * std::sqrt(B / 6);
+    limits.add(p.phi < 1 && p.alive > 0 ? &F_inverse : nullptr, length, h.c + 0.6 * body.beta * sum.compression, k.a,
+               mass, sum.stiffness, rate);
   }
 
   /// 1: convert with the neighbours, 2: alone, 0: stay.

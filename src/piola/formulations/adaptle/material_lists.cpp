@@ -9,7 +9,7 @@
 namespace piola::adaptle {
 namespace {
 
-constexpr Correction plain{1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+constexpr FoldedCorrection plain{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}};
 
 /// The inverse of the first moments, or nothing where it is singular.
 template <int D>
@@ -28,7 +28,7 @@ bool invert_moments(double const* A, double* K) {
 
 }  // namespace
 
-void MaterialLists::build(ParticleSet const& set, std::vector<BodyConstants> const& bodies,
+void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
                           std::vector<Reference> const& reference, Settings const& settings, int lanes) {
   particles_ = static_cast<Index>(set.size());
   published_ = settings.published;
@@ -36,7 +36,7 @@ void MaterialLists::build(ParticleSet const& set, std::vector<BodyConstants> con
   begin_.assign(1, 0);
   begin_.reserve(at(particles_) + 1);
   filled_.reserve(at(particles_));
-  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, set.bodies[b], bodies[b], reference, lanes);
+  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, order, set.bodies[b], bodies[b], reference, lanes);
   if (published_) {
     correction_.assign(at(particles_), plain);
     moments_.resize(at(particles_));
@@ -48,29 +48,31 @@ void MaterialLists::build(ParticleSet const& set, std::vector<BodyConstants> con
   int const components =
       set.dimension == 2 ? MaterialRecord<2>::values(published_) : MaterialRecord<3>::values(published_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    rows_.emplace_back(set, set.bodies[b], bodies[b].material_h, begin_, neighbour_, lanes, rounded_, components);
+    rows_.emplace_back(set, order, set.bodies[b], bodies[b].material_h, begin_, neighbour_, lanes, rounded_,
+                       components);
   for (LatticeRows& rows : rows_) row_views_.push_back(rows.view());
   for (BodyConstants const& body : bodies) bodies_.emplace_back(body.first, body.last);
 }
 
-void MaterialLists::list(ParticleSet const& set, Body const& geometry, BodyConstants const& body,
-                         std::vector<Reference> const& reference, int lanes) {
+void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, Body const& geometry,
+                         BodyConstants const& body, std::vector<Reference> const& reference, int lanes) {
   double const reach = 2 * body.material_h * (1 - 1e-9);
   bool const lattice = geometry.regular && !geometry.scattered;
   auto const& place = set.lattice_index.seen();
-  std::vector<std::array<double, 3>> const points(set.X.begin() + body.first, set.X.begin() + body.last);
+  std::vector<std::array<double, 3>> points;
+  for (Index i = body.first; i < body.last; ++i) points.push_back(set.X[order.id(i)]);
   CellGrid const grid(points, reach);
   std::vector<Index> near;
   for (Index i = body.first; i < body.last; ++i) {
-    auto const& x = set.X[at(i)];
+    auto const& x = set.X[order.id(i)];
     near.clear();
     grid.visit(x, [&](Index local) {
       Index const j = body.first + local;
-      auto const& y = set.X[at(j)];
+      auto const& y = set.X[order.id(j)];
       double const dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
       if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) near.push_back(j);
     });
-    std::sort(near.begin(), near.end());
+    std::sort(near.begin(), near.end(), [&](Index a, Index b) { return order.id(a) < order.id(b); });
     for (Index const j : near) {
       double square = 0;
       for (int c = 0; c < 3; ++c) {
@@ -78,7 +80,7 @@ void MaterialLists::list(ParticleSet const& set, Body const& geometry, BodyConst
         square += d * d;
       }
       // Of a lattice: the same number wherever the pair is, as patterns have it.
-      if (lattice) square = lattice_square(geometry, place[at(i)], place[at(j)]);
+      if (lattice) square = lattice_square(geometry, place[order.id(i)], place[order.id(j)]);
       add_pair(set.dimension, body.material_h, j, square);
     }
     std::size_t const found = neighbour_.size();
@@ -165,11 +167,11 @@ void MaterialLists::correct(std::vector<Reference> const& reference, std::vector
       double A[9];
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q) A[3 * p + q] = (S * moments[3 * p + q] - G[p] * xW[q]) / (S * S);
-      Correction k = plain;
-      bool const regular = dimension == 2 ? invert_moments<2>(A, k.K) : invert_moments<3>(A, k.K);
+      FoldedCorrection k = plain;
+      bool const regular = dimension == 2 ? invert_moments<2>(A, k.N) : invert_moments<3>(A, k.N);
       if (!regular) continue;
-      k.S = S;
-      std::copy_n(G, 3, k.G);
+      for (double& N : k.N) N /= S;
+      for (int c = 0; c < 3; ++c) k.G[c] = G[c] / S;
       correction_[at(i)] = k;
     }
 }
@@ -228,7 +230,7 @@ std::size_t MaterialLists::bytes() const {
   for (LatticeRows const& of_body : rows_) rows += of_body.bytes();
   return rows + part_.size() + sizeof(Offset) * begin_.size() +
          sizeof(Index) * (neighbour_.size() + kinematic_.size() + target_.size()) + sizeof(float) * gradient_.size() +
-         sizeof(double) * (s_.size() + W_.size()) + filled_.size() + sizeof(Correction) * correction_.size() +
+         sizeof(double) * (s_.size() + W_.size()) + filled_.size() + sizeof(FoldedCorrection) * correction_.size() +
          sizeof(MaterialCorrection) * moments_.size();
 }
 

@@ -10,10 +10,10 @@ namespace piola::adaptle {
 /// a particle converts.
 class MaterialLists {
  public:
-  /// Within 2h of each body, in order of slots, with what the sums of `settings` need. Particles whose correction is
+  /// Within 2h of each body, in order of ids, with what the sums of `settings` need. Particles whose correction is
   /// singular keep plain gradients.
-  void build(ParticleSet const& set, std::vector<BodyConstants> const& bodies, std::vector<Reference> const& reference,
-             Settings const& settings, int lanes);
+  void build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
+             std::vector<Reference> const& reference, Settings const& settings, int lanes);
 
   /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0 in
   /// `deformation`, others by -1. Deleted ones leave the sums of their neighbours.
@@ -48,7 +48,7 @@ class MaterialLists {
   std::size_t bytes() const;
 
  private:
-  void list(ParticleSet const& set, Body const& geometry, BodyConstants const& body,
+  void list(ParticleSet const& set, ParticleOrder const& order, Body const& geometry, BodyConstants const& body,
             std::vector<Reference> const& reference, int lanes);
   void add_pair(int dimension, double h, Index j, double square);
   void correct(std::vector<Reference> const& reference, std::vector<BodyConstants> const& bodies, int dimension);
@@ -68,7 +68,7 @@ class MaterialLists {
   std::vector<float> gradient_;
   std::vector<double> s_, W_;
   std::vector<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
-  std::vector<Correction> correction_;
+  std::vector<FoldedCorrection> correction_;
   std::vector<MaterialCorrection> moments_;
   std::vector<std::uint8_t> part_;
   std::vector<LatticeRows> rows_;        ///< per body

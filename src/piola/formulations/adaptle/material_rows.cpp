@@ -48,12 +48,13 @@ double lattice_square(Body const& body, std::array<int, 3> const& from, std::arr
   return square;
 }
 
-LatticeRows::LatticeRows(ParticleSet const& set, Body const& body, double h, std::span<Offset const> begin,
-                         std::span<Index const> neighbour, int lanes, bool rounded, int components)
+LatticeRows::LatticeRows(ParticleSet const& set, ParticleOrder const& order, Body const& body, double h,
+                         std::span<Offset const> begin, std::span<Index const> neighbour, int lanes, bool rounded,
+                         int components)
     : first_(static_cast<Index>(body.first)) {
   if (!body.regular || body.scattered) return;
   find_offsets(body, set.dimension, h, rounded);
-  find_patterns(set, body, begin, neighbour, lanes);
+  find_patterns(set, order, body, begin, neighbour, lanes);
   if (has_rows()) allocate(body, components);
 }
 
@@ -81,31 +82,40 @@ void LatticeRows::find_offsets(Body const& body, int dimension, double h, bool r
       }
 }
 
-void LatticeRows::find_patterns(ParticleSet const& set, Body const& body, std::span<Offset const> begin,
-                                std::span<Index const> neighbour, int lanes) {
+/// Number of the offset from one place of the lattice to another; negative: they are no neighbours.
+std::int32_t LatticeRows::offset_between(std::array<int, 3> const& from, std::array<int, 3> const& to) const {
+  std::int32_t cell = 0;
+  for (std::size_t c = 3; c-- > 0;) cell = cell * (2 * reach_[c] + 1) + to[c] - from[c] + reach_[c];
+  return number_[at(cell)];
+}
+
+/// Whether lists are faster must not depend on where tiles stand: lanes are counted in the order of the body.
+void LatticeRows::find_patterns(ParticleSet const& set, ParticleOrder const& order, Body const& body,
+                                std::span<Offset const> begin, std::span<Index const> neighbour, int lanes) {
   auto const& place = set.lattice_index.seen();
   Index const last = static_cast<Index>(body.last);
   auto const W = static_cast<std::size_t>(lanes);
-  std::vector<Index> distance(offsets_.size() * W);
+  std::vector<Index> distance(offsets_.size() * W), between_ids(distance.size());
   std::map<GroupShape, std::int32_t> known;
   std::int64_t present = 0, all = 0;
   for (Index group = first_; group < last; group += lanes) {
     std::fill(distance.begin(), distance.end(), absent);
+    std::fill(between_ids.begin(), between_ids.end(), absent);
     for (Index i = group; i < std::min(group + lanes, last); ++i)
       for (Offset k = begin[at(i)]; k < begin[at(i) + 1]; ++k) {
         Index const j = neighbour[at(k)];
         if (j >= static_cast<Index>(set.size())) continue;
-        std::int32_t cell = 0;
-        for (std::size_t c = 3; c-- > 0;)
-          cell = cell * (2 * reach_[c] + 1) + place[at(j)][c] - place[at(i)][c] + reach_[c];
-        std::int32_t const o = number_[at(cell)];
-        if (o < 0) return;  // not a lattice after all
-        distance[at(o) * W + at(i - group)] = j - i;
+        std::size_t const from = order.id(i), to = order.id(j);
+        std::int32_t const o = offset_between(place[from], place[to]);
+        if (o < 0) return entries_.clear();  // not a lattice after all
+        std::size_t const here = at(o) * W + at(i - group);
+        distance[here] = j - i;
+        between_ids[here] = static_cast<Index>(to) - static_cast<Index>(from);
         farthest_ = std::max(farthest_, std::abs(j - i));
         ++present;
       }
     GroupShape shape = shape_of_group(distance, lanes);
-    all += std::ssize(shape) / 3 * lanes;
+    all += std::ssize(order.dealt() ? shape_of_group(between_ids, lanes) : shape) / 3 * lanes;
     auto const [found, is_new] = known.try_emplace(std::move(shape), static_cast<std::int32_t>(known.size()));
     pattern_of_.push_back(found->second);
     if (!is_new) continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/memory.hpp"
+#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/state.hpp"
-#include "piola/particles/particle_set.hpp"
 #include <span>
 #include <vector>
 
@@ -14,8 +14,8 @@ class LatticeRows {
  public:
   /// begin, neighbour: lists of all bodies. Bodies that are no lattice, or whose groups of lanes have too few
   /// neighbours in common, keep their lists: has_rows() is false. components: of a record.
-  LatticeRows(ParticleSet const& set, Body const& body, double h, std::span<Offset const> begin,
-              std::span<Index const> neighbour, int lanes, bool rounded, int components);
+  LatticeRows(ParticleSet const& set, ParticleOrder const& order, Body const& body, double h,
+              std::span<Offset const> begin, std::span<Index const> neighbour, int lanes, bool rounded, int components);
 
   bool has_rows() const { return !entries_.empty(); }
   MaterialRows view();
@@ -23,8 +23,9 @@ class LatticeRows {
 
  private:
   void find_offsets(Body const& body, int dimension, double h, bool rounded);
-  void find_patterns(ParticleSet const& set, Body const& body, std::span<Offset const> begin,
-                     std::span<Index const> neighbour, int lanes);
+  std::int32_t offset_between(std::array<int, 3> const& from, std::array<int, 3> const& to) const;
+  void find_patterns(ParticleSet const& set, ParticleOrder const& order, Body const& body,
+                     std::span<Offset const> begin, std::span<Index const> neighbour, int lanes);
   void allocate(Body const& body, int components);
 
   std::array<int, 3> reach_{};

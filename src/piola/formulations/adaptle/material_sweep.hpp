@@ -159,11 +159,11 @@ struct Deform {
         for (int l = 0; l < D; ++l) {
           double K, u = a[S::du + p * D + l], v = a[S::dv + p * D + l];
           if constexpr (S::published) {
-            Correction const& k = table.correction[i];
-            K = k.K[3 * q + l] / k.S;
+            FoldedCorrection const& k = table.correction[i];
+            K = k.N[3 * q + l];
             if constexpr (S::shifts) {
-              u -= a[S::uW + p] * k.G[l] / k.S;
-              v -= a[S::vW + p] * k.G[l] / k.S;
+              u -= a[S::uW + p] * k.G[l];
+              v -= a[S::vW + p] * k.G[l];
             }
           } else {
             K = table.moments[i].K[SymMat<D>::at(q, l)];

@@ -52,7 +52,7 @@ void sample(Particles const& particles, std::string_view field, std::span<double
   each_particle(s, [&](Index i, double pressure) {
     State const& now = s.state[i];
     ObservedParticle p;
-    p.id = static_cast<double>(i);
+    p.id = static_cast<double>(particles.order().id(i));
     p.body = s.body_of[i];
     p.neighbours = now.phi > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
     std::copy_n(now.x, 3, p.x.begin());
@@ -83,7 +83,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
     Reference const& r = s.reference[i];
     if (i == s.body[s.body_of[i]].first) o.open_body(set.bodies[at(s.body_of[i])].name);
     double const rho0 = s.body[s.body_of[i]].rho0;
-    pressures[at(i)] = pressure;
+    pressures[particles.order().id(i)] = pressure;
     o.add_motion({p.x[0], p.x[1], p.x[2]}, {p.v[0], p.v[1], p.v[2]}, r.mass);
     o.add_state(rho0 / p.rho, pressure, r.volume);
     internal_sum += p.energy;

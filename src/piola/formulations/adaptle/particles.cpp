@@ -59,6 +59,7 @@ class Stopwatch {
 
 Particles::Particles(Assembly const& assembly, Options const& options, Machine const& machine)
     : options_(options),
+      order_(assembly.particles),
       machine_(&machine),
       supports_(assembly.supports),
       loads_(assembly.loads),
@@ -140,7 +141,8 @@ void Particles::set_particles(Assembly const& assembly) {
   body_of_.reserve(set.X.size());
   reference_.reserve(set.X.size());
   state_.reserve(set.X.size());
-  for (std::size_t i = 0; i < set.X.size(); ++i) {
+  for (Index slot = 0; slot < static_cast<Index>(set.size()); ++slot) {
+    std::size_t const i = order_.id(slot);
     int const body = set.body[i];
     BodyConstants const& b = body_[static_cast<std::size_t>(body)];
     body_of_.push_back(body);
@@ -210,7 +212,9 @@ void Particles::allocate(Assembly const& assembly) {
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
   s.partial = partial_.data();
+  failure_.id = order_.ids();
   s.failure = &failure_;
+  s.slot_of = order_.slots();
 }
 
 /// Who is Eulerian from the start, and how descriptions blend at the border of a patch.
@@ -219,7 +223,7 @@ void Particles::set_descriptions(Assembly const& assembly) {
     BodyOptions const& o = options_.bodies[k];
     std::vector<Index> outside;
     for (Index i = body_[k].first; i < body_[k].last; ++i) {
-      bool const inside = o.description == Description::patch && (*o.eulerian_where)(X_[at(i)]) != 0;
+      bool const inside = o.description == Description::patch && (*o.eulerian_where)(X(i)) != 0;
       state_[at(i)].phi = o.description == Description::eulerian || inside ? 1 : 0;
       if (o.description == Description::patch && !inside) outside.push_back(i);
     }
@@ -231,7 +235,7 @@ void Particles::set_descriptions(Assembly const& assembly) {
       if (s.phi == 0) continue;
       double nearest = width;
       for (Index const j : outside) {
-        auto const &p = X_[at(i)], &q = X_[at(j)];
+        auto const &p = X(i), &q = X(j);
         nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
       }
       double const z = nearest / width;
@@ -244,7 +248,7 @@ void Particles::set_descriptions(Assembly const& assembly) {
   for (auto& d : deformation_)
     for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
   system_.deformation = deformation_.data();
-  material_.build(assembly.particles, body_, reference_, options_.settings, machine_->lanes);
+  material_.build(assembly.particles, order_, body_, reference_, options_.settings, machine_->lanes);
   if (!material_.needs_records()) return;
   using Flat = MaterialRecord<2>;
   using Deep = MaterialRecord<3>;
@@ -270,7 +274,7 @@ void Particles::choose_material() {
 }
 
 void Particles::set_factors() {
-  factors_.build(body_, options_.bodies, reference_, X_, books_.time);
+  factors_.build(body_, options_.bodies, reference_, order_, X_, books_.time);
   system_.own = factors_.view();
 }
 
@@ -294,7 +298,9 @@ void Particles::set_boundaries(Assembly const&) {
   system_.rigid = rigid_.data();
   system_.rigids = static_cast<int>(rigid_.size());
   system_.rigid_power = rigid_power_.data();
-  rigid_action_.resize(static_cast<std::size_t>(exec::block_count(Range{0, system_.particles})) * 6 * shapes_.size());
+  Index blocks = 0;
+  for (BodyConstants const& b : body_) blocks += exec::block_count({b.first, b.last});
+  rigid_action_.resize(at(blocks) * 6 * shapes_.size());
   system_.rigid_action = rigid_action_.data();
   for (RigidShape const& shape : shapes_)
     rigid_centre_.insert(rigid_centre_.end(), shape.centre.begin(), shape.centre.end());
@@ -309,7 +315,7 @@ void Particles::prepare_supports(double time) {
     for (auto const id : support.particles)
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) {
         if (!support.fix[c]) continue;
-        std::size_t const k = 3 * static_cast<std::size_t>(id) + c;
+        std::size_t const k = 3 * at(order_.slot(id)) + c;
         held_[k] = 1;
         holder_[k] = number;
         held_velocity_[k] = support.velocity ? (*support.velocity)[c](X_[static_cast<std::size_t>(id)], time) : 0;
@@ -323,9 +329,9 @@ void Particles::prepare_loads(double time) {
   for (Load const& load : loads_) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
-      auto const id = static_cast<std::size_t>(load.particles[k]);
-      auto const a = load_on(load, k, X_[id], time);
-      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) load_[3 * id + c] += a[c];
+      Index const slot = order_.slot(load.particles[k]);
+      auto const a = load_on(load, k, X(slot), time);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) load_[3 * at(slot) + c] += a[c];
     }
   }
 }
@@ -372,17 +378,17 @@ void Particles::step(double time, double dt) {
 /// Forces act at half time and at the places of then, for the whole step.
 void Particles::sum_actions(double time, double dt) {
   actions_.begin(dt);
-  auto const place = [&](std::size_t id) {
-    return std::array{position_[3 * id], position_[3 * id + 1], position_[3 * id + 2]};
+  auto const place = [&](std::size_t slot) {
+    return std::array{position_[3 * slot], position_[3 * slot + 1], position_[3 * slot + 2]};
   };
   for (std::size_t s = 0; s < supports_.size(); ++s) {
     ImpulseSum sum;
     for (auto const particle : supports_[s].particles) {
-      auto const id = static_cast<std::size_t>(particle);
+      std::size_t const slot = at(order_.slot(particle));
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < 3; ++c)
-        if (holder_[3 * id + c] == s) impulse[c] = dt * reaction_[3 * id + c];
-      sum.add(place(id), impulse);
+        if (holder_[3 * slot + c] == s) impulse[c] = dt * reaction_[3 * slot + c];
+      sum.add(place(slot), impulse);
     }
     actions_.supports[s].add(sum.value());
   }
@@ -390,11 +396,11 @@ void Particles::sum_actions(double time, double dt) {
     if (loads_[l].name.empty() || has_ended(loads_[l].until, time + 0.5 * dt)) continue;
     ImpulseSum sum;
     for (std::size_t k = 0; k < loads_[l].particles.size(); ++k) {
-      auto const id = static_cast<std::size_t>(loads_[l].particles[k]);
+      Index const slot = order_.slot(loads_[l].particles[k]);
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
-        impulse[c] = dt * reference_[id].mass * load_on(loads_[l], k, X_[id], time + 0.5 * dt)[c];
-      sum.add(place(id), impulse);
+        impulse[c] = dt * reference_[at(slot)].mass * load_on(loads_[l], k, X(slot), time + 0.5 * dt)[c];
+      sum.add(place(at(slot)), impulse);
     }
     actions_.loads[l].add(sum.value());
   }
@@ -462,10 +468,16 @@ double Particles::kinetic_energy() const {
 }
 
 std::size_t Particles::bytes() const {
-  return state_.size() *
+  return order_.bytes() +
+         state_.size() *
              (sizeof(Reference) + sizeof(State) + sizeof(Rates) + sizeof(Half) + sizeof(Sums) + sizeof(int)) +
          sizeof(Deformation) * deformation_.size() + sizeof(double) * position_.size() +
          correction_.size() * sizeof(Correction) + material_records_.bytes() + material_.bytes() + spatial_.bytes();
+}
+
+/// Whether some particle is.
+bool Particles::deleted() const {
+  return std::any_of(state_.begin(), state_.end(), [](State const& s) { return !(s.alive > 0); });
 }
 
 void Particles::resumed() {

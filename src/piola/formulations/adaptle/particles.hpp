@@ -3,6 +3,7 @@
 #include "piola/exec/exact_sum.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/point_factors.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/mechanics/actions.hpp"
@@ -41,6 +42,7 @@ class Particles {
   double next_release() const;
 
   System const& system() const { return system_; }
+  ParticleOrder const& order() const { return order_; }
   Books const& books() const { return books_; }
   Actions const& actions() const { return actions_; }
   Actions& actions() { return actions_; }
@@ -51,12 +53,14 @@ class Particles {
   int reference_neighbours(Index i) const { return material_.built() ? material_.neighbours(i) : 0; }
   std::size_t bytes() const;
 
-  /// f(name, first double of particle 0, doubles per particle) for everything that a checkpoint holds.
+  /// f(name, first double of slot 0, doubles per particle) for everything that a checkpoint holds. Deformation follows
+  /// from positions, but for particles that were deleted; of those the state is told first.
   template <class F>
   void each_array(F const& f) {
     f("state", reinterpret_cast<double*>(state_.data()), State::values);
     f("rates", reinterpret_cast<double*>(rates_.data()), Rates::values);
-    if (!deformation_.empty()) f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
+    if (!deformation_.empty() && deleted())
+      f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
   }
   double* books_data() { return reinterpret_cast<double*>(&books_); }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
@@ -64,6 +68,7 @@ class Particles {
   void resumed();
 
  private:
+  bool deleted() const;
   void set_bodies(Assembly const& assembly);
   void set_particles(Assembly const& assembly);
   void set_descriptions(Assembly const& assembly);
@@ -72,6 +77,7 @@ class Particles {
   void set_boundaries(Assembly const& assembly);
   void allocate(Assembly const& assembly);
   void choose_material();
+  std::array<double, 3> const& X(Index slot) const { return X_[order_.id(slot)]; }
   void prepare_supports(double time);
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
@@ -87,6 +93,7 @@ class Particles {
   void remove(Index i);
 
   Options options_;
+  ParticleOrder order_;
   Machine const* machine_;
   System system_;
   std::vector<BodyConstants> body_;
@@ -121,7 +128,7 @@ class Particles {
   std::vector<RigidShape> shapes_;
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;
-  SharedVector<std::array<double, 3>> const X_;  ///< reference positions [m]
+  SharedVector<std::array<double, 3>> const X_;  ///< reference positions, per id [m]
 };
 
 }  // namespace piola::adaptle

@@ -11,10 +11,11 @@ std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 void PointFactors::build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
-                         std::vector<Reference> const& particles, std::span<std::array<double, 3> const> X,
-                         double time) {
+                         std::vector<Reference> const& particles, ParticleOrder const& order,
+                         std::span<std::array<double, 3> const> X, double time) {
   *this = {};
   particles_ = particles;
+  order_ = &order;
   X_ = X;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (options[k].initial_pressure && (options[k].initial_pressure_lasts || !(time > 0)))
@@ -27,8 +28,7 @@ void PointFactors::build(std::vector<BodyConstants> const& bodies, std::vector<B
 
 void PointFactors::add_initial_pressure(BodyConstants const& body, BodyOptions const& options) {
   initial_pressure_.resize(particles_.size());
-  for (Index i = body.first; i < body.last; ++i)
-    initial_pressure_[place(i)] = (*options.initial_pressure)(X_[place(i)]);
+  for (Index i = body.first; i < body.last; ++i) initial_pressure_[place(i)] = (*options.initial_pressure)(X(i));
   if (!options.initial_pressure_lasts) impulses_.push_back({body.first, body.last});
 }
 
@@ -39,7 +39,7 @@ void PointFactors::add_explosive(BodyConstants const& body, BodyOptions const& o
   if (!(front > 0)) return;
   lit_.resize(particles_.size());
   burnt_.resize(particles_.size(), 1);
-  for (Index i = body.first; i < body.last && options.ignition; ++i) lit_[place(i)] = (*options.ignition)(X_[place(i)]);
+  for (Index i = body.first; i < body.last && options.ignition; ++i) lit_[place(i)] = (*options.ignition)(X(i));
   explosives_.push_back({body.first, body.last, front / (1.5 * body.spacing)});
 }
 
@@ -48,7 +48,7 @@ void PointFactors::add_scatter(BodyConstants const& body) {
     if (!(law.scatter.modulus < unbounded)) return;
     toughness_.resize(particles_.size(), 1);
     for (Index i = body.first; i < body.last; ++i)
-      toughness_[place(i)] = law.scatter.factor(static_cast<std::uint64_t>(i), particles_[place(i)].volume);
+      toughness_[place(i)] = law.scatter.factor(order_->id(i), particles_[place(i)].volume);
   });
 }
 

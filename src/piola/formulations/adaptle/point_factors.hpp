@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/particle_order.hpp"
 #include <array>
 #include <vector>
 
@@ -10,9 +11,10 @@ namespace piola::adaptle {
 /// what particles bear before they fail. Nothing of it is in checkpoints: it follows from the case and the time.
 class PointFactors {
  public:
-  /// At a time [s]: that of the start, or of a resumed run. X: reference positions [m].
+  /// At a time [s]: that of the start, or of a resumed run. X: reference positions, per id [m].
   void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
-             std::vector<Reference> const& particles, std::span<std::array<double, 3> const> X, double time);
+             std::vector<Reference> const& particles, ParticleOrder const& order,
+             std::span<std::array<double, 3> const> X, double time);
   /// Brings what changes to a time [s].
   void go_to(double time);
   /// What acts for one step only is gone.
@@ -22,6 +24,7 @@ class PointFactors {
 
  private:
   void add_initial_pressure(BodyConstants const& body, BodyOptions const& options);
+  std::array<double, 3> const& X(Index slot) const { return X_[order_->id(slot)]; }
   void add_explosive(BodyConstants const& body, BodyOptions const& options);
   void add_scatter(BodyConstants const& body);
 
@@ -32,6 +35,7 @@ class PointFactors {
   };
 
   std::span<Reference const> particles_;
+  ParticleOrder const* order_ = nullptr;
   std::span<std::array<double, 3> const> X_;
   std::vector<double> initial_pressure_, burnt_, toughness_;  ///< per slot; empty: none
   std::vector<double> lit_;                                   ///< when each particle of an explosive is lit [s]

@@ -223,13 +223,13 @@ struct HalfState {
       r[R::inverse_J] = 1;
       return;
     }
-    Correction const& k = material.correction[i];
+    FoldedCorrection const& k = material.correction[i];
     if (s.phi == 1) J = determinant(matrix_of(deformation[i].F));
     Mat<D> F, N;
     for (int p = 0; p < D; ++p)
       for (int q = 0; q < D; ++q) {
         F(p, q) = deformation[i].F[3 * p + q];
-        N(p, q) = k.K[3 * p + q] / k.S;
+        N(p, q) = k.N[3 * p + q];
       }
     Mat<D> const FN = transpose(inverse(F)) * N;
     // V sigma = V0 P F^T: with the current volume, which follows from the density where that is evolved.
@@ -241,8 +241,8 @@ struct HalfState {
         for (int l = 0; l < D; ++l) A += stress(p, l) * FN(l, q);
         r[R::A + p * D + q] = volume * A;
         r[R::N + p * D + q] = FN(p, q);
-        a += volume * A * k.G[q] / k.S;
-        n += FN(p, q) * k.G[q] / k.S;
+        a += volume * A * k.G[q];
+        n += FN(p, q) * k.G[q];
       }
       r[R::a + p] = a;
       r[R::n + p] = n;

@@ -70,19 +70,23 @@ class Solver final : public Formulation {
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      State const& s = particles_.system().state[ids[k]];
+      State const& s = particles_.system().state[particles_.order().slot(ids[k])];
       std::copy_n(s.x, 3, x[k].begin());
       std::copy_n(s.v, 3, v[k].begin());
     }
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
     System const& system = particles_.system();  // what is deleted flies on and touches nobody
-    for (std::size_t k = 0; k < ids.size(); ++k)
-      m[k] = system.state[ids[k]].alive > 0 ? system.reference[ids[k]].mass : 0;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      Index const slot = particles_.order().slot(ids[k]);
+      m[k] = system.state[slot].alive > 0 ? system.reference[slot].mass : 0;
+    }
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
-    for (std::size_t k = 0; k < ids.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c) particles_.system().state[ids[k]].v[c] += change[k][c];
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      State& s = particles_.system().state[particles_.order().slot(ids[k])];
+      for (std::size_t c = 0; c < 3; ++c) s.v[c] += change[k][c];
+    }
   }
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;
@@ -101,6 +105,13 @@ class Solver final : public Formulation {
   std::size_t memory_bytes() const override { return particles_.bytes(); }
 
  private:
+  /// f(place by slot, place by id) of the first of `width` numbers of each particle.
+  template <class F>
+  void each_part(int width, F const& f) const {
+    for (Index i = 0; i < particles_.system().particles; ++i)
+      f(at(i) * at(width), particles_.order().id(i) * at(width));
+  }
+
   ParticleSet set_;
   mutable Particles particles_;  // arrays of a checkpoint are listed once, for writing and for reading
 };
@@ -110,14 +121,14 @@ std::optional<Failure> Solver::failure() const {
   System const& s = particles_.system();
   bool const crowded = particles_.spatial().overflow();
   if (slot.index == FailureSlot::none && !crowded) return std::nullopt;
-  Index const i = slot.index == FailureSlot::none ? 0 : slot.index;
+  Index const i = slot.index == FailureSlot::none ? particles_.order().slot(0) : slot.index;
   State const& p = s.state[i];
   Failure f;
   f.what = crowded                         ? "is in a crowd of more than 4096 neighbours"
            : slot.code == not_a_number     ? "has a position, velocity or stress that is not a number"
            : slot.code == negative_density ? "has no positive density"
                                            : "is inverted";
-  f.particle = i;
+  f.particle = static_cast<std::int64_t>(particles_.order().id(i));
   f.body = set_.bodies[static_cast<std::size_t>(s.body_of[i])].name;
   for (std::size_t c = 0; c < 3; ++c) {
     f.X[c] = s.reference[i].X[c];
@@ -132,10 +143,15 @@ std::optional<Failure> Solver::failure() const {
   return f;
 }
 
+/// By id.
 void Solver::save(StateWriter& writer) const {
   auto const n = static_cast<std::size_t>(set_.size());
   particles_.each_array([&](char const* name, double* values, int width) {
-    writer.put(name, std::span<double const>(values, n * static_cast<std::size_t>(width)));
+    std::span<double const> const here(values, n * static_cast<std::size_t>(width));
+    if (!particles_.order().dealt()) return writer.put(name, here);
+    std::vector<double> sorted(here.size());
+    each_part(width, [&](std::size_t slot, std::size_t id) { std::copy_n(&here[slot], width, &sorted[id]); });
+    writer.put(name, sorted);
   });
   writer.put("books", std::span<double const>(particles_.books_data(), Books::values));
   writer.put("rigid_centres", particles_.rigid_centres());
@@ -145,7 +161,11 @@ void Solver::save(StateWriter& writer) const {
 void Solver::load(StateReader& reader) {
   auto const n = static_cast<std::size_t>(set_.size());
   particles_.each_array([&](char const* name, double* values, int width) {
-    reader.get(name, std::span<double>(values, n * static_cast<std::size_t>(width)));
+    std::span<double> const here(values, n * static_cast<std::size_t>(width));
+    if (!particles_.order().dealt()) return reader.get(name, here);
+    std::vector<double> sorted(here.size());
+    reader.get(name, sorted);
+    each_part(width, [&](std::size_t slot, std::size_t id) { std::copy_n(&sorted[id], width, &here[slot]); });
   });
   reader.get("books", std::span<double>(particles_.books_data(), Books::values));
   reader.get("rigid_centres", particles_.rigid_centres());

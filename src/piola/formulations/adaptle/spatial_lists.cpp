@@ -12,7 +12,7 @@ constexpr Index most_neighbours = 4096;
 
 /// The first particle of the case, where it starts: not of the moment, so that cells stay where they are.
 std::array<double, 3> origin_of_cells(System const& s) {
-  double const* X = s.reference[0].X;
+  double const* X = s.reference[s.slot_of != nullptr ? s.slot_of[0] : 0].X;
   return {X[0], X[1], X[2]};
 }
 
@@ -81,7 +81,7 @@ void SpatialLists::build(System const& s, Machine const& machine) {
   if (!eulerian_ && !touching) return;
   widest_ = 0;
   for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
-  grid_.sort(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
+  grid_.sort(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s), s.slot_of);
   everyone_ = s.eulerians == s.particles && !touching;
   if (everyone_) {
     spatial_.target.resize(at(s.particles));

@@ -5,8 +5,8 @@
 #include "piola/neighbours/moving_pairs.hpp"
 #include "piola/neighbours/tables.hpp"
 
-/// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay in the order of their
-/// ids; what spatial sums read is gathered into the order of the cell grid in every step.
+/// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay where they are, those
+/// of a body together; what spatial sums read is gathered into the order of the cell grid in every step.
 namespace piola::adaptle {
 
 enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
@@ -82,6 +82,11 @@ struct Deformation {
 /// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
 struct Correction {
   double S, G[3], K[9];
+};
+
+/// The same of sums over reference neighbours, which never changes: gt_ab = N (g - G W), with N = K/S and G over S.
+struct FoldedCorrection {
+  double N[9], G[3];
 };
 
 /// Sums over reference neighbours that never change, with s = -W'(r)/r and r = X_b - X_a.
@@ -180,11 +185,11 @@ struct MaterialTable {
   double* record = nullptr;         ///< of bodies with lists; a filler after the last
   MaterialRows rows;                ///< of the body that a loop is about
   float const* gradient = nullptr;  ///< per pair: -W'(r)/r in the reference configuration, the same from both ends
-  double const *s = nullptr, *W = nullptr;      ///< the same in double, with plain gradients; W(r), as published
-  MaterialCorrection const* moments = nullptr;  ///< per slot
-  Correction const* correction = nullptr;       ///< per slot, as published
-  std::uint8_t const* part = nullptr;           ///< per slot: MaterialPart
-  Index const* kinematic = nullptr;             ///< slots with lists whose F is needed
+  double const *s = nullptr, *W = nullptr;       ///< the same in double, with plain gradients; W(r), as published
+  MaterialCorrection const* moments = nullptr;   ///< per slot
+  FoldedCorrection const* correction = nullptr;  ///< per slot, as published
+  std::uint8_t const* part = nullptr;            ///< per slot: MaterialPart
+  Index const* kinematic = nullptr;              ///< slots with lists whose F is needed
   Index kinematics = 0;
   Index const* target = nullptr;  ///< slots with lists that feel material forces
   Index targets = 0;
@@ -230,7 +235,8 @@ struct System {
   Index particles = 0;
   Settings settings;
   BodyConstants const* body = nullptr;
-  int const* body_of = nullptr;  ///< per slot
+  int const* body_of = nullptr;    ///< per slot
+  Index const* slot_of = nullptr;  ///< per id; null: slots are ids
   Reference const* reference = nullptr;
   State* state = nullptr;
   Rates* rates = nullptr;
@@ -252,9 +258,10 @@ struct System {
   std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
   double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
   double* reaction = nullptr;             ///< per slot: force of supports in the step, 3 values [N]; null: none
-  double* rigid_action = nullptr;  ///< [block][shape]: force [N] and moment about the origin [N m] of rigid shapes
-  std::int8_t* wish = nullptr;     ///< per slot: 0, 1 converts with its neighbours, 2 alone
-  double* partial = nullptr;       ///< room for reductions, 16 per block
+  double* rigid_action =
+      nullptr;  ///< [block of a body][shape]: force [N] and moment about the origin [N m] of rigid shapes
+  std::int8_t* wish = nullptr;  ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  double* partial = nullptr;    ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
 

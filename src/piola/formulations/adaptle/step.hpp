@@ -56,10 +56,7 @@ struct Step {
     with_form([&](auto form) { add_material_forces<form()>(); });
     exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
                                                                       s.bodies, s.state, s.half, s.sums});
-    if (s.rigids > 0)
-      exec::for_each_block(Range{0, s.particles},
-                           RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, s.state, s.half, s.sums,
-                                         s.rigid_power, s.rigid_action});
+    if (s.rigids > 0) push_off_shapes();
   }
 
   Measures finish(double dt) const {
@@ -85,6 +82,17 @@ struct Step {
   }
 
  private:
+  /// Block by block of each body: blocks are its tiles.
+  void push_off_shapes() const {
+    double* action = s.rigid_action;
+    for (int b = 0; b < s.bodies; ++b) {
+      Range const r = body_range(b);
+      exec::for_each_block(r, RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, s.state, s.half,
+                                            s.sums, s.rigid_power, action});
+      action += std::ptrdiff_t{6} * s.rigids * exec::block_count(r);
+    }
+  }
+
   /// The table of material sums for one body.
   MaterialTable material_of(int b) const {
     MaterialTable table = s.material;
