@@ -119,7 +119,7 @@ void Meeting::sum_forces() {
 
 /// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
 /// support gives the impulse back and does the work that its motion takes.
-void Meeting::push(Formulations const& formulations, double time, double half) {
+void Meeting::give(Formulations const& formulations, double time, double half) {
   std::vector<std::vector<std::int64_t>> ids(shares_.size());
   std::vector<std::vector<Point>> change(shares_.size());
   std::vector<ImpulseSum> kept_by(actions_.supports.size());
@@ -149,8 +149,37 @@ void Meeting::push(Formulations const& formulations, double time, double half) {
   }
   for (std::size_t s = 0; s < kept_by.size(); ++s) actions_.supports[s].add(kept_by[s].value());
   work_ -= kept_work.value();
+}
+
+/// The same, and what rigid shapes take.
+void Meeting::push(Formulations const& formulations, double time, double half) {
+  give(formulations, time, half);
   book(half);
   motion_.kick(system_, time, half);
+}
+
+/// Impulses against the vibration of what rubs, after those of contact. They are in the place of forces meanwhile.
+void Meeting::damp_chatter(Formulations const& formulations, double time) {
+  if (!system_.damps_chatter()) return;
+  contact::ChatterDamping const& damping = system_.chatter(x_, v_);
+  if (damping.damped().empty()) return;
+  std::vector<Vec<3>> forces(forces_.size());
+  for (Index const k : damping.damped())
+    forces[static_cast<std::size_t>(k)] = damping.impulses()[static_cast<std::size_t>(k)];
+  std::vector<Index> pushed = damping.damped();
+  std::swap(forces, forces_);
+  std::swap(pushed, pushed_);
+  std::vector<Vec<3>> before;
+  for (Index const k : pushed_) before.push_back(v_[static_cast<std::size_t>(k)]);
+  give(formulations, time, 1);
+  exec::ExactSum loss;
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    auto const k = static_cast<std::size_t>(pushed_[n]);
+    loss += -0.5 * dot(forces_[k], before[n] + v_[k]);
+  }
+  chatter_loss_ += loss.value();
+  std::swap(forces, forces_);
+  std::swap(pushed, pushed_);
 }
 
 /// What rigid shapes and pairs of bodies did to each other in `half` [s].
@@ -206,6 +235,7 @@ void Meeting::finish(Formulations const& formulations, double time, double dt) {
   sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
   push(formulations, time, 0.5 * dt);
+  damp_chatter(formulations, time);
   closing_ = closing_step();
 }
 
@@ -258,6 +288,7 @@ void Meeting::report(Diagnostics& sum) const {
   double& overlap = column("contact_overlap");
   overlap = std::max({overlap, now.deepest, between.deepest, colours_.totals().deepest});
   column("friction_heat") = friction_work_ - now.spring_energy;
+  column("contact_dissipation") = chatter_loss_;
   column("contact_points") = static_cast<double>(now.touched) + between.touched + colours_.totals().touched;
   ties_.report(sum);
 }

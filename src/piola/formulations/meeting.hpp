@@ -82,6 +82,8 @@ class Meeting {
   void read_masses(Formulations const& formulations);
   void read_state(Formulations const& formulations);
   void push(Formulations const& formulations, double time, double half);
+  void give(Formulations const& formulations, double time, double half);
+  void damp_chatter(Formulations const& formulations, double time);
   void book(double half);
   double closing_step() const;
   void find_held(Continued const& continued);
@@ -108,7 +110,7 @@ class Meeting {
   std::vector<Index> pushed_;   ///< that have one, ascending
   std::vector<contact::System::Between> pair_impulses_;
   std::vector<double> loaded_;  ///< of a checkpoint, until the state of the bodies is read
-  double work_ = 0, friction_work_ = 0, last_dt_ = 0, closing_ = 0;
+  double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };
 
 }  // namespace piola

@@ -85,6 +85,23 @@ contact::RigidMotion motion_of(Assembly const& whole) {
   return {whole.rigid_shapes, whole.particles.dimension, between};
 }
 
+/// What damping of chatter may take of the heat of friction, by body; of bodies with mirror planes nothing, because
+/// half of a particle on a plane is missing in its cluster.
+std::vector<double> chatter_shares(Assembly const& whole) {
+  constexpr std::string_view key = "chatter_damping";
+  std::vector<double> shares;
+  for (FormulationSpec const& formulation : whole.formulations) {
+    std::size_t const body = shares.size();
+    shares.push_back(0);
+    if (std::any_of(whole.mirrors.begin(), whole.mirrors.end(), [&](auto const& m) { return m.body == body; }))
+      continue;
+    auto const info = find_formulation(formulation.name);
+    for (Parameter const& parameter : info ? info->parameters : std::span<Parameter const>{})
+      if (parameter.name == key) shares.back() = number_of(formulation, key, parameter.default_value);
+  }
+  return shares;
+}
+
 }  // namespace
 
 Meeting::Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts)
@@ -100,6 +117,7 @@ Meeting::Meeting(Assembly const& whole, Continued const& continued, std::vector<
       ties_(continued.assembly, system_) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
   motion_.place(system_.rigids());
+  system_.damp_chatter(chatter_shares(whole));
   find_particles(continued);
   find_coloured(whole);
   find_shares(parts);

@@ -9,7 +9,7 @@ void Meeting::save(StateWriter& writer) const {
   std::vector<double> const system = system_.state();
   writer.put("contact_count", std::array{static_cast<double>(system.size())});
   writer.put("contact_state", system);
-  std::vector<double> rigid{work_, last_dt_, friction_work_};
+  std::vector<double> rigid{work_, last_dt_, friction_work_, chatter_loss_};
   for (std::size_t r = 0; r < shapes_.size(); ++r)
     for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity}) contact::put(rigid, a);
   for (auto const& pair : pair_impulses_)
@@ -24,10 +24,10 @@ void Meeting::save(StateWriter& writer) const {
 }
 
 void Meeting::load(StateReader& reader) {
-  std::vector<double> rigid(3 + 6 * (shapes_.size() + pair_impulses_.size()));
+  std::vector<double> rigid(4 + 6 * (shapes_.size() + pair_impulses_.size()));
   reader.get("contact", rigid);
   contact::Numbers from(rigid);
-  for (double* number : {&work_, &last_dt_, &friction_work_}) *number = from.next();
+  for (double* number : {&work_, &last_dt_, &friction_work_, &chatter_loss_}) *number = from.next();
   for (std::size_t r = 0; r < shapes_.size(); ++r) {
     from.take(system_.rigid(r).centre);
     from.take(system_.rigid(r).velocity);

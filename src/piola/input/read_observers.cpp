@@ -13,6 +13,10 @@
 namespace piola {
 namespace {
 
+constexpr std::array contact_columns{std::pair{"contact_energy", "J"}, std::pair{"contact_overlap", "1"},
+                                     std::pair{"contact_points", "1"}, std::pair{"friction_heat", "J"},
+                                     std::pair{"contact_dissipation", "J"}};
+
 using Kind = ProbeSpec::Kind;
 using Take = QuantitySpec::Take;
 
@@ -136,9 +140,7 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
     if (rigid.turns()) add_all(rigid.name, rigid_quantities());
   }
   if (bodies_are_pushed(spec)) {
-    for (auto const& [name, unit] :
-         {std::pair{"contact_energy", "J"}, {"contact_overlap", "1"}, {"contact_points", "1"}, {"friction_heat", "J"}})
-      columns.push_back({name, unit});
+    for (auto const& [name, unit] : contact_columns) columns.push_back({name, unit});
     for (std::size_t a = 0; a < spec.bodies.size(); ++a)
       for (std::size_t b = a + 1; b < spec.bodies.size(); ++b)
         if (pushed_by_surface(spec, a, b) || pushed_by_colour(spec, a, b))

@@ -16,10 +16,11 @@ namespace piola {
 namespace {
 
 /// Columns of runs whose bodies meet or are tied, of any formulation. A field may have the same name, and another unit.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> meeting_columns{{{"contact_energy", "J"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> meeting_columns{{{"contact_energy", "J"},
                                                                                         {"contact_overlap", "1"},
                                                                                         {"contact_points", "1"},
                                                                                         {"friction_heat", "J"},
+                                                                                        {"contact_dissipation", "J"},
                                                                                         {"tie_energy", "J"},
                                                                                         {"tie_heat", "J"},
                                                                                         {"tie_failed", "1"}}};

@@ -49,13 +49,19 @@ bool rubs(CaseSpec const& spec) {
 }
 
 void warn_of_chatter(CaseSpec const& spec, Problems& found) {
-  for (BodySpec const& body : spec.bodies)
-    if (rubs(spec) && body.formulation.name == "nodal" && !body.formulation.numbers.contains("fluctuation_viscosity"))
-      found.add(
-          place_of(body.places, "formulation"),
-          fmt::format("body {}: nothing damps the chatter of a sliding surface under nodal, which lowers friction by a "
-                      "tenth - give fluctuation_viscosity = 0.3, or take jst_sph",
-                      in_quotes(body.name)));
+  for (BodySpec const& body : spec.bodies) {
+    if (!rubs(spec) || body.formulation.name != "nodal" || body.formulation.numbers.contains("fluctuation_viscosity"))
+      continue;
+    bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
+                                      [&](MirrorSpec const& mirror) { return mirror.body == body.name; });
+    if (number_of(body.formulation, "chatter_damping", 1) > 0 && !mirrored) continue;
+    found.add(
+        place_of(body.places, "formulation"),
+        fmt::format("body {}: nothing damps the chatter of a sliding surface under nodal{}, which lowers friction by a "
+                    "tenth - {}give fluctuation_viscosity = 0.3",
+                    in_quotes(body.name), mirrored ? " with mirror planes" : "",
+                    mirrored ? "" : "leave out chatter_damping, or "));
+  }
 }
 
 /// Settings of one kind of contact where there is only the other one.

@@ -21,7 +21,11 @@ constexpr std::array parameters{
               Interval{0, 1}, 0},
     Parameter{"shock_viscosity", "1",
               "viscous pressure in compression, in shares of one that smears a shock over a few spacings; try 1",
-              Interval{0, 10}, 0}};
+              Interval{0, 10}, 0},
+    Parameter{"chatter_damping", "1",
+              "of the heat of friction in a step the share that damping of the particles under rubbing points may "
+              "take; 0: none, and friction makes them chatter",
+              Interval{0, 1}, 0.05}};
 
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_strain", "uniaxial_stress"};

@@ -23,6 +23,17 @@ Vec<3> System::moved(Index point) {
 void System::trace(Index point, double slid, double heat) {
   traces_[at(point)].slid += slid;
   traces_[at(point)].heat += heat;
+  if (!heat_.empty()) heat_[at(points_[at(point)].carrier)] += heat;
+}
+
+void System::damp_chatter(std::vector<double> const& shares) {
+  chatter_ = ChatterDamping(carriers_, surfaces_, shares, carriers_.dimension());
+  if (damps_chatter()) heat_.resize(at(carriers_.count()));
+}
+
+ChatterDamping const& System::chatter(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) {
+  chatter_.look(carriers_, {x, v, inverse_mass_, heat_, dt_});
+  return chatter_;
 }
 
 /// Follows the spring of a point; a new contact starts without one.

@@ -7,6 +7,8 @@
 
 namespace piola::contact {
 
+inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+
 /// A point of a body's surface in the reference configuration. It rides on its particle: y = x + F S.
 struct SurfacePoint {
   std::int64_t particle = 0;  ///< id
@@ -36,6 +38,7 @@ class Carriers {
     Index at;  ///< index into ids()
     Vec<3> g;  ///< [1/m]
   };
+  int dimension() const { return dimension_; }
   Index count() const { return static_cast<Index>(self_.size()); }
   /// Ids of all particles whose positions matter, ascending.
   std::vector<std::int64_t> const& ids() const { return ids_; }

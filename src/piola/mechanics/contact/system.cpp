@@ -245,6 +245,7 @@ void System::forget_forces() {
     is_pushed_[at(k)] = 0;
   }
   for (Index const k : loaded_points_) loaded_[at(k)] = 0;
+  std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(normal_force_.begin(), normal_force_.end(), 0.0);
   std::fill(gap_.begin(), gap_.end(), std::numeric_limits<double>::infinity());
   pushed_.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/mechanics/contact/between.hpp"
+#include "piola/mechanics/contact/chatter.hpp"
 #include "piola/mechanics/contact/friction.hpp"
 #include "piola/mechanics/contact/own_neighbours.hpp"
 #include "piola/mechanics/contact/planes.hpp"
@@ -13,7 +14,6 @@
 
 namespace piola::contact {
 
-inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 inline double square_of(Vec<3> const& a) { return dot(a, a); }
 
 /// From this many spacings on a gap limits the step.
@@ -92,6 +92,12 @@ class System {
     double heat = 0;      ///< of friction, its half [J/m2]
   };
   std::vector<AtParticle> at_particles() const;
+
+  /// What damps the chatter of points that rub; shares of the heat of friction by body.
+  void damp_chatter(std::vector<double> const& shares);
+  /// The impulses of that after the last evaluation, which must have been one with friction. v [m/s].
+  ChatterDamping const& chatter(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v);
+  bool damps_chatter() const { return rubs_ && chatter_.any(); }
 
   /// The step in which the fastest pair of near points closes a tenth of a spacing [s]. v [m/s].
   double closing_step(std::vector<Vec<3>> const& v) const;
@@ -205,7 +211,9 @@ class System {
   struct Trace {
     double slid = 0, heat = 0;  ///< [m], [J]
   };
-  std::vector<Trace> traces_;   ///< by point, where anything has friction
+  std::vector<Trace> traces_;  ///< by point, where anything has friction
+  ChatterDamping chatter_;
+  std::vector<double> heat_;    ///< by carrier, of the last evaluation, where chatter is damped [J]
   std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before; who was not active then is asked for later
   std::vector<char> knows_F_, knows_last_F_;
   /// Sources of a target that rubs: share, F^-1 r.

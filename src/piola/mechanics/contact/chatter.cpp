@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/mechanics/contact/chatter.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::contact {
+namespace {
+
+/// Times c/dp: measured on cases/contact/incline, where less leaves a vibration that lowers friction near its angle.
+constexpr double rate = 10;
+/// Of the cube of its trace: what has less has no inertia about one of its axes, to round-off.
+constexpr double flat_inertia = 1e-9;
+
+/// f(i) for all particles of a cluster.
+template <class F>
+void for_members(Carriers const& carriers, Index carrier, F const& f) {
+  f(at(carriers.self(carrier)));
+  for (std::size_t j = carriers.first(carrier); j < carriers.last(carrier); ++j) f(at(carriers.neighbour(j).at));
+}
+
+}  // namespace
+
+ChatterDamping::ChatterDamping(Carriers const& carriers, std::vector<Surface> const& surfaces,
+                               std::vector<double> const& shares, int dimension)
+    : impulses_(carriers.ids().size()), is_damped_(carriers.ids().size()) {
+  std::vector<double> around(carriers.ids().size());
+  for (Index k = 0; k < carriers.count(); ++k) for_members(carriers, k, [&](std::size_t i) { around[i] += 1; });
+  std::vector<char> known(at(carriers.count()));
+  for (std::size_t b = 0; b < surfaces.size(); ++b)
+    for (std::size_t p = 0; p < surfaces[b].points.size(); ++p) {
+      Index const carrier = carriers.of(b, p);
+      if (!(shares[b] > 0) || known[at(carrier)] != 0) continue;
+      known[at(carrier)] = 1;
+      double most = 1;
+      for_members(carriers, carrier, [&](std::size_t i) { most = std::max(most, around[i]); });
+      clusters_.push_back(
+          {carrier, surfaces[b].modulus * std::pow(surfaces[b].spacing, dimension - 2), shares[b], 1 / most});
+    }
+}
+
+/// The rigid motion with the momenta of the cluster, and which part of the rest is taken away.
+ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, Carriers const& carriers,
+                                                 State const& now) const {
+  auto const mass = [&](std::size_t i) { return 1 / now.inverse_masses[i]; };
+  Motion motion;
+  double sum = 0;
+  for_members(carriers, cluster.carrier, [&](std::size_t i) {
+    sum += mass(i);
+    motion.centre = motion.centre + mass(i) * now.x[i];
+    motion.velocity = motion.velocity + mass(i) * now.v[i];
+  });
+  motion.centre = (1 / sum) * motion.centre;
+  motion.velocity = (1 / sum) * motion.velocity;
+  Mat<3> spread;
+  Vec<3> momentum;
+  for_members(carriers, cluster.carrier, [&](std::size_t i) {
+    Vec<3> const r = now.x[i] - motion.centre;
+    spread = spread + mass(i) * outer(r, r);
+    momentum = momentum + mass(i) * cross(r, now.v[i] - motion.velocity);
+  });
+  double const size = trace(spread);
+  Mat<3> const inertia = size * identity<3>() - spread;
+  if (!(determinant(inertia) > flat_inertia * size * size * size)) return {};
+  motion.spin = inverse(inertia) * momentum;
+  double energy = 0;  // twice that of the rest
+  for_members(carriers, cluster.carrier, [&](std::size_t i) {
+    Vec<3> const rest = now.v[i] - motion.velocity - cross(motion.spin, now.x[i] - motion.centre);
+    energy += mass(i) * dot(rest, rest);
+  });
+  double const own = now.inverse_masses[at(carriers.self(cluster.carrier))];
+  double const factor = cluster.weight * -std::expm1(-rate * std::sqrt(cluster.stiffness * own) * now.dt);
+  // A factor takes at most itself times this energy.
+  double const allowed = cluster.share * now.heat[at(cluster.carrier)];
+  motion.factor = factor * energy > allowed ? allowed / energy : factor;
+  return motion;
+}
+
+void ChatterDamping::look(Carriers const& carriers, State const& now) {
+  for (Index const i : damped_) {
+    impulses_[at(i)] = {};
+    is_damped_[at(i)] = 0;
+  }
+  damped_.clear();
+  rubbing_.clear();
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    if (now.heat[at(clusters_[k].carrier)] > 0) rubbing_.push_back(static_cast<Index>(k));
+  motions_.resize(rubbing_.size());
+  exec_host::for_each_in_set_up(static_cast<Index>(rubbing_.size()), [&](Index k) {
+    motions_[at(k)] = motion_of(clusters_[at(rubbing_[at(k)])], carriers, now);
+  });
+  for (std::size_t k = 0; k < rubbing_.size(); ++k) {
+    Motion const& motion = motions_[k];
+    if (!(motion.factor > 0)) continue;
+    for_members(carriers, clusters_[at(rubbing_[k])].carrier, [&](std::size_t i) {
+      if (is_damped_[i] == 0) damped_.push_back(static_cast<Index>(i));
+      is_damped_[i] = 1;
+      Vec<3> const rest = now.v[i] - motion.velocity - cross(motion.spin, now.x[i] - motion.centre);
+      impulses_[i] = impulses_[i] - (motion.factor / now.inverse_masses[i]) * rest;
+    });
+  }
+  std::sort(damped_.begin(), damped_.end());
+}
+
+}  // namespace piola::contact
