@@ -250,6 +250,7 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "touching bodies": TOUCHING,
     "rolling disc": DISC,
     "mirrored copper": MIRRORED,
+    "copper that comes to rest": MIRRORED.replace("[run]", "[run]\nrelax = true"),
     "crushed cells": CRUSHED,
     "held packing": HELD,
     "multipliers": MULTIPLIERS.replace("SCHEME", ""),
