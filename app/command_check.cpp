@@ -11,6 +11,7 @@
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/warnings.hpp"
 #include "commands.hpp"
+#include "ranks_report.hpp"
 #include "run_support.hpp"
 #include "solid_report.hpp"
 #include "streams.hpp"
@@ -345,7 +346,13 @@ void print_cost(CaseSpec const& spec, Estimate const& cost) {
       cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
 }
 
-int check(CaseOptions const& options) {
+struct CheckArguments {
+  CaseOptions from;
+  int ranks = 0;  ///< 0: not asked for
+};
+
+int check(CheckArguments const& arguments) {
+  CaseOptions const& options = arguments.from;
   ParticleSet particles;
   PackingLine line(false);
   CaseSpec const spec =
@@ -363,6 +370,7 @@ int check(CaseOptions const& options) {
   print_contact(spec, particles.dimension);
   print_ties(spec, particles);
   print_cost(spec, look.cost);
+  if (arguments.ranks > 0) say_ranks(spec, particles, look.cost, arguments.ranks);
   print_output(spec);
   std::vector<std::string> const& warnings = look.warnings;
   for (std::string const& warning : warnings) say("warning: {}\n", warning);
@@ -373,9 +381,13 @@ int check(CaseOptions const& options) {
 }  // namespace
 
 void add_check(CLI::App& program, Action& action) {
-  auto const options = std::make_shared<CaseOptions>();
+  auto const options = std::make_shared<CheckArguments>();
   CLI::App* command = program.add_subcommand("check", "Say what a case would run, what it needs and what looks odd");
-  options->add_to(*command);
+  options->from.add_to(*command);
+  command
+      ->add_option("--ranks", options->ranks,
+                   "Say as well what each of so many ranks (processes, see clusters) would have to do")
+      ->check(CLI::Range(1, 100'000));
   command->callback([options, &action] { action = [options] { return check(*options); }; });
 }
 

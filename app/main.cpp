@@ -19,44 +19,43 @@ namespace {
 using namespace piola;
 using app::tell;
 
-/// `everywhere`: every rank finds it, if there are several.
-int report(char const* kind, std::exception const& error, int code, bool everywhere = false) {
-  ranks::Trouble trouble{code, fmt::format("{}{}", kind, error.what())};
-  bool const alone = leaves_others_waiting(everywhere);
-  if (alone) {
-    app::be_silent(false);
-    trouble.message += fmt::format(" (on rank {}, which ends all {})", ranks::own(), ranks::count());
-  } else {
-    trouble = leave(trouble, everywhere);
+/// One rank speaks for all of them.
+int report(std::string const& message, int code) {
+  auto const trouble = leave({code, message});
+  if (trouble) {
+    tell("piola: {}\n", trouble->message);
+    return trouble->code;
   }
-  tell("piola: {}\n", trouble.message);
-  if (alone) ranks::abort_all(code);
-  return trouble.code;
+  app::be_silent(false);
+  tell("piola: {} (on rank {}, which ends all {})\n", message, ranks::own(), ranks::count());
+  ranks::abort_all(code);
+  return code;
 }
 
 /// Runs the chosen command; every error becomes one message and the exit code that scripts rely on.
 int perform(app::Action const& action) {
   try {
     int const code = action();
-    (void)leave({code, {}}, true);
+    (void)leave({code, {}});
     return code;
   } catch (ranks::Disagreement const& error) {
     tell("piola: {}\n", error.what());
     return error.code();
   } catch (InputError const& error) {
-    return report("", error, app::bad_input, true);
+    return report(error.what(), app::bad_input);
   } catch (PhysicsError const& error) {
-    return report("", error, app::physics_failed);
+    return report(error.what(), app::physics_failed);
   } catch (FileError const& error) {
-    return report("", error, app::internal_error);
+    return report(error.what(), app::internal_error);
   } catch (std::filesystem::filesystem_error const& error) {
-    tell("piola: {}: cannot be used, {} - check the path\n", error.path1().string(), error.code().message());
-    return app::internal_error;
-  } catch (std::bad_alloc const& error) {
-    return report("not enough memory for this many particles - choose fewer ('piola check' tells how much is needed): ",
-                  error, app::internal_error);
+    return report(
+        fmt::format("{}: cannot be used, {} - check the path", error.path1().string(), error.code().message()),
+        app::internal_error);
+  } catch (std::bad_alloc const&) {
+    return report("not enough memory for this many particles - choose fewer ('piola check' tells how much is needed)",
+                  app::internal_error);
   } catch (std::exception const& error) {
-    return report("internal error, please report it: ", error, app::internal_error);
+    return report(fmt::format("internal error, please report it: {}", error.what()), app::internal_error);
   }
 }
 

@@ -39,19 +39,18 @@ if(PIOLA_MESH)
 endif()
 
 # The C interface alone: Open MPI's headers would bring a C++ one that is long gone from the standard.
-if(PIOLA_MPI)
+if(PIOLA_MPI OR PIOLA_MPI_BESIDE)
   find_path(PIOLA_MPI_INCLUDE mpi.h PATH_SUFFIXES openmpi/include
             PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/openmpi/include)
   find_library(PIOLA_MPI_LIBRARY NAMES mpi PATH_SUFFIXES openmpi/lib)
-  if(NOT PIOLA_MPI_INCLUDE OR NOT PIOLA_MPI_LIBRARY)
-    message(FATAL_ERROR "PIOLA_MPI needs Open MPI (header mpi.h, library mpi) - ${_piola_install_hint} --mpi")
-  endif()
-  if(NOT TARGET Piola::mpi)
+  if(PIOLA_MPI_INCLUDE AND PIOLA_MPI_LIBRARY AND NOT TARGET Piola::mpi)
     add_library(Piola::mpi UNKNOWN IMPORTED)
     set_target_properties(Piola::mpi PROPERTIES
       IMPORTED_LOCATION "${PIOLA_MPI_LIBRARY}"
       INTERFACE_INCLUDE_DIRECTORIES "${PIOLA_MPI_INCLUDE}"
       INTERFACE_COMPILE_DEFINITIONS OMPI_SKIP_MPICXX=1)
+  elseif(PIOLA_MPI AND NOT TARGET Piola::mpi)
+    message(FATAL_ERROR "PIOLA_MPI needs Open MPI (header mpi.h, library mpi) - ${_piola_install_hint} --mpi")
   endif()
 endif()
 

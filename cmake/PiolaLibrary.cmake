@@ -24,6 +24,8 @@ if(PIOLA_MPI)
   list(FILTER _sources EXCLUDE REGEX "/parallel/ranks_absent\\.cpp$")
 else()
   list(FILTER _sources EXCLUDE REGEX "/parallel/ranks_mpi\\.cpp$")
+  set_source_files_properties("${PROJECT_SOURCE_DIR}/src/piola/parallel/ranks_absent.cpp" PROPERTIES
+    SKIP_UNITY_BUILD_INCLUSION ON)  # programs may bring ranks_mpi.cpp in its place: PiolaProgram.cmake
 endif()
 set(_input_sources ${_sources})
 list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")

@@ -35,10 +35,18 @@ file(GLOB_RECURSE _scripts CONFIGURE_DEPENDS
 if(NOT PIOLA_PYTHON)
   list(FILTER _scripts EXCLUDE REGEX "/tests/python/")
 endif()
+# Tests of ranks: all that there are in builds for MPI; else a few, if there is a program for ranks beside.
+set(_ranks_program "")
+if(PIOLA_MPI AND TARGET piola_app)
+  set(_ranks_program "$<TARGET_FILE:piola_app>")
+elseif(TARGET piola_mpi_app)
+  set(_ranks_program "$<TARGET_FILE:piola_mpi_app>")
+endif()
 set(_environment
   "PIOLA_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
   "PIOLA_PROGRAM=$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>"
-  "PIOLA_MPI=$<IF:$<BOOL:${PIOLA_MPI}>,ON,OFF>"
+  "PIOLA_RANKS_PROGRAM=${_ranks_program}"
+  "PIOLA_RANKS_TESTS=$<IF:$<BOOL:${PIOLA_MPI}>,all,quick>"
   "PIOLA_HARDENED=$<AND:$<BOOL:${PIOLA_HARDENING}>,$<CONFIG:Release>>")
 foreach(script IN LISTS _scripts)
   file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/tests" "${script}")
@@ -51,9 +59,17 @@ foreach(script IN LISTS _scripts)
     "${_environment};PYTHONPATH=${PROJECT_BINARY_DIR}/python")
 endforeach()
 
+# They load all cores, and what waits for others would wait longer beside other tests.
+set(_ranks_timeout 300)
 if(PIOLA_MPI)
-  set_tests_properties(parallel/ranks_test.py PROPERTIES TIMEOUT 3600 RUN_SERIAL ON)
+  set(_ranks_timeout 3600)
 endif()
+foreach(script IN LISTS _scripts)
+  if(script MATCHES "/parallel/ranks[a-z_]*_test\\.py$" AND _ranks_program)
+    file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/tests" "${script}")
+    set_tests_properties("${name}" PROPERTIES TIMEOUT ${_ranks_timeout} RUN_SERIAL ON)
+  endif()
+endforeach()
 
 # The stored inputs of every fuzz target are ordinary tests; finding new ones needs clang (PiolaFuzz.cmake).
 file(GLOB _fuzz CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/fuzz/*_fuzz.cpp")

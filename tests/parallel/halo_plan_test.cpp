@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/parallel/halo_plan.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/agreement.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -56,6 +56,9 @@ TEST(Ranks, AreOneWithoutALauncher) {
   std::vector<double> const values{1, -0.0, 3};
   EXPECT_EQ(ranks::gather(values), values);
   EXPECT_EQ(ranks::agree({2, "no such file"}).message, "no such file");
+  EXPECT_EQ(ranks::agree_within(1, {2, "no such file"})->code, 2);
+  EXPECT_TRUE(ranks::same(17));
+  EXPECT_EQ(ranks::spent().collectives, 0);
 }
 
 }  // namespace

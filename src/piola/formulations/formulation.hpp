@@ -68,6 +68,13 @@ struct StepRule {
   double setup_stages = 0;  ///< right-hand sides before the first step
 };
 
+/// What particles of a body tell their neighbours, those of other ranks too: for estimates.
+struct Talk {
+  double reach = 0;         ///< m, as the particles stood at the start
+  std::vector<int> values;  ///< numbers per particle, of each exchange of a right-hand side
+  double collectives = 0;   ///< per step: what all ranks add, or take the largest of
+};
+
 /// Receives or returns the evolved state by name, in Id order; bit-exact doubles.
 class StateWriter {
  public:
@@ -129,6 +136,8 @@ class Formulation {
   virtual std::vector<std::pair<std::string, double>> costs() const { return {}; }
   virtual std::size_t memory_bytes() const = 0;
 
+  /// Of one body, if the formulation runs on ranks.
+  virtual std::optional<Talk> talk(std::size_t /*body*/) const { return std::nullopt; }
   /// Where ranks share the particles: brings what the others have to rank 0, which may then be asked for all of the
   /// state until the next step. Every rank calls it.
   virtual void gather() {}

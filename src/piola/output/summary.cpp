@@ -36,6 +36,13 @@ std::string to_json(Summary const& s) {
                                     {"final", s.energy_final},
                                     {"max_increase", s.energy_max_increase},
                                     {"max_decrease", s.energy_max_decrease}}}};
+  for (RankTraffic const& rank : s.ranks)
+    document["ranks"].push_back({{"messages", rank.messages},
+                                 {"bytes", rank.bytes},
+                                 {"collectives", rank.collectives},
+                                 {"message_seconds", rank.message_seconds},
+                                 {"collective_seconds", rank.collective_seconds},
+                                 {"idle_seconds", rank.idle_seconds}});
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
   if (s.relaxation) {

@@ -29,6 +29,13 @@ struct GuardNumbers {
   std::string words;  ///< what the user should know; empty: all is well
 };
 
+/// What a rank said to others in a step, on average: messages to neighbours, and what all ranks did together; and the
+/// wall time in these, with waiting for others, and for what rank 0 does alone [s].
+struct RankTraffic {
+  double messages = 0, bytes = 0, collectives = 0;
+  double message_seconds = 0, collective_seconds = 0, idle_seconds = 0;
+};
+
 /// What summary.json says about a run.
 struct Summary {
   std::string status;  ///< "completed", "failed" or "stopped"
@@ -38,6 +45,7 @@ struct Summary {
   double wall_seconds = 0;       ///< over all parts of a resumed run
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone
   int threads = 1;
+  std::vector<RankTraffic> ranks;               ///< empty on one rank
   double energy_initial = 0, energy_final = 0;  ///< J
   /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
   double energy_max_increase = 0;

@@ -8,12 +8,48 @@
 namespace piola {
 namespace {
 
-/// f(value in the message, slot, component) for all that one message has of a field.
-template <class F>
-void each_value(std::vector<Index> const& slots, int first, int count, std::size_t start, F const& f) {
-  exec_host::for_each_in_set_up(static_cast<Index>(slots.size()), [&](Index k) {
-    std::size_t const at = start + static_cast<std::size_t>(k) * static_cast<std::size_t>(count);
-    for (int c = 0; c < count; ++c) f(at + static_cast<std::size_t>(c), slots[static_cast<std::size_t>(k)], first + c);
+/// Slots one after the other, in pieces that threads share.
+std::vector<SlotRun> runs_of(std::vector<Index> const& slots) {
+  constexpr Index longest = 512;
+  std::vector<SlotRun> runs;
+  for (Index k = 0; k < static_cast<Index>(slots.size()); ++k) {
+    Index const slot = slots[static_cast<std::size_t>(k)];
+    if (runs.empty() || runs.back().first + runs.back().count != slot || runs.back().count == longest)
+      runs.push_back({slot, 0, k});
+    runs.back().count += 1;
+  }
+  return runs;
+}
+
+/// Some values of a field, for the slots of a message; the message has them from `values` on.
+struct Copied {
+  FieldRef const& field;
+  int first, count;
+  std::vector<SlotRun> const& runs;
+  Index slots;
+  double* values;
+};
+
+/// Between a field and a message: component after component where particles lie one after the other in memory, so that
+/// runs of slots are copied as they are; else particle after particle, as records lie.
+template <bool Out>
+void copy_values(Copied const& c) {
+  FieldRef const& f = c.field;
+  bool const rows = f.particle_stride == 1 && f.tile_extra == 0;
+  exec_host::for_each_part_in_set_up(static_cast<Index>(c.runs.size()), c.slots * c.count, [&](Index number) {
+    SlotRun const& run = c.runs[static_cast<std::size_t>(number)];
+    auto const copy = [](double* from, double* to, std::ptrdiff_t n) { std::copy(from, from + n, to); };
+    for (int k = 0; rows && k < c.count; ++k) {
+      double* const at = f.data + (c.first + k) * f.component_stride + run.first;
+      double* const in_message = c.values + static_cast<std::ptrdiff_t>(k) * c.slots + run.place;
+      Out ? copy(at, in_message, run.count) : copy(in_message, at, run.count);
+    }
+    for (Index i = 0; !rows && i < run.count; ++i)
+      for (int k = 0; k < c.count; ++k) {
+        double& at = value_at(f, run.first + i, c.first + k);
+        double& in_message = c.values[static_cast<std::ptrdiff_t>(run.place + i) * c.count + k];
+        Out ? in_message = at : at = in_message;
+      }
   });
 }
 
@@ -38,11 +74,14 @@ HaloPlan::HaloPlan(Index slots, std::vector<Index> read) {
                                                  std::lower_bound(read.begin(), read.end(), owned.last));
   }
   auto const asked = ranks::deal(wanted);
+  auto const side_of = [](int rank, std::vector<Index> const& some) {
+    return Side{rank, static_cast<Index>(some.size()), runs_of(some), {}};
+  };
   for (int r = 0; r < ranks::count(); ++r) {
     auto const k = static_cast<std::size_t>(r);
     if (r == ranks::own()) continue;
-    if (!wanted[k].empty()) receives_.push_back({r, wanted[k], {}});
-    if (!asked[k].empty()) sends_.push_back({r, asked[k], {}});
+    if (!wanted[k].empty()) receives_.push_back(side_of(r, wanted[k]));
+    if (!asked[k].empty()) sends_.push_back(side_of(r, asked[k]));
   }
 }
 
@@ -60,39 +99,38 @@ void HaloPlan::exchange(FieldRef const& field) {
   }
   PIOLA_EXPECTS(known);
   if (per_particle == 0) return;
-  auto const each_run = [&](Side const& side, auto const& f) {
-    std::size_t start = 0;
+  auto const each_run = [&](Side& side, auto const& copy) {
+    double* start = side.values.data();
     for (Values const& v : values_) {
       if (v.data != field.data) continue;
-      each_value(side.slots, v.first, v.count, start, f);
-      start += side.slots.size() * static_cast<std::size_t>(v.count);
+      copy(Copied{field, v.first, v.count, side.runs, side.slots, start});
+      start += static_cast<std::ptrdiff_t>(side.slots) * v.count;
     }
   };
   std::vector<ranks::Message> in, out;
-  for (Side& side : receives_) {
-    side.values.resize(side.slots.size() * per_particle);
-    in.push_back({side.rank, side.values.data(), side.values.size()});
-  }
+  auto const message_of = [&](Side& side) {
+    side.values.resize(static_cast<std::size_t>(side.slots) * per_particle);
+    return ranks::Message{side.rank, side.values.data(), side.values.size()};
+  };
+  for (Side& side : receives_) in.push_back(message_of(side));
   for (Side& side : sends_) {
-    side.values.resize(side.slots.size() * per_particle);
-    each_run(side, [&](std::size_t at, Index i, int c) { side.values[at] = value_at(field, i, c); });
-    out.push_back({side.rank, side.values.data(), side.values.size()});
+    out.push_back(message_of(side));
+    each_run(side, copy_values<true>);
   }
   ranks::exchange(in, out);
-  for (Side const& side : receives_)
-    each_run(side, [&](std::size_t at, Index i, int c) { value_at(field, i, c) = side.values[at]; });
+  for (Side& side : receives_) each_run(side, copy_values<false>);
 }
 
 Index HaloPlan::received() const {
   Index n = 0;
-  for (Side const& side : receives_) n += static_cast<Index>(side.slots.size());
+  for (Side const& side : receives_) n += side.slots;
   return n;
 }
 
 std::size_t HaloPlan::bytes() const {
   std::size_t n = 0;
   for (auto const* sides : {&sends_, &receives_})
-    for (Side const& side : *sides) n += side.slots.size() * sizeof(Index) + side.values.capacity() * sizeof(double);
+    for (Side const& side : *sides) n += side.runs.size() * sizeof(SlotRun) + side.values.capacity() * sizeof(double);
   return n;
 }
 

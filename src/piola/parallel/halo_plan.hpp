@@ -10,6 +10,11 @@ namespace piola {
 /// they are the same blocks for any number of ranks.
 Range share_of(Index slots, int rank, int ranks);
 
+/// Slots first ... first + count - 1, of which the first has this place among the slots of a message.
+struct SlotRun {
+  Index first, count, place;
+};
+
 /// What the particles of this rank read of those that others own, and what others read of its own, for one body of
 /// which all ranks have all slots, in the same order.
 class HaloPlan {
@@ -29,7 +34,8 @@ class HaloPlan {
  private:
   struct Side {
     int rank;
-    std::vector<Index> slots;
+    Index slots;  ///< how many
+    std::vector<SlotRun> runs;
     std::vector<double> values;  ///< of a message, kept between exchanges
   };
   struct Values {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Without MPI: one rank. ranks_mpi.cpp is the other one.
-#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/agreement.hpp"
 
 namespace piola::ranks {
 
@@ -14,10 +14,14 @@ void merge(std::span<double>) {}
 std::vector<double> gather(std::span<double const> values) { return {values.begin(), values.end()}; }
 void complete(std::span<double>, std::span<std::size_t const>) {}
 void broadcast_bytes(void*, std::size_t) {}
+void order_bytes(void*, std::size_t) {}
+bool same(std::uint64_t) { return true; }
 std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to) { return to; }
 void exchange(std::span<Message const>, std::span<Message const>) {}
 Traffic traffic() { return {}; }
+Spent spent() { return {}; }
 Trouble agree(Trouble const& own) { return own; }
+std::optional<Trouble> agree_within(double, Trouble const& own) { return own; }
 void abort_all(int) {}
 
 }  // namespace piola::ranks

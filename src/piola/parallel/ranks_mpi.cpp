@@ -1,27 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only place with MPI. ranks_absent.cpp takes its place in builds without it.
-#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/agreement.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <mpi.h>
 #include <numeric>
+#include <thread>
 
 namespace piola::ranks {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 struct World {
   bool started = false;
   int own = 0, count = 1;
+  MPI_Comm orders = MPI_COMM_NULL, troubles = MPI_COMM_NULL;  // all ranks, too
   MPI_Op op = MPI_OP_NULL;
   Combine combine = nullptr;                  // of the call in progress, which `op` has no argument for
   std::size_t bytes = 0;                      // per item
   std::map<std::size_t, MPI_Datatype> types;  // of items with so many bytes
   Traffic traffic;
+  Spent spent;
 };
 World world;
+
+/// Adds its life time to a sum.
+class Timer {
+ public:
+  explicit Timer(double& sum) : sum_(sum), start_(Clock::now()) {}
+  ~Timer() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Timer(Timer const&) = delete;
+  Timer& operator=(Timer const&) = delete;
+
+ private:
+  double& sum_;
+  Clock::time_point start_;
+};
+
+/// Waits as MPI does, by asking again and again, which is quickest; after a while it sleeps in between, so that ranks
+/// that wait for slower ones leave their core to them where there are more of them than cores.
+void wait_for(std::span<MPI_Request> requests) {
+  constexpr auto awake = std::chrono::microseconds(100), asleep = std::chrono::microseconds(20);
+  auto const start = Clock::now();
+  for (int there = 0; there == 0;) {
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &there, MPI_STATUSES_IGNORE);
+    if (there == 0 && Clock::now() - start > awake) std::this_thread::sleep_for(asleep);
+  }
+}
+void wait_for(MPI_Request& request) { wait_for(std::span(&request, 1)); }
 
 /// Called by MPI with items of other ranks.
 void combine_items(void* others, void* mine, int* count, MPI_Datatype*) {
@@ -54,6 +86,28 @@ std::vector<int> starts_of(std::vector<int> const& counts) {
   return starts;
 }
 
+void tell_all(void* data, std::size_t bytes, MPI_Comm ranks, double& seconds) {
+  if (!several()) return;
+  Timer const timer(seconds);
+  world.spent.collectives += 1;
+  MPI_Request request;
+  MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, ranks, &request);
+  wait_for(request);
+}
+
+/// What the lowest rank with trouble has to say.
+Trouble trouble_of(int lowest, Trouble const& own) {
+  if (lowest == world.count) return {};
+  Trouble r = own;
+  int sizes[2] = {own.code, static_cast<int>(own.message.size())};
+  MPI_Bcast(sizes, 2, MPI_INT, lowest, world.troubles);
+  r.code = sizes[0];
+  r.message.resize(static_cast<std::size_t>(sizes[1]));
+  MPI_Bcast(r.message.data(), sizes[1], MPI_CHAR, lowest, world.troubles);
+  if (lowest != 0) r.message = "on rank " + std::to_string(lowest) + ": " + r.message;
+  return r;
+}
+
 constexpr int halo_tag = 1;
 
 }  // namespace
@@ -65,6 +119,8 @@ void start() {
   world.started = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &world.own);
   MPI_Comm_size(MPI_COMM_WORLD, &world.count);
+  MPI_Comm_dup(MPI_COMM_WORLD, &world.orders);
+  MPI_Comm_dup(MPI_COMM_WORLD, &world.troubles);
   MPI_Op_create(&combine_items, 1, &world.op);
 }
 
@@ -72,6 +128,8 @@ void finish() {
   if (!world.started) return;
   for (auto& [bytes, type] : world.types) MPI_Type_free(&type);
   MPI_Op_free(&world.op);
+  MPI_Comm_free(&world.orders);
+  MPI_Comm_free(&world.troubles);
   MPI_Finalize();
   world = {};
 }
@@ -81,9 +139,13 @@ int count() { return world.count; }
 
 void combine_bytes(void* items, std::size_t count, std::size_t bytes, Combine combine) {
   if (!several()) return;
+  Timer const timer(world.spent.in_collectives);
   world.combine = combine;
   world.bytes = bytes;
-  MPI_Allreduce(MPI_IN_PLACE, items, static_cast<int>(count), type_of(bytes), world.op, MPI_COMM_WORLD);
+  world.spent.collectives += 1;
+  MPI_Request request;
+  MPI_Iallreduce(MPI_IN_PLACE, items, static_cast<int>(count), type_of(bytes), world.op, MPI_COMM_WORLD, &request);
+  wait_for(request);
 }
 
 void take_largest(double& value) {
@@ -97,7 +159,12 @@ void take_largest(double& value) {
 void merge(std::span<double> values) {
   if (!several() || values.empty()) return;
   static_assert(sizeof(double) == sizeof(std::uint64_t));
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T, MPI_BOR, MPI_COMM_WORLD);
+  Timer const timer(world.spent.in_collectives);
+  world.spent.collectives += 1;
+  MPI_Request request;
+  MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T, MPI_BOR, MPI_COMM_WORLD,
+                 &request);
+  wait_for(request);
 }
 
 std::vector<double> gather(std::span<double const> values) {
@@ -114,17 +181,29 @@ std::vector<double> gather(std::span<double const> values) {
 
 void complete(std::span<double> values, std::span<std::size_t const> starts) {
   if (!several()) return;
+  world.spent.collectives += 1;
+  Timer const timer(world.spent.in_collectives);
   std::vector<int> counts, first;
   for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
     first.push_back(static_cast<int>(starts[r]));
     counts.push_back(static_cast<int>(starts[r + 1] - starts[r]));
   }
-  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, values.data(), counts.data(), first.data(), MPI_DOUBLE,
-                 MPI_COMM_WORLD);
+  MPI_Request request;
+  MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, values.data(), counts.data(), first.data(), MPI_DOUBLE,
+                  MPI_COMM_WORLD, &request);
+  wait_for(request);
 }
 
 void broadcast_bytes(void* data, std::size_t bytes) {
-  if (several()) MPI_Bcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD);
+  tell_all(data, bytes, MPI_COMM_WORLD, world.spent.in_collectives);
+}
+void order_bytes(void* data, std::size_t bytes) { tell_all(data, bytes, world.orders, world.spent.for_orders); }
+
+bool same(std::uint64_t number) {
+  if (!several()) return true;
+  std::uint64_t both[2]{number, ~number};  // the largest, and the smallest
+  MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD);
+  return both[0] == ~both[1];
 }
 
 std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to) {
@@ -148,6 +227,7 @@ std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to) 
 }
 
 void exchange(std::span<Message const> receives, std::span<Message const> sends) {
+  Timer const timer(world.spent.in_exchanges);
   std::vector<MPI_Request> requests(receives.size() + sends.size(), MPI_REQUEST_NULL);
   std::size_t k = 0;
   for (Message const& m : receives)
@@ -157,24 +237,29 @@ void exchange(std::span<Message const> receives, std::span<Message const> sends)
     world.traffic.messages += 1;
     world.traffic.bytes += static_cast<std::int64_t>(m.count * sizeof(double));
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  wait_for(requests);
 }
 
 Traffic traffic() { return world.traffic; }
+Spent spent() { return world.spent; }
 
-Trouble agree(Trouble const& own) {
+Trouble agree(Trouble const& own) { return *agree_within(std::numeric_limits<double>::infinity(), own); }
+
+std::optional<Trouble> agree_within(double seconds, Trouble const& own) {
   if (!several()) return own;
-  int lowest = own.code != 0 ? world.own : world.count;
-  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  if (lowest == world.count) return {};
-  Trouble r = own;
-  int sizes[2] = {own.code, static_cast<int>(own.message.size())};
-  MPI_Bcast(sizes, 2, MPI_INT, lowest, MPI_COMM_WORLD);
-  r.code = sizes[0];
-  r.message.resize(static_cast<std::size_t>(sizes[1]));
-  MPI_Bcast(r.message.data(), sizes[1], MPI_CHAR, lowest, MPI_COMM_WORLD);
-  if (lowest != 0) r.message = "on rank " + std::to_string(lowest) + ": " + r.message;
-  return r;
+  // Kept alive: a rank that gives up leaves the request behind and ends all.
+  static int lowest;
+  lowest = own.code != 0 ? world.own : world.count;
+  MPI_Request request;
+  MPI_Iallreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, world.troubles, &request);
+  auto const start = Clock::now();
+  for (int there = 0; there == 0;) {
+    MPI_Test(&request, &there, MPI_STATUS_IGNORE);
+    if (there != 0) break;
+    if (std::chrono::duration<double>(Clock::now() - start).count() > seconds) return std::nullopt;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return trouble_of(lowest, own);
 }
 
 void abort_all(int code) {

@@ -279,6 +279,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
   refuse_on_ranks(assembly);
   agree_to_go_on();
+  compare_on_ranks(assembly);
   simulation.formulation = conducted(make_formulation(assembly));
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);

@@ -159,6 +159,10 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
   Plan const plan = plan_of(spec);
   double const rows = std::min(plan.rows, static_cast<double>(e.steps) + 1);
   e.step = std::min(e.rule.settled, spec.run.max_step);
+  e.stages = stages + e.rule.more_stages;
+  e.step_work = e.stages * side;
+  e.row_work = row_stages * side;
+  e.rows_per_step = rows / static_cast<double>(e.steps);
   e.setup_seconds = tables + e.rule.setup_stages * side / threads;
   e.run_seconds = static_cast<double>(e.steps) * (stages + e.rule.more_stages) * side / threads +
                   rows * row_stages * side / threads + plan.frames * frame_seconds * all +
@@ -192,6 +196,8 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
   formulation.save(counter);
   e.memory = static_cast<double>(formulation.memory_bytes());
   e.disk = disk_of(spec, formulation, n, n > 0 ? counter.values / n : 0);
+  e.state_bytes = 8 * counter.values;
+  for (std::size_t b = 0; b < particles.bodies.size(); ++b) e.talk.push_back(formulation.talk(b));
   count_work(spec, particles, formulation.stages_per_step(), e);
   return e;
 }
@@ -250,6 +256,8 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     auto const some = static_cast<double>(a.particles.size());
     e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
     e.disk += disk_of(spec, *formulation, all, counter.values / some);
+    e.state_bytes += 8 * counter.values * all / some;
+    e.talk.push_back(formulation->talk(0));
   }
   e.steps = steps_of(e.rule, spec.run);
   count_work(spec, particles, stages, e);

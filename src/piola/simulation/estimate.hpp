@@ -4,6 +4,8 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace piola {
 
@@ -18,6 +20,12 @@ struct Estimate {
   double memory = 0;         ///< largest resident memory [bytes], with set-up and output
   double disk = 0;           ///< frames, pictures, checkpoints and history [bytes]
   int threads = 1;
+  double stages = 0;                      ///< right-hand sides of a step
+  double step_work = 0;                   ///< processor time of a step [s]
+  double row_work = 0;                    ///< of a row of the history [s]
+  double rows_per_step = 0;               ///< of the history
+  double state_bytes = 0;                 ///< of the state as a checkpoint holds it
+  std::vector<std::optional<Talk>> talk;  ///< per body
 };
 
 /// Steps that a run of this length takes, from the first one on.

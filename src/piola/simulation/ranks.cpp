@@ -1,27 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/agreement.hpp"
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
 #include <fmt/format.h>
+#include <limits>
+#include <thread>
 
 namespace piola {
 namespace {
 
 /// What rank 0 wants of the others.
 struct Order {
-  enum class What : std::int64_t { step, damp, kinetic_energy, gather, load, end } what;
+  enum class What : std::int64_t { step, damp, kinetic_energy, gather, load, traffic, end } what;
   double first = 0, second = 0;  // time and dt, factor
   std::int64_t code = 0;
 };
 
 /// How far the ranks of this run are.
-enum class Phase { reading, building, running };
+enum class Phase { reading, building, running, over };
 Phase phase = Phase::reading;
 
 Order send(Order order) {
-  ranks::broadcast_bytes(&order, sizeof order);
+  ranks::order_bytes(&order, sizeof order);
   return order;
+}
+
+/// How long a rank with trouble waits for the others, which may be waiting for it [s].
+constexpr double patience = 5;
+
+/// Steps, and what this rank had said before the first one.
+struct Count {
+  std::int64_t steps = 0;
+  ranks::Traffic before;
+  ranks::Spent spent_before;
+};
+Count counted;
+
+void count_step() {
+  if (counted.steps++ > 0) return;
+  counted.before = ranks::traffic();
+  counted.spent_before = ranks::spent();
+}
+
+constexpr std::size_t numbers_of_traffic = 6;
+
+std::vector<double> gather_traffic() {
+  ranks::Traffic const said = ranks::traffic(), &before = counted.before;
+  ranks::Spent const spent = ranks::spent(), &spent_before = counted.spent_before;
+  double const steps = static_cast<double>(std::max<std::int64_t>(1, counted.steps));
+  std::array const mine{static_cast<double>(said.messages - before.messages) / steps,
+                        static_cast<double>(said.bytes - before.bytes) / steps,
+                        static_cast<double>(spent.collectives - spent_before.collectives) / steps,
+                        (spent.in_exchanges - spent_before.in_exchanges) / steps,
+                        (spent.in_collectives - spent_before.in_collectives) / steps,
+                        (spent.for_orders - spent_before.for_orders) / steps};
+  static_assert(mine.size() == numbers_of_traffic);
+  return ranks::gather(mine);
 }
 
 /// Rank 0 has not found what it looked for in a checkpoint.
@@ -66,6 +104,7 @@ class Conductor final : public Formulation {
   StepRule step_rule() const override { return own().step_rule(); }
   void step(double time, double dt) override {
     send({Order::What::step, time, dt});
+    count_step();
     own().step(time, dt);
     part_->gathered = false;
   }
@@ -115,7 +154,8 @@ class Conductor final : public Formulation {
 
 void obey(Formulation& formulation, Order const& order) {
   switch (order.what) {
-    case Order::What::step: return formulation.step(order.first, order.second);
+    case Order::What::step: count_step(); return formulation.step(order.first, order.second);
+    case Order::What::traffic: return void(gather_traffic());
     case Order::What::damp: return formulation.damp(order.first);
     case Order::What::kinetic_energy: return void(formulation.kinetic_energy());
     case Order::What::gather: return formulation.gather();
@@ -134,11 +174,11 @@ void obey(Formulation& formulation, Order const& order) {
 
 }  // namespace
 
-void refuse_on_ranks(Assembly const& assembly) {
-  if (!ranks::several()) return;
+void refuse_on_ranks(Assembly const& assembly, int count) {
+  if (count < 2) return;
   Problems problems;
   auto const refuse = [&](std::string const& what) {
-    problems.add({}, fmt::format("{} on one rank (started on {}) - start it without mpirun", what, ranks::count()));
+    problems.add({}, fmt::format("{} on one rank (asked for {}) - start it without mpirun", what, count));
   };
   auto const shares = [](FormulationSpec const& spec) {
     auto const info = find_formulation(spec.name);
@@ -150,6 +190,26 @@ void refuse_on_ranks(Assembly const& assembly) {
     refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name,
                        assembly.formulations[k].name));
   problems.raise_if_any();
+}
+
+void compare_on_ranks(Assembly const& assembly) {
+  if (!ranks::several()) return;
+  std::uint64_t print = 14'695'981'039'346'656'037ULL;  // Fowler, Noll and Vo's, word by word
+  auto const add = [&](double value) { print = (print ^ std::bit_cast<std::uint64_t>(value)) * 1'099'511'628'211ULL; };
+  auto const add_points = [&](auto const& points) {
+    for (auto const& point : points)
+      for (double const value : point) add(value);
+  };
+  add_points(assembly.particles.X);
+  add_points(assembly.initial_velocity);
+  for (double const volume : assembly.particles.volume) add(volume);
+  for (MaterialParameters const& material : assembly.materials)
+    for (double const value : material.value) add(value);
+  if (ranks::same(print)) return;
+  throw ranks::Disagreement(
+      {2,
+       "the ranks have read different cases (the same particles, motions and materials are needed on all) - give "
+       "all of them the same words, and files that every machine sees under the same path"});
 }
 
 void agree_to_go_on() {
@@ -166,23 +226,37 @@ std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation)
 int follow(Formulation& formulation) {
   for (;;) {
     Order const order = send({Order::What::end});  // overwritten by what rank 0 sends
-    if (order.what == Order::What::end) return static_cast<int>(order.code);
+    if (order.what == Order::What::end) {
+      ranks::agree({});
+      phase = Phase::over;
+      return static_cast<int>(order.code);
+    }
     obey(formulation, order);
   }
 }
 
-ranks::Trouble leave(ranks::Trouble const& own, bool others_too) {
-  if (!ranks::several()) return own;
-  bool const running = phase == Phase::running, first = ranks::own() == 0;
-  if (running && first) send({Order::What::end, 0, 0, own.code});
-  if (running || own.code == 0) return own;
-  if (phase == Phase::reading || others_too) return ranks::agree(own);
-  return own;
+std::vector<RankTraffic> traffic_on_ranks() {
+  if (!ranks::several() || phase != Phase::running || ranks::own() != 0) return {};
+  send({Order::What::traffic});
+  std::vector<double> const all = gather_traffic();
+  std::vector<RankTraffic> each;
+  for (std::size_t k = 0; k + numbers_of_traffic <= all.size(); k += numbers_of_traffic)
+    each.push_back({all[k], all[k + 1], all[k + 2], all[k + 3], all[k + 4], all[k + 5]});
+  return each;
 }
 
-bool leaves_others_waiting(bool others_too) {
-  if (!ranks::several() || phase == Phase::reading) return false;
-  return phase == Phase::running ? ranks::own() != 0 : !others_too;
+std::optional<ranks::Trouble> leave(ranks::Trouble const& own) {
+  if (!ranks::several() || phase == Phase::over || (own.code == 0 && phase != Phase::running)) return own;
+  if (phase == Phase::reading) return ranks::agree(own);
+  if (phase == Phase::building) return ranks::agree_within(patience, own);
+  if (ranks::own() != 0) {
+    if (own.code == 0) return own;
+    // Those before it may have trouble, too, and one is to speak.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300 * ranks::own()));
+    return std::nullopt;
+  }
+  send({Order::What::end, 0, 0, own.code});
+  return ranks::agree_within(own.code == 0 ? std::numeric_limits<double>::infinity() : patience, own);
 }
 
 }  // namespace piola

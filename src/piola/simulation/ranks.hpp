@@ -2,8 +2,11 @@
 #pragma once
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/formulation.hpp"
+#include "piola/output/summary.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <memory>
+#include <optional>
+#include <vector>
 
 /// A run that several ranks share. Every rank reads the case and builds the simulation; then rank 0 runs it as if it
 /// were alone, and each call of its formulation that needs the others makes them do the same (conducted, follow). So
@@ -11,7 +14,10 @@
 namespace piola {
 
 /// Throws InputError with all that this case asks for and that runs on one rank only; nothing on one rank.
-void refuse_on_ranks(Assembly const& assembly);
+void refuse_on_ranks(Assembly const& assembly, int count = ranks::count());
+
+/// Throws ranks::Disagreement on all ranks unless all have made the same particles of the same materials. Collective.
+void compare_on_ranks(Assembly const& assembly);
 
 /// All ranks come here, those with trouble, too; throws ranks::Disagreement if one has some.
 void agree_to_go_on();
@@ -22,10 +28,12 @@ std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation)
 /// On the other ranks: does what rank 0 does until that says the end; returns the exit code that it says.
 int follow(Formulation& formulation);
 
+/// On rank 0 of several that follow: what each of them said in a step since the first one. Elsewhere nothing.
+std::vector<RankTraffic> traffic_on_ranks();
+
 /// Before a rank leaves with an exit code and a message: tells the others; returns what the whole run ends with.
-/// `others_too`: the trouble is one of the case, which every rank finds.
-ranks::Trouble leave(ranks::Trouble const& own, bool others_too);
-/// Whether the others could not learn by leave() that this rank has trouble: only ranks::abort_all ends them.
-bool leaves_others_waiting(bool others_too);
+/// Nothing, if they cannot be told, because they wait for what this rank was to do: then only ranks::abort_all ends
+/// them.
+std::optional<ranks::Trouble> leave(ranks::Trouble const& own);
 
 }  // namespace piola

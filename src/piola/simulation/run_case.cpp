@@ -13,6 +13,7 @@
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/picture_observer.hpp"
+#include "piola/simulation/ranks.hpp"
 #include "piola/simulation/relaxation.hpp"
 #include "piola/simulation/results_folder.hpp"
 #include "piola/simulation/run_summary.hpp"
@@ -305,6 +306,7 @@ CaseOutcome CaseRun::finish() {
                       .last_picture = p.watch.pictures.last(),
                       .index = {}};
   outcome.summary.guards = p.watch.guards.report();
+  outcome.summary.ranks = traffic_on_ranks();
   auto const& folder = p.options.folder;
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (p.watch.relaxation.active()) {

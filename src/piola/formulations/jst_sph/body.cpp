@@ -57,8 +57,7 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
   bool const kernel_table = options_.filter || options_.corrected_kernel();
-  bool const wide = options_.biharmonic != Biharmonic::none || kernel_table;
-  pair.h_laplacian = wide ? options_.laplacian_support * spacing : 0;
+  pair.h_laplacian = is_wide() ? options_.laplacian_support * spacing : 0;
   pair.kernel_table = kernel_table;
   pair.lanes = machine.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
 #include "piola/formulations/jst_sph/boundary.hpp"
 #include "piola/formulations/jst_sph/fields.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
@@ -38,6 +39,8 @@ class JstBody {
   bool shared() const { return halo_ != nullptr; }
   /// Slots of particles that this rank works on: all of them on one rank.
   Range own() const;
+  /// What neighbours read of particles; a step has one or two right-hand sides.
+  Talk talk() const;
   /// Of a field that all ranks have in part, what the others have comes to rank 0. Collective.
   void gather(FieldRef const& field, int components);
   /// From `time` to time + dt, with supports and loads.
@@ -76,6 +79,12 @@ class JstBody {
   Index all_slots() const { return order_.slots() + images_.count(); }
   void mark_images();
   void mark_halo();
+  /// What goes to other ranks: values [first, first + count) of a field, so many times in a right-hand side.
+  struct Told {
+    FieldRef field;
+    int first, count, times;
+  };
+  std::vector<Told> told() const;
   std::vector<Index> slots_read(int lanes) const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
@@ -104,6 +113,10 @@ class JstBody {
   /// Whether the first sweep reads positions, too, for the Laplacian of the motion without its rigid part.
   bool gathers_position() const {
     return options_.biharmonic != Biharmonic::none && (verlet() || options_.shear_speed);
+  }
+  /// Whether sweeps reach as far as the Laplacian.
+  bool is_wide() const {
+    return options_.biharmonic != Biharmonic::none || options_.filter || options_.corrected_kernel();
   }
   bool verlet() const { return options_.integrator == Integrator::verlet; }
 

@@ -46,17 +46,50 @@ std::vector<Index> JstBody::slots_read(int lanes) const {
 }
 
 /// What sweeps read at neighbours, field by field, as place_gathered() has laid it out; alpha and beta never change.
-void JstBody::mark_halo() {
+std::vector<JstBody::Told> JstBody::told() const {
   auto const& s = state_;
   bool const smoothed_J = options_.smoothed_volume(), stabilised = options_.biharmonic != Biharmonic::none;
-  halo_->add(s.u, 0, D_ + (gathers_position() ? D_ : smoothed_J ? 1 : 0));
   int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
   int const before_A = options_.biharmonic == Biharmonic::adjoint ? smoothed + D_ + 1 : smoothed;
-  halo_->add(s.second, 0, smoothed);
-  halo_->add(s.second, before_A, D_ * D_);
-  halo_->add(s.ahead, 0, D_ + D_ * D_ + 1);
-  halo_->add(s.kernel_force, 0, D_);
-  for (FieldRef const& source : s.filter_source) halo_->add(source, 0, 1);
+  std::vector<Told> const all{{s.u, 0,
+                               D_ + (gathers_position() ? D_
+                                     : smoothed_J       ? 1
+                                                        : 0),
+                               1},
+                              {s.second, 0, smoothed, 1},
+                              {s.second, before_A, D_ * D_, 1},
+                              {s.ahead, 0, D_ + D_ * D_ + 1, 1},
+                              {s.kernel_force, 0, D_, 1},
+                              // Passes of the filter and of its adjoint read one buffer and write the other.
+                              {s.filter_source[0], 0, 1, options_.filter_passes},
+                              {s.filter_source[1], 0, 1, options_.filter_passes}};
+  std::vector<Told> real;
+  for (Told const& t : all)
+    if (t.field.data != nullptr && t.count > 0) real.push_back(t);
+  return real;
+}
+
+void JstBody::mark_halo() {
+  for (Told const& t : told()) halo_->add(t.field, t.first, t.count);
+}
+
+Talk JstBody::talk() const {
+  Talk talk;
+  talk.reach = options_.kernel->support * spacing() *
+               std::max(options_.gradient_support, is_wide() ? options_.laplacian_support : 0);
+  double const* last = nullptr;
+  for (Told const& t : told()) {
+    if (t.field.data == last)
+      talk.values.back() += t.count;  // two runs of one message
+    else
+      talk.values.insert(talk.values.end(), static_cast<std::size_t>(t.times), t.count);
+    last = t.field.data;
+  }
+  int const stages = verlet() ? 1 : 2;
+  bool const rigid_of_stages = !verlet() && state_.constants.without_rigid;
+  // Sums of motion and of forces; work of supports and loads, wave speed, failures.
+  talk.collectives = (verlet() ? 2 : stages * (rigid_of_stages ? 2 : 1)) + 3;
+  return talk;
 }
 
 void JstBody::gather(FieldRef const& field, int components) { gather_slots(field, own(), components); }

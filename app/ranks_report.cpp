@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ranks_report.hpp"
+#include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
+#include "piola/simulation/build.hpp"
+#include "piola/simulation/ranks.hpp"
+#include "piola/simulation/scaling.hpp"
+#include "streams.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola::app {
+namespace {
+
+/// The smallest and the largest of something that the ranks have.
+template <class F>
+std::string between(Scaling const& scaling, F const& f, std::string (*text)(double)) {
+  auto const [low, high] = std::minmax_element(scaling.shares.begin(), scaling.shares.end(),
+                                               [&](RankShare const& a, RankShare const& b) { return f(a) < f(b); });
+  std::string const least = text(f(*low)), most = text(f(*high));
+  return least == most ? most : least + " to " + most;
+}
+
+std::string count(double n) { return count_text(static_cast<std::int64_t>(std::llround(n))); }
+std::string size(double bytes) { return size_text(bytes); }
+
+}  // namespace
+
+void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks) {
+  Assembly const assembly = assemble(spec, particles);
+  refuse_on_ranks(assembly, ranks);
+  if (!runs_on_ranks(cost) || !assembly.surfaces.empty() || !assembly.rigid_shapes.empty())
+    throw InputError(
+        fmt::format("--ranks {}: what this case would send is not known before it runs (it is for bodies of jst_sph "
+                    "that meet nothing) - run some steps with mpirun, and look at \"ranks\" in summary.json",
+                    ranks));
+  Scaling const s = scale(particles, cost, ranks);
+  say("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
+      cost.threads == 1 ? "thread" : "threads");
+  say("  of a rank: {} particles, and {} of others that it reads; it sends {} messages, {} in a step; {} of memory\n",
+      between(
+          s, [](RankShare const& r) { return static_cast<double>(r.particles); }, count),
+      between(
+          s, [](RankShare const& r) { return static_cast<double>(r.halo); }, count),
+      between(
+          s, [](RankShare const& r) { return r.messages; }, count),
+      between(
+          s, [](RankShare const& r) { return r.bytes; }, size),
+      between(
+          s, [](RankShare const& r) { return r.memory; }, size));
+  StepTimes const& t = s.times;
+  auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
+  say("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n", time(t.total()),
+      time(t.sweeps), time(t.messages), count(s.collectives), time(t.collectives), time(t.rows));
+  constexpr int most = 1024;
+  int const paying = ranks_that_pay(particles, cost, most);
+  say("  efficiency {:.0f} %; {}\n", 100 * s.efficiency,
+      paying >= most
+          ? fmt::format("{} ranks still pay", most)
+          : fmt::format("beyond {} {} more than half of the time is lost", paying, paying == 1 ? "rank" : "ranks"));
+}
+
+}  // namespace piola::app

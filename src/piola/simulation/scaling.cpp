@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/simulation/scaling.hpp"
+#include "piola/neighbours/halo_count.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/particles/ordering.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola {
+namespace {
+
+/// Who has which particle of a body, as runs share them out.
+struct Owned {
+  std::vector<std::array<double, 3>> X;
+  std::vector<int> owner;
+};
+
+Owned owned_of(ParticleSet const& particles, Body const& body, int ranks) {
+  SlotOrder const order = pencil_order(particles, body);
+  Owned owned;
+  for (int r = 0; r < ranks; ++r) {
+    Range const share = share_of(order.slots(), r, ranks);
+    for (Index slot = share.first; slot < std::min(share.last, order.particles); ++slot) {
+      owned.X.push_back(particles.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])]);
+      owned.owner.push_back(r);
+    }
+  }
+  return owned;
+}
+
+void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<RankShare>& shares) {
+  double numbers = 0;
+  for (int const values : talk.values) numbers += values;
+  auto const reads = count_halos(owned.X, owned.owner, static_cast<int>(shares.size()), talk.reach);
+  for (int const r : owned.owner) shares[static_cast<std::size_t>(r)].particles += 1;
+  for (std::size_t r = 0; r < reads.size(); ++r)
+    for (auto const& [s, count] : reads[r]) {
+      RankShare& sender = shares[static_cast<std::size_t>(s)];
+      shares[r].halo += count;
+      sender.messages += stages * static_cast<double>(talk.values.size());
+      sender.bytes += stages * numbers * 8 * static_cast<double>(count);
+    }
+}
+
+}  // namespace
+
+bool runs_on_ranks(Estimate const& cost) {
+  return !cost.talk.empty() && std::all_of(cost.talk.begin(), cost.talk.end(), [](auto const& t) { return !!t; });
+}
+
+Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Network const& network) {
+  Scaling s;
+  s.shares.resize(static_cast<std::size_t>(ranks));
+  s.collectives = 1;  // what rank 0 tells the others to do
+  double heaviest = 0;
+  for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
+    add_body(owned_of(particles, particles.bodies[b], ranks), *cost.talk[b], cost.stages, s.shares);
+    s.collectives += cost.talk[b]->collectives;
+  }
+  double const all = static_cast<double>(particles.size());
+  StepTimes& t = s.times;
+  for (RankShare& share : s.shares) {
+    share.memory = cost.memory;
+    double const part = static_cast<double>(share.particles) / all;
+    heaviest = std::max(heaviest, part);
+    double const packing = 2 * network.packing * share.bytes / 8 / cost.threads;
+    t.messages = std::max(t.messages, share.messages * network.latency + share.bytes / network.bandwidth + packing);
+  }
+  t.sweeps = heaviest * cost.step_work / cost.threads;
+  t.rows = cost.rows_per_step * cost.row_work / cost.threads;
+  double const alone = cost.step_work / cost.threads + t.rows;
+  if (ranks > 1) {
+    t.collectives = s.collectives * 2 * std::ceil(std::log2(ranks)) * network.latency;
+    t.rows += cost.rows_per_step * cost.state_bytes / network.bandwidth;
+  } else {
+    t.messages = 0;
+  }
+  s.efficiency = alone / (ranks * t.total());
+  return s;
+}
+
+int ranks_that_pay(ParticleSet const& particles, Estimate const& cost, int most, Network const& network) {
+  constexpr double enough = 0.5;
+  int paying = 1;
+  for (int ranks = 2; ranks <= most; ranks *= 2) {
+    if (scale(particles, cost, ranks, network).efficiency < enough) break;
+    paying = ranks;
+  }
+  return paying;
+}
+
+}  // namespace piola

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/neighbours/halo_count.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/particles/ordering.hpp"
+#include "piola/setup/shapes.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace piola {
+namespace {
+
+using Points = std::vector<std::array<double, 3>>;
+
+Points lattice(std::array<int, 3> const& n) {
+  Points X;
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i) X.push_back({1.0 * i, 1.0 * j, 1.0 * k});
+  return X;
+}
+
+TEST(HaloCount, OfTwoHalvesOfALatticeIsTheLayersWithinReach) {
+  Points const X = lattice({10, 6, 5});
+  std::vector<int> owner;
+  for (auto const& x : X) owner.push_back(x[0] < 4 ? 0 : 1);
+  for (auto const& [reach, layers] : {std::pair{0.5, 0}, {1.0, 0}, {1.5, 1}, {2.0, 1}, {2.5, 2}}) {
+    auto const reads = count_halos(X, owner, 2, reach);
+    ASSERT_EQ(reads[0].empty() ? 0 : reads[0].at(1), 30 * layers) << reach;
+    ASSERT_EQ(reads[1].empty() ? 0 : reads[1].at(0), 30 * layers) << reach;
+  }
+}
+
+TEST(HaloCount, IsWhatAllPairsSay) {
+  Points X;
+  std::vector<int> owner;
+  for (int k = 0; k < 300; ++k) {
+    X.push_back({0.37 * (k * 7919 % 97), 0.41 * (k * 104729 % 89), 0.29 * (k * 1299709 % 83)});
+    owner.push_back(k * k % 5);
+  }
+  double const reach = 6;
+  std::vector<std::map<int, std::int64_t>> expected(5);
+  for (std::size_t b = 0; b < X.size(); ++b)
+    for (int r = 0; r < 5; ++r) {
+      bool read = false;
+      for (std::size_t a = 0; a < X.size(); ++a) {
+        double square = 0;
+        for (std::size_t c = 0; c < 3; ++c) square += (X[a][c] - X[b][c]) * (X[a][c] - X[b][c]);
+        read = read || (owner[a] == r && square < reach * reach);
+      }
+      if (read && owner[b] != r) expected[static_cast<std::size_t>(r)][owner[b]] += 1;
+    }
+  EXPECT_EQ(count_halos(X, owner, 5, reach), expected);
+}
+
+/// Recursive coordinate bisection: some particles are halved across the longest side of their box, again and again. M.
+/// J. Berger, S. H. Bokhari, IEEE Trans. Comput. C-36 (1987) 570-580.
+void bisect(Points const& X, std::span<std::size_t> some, int rank, int ranks, std::vector<int>& owner) {
+  if (ranks == 1) {
+    for (std::size_t const k : some) owner[k] = rank;
+    return;
+  }
+  std::size_t longest = 0;
+  double length = -1;
+  for (std::size_t c = 0; c < 3; ++c) {
+    auto const [low, high] =
+        std::minmax_element(some.begin(), some.end(), [&](std::size_t a, std::size_t b) { return X[a][c] < X[b][c]; });
+    if (X[*high][c] - X[*low][c] <= length) continue;
+    length = X[*high][c] - X[*low][c];
+    longest = c;
+  }
+  int const left = ranks / 2;
+  std::size_t const middle = some.size() * static_cast<std::size_t>(left) / static_cast<std::size_t>(ranks);
+  std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(middle), some.end(),
+                   [&](std::size_t a, std::size_t b) {
+                     return X[a][longest] != X[b][longest] ? X[a][longest] < X[b][longest] : a < b;
+                   });
+  bisect(X, some.first(middle), rank, left, owner);
+  bisect(X, some.subspan(middle), rank + left, ranks - left, owner);
+}
+
+struct Halo {
+  std::int64_t most = 0;  ///< that a rank reads of others
+  std::size_t neighbours = 0;
+};
+
+Halo largest_halo(Points const& X, std::vector<int> const& owner, int ranks, double reach) {
+  Halo h;
+  for (auto const& of_rank : count_halos(X, owner, ranks, reach)) {
+    std::int64_t sum = 0;
+    for (auto const& [other, count] : of_rank) sum += count;
+    h.most = std::max(h.most, sum);
+    h.neighbours = std::max(h.neighbours, of_rank.size());
+  }
+  return h;
+}
+
+/// The table of record 0097. Runs of pencils are planks along the longest side where bisection makes cubes: the more
+/// slender the body, the larger what they read.
+TEST(HaloCount, OfRunsOfPencilsAndOfBisection) {
+  struct Shape {
+    char const* name;
+    std::array<int, 3> particles;
+    double most;  ///< of the ratio below, on two ranks
+  };
+  for (Shape const& shape : {Shape{"column", {26, 157, 26}, 8}, Shape{"cube", {48, 48, 48}, 1.5}}) {
+    ShapeSpec box;
+    box.kind = ShapeSpec::Kind::box;
+    box.dimension = 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      box.particles[c] = shape.particles[c];
+      box.max[c] = shape.particles[c] - 1;
+    }
+    ParticleSet set;
+    fill(box, shape.name, set);
+    SlotOrder const order = pencil_order(set, set.bodies[0]);
+    Points X;
+    for (Index slot = 0; slot < order.particles; ++slot)
+      X.push_back(set.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])]);
+    for (int const ranks : {2, 3, 4, 8, 16, 32}) {
+      std::vector<int> runs(X.size()), halved(X.size());
+      for (int r = 0; r < ranks; ++r) {
+        Range const own = share_of(order.slots(), r, ranks);
+        for (Index slot = own.first; slot < std::min(own.last, order.particles); ++slot)
+          runs[static_cast<std::size_t>(slot)] = r;
+      }
+      std::vector<std::size_t> all(X.size());
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      bisect(X, all, 0, ranks, halved);
+      constexpr double reach = 2.4;  // of the default filter of jst_sph, in spacings
+      Halo const a = largest_halo(X, runs, ranks, reach), b = largest_halo(X, halved, ranks, reach);
+      fmt::print("{} on {} ranks: {} particles of a rank, reads {} of {} ranks by runs, {} of {} by bisection\n",
+                 shape.name, ranks, X.size() / static_cast<std::size_t>(ranks), a.most, a.neighbours, b.most,
+                 b.neighbours);
+      EXPECT_GE(a.most, 0.9 * static_cast<double>(b.most));
+      if (ranks > 2) continue;
+      EXPECT_LE(static_cast<double>(a.most), shape.most * static_cast<double>(b.most));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piola

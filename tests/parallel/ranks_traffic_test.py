@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ranks: the messages, bytes and collectives that ranks send in a step, counted (summary.json), are those that
+`piola check --ranks` says, within a tenth: for each scheme, on lattices and clouds, on 2, 3 and 5 ranks.
+
+Needs a program with MPI and mpirun; is skipped otherwise. PIOLA_RANKS_TESTS=quick takes a part of it.
+"""
+import json
+import re
+import tempfile
+from pathlib import Path
+
+from on_ranks import QUICK, expect, finish, piola, short_bar, skip_without_ranks
+
+WITHIN = 0.1
+UNITS = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}
+
+
+def numbers(text):
+    """Smallest and largest of "3 to 5" or "1.2 kB to 3 kB"."""
+    found = []
+    for part in text.split(" to "):
+        value, unit = re.fullmatch(r"([\d,.]+) ?(\w*)", part.strip()).groups()
+        found.append(float(value.replace(",", "")) * UNITS.get(unit, 1))
+    return found[0], found[-1]
+
+
+def said(case, ranks):
+    told = piola(1, "check", case, "--ranks", ranks)
+    expect(told.returncode == 0, f"check --ranks {ranks}: {told.stderr}")
+    messages, size = re.search(r"it sends ([\d, to.]+) messages, ([\w, .]+?) in a step", told.stdout).groups()
+    collectives = re.search(r"([\d,]+) collectives", told.stdout).group(1)
+    return {"messages": numbers(messages), "bytes": numbers(size), "collectives": numbers(collectives)}
+
+
+def compare(name, case, ranks, work):
+    model = said(case, ranks)
+    run = piola(ranks, "run", case, "--out", work / "run", "--force", "--no-pictures", "--quiet")
+    if not expect(run.returncode == 0, f"{name} on {ranks} ranks: {run.stderr}"):
+        return
+    counted = json.loads((work / "run/summary.json").read_text())["ranks"]
+    expect(len(counted) == ranks, f"{name}: {len(counted)} ranks counted of {ranks}")
+    for what, (least, most) in model.items():
+        values = [rank[what] for rank in counted]
+        for expected, value in ((least, min(values)), (most, max(values))):
+            expect(abs(value - expected) <= WITHIN * value,
+                   f"{name} on {ranks} ranks: {what} {value:.4g} in a step, not {expected:.4g}")
+    print(f"{name} on {ranks} ranks: " + ", ".join(
+        f"{what} {min(r[what] for r in counted):.4g} to {max(r[what] for r in counted):.4g} (model {a:.4g} to {b:.4g})"
+        for what, (a, b) in model.items()), flush=True)
+
+
+skip_without_ranks()
+with tempfile.TemporaryDirectory() as folder:
+    work = Path(folder)
+    bar = short_bar(work).read_text().replace("[5, 5, 9]", "[9, 9, 17]").replace('"20 ms"', '"12 ms"')
+    # Rows gather, which the model leaves out of the counts.
+    bar = bar.replace('every = "0.5 ms"', 'every = "12 ms"')
+    jitter = bar.replace("particles = [9, 9, 17]", "particles = [9, 9, 17], jitter = 0.1")
+    loaded = bar + '[[load]]\nbody = "bar"\nface = "+z"\ntraction = ["1 kPa", "0", "0"]\nname = "wind"\n'
+    cases = {"default": bar, "jittered": jitter, "loaded": loaded}
+    for scheme in ("paper", "robust"):
+        cases[scheme] = bar.replace('{ name = "jst_sph" }', f'{{ name = "jst_sph", scheme = "{scheme}" }}')
+    cases["displacement"] = cases["robust"].replace('scheme =', 'variables = "displacement", scheme =')
+    for name, text in list(cases.items())[:2 if QUICK else None]:
+        (work / "case.toml").write_text(text)
+        for ranks in (3,) if QUICK else (2, 3, 5):
+            compare(name, work / "case.toml", ranks, work)
+finish()
