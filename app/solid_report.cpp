@@ -30,8 +30,8 @@ void say_volume(ShapeSpec const& shape) {
     geometry::PackingQuality const q =
         geometry::quality_of(*shape.solid, {particles.X, particles.volume, particles.spacing, particles.sweeps});
     say("; packed in {} sweeps: nearest particles {:.2f} spacings apart on average, {:.2f} at least, {:.0f} % of the "
-        "outer layer in place",
-        particles.sweeps, q.nearest_mean, q.nearest_least, 100 * q.in_place);
+        "outer layer in place, the surface within {:.2f} spacings of a particle",
+        particles.sweeps, q.nearest_mean, q.nearest_least, 100 * q.in_place, q.gap);
   }
   say("\n");
   if (auto const thin = shape.solid_particles->thinnest(shape))

@@ -63,6 +63,10 @@ TEST_F(BrokenMesh, IsOfAnotherFormat) {
   expect_words(problems_of("part", "solid"), {"no format"});
   expect_words(problems_of("part.stl", "hello"), {"part.stl: is no STL file"});
   expect_words(problems_of("part.ply", "hello"), {"part.ply: is no PLY file"});
+  // The reader would look for ever for the line that ends the header.
+  std::string ply = ply_text(unit_cube());
+  ply.replace(ply.find("\nend_header"), 1, ")");
+  expect_words(problems_of("part.ply", ply), {"part.ply: is no PLY file"});
 }
 
 TEST_F(BrokenMesh, WasCutOff) {

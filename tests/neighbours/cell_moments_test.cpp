@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_moments.hpp"
+#include "piola/geometry/combined.hpp"
+#include "piola/geometry/primitives.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include "exec/thread_count.hpp"
 #include "particles/lattices.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 #include <vector>
 
 namespace piola::testing {
@@ -99,6 +104,64 @@ TEST(CellMoments, OfABallHaveItsVolumeAndNotThatOfItsStaircase) {
   double volume = 0;
   for (auto const& cell : measure_cells(set, set.bodies[0]).cell) volume += cell.volume;
   EXPECT_NEAR(volume, 4.0 / 3 * M_PI * 0.125, 2e-3 * volume);
+}
+
+ParticleSet packed(geometry::SolidPtr const& solid, double volume, double spacing) {
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::solid;
+  shape.arrangement = ShapeSpec::Arrangement::packed;
+  shape.solid = solid;
+  shape.dimension = solid->dimension();
+  shape.volume = volume;
+  shape.spacing = spacing;
+  shape.solid_particles = std::make_shared<SolidParticles>();
+  ParticleSet set;
+  fill(shape, "body", set);
+  return set;
+}
+
+/// The cells of a packed body, whose volume is exact and for which the divergence theorem holds.
+struct Packed {
+  double volume = 0, height = 0;    ///< of the body, and of its centre of mass
+  double least = 1e9, most = -1e9;  ///< height of its sides up and down
+
+  Packed(geometry::SolidPtr const& solid, double exact, double spacing) {
+    ParticleSet const set = packed(solid, exact, spacing);
+    expect_divergence_theorem(set);
+    auto const cells = measure_cells(set, set.bodies[0]);
+    for (std::size_t a = 0; a < cells.cell.size(); ++a) {
+      volume += cells.cell[a].volume;
+      height += cells.cell[a].volume * (set.X[a][2] + cells.cell[a].centroid[2]);
+    }
+    height /= volume;
+    for (auto const& patch : cells.patch) {
+      if (patch.axis != 2) continue;
+      double const z = set.X[static_cast<std::size_t>(patch.particle)][2] + patch.first[2] / patch.area;
+      least = std::min(least, z);
+      most = std::max(most, z);
+    }
+    EXPECT_NEAR(volume / exact, 1, 1e-12);
+  }
+};
+
+TEST(CellMoments, OfPackedBodiesHaveTheExactVolume) {
+  Packed(geometry::ball({{0.3, 0, 1}}, 0.5, 0, 3), M_PI / 6, 0.14);
+  Packed(geometry::ball({{0.3, 0, 0}}, 0.5, 0.2, 2), M_PI * 0.21, 0.07);
+  Packed(geometry::torus({}, {{0.6, 0, 0.8}}, 1, 0.3), 2 * M_PI * M_PI * 0.09, 0.2);
+  Packed(geometry::box({}, {{1.03, 0.77, 0.58}}, 3), 1.03 * 0.77 * 0.58, 0.11);
+}
+
+/// Flat faces on the box around a body stay where they are.
+TEST(CellMoments, OfPackedBodiesEndAtTheirFlatFaces) {
+  Packed const bar(geometry::cylinder({}, {{0, 0, 1}}, 0.7, 0.2, 0), M_PI * 0.04 * 0.7, 0.1);
+  EXPECT_NEAR(bar.least, 0, 1e-14);
+  EXPECT_NEAR(bar.most, 0.7, 1e-14);
+  EXPECT_NEAR(bar.height, 0.35, 1e-12);
+  auto const half = geometry::combined(geometry::Combination::common,
+                                       {geometry::ball({}, 0.5, 0, 3), geometry::box({{-1, -1, 0}}, {{1, 1, 1}}, 3)});
+  Packed const dome(half, M_PI / 12, 0.1);
+  EXPECT_NEAR(dome.least, 0, 1e-6);  // the topmost blocks of the dome end at the box, too
+  EXPECT_NEAR(dome.height, 0.1875, 1e-3);
 }
 
 TEST(CellMoments, DoNotDependOnTheNumberOfThreads) {

@@ -19,7 +19,7 @@ struct MeshOptions {
   Repair repair = Repair::none;                 ///< what may be mended
   double largest_hole = 0;                      ///< for Repair::holes [m]
   double spacing = 0;                           ///< of the particles to come [m]; 0: no remarks about it
-  double patience = 5;                          ///< reading may take so long, and 1 s more per MB [s]
+  double patience = 5;                          ///< so long may reading take, and 1 s more per MB [s]; 0: no bounds
 };
 
 /// What was found. Texts begin with the name of the file, without its folder.

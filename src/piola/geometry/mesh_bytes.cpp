@@ -49,9 +49,22 @@ void check_stl(std::string_view bytes, std::string const& name, std::vector<std:
     check_binary_stl(bytes, name, problems);
 }
 
+/// Where the line "end_header" of a PLY file begins. Without such a line, assimp looks for it for ever.
+std::size_t end_of_header(std::string_view bytes) {
+  constexpr std::string_view word = "end_header", line_ends = "\r\n";
+  for (auto at = bytes.find(word); at != std::string_view::npos; at = bytes.find(word, at + 1)) {
+    auto const before = bytes.substr(0, at).find_last_not_of(" \t");
+    bool const starts = before != std::string_view::npos && line_ends.find(bytes[before]) != std::string_view::npos;
+    auto const after = bytes.find_first_not_of(" \t", at + word.size());
+    bool const ends = after != std::string_view::npos && line_ends.find(bytes[after]) != std::string_view::npos;
+    if (starts && ends) return at;
+  }
+  return std::string_view::npos;
+}
+
 /// Each element of a PLY file takes at least a byte for each of its properties.
 void check_ply(std::string_view bytes, std::string const& name, std::vector<std::string>& problems) {
-  auto const end = bytes.find("end_header");
+  auto const end = end_of_header(bytes);
   if (!bytes.starts_with("ply") || end == std::string_view::npos) {
     problems.push_back(
         fmt::format("{}: is no PLY file (no header from \"ply\" to \"end_header\") - export it again", name));

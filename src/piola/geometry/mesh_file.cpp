@@ -194,23 +194,28 @@ bool take_apart(std::string_view bytes, ReadSurface& read) {
   return surface.group.size() == surface.corner.size();
 }
 
-}  // namespace
-
-Surface surface_of_bytes(std::string_view bytes, std::string const& name, MeshOptions const& options,
-                         std::vector<std::string>& problems, std::vector<std::string>& notes) {
-  check_promises(bytes, name, problems);
-  if (!problems.empty()) return {};
+/// In a child process, unless there is no limit to patience: what crashes or hangs the reader is a problem of the file.
+ReadSurface read_bounded(std::string_view bytes, std::string const& name, MeshOptions const& options) {
+  if (!(options.patience > 0)) return read_by_assimp(bytes, name, options.scale);
   // Two hundred times what good files take; 60 bytes in memory for each one in the file.
   ChildLimits const limits{options.patience + 1e-6 * static_cast<double>(bytes.size()),
                            std::size_t{1'000'000'000} + 60 * bytes.size()};
   ChildAnswer answer = done_by_child([&] { return packed(read_by_assimp(bytes, name, options.scale)); }, limits);
   ReadSurface read;
   if (answer.trouble.empty() && !take_apart(answer.bytes, read)) answer.trouble = "answered nonsense";
-  if (!answer.trouble.empty()) {
-    problems.push_back(fmt::format("{}: is damaged or no {} file (the reader {}) - export it again", name,
-                                   mesh_format(name), answer.trouble));
-    return {};
-  }
+  if (!answer.trouble.empty())
+    read.problems.push_back(fmt::format("{}: is damaged or no {} file (the reader {}) - export it again", name,
+                                        mesh_format(name), answer.trouble));
+  return read;
+}
+
+}  // namespace
+
+Surface surface_of_bytes(std::string_view bytes, std::string const& name, MeshOptions const& options,
+                         std::vector<std::string>& problems, std::vector<std::string>& notes) {
+  check_promises(bytes, name, problems);
+  if (!problems.empty()) return {};
+  ReadSurface read = read_bounded(bytes, name, options);
   problems = std::move(read.problems);
   notes.insert(notes.end(), read.notes.begin(), read.notes.end());
   return problems.empty() ? std::move(read.surface) : Surface{};

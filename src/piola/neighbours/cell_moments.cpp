@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace piola {
 namespace {
@@ -99,6 +100,12 @@ BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
   return std::move(sums.cells);
 }
 
+/// A body of blocks becomes larger or smaller as a whole: along each axis X -> fixed + factor (X - fixed). Blocks stay
+/// blocks, and their sides stay together.
+struct Stretch {
+  Point fixed{}, factor{1, 1, 1};
+};
+
 /// Blocks of a sixth of the spacing.
 class Sampling {
  public:
@@ -108,6 +115,9 @@ class Sampling {
         X_(set.X.data() + body.first),
         nearest_(set, body),
         sums_(set.dimension, static_cast<std::size_t>(body.last - body.first)) {
+    // Of a packing the particles share the exact volume. Rings, which have no distance, only come near to theirs.
+    if (body.scattered && outline_.distance)
+      volume_ = std::accumulate(set.volume.begin() + body.first, set.volume.begin() + body.last, 0.0);
     constexpr double per_spacing = 6;
     for (std::size_t c = 0; c < D_; ++c) {
       double const length = outline_.max[c] - outline_.min[c];
@@ -119,6 +129,7 @@ class Sampling {
   /// Row by row in threads: which blocks are inside, and whose they are; their sums follow in one order.
   BodyCells operator()() {
     fill_inside();
+    if (volume_ > 0) find_stretch();
     constexpr long at_once = 4096;
     long const rows = count_[1] * count_[2];
     std::vector<std::uint32_t> owner(static_cast<std::size_t>(std::min(rows, at_once) * count_[0]));
@@ -162,6 +173,34 @@ class Sampling {
       }
     });
   }
+  /// What gives the blocks the exact volume. Axes take part as far as the body's sides along them are steps: flat faces
+  /// on the box around it are where they should be.
+  void find_stretch() {
+    double blocks = 0;
+    Point rough{}, lower{}, upper{};  // sides: steps, and on both ends of the box
+    for (long row = 0; row < count_[1] * count_[2]; ++row)
+      for (long i = 0; i < count_[0]; ++i) {
+        Place const place = place_of(row, i);
+        if (!is_inside(place)) continue;
+        ++blocks;
+        for (std::size_t c = 0; c < D_; ++c) {
+          if (Place const below = beside(place, c, -1); !is_inside(below)) ++(below[c] < 0 ? lower : rough)[c];
+          if (Place const above = beside(place, c, 1); !is_inside(above)) ++(above[c] >= count_[c] ? upper : rough)[c];
+        }
+      }
+    double sampled = blocks, parts = 0;
+    Point part{};
+    for (std::size_t c = 0; c < D_; ++c) {
+      sampled *= edge_[c];
+      double const flat = lower[c] + upper[c];
+      part[c] = rough[c] > 0 ? rough[c] / (rough[c] + flat) : 0;
+      parts += part[c];
+      double const at_upper = flat > 0 ? upper[c] / flat : 0.5;
+      stretch_.fixed[c] = outline_.min[c] + at_upper * (outline_.max[c] - outline_.min[c]);
+    }
+    if (!(sampled > 0 && parts > 0)) return;
+    for (std::size_t c = 0; c < D_; ++c) stretch_.factor[c] = std::pow(volume_ / sampled, part[c] / parts);
+  }
   void find_owners(long row, std::uint32_t* owner) const {
     for (long i = 0; i < count_[0]; ++i)
       if (Place const place = place_of(row, i); is_inside(place))
@@ -172,16 +211,22 @@ class Sampling {
       if (at[c] < 0 || at[c] >= count_[c]) return false;
     return inside_.empty() || inside_[this->at(at[2] * count_[1] + at[1], at[0])] != 0;
   }
+  static Place beside(Place at, std::size_t axis, long step) {
+    at[axis] += step;
+    return at;
+  }
   void take(Place const& at, std::size_t a) {
-    Point r = middle(at);
+    Point r = middle(at), edge = edge_;
+    for (std::size_t c = 0; c < D_; ++c) {
+      r[c] = stretch_.fixed[c] + stretch_.factor[c] * (r[c] - stretch_.fixed[c]);
+      edge[c] *= stretch_.factor[c];
+    }
     for (std::size_t c = 0; c < 3; ++c) r[c] -= X_[a][c];
-    sums_.add_block(a, r, edge_);
+    sums_.add_block(a, r, edge);
     for (std::size_t c = 0; c < D_; ++c)
       for (bool const upper : {false, true}) {
-        Place beside = at;
-        beside[c] += upper ? 1 : -1;
-        if (is_inside(beside)) continue;
-        sums_.add_side(a, c, upper, beside[c] < 0 || beside[c] >= count_[c], r, edge_);
+        Place const next = beside(at, c, upper ? 1 : -1);
+        if (!is_inside(next)) sums_.add_side(a, c, upper, next[c] < 0 || next[c] >= count_[c], r, edge);
       }
   }
 
@@ -193,6 +238,8 @@ class Sampling {
   Place count_{1, 1, 1};
   Point edge_{};
   std::vector<char> inside_;  ///< empty: all
+  double volume_ = 0;         ///< exact; 0: not known
+  Stretch stretch_;
 };
 
 }  // namespace

@@ -35,9 +35,9 @@ struct BodyCells {
 /// Whether cells are the blocks of a lattice: a box that one fills.
 inline bool has_lattice_cells(Body const& body) { return body.regular && !body.scattered && !body.outline.inside; }
 
-/// Exact for boxes filled from a lattice. Other bodies are sampled by blocks of a sixth of the spacing, aligned with
-/// the box around them: volumes and surface are then those of the sampled body, so that the divergence theorem holds
-/// for quadratic fields to round-off. Needs Body::outline. A particle that no block is nearest to has an empty cell.
+/// Exact for boxes filled from a lattice. Others are sampled by blocks of a sixth of the spacing, aligned with the box
+/// around them, packed ones stretched to their exact volume (record 0098). Volumes and surface are of the same body, so
+/// the divergence theorem holds for quadratic fields to round-off. Needs Body::outline. Cells may be without a block.
 BodyCells measure_cells(ParticleSet const& set, Body const& body);
 
 /// Gives the particles of a body the volumes of their cells.

@@ -130,6 +130,7 @@ struct ListLoader {
     if constexpr (Body::smooths) return smooth(k, body, own, sums);
     double const* const base = body.gathered.data - D;
     Lanes record[D + fields], f[fields];
+    fetch_ahead<D + fields>(base, stride, table.neighbour + k);
     load_records(base, stride, table.neighbour + k, record);
     for (int c = 0; c < fields; ++c) f[c] = record[D + c];
     PairGeometry<D, Lanes> g;
@@ -144,6 +145,19 @@ struct ListLoader {
       body.template pair<false>(sums, own, g, f);
     else
       body.template outer<false>(sums, own, g, f);
+  }
+
+  /// Neighbours of the next particles mostly are the next ones of these, because rows stand in memory in full; from the
+  /// second-level cache they come in time: up to a tenth of both sweeps (record 0099).
+  template <int Values>
+  PIOLA_FN static void fetch_ahead(double const* base, std::ptrdiff_t stride, Index const* neighbour) {
+#if PIOLA_HAS_PACKS
+    constexpr int ahead = 3, line = 8;  // records, doubles
+    for (int l = 0; l < lane_count; ++l)
+      for (int c = 0; c < Values; c += line) __builtin_prefetch(base + (neighbour[l] + ahead) * stride + c);
+#else
+    static_cast<void>(base), static_cast<void>(stride), static_cast<void>(neighbour);
+#endif
   }
 
   /// Few values per neighbour and no geometry: no record is worth loading.

@@ -5,7 +5,8 @@
 #include "piola/exec/memory.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/formulations/make.hpp"
-#include "piola/setup/shapes.hpp"
+#include "piola/geometry/primitives.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/bench_columns.hpp"
 #include "piola/simulation/bench_support.hpp"
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 namespace piola {
 namespace {
@@ -22,17 +24,37 @@ namespace {
 constexpr double operations_per_pair = 38;
 constexpr double doubles_per_stage = 99;
 
-Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::string const& machine) {
+/// A free body about (1/2, 1/2, 1/2) that turns slowly.
+Assembly spinning(ShapeSpec const& shape, std::string const& scheme, std::string const& machine) {
   Assembly a;
-  ShapeSpec shape;
-  shape.particles = {n, n, n};
-  shape.max = {1, 1, 1};
-  shape.jitter = jitter;
-  fill(shape, "cube", a.particles);
+  fill(shape, "body", a.particles);
   a.materials = {rubber()};
   a.formulations = {FormulationSpec{"jst_sph", {}, {{"scheme", scheme}}}};
   for (auto const& X : a.particles.X) a.initial_velocity.push_back({-5 * (X[1] - 0.5), 5 * (X[0] - 0.5), 0});
   a.machine = machine;
+  return a;
+}
+
+Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::string const& machine) {
+  ShapeSpec shape;
+  shape.particles = {n, n, n};
+  shape.max = {1, 1, 1};
+  shape.jitter = jitter;
+  return spinning(shape, scheme, machine);
+}
+
+/// A ball that is packed with n particles across, both supports one spacing.
+Assembly packed_ball(int n, std::string const& machine) {
+  constexpr double radius = 0.5;
+  ShapeSpec shape;
+  shape.kind = ShapeSpec::Kind::solid;
+  shape.arrangement = ShapeSpec::Arrangement::packed;
+  shape.solid = geometry::ball({{radius, radius, radius}}, radius, 0, 3);
+  shape.volume = 4 * std::numbers::pi / 3 * radius * radius * radius;
+  shape.spacing = 2 * radius / n;
+  shape.solid_particles = std::make_shared<SolidParticles>();
+  Assembly a = spinning(shape, "paper", machine);
+  a.formulations[0].numbers = {{"gradient_support", 1}, {"laplacian_support", 1}};
   return a;
 }
 
@@ -112,28 +134,36 @@ struct Subject {
   char const* name;
   char const* scheme;
   double jitter;
-  bool scalar, counted;
+  bool scalar, counted, packed = false;
 };
+
+Assembly body_of(Subject const& subject, BenchOptions const& options, std::string const& machine) {
+  // Packing more takes longer than all the rest; the lists of these are larger than the second-level cache.
+  constexpr int most_packed_across = 48;
+  if (subject.packed) return packed_ball(std::min(options.particles_per_side, most_packed_across), machine);
+  return spinning_cube(options.particles_per_side, subject.scheme, subject.jitter, machine);
+}
 
 void measure_rates(BenchReport& report, BenchOptions const& options) {
   constexpr Subject subjects[] = {{"paper, regular lattice", "paper", 0, false, true},
                                   {"paper, jittered (lists)", "paper", 0.2, false, false},
+                                  {"paper, packed ball, h = dx", "paper", 0, false, false, true},
                                   {"robust, regular lattice", "robust", 0, false, false},
                                   {"paper, plain scalar path", "paper", 0, true, false}};
   bool const has_scalar = jst_sph::find_machine("scalar") != nullptr;
   for (auto const& subject : subjects) {
     if (subject.scalar && !has_scalar) continue;
-    auto const assembly = spinning_cube(options.particles_per_side, subject.scheme, subject.jitter,
-                                        subject.scalar ? "scalar" : report.machine);
+    auto const assembly = body_of(subject, options, subject.scalar ? "scalar" : report.machine);
     auto const formulation = make_formulation(assembly);
     auto const particles = static_cast<double>(assembly.particles.size());
-    report.particles = static_cast<long>(assembly.particles.size());
+    if (!subject.packed) report.particles = static_cast<long>(assembly.particles.size());
     double const neighbours = mean_neighbours(*formulation, assembly.particles.size());
     for (int const threads : options.threads) {
       pin_to(threads);
       Timing const best = fastest_step(*formulation, options.repeats);
       double const stages = formulation->stages_per_step() * particles;
-      BenchRow row{subject.name, subject.scalar ? "scalar" : report.machine, threads};
+      BenchRow row{subject.name, subject.scalar ? "scalar" : report.machine, threads,
+                   static_cast<long>(assembly.particles.size())};
       row.neighbours = neighbours;
       row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / particles;
       row.stages_per_second = stages / best.wall;
@@ -182,6 +212,7 @@ std::string to_json(BenchReport const& report) {
     j["rows"].push_back({{"name", row.name},
                          {"machine", row.machine},
                          {"threads", row.threads},
+                         {"particles", row.particles},
                          {"neighbours", row.neighbours},
                          {"bytes_per_particle", row.bytes_per_particle},
                          {"stages_per_second", row.stages_per_second},
@@ -208,18 +239,17 @@ namespace {
 
 std::string rates_text(BenchReport const& report) {
   std::string text = fmt::format(
-      "\nfull right-hand side of {{p,F}}, whole time steps of {} particles, threads pinned\n"
+      "\nfull right-hand side of {{p,F}}, whole time steps, threads pinned\n"
       "roofline of the regular lattice: arithmetic {:.1f} M, memory {:.1f} M particle-stages/s per core ({:.0f} "
       "operations per pair, {:.0f} bytes per stage)\n"
-      "{:<28} {:>8} {:>8} {:>6} {:>11} {:>13} {:>13} {:>9}\n",
-      report.particles, report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair,
-      report.bytes_per_stage, "", "machine", "threads", "pairs", "bytes/part.", "M stages/s", "M st./cpu s",
-      "roofline");
+      "{:<28} {:>8} {:>8} {:>9} {:>6} {:>11} {:>13} {:>13} {:>9}\n",
+      report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair, report.bytes_per_stage,
+      "", "machine", "threads", "particles", "pairs", "bytes/part.", "M stages/s", "M st./cpu s", "roofline");
   for (auto const& row : report.rows) {
     std::string const fraction = row.roofline_fraction > 0 ? fmt::format("{:.0f} %", 100 * row.roofline_fraction) : "";
-    text += fmt::format("{:<28} {:>8} {:>8} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f} {:>9}\n", row.name, row.machine,
-                        row.threads, row.neighbours, row.bytes_per_particle, row.stages_per_second * 1e-6,
-                        row.stages_per_cpu_second * 1e-6, fraction);
+    text += fmt::format("{:<28} {:>8} {:>8} {:>9} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f} {:>9}\n", row.name,
+                        row.machine, row.threads, row.particles, row.neighbours, row.bytes_per_particle,
+                        row.stages_per_second * 1e-6, row.stages_per_cpu_second * 1e-6, fraction);
   }
   return text +
          "M stages/s: by wall time; M st./cpu s: by processor time, the figure to compare on a machine that others use "

@@ -17,11 +17,12 @@ struct BenchOptions {
   std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
 };
 
-/// One measurement: whole time steps of a free, slowly spinning cube.
+/// One measurement: whole time steps of a free, slowly spinning body.
 struct BenchRow {
   std::string name;     ///< what was measured
   std::string machine;  ///< instruction set
   int threads = 1;
+  long particles = 0;
   double neighbours = 0;             ///< per particle, mean
   double bytes_per_particle = 0;     ///< memory
   double stages_per_second = 0;      ///< particle-stages per second of wall time, threads pinned
