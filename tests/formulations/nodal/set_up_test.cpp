@@ -52,8 +52,8 @@ TEST(NodalMasses, AreGregorysWeightsInOneDimension) {
 }
 
 TEST(NodalMasses, StayAboveTheFloorAndKeepTheTotalOnAnIrregularCloud) {
-  for (double const jitter : {0.0, 0.2, 0.4}) {
-    SetUpBody const body(nodal_body(brick(3, jitter)));
+  for (Cloud const& cloud : clouds({0.2, 0.4})) {
+    SetUpBody const body(nodal_body(brick(3, cloud.jitter, {4, 5, 6}, cloud.seed)));
     auto const& of = body.set.bodies[0];
     for (Index slot = 0; slot < body.order.particles; ++slot) {
       auto const k = static_cast<std::size_t>(slot);
@@ -88,8 +88,8 @@ struct Quadratic2 {
 
 TEST(NodalGradient, IsExactForQuadraticFieldsAtTheCentroidsOfCells) {
   for (int D = 1; D <= 3; ++D)
-    for (double const jitter : {0.0, 0.4}) {
-      Assembly a = nodal_body(brick(D, jitter));
+    for (Cloud const& cloud : clouds({0.4}, 4)) {
+      Assembly a = nodal_body(brick(D, cloud.jitter, {4, 5, 6}, cloud.seed));
       Quadratic2 const field{D};
       displace(a, [&](Point const& X) {
         Point u = field.at(X);
@@ -143,11 +143,12 @@ TEST(NodalForces, VanishUnderUniformStrainWithTheTractionsThatBelongToIt) {
       for (int J = 0; J < D; ++J) F(i, J) += 0.1 * (1 + i) - 0.07 * J;
     Mat<3> const P = NeoHookean(rubber().value).first_piola(F);
     double const stress = std::sqrt(contract(P, P));
-    for (double const jitter : {0.0, 0.2, 0.4}) {
-      auto const set = brick(D, jitter);
+    PatchForces left;
+    for (Cloud const& cloud : clouds({0.2, 0.4})) {
+      auto const set = brick(D, cloud.jitter, {4, 5, 6}, cloud.seed);
       double h2 = 1;
       for (std::size_t c = 0; c + 1 < static_cast<std::size_t>(D); ++c) h2 *= set.bodies[0].spacing[c];
-      EXPECT_LT(largest(forces(pulled_box(set, F, P))), 5e-3 * stress * h2) << D << " " << jitter;
+      left.add(cloud, largest(forces(pulled_box(set, F, P))) / (stress * h2));
     }
   }
 }

@@ -25,7 +25,11 @@ constexpr std::array parameters{
     Parameter{"chatter_damping", "1",
               "of the heat of friction in a step the share that damping of the particles under rubbing points may "
               "take; 0: none, and friction makes them chatter",
-              Interval{0, 1}, 0.05}};
+              Interval{0, 1}, 0.05},
+    Parameter{"energy_tolerance", "1",
+              "share of the largest energy by which total energy may rise and fall with the accelerations, as it does "
+              "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone",
+              Interval{0, 1}, 1e-3}};
 
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_strain", "uniaxial_stress"};
@@ -90,6 +94,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.least_mass = number_of(spec, "least_mass", 0.3);
   o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
   o.shock_viscosity = number_of(spec, "shock_viscosity", 0);
+  o.energy_tolerance = number_of(spec, "energy_tolerance", 1e-3);
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;
   o.solids = solids;

@@ -10,9 +10,10 @@ namespace piola::nodal {
 struct Options {
   double least_mass = 0.3;                                ///< of a particle, over that of its cell
   double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
-  bool solids = false;                                    ///< whether some material is a solid in rate form
-  bool stress_free = false;                               ///< plane stress, uniaxial stress
-  double cfl = 0;  ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
+  double energy_tolerance = 1e-3;  ///< of the largest energy, for what Verlet steps make of it; 0: any
+  bool solids = false;             ///< whether some material is a solid in rate form
+  bool stress_free = false;        ///< plane stress, uniaxial stress
+  double cfl = 0;                  ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
 };
 
 /// Registry entry: keys, meanings, defaults, laws.

@@ -38,7 +38,7 @@ class Solver final : public Formulation {
   double settled_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (auto const& monitor : monitors_) dt = std::min(dt, monitor->step());
-    return dt;
+    return std::min(dt, calm_time_step());
   }
 
   StepRule step_rule() const override {
@@ -61,7 +61,7 @@ class Solver final : public Formulation {
       int const halvings = bodies_[k]->step(machine_, time, dt);
       repeated_ += halvings;
       bodies_[k]->boundary().hand_over(actions_);
-      monitors_[k]->update(halvings);
+      monitors_[k]->update(dt, halvings);
     }
     time_ = time + dt;
     ends_step_ = true;
@@ -148,6 +148,7 @@ class Solver final : public Formulation {
     return std::any_of(bodies_.begin(), bodies_.end(),
                        [](auto const& body) { return body->state().failure->index < body->particles(); });
   }
+  double calm_time_step() const;
 
   ParticleSet set_;
   SlotsById slots_;
@@ -159,6 +160,17 @@ class Solver final : public Formulation {
   double time_ = 0;         ///< at the end of the last step [s]
   double repeated_ = 0;     ///< steps that were taken again in halves
 };
+
+/// The longest step that keeps the energy of all bodies as well as is wanted [s]; infinite where nothing moves.
+double Solver::calm_time_step() const {
+  double energy = 0, unrest = 0;
+  for (std::size_t k = 0; k < monitors_.size(); ++k) {
+    energy += monitors_[k]->energy();
+    double const tolerance = bodies_[k]->options().energy_tolerance;
+    if (tolerance > 0) unrest += monitors_[k]->unrest() / (StabilityMonitor::share_of_tolerance * tolerance);
+  }
+  return unrest > 0 && energy > 0 ? std::sqrt(energy / unrest) : std::numeric_limits<double>::infinity();
+}
 
 std::optional<Failure> Solver::failure() const {
   for (auto const& body : bodies_) {

@@ -15,7 +15,7 @@ constexpr int first_cycles = 12;  ///< at most, from a random start
 constexpr int later_cycles = 3;   ///< at most, from the mode of the last measurement
 /// Of the square of the frequency: a measurement ends when its error is known to be less.
 constexpr double accuracy = 0.05;
-constexpr double shortest = 25, longest = 50;  ///< steps between measurements
+constexpr double shortest = 25, longest = 50;  ///< steps of calm motion between measurements
 constexpr double steady = 0.01;                ///< the interval grows where the frequency has changed by less
 /// Or this change of a strain, but not within fewer steps unless it is much.
 constexpr double change = 0.1, fewest = 4, much = 0.3;
@@ -25,10 +25,14 @@ constexpr double lift = 1.03;
 /// steps, as in impacts: the frequency then rises between measurements.
 constexpr double calm_share = 0.85, brisk_share = 0.75, violent_share = 0.45;
 constexpr double brisk_pace = 20, violent_pace = 8;
-/// Energy differs from what Verlet steps keep, exactly in vibrations, by dt^2/8 sum m a^2. Steps are shortened where
-/// that would be more than this share of it, but not below the least share of the limit. At the start accelerations are
-/// not yet what they will be.
-constexpr double wobble = 3e-4, least_of_limit = 0.25, first_share = 0.35;
+/// At the start strains have not yet shown how fast they change.
+constexpr double first_share = 0.15;
+/// The unrest asks for no right-hand side, but for two sums over particles: it is looked at in every step while it
+/// decides on the next one or strains change fast, else once in so many. It counts at once where it grows. The largest
+/// value is forgotten where it was below a share of it for so many steps of calm motion: energy would drift with steps
+/// that follow every change.
+constexpr int glance = 4;
+constexpr double lasting = 50, calmer = 0.7;
 /// Where a cell is crushed the steps that had to be halved say more than the last measurement: each makes the next ones
 /// shorter, down to a share, and steps that went well make them longer again.
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
@@ -76,7 +80,7 @@ StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
     : body_(body), machine_(machine), interval_(shortest) {
   if (body.options().cfl > 0) return;
   mode_.resize(static_cast<std::size_t>(body.particles()) * body.state().dimension);
-  measure(first_cycles);
+  measure(first_cycles, true);
   start_ = frequency_;
 }
 
@@ -156,18 +160,6 @@ double StabilityMonitor::product(Vector const& u, Vector const& v) const {
   });
 }
 
-/// sum m a^2 of what moves freely.
-double StabilityMonitor::square_of_accelerations() const {
-  auto const& state = body_.state();
-  int const D = state.dimension;
-  double const all = sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
-    double sum = 0;
-    for (int c = 0; c < D; ++c) sum += value_at(state.a, i, c) * value_at(state.a, i, c);
-    return body_.mass(i) * sum;
-  });
-  return all - body_.boundary().square_of_held(state);
-}
-
 /// One cycle of Lanczos' method for -da/dx, which is symmetric in the product above, from the mode, which becomes the
 /// best approximation of an eigenvector that it finds.
 StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector const& rest, double size) {
@@ -202,10 +194,50 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
   return found;
 }
 
-void StabilityMonitor::measure(int cycles) {
+bool StabilityMonitor::should_look(double dt) const {
+  return dt < step() || pace_ < brisk_pace || std::fmod(steps_, glance) == 0;
+}
+
+/// v.K.v = -sum m v.(da/dt) from the change over the step dt that was just taken, with the velocity of its middle, and
+/// a.M.a of what moves freely.
+void StabilityMonitor::look_at_unrest(double dt) {
+  auto const& s = body_.state();
+  int const D = s.dimension;
+  double const stiff = sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
+    double sum = 0;
+    for (int c = 0; c < D; ++c)
+      sum += (value_at(s.x, i, c) - value_at(s.kept, i, c)) * (value_at(s.kept, i, 2 * D + c) - value_at(s.a, i, c));
+    return body_.mass(i) * sum;
+  });
+  double const fast = sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
+    double sum = 0;
+    for (int c = 0; c < D; ++c) sum += value_at(s.a, i, c) * value_at(s.a, i, c);
+    return body_.mass(i) * sum;
+  });
+  double const now = 0.125 * (std::abs(stiff) / (dt * dt) + fast - body_.boundary().square_of_held(s));
+  unrest_ = std::max(unrest_, now);
+  lately_ = std::max(lately_, now);
+}
+
+/// From the velocities alone: accelerations have yet to come. `size` [m]: of the trial displacement.
+double StabilityMonitor::unrest_at_start(Vector const& x, Vector const& rest, double size) {
+  auto const& s = body_.state();
+  Vector v(mode_.size(), 0);
+  each_particle([&](Index i) {
+    for (int c = 0; c < s.dimension; ++c) v[place(i, c)] = value_at(s.v, i, c);
+  });
+  double const most = largest_on_ranks(v);
+  if (!(most > 0)) return 0;
+  put_moved(x, size / most, v);
+  Vector change = accelerations();
+  each_number([&](std::size_t i) { change[i] = rest[i] - change[i]; });
+  return 0.125 * most / size * std::abs(product(v, change));
+}
+
+void StabilityMonitor::measure(int cycles, bool at_start) {
   machine_.keep(body_.state());
   machine_.observe(body_.state());
-  double const energy = body_.kinetic_energy() + body_.strain_energy();
+  energy_ = std::max(energy_, body_.kinetic_energy() + body_.strain_energy());
   merge();
   refresh_mode(mode_);
   for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane
@@ -221,6 +253,7 @@ void StabilityMonitor::measure(int cycles) {
   auto const spacing = body_.body().spacing;
   // Small against what changes the tangent, large against round-off.
   double const size = 1e-6 * *std::min_element(spacing.begin(), spacing.begin() + body_.state().dimension);
+  if (at_start) unrest_ = unrest_at_start(x, rest, size);
   for (int k = 0; k < cycles; ++k) {
     Estimate const found = iterate(x, rest, size);
     if (!(found.square > 0) || !std::isfinite(found.square)) break;
@@ -228,22 +261,28 @@ void StabilityMonitor::measure(int cycles) {
     if (found.error < accuracy * found.square) break;
   }
   machine_.restore(body_.state());
-  steps_ = 0;
-  double const square = square_of_accelerations();
-  accurate_ = square > 0 ? std::sqrt(8 * wobble * energy / square) : 0;
+  steps_ = waited_ = 0;
 }
 
-void StabilityMonitor::update(int halvings) {
+void StabilityMonitor::update(double dt, int halvings) {
   if (body_.options().cfl > 0) return;
   ++steps_;
+  waited_ += dt * frequency() / (2 * calm_share);
+  if (halvings == 0 && should_look(dt)) look_at_unrest(dt);
+  lately_age_ += dt * frequency() / (2 * calm_share);
+  if (lately_age_ > lasting) {
+    if (lately_ < calmer * unrest_) unrest_ = lately_;
+    lately_ = lately_age_ = 0;
+  }
   caution_ = halvings > 0 ? std::max(least_caution, halved * caution_) : std::min(1.0, recovery * caution_);
   double most = machine_.largest_change(body_.state());
   if (body_.shared()) ranks::take_largest(most);
   bool const strained = most >= (steps_ < fewest ? much : change);
-  if (steps_ < interval_ && !strained) return;
+  double const waited = pace_ == 0 ? steps_ : waited_;
+  if (waited < interval_ && !strained) return;
   double const before = frequency_;
   pace_ = steps_;
-  measure(later_cycles);
+  measure(later_cycles, false);
   bool const calm = !strained && std::abs(frequency_ - before) < steady * before;
   interval_ = calm ? std::min(2 * interval_, longest) : shortest;
 }
@@ -259,12 +298,12 @@ double StabilityMonitor::step() const {
   // Viscous forces of the step before take from the limit: sqrt(1 + xi^2) - xi with their share xi of critical damping.
   auto const& s = body_.state();
   double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);
-  double const limit = (std::sqrt(1 + xi * xi) - xi) * 2 / frequency(), stable = caution_ * share * limit;
-  return accurate_ > 0 ? std::min(stable, std::max(accurate_, least_of_limit * caution_ * limit)) : stable;
+  return caution_ * share * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();
 }
 
 std::vector<double> StabilityMonitor::state() const {
-  std::vector<double> s{frequency_, start_, steps_, pace_, caution_, accurate_, interval_};
+  std::vector<double> s{frequency_, start_,  steps_,  pace_,   caution_,   interval_,
+                        waited_,    energy_, unrest_, lately_, lately_age_};
   s.insert(s.end(), mode_.begin(), mode_.end());
   return s;
 }
@@ -275,9 +314,13 @@ void StabilityMonitor::restore(std::vector<double> const& state) {
   steps_ = state[2];
   pace_ = state[3];
   caution_ = state[4];
-  accurate_ = state[5];
-  interval_ = state[6];
-  std::copy(state.begin() + 7, state.end(), mode_.begin());
+  interval_ = state[5];
+  waited_ = state[6];
+  energy_ = state[7];
+  unrest_ = state[8];
+  lately_ = state[9];
+  lately_age_ = state[10];
+  std::copy(state.begin() + 11, state.end(), mode_.begin());
 }
 
 }  // namespace piola::nodal

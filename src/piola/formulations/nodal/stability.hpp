@@ -13,15 +13,25 @@ class StabilityMonitor {
   /// Right-hand sides for the measurement at the start, and for later ones per step of calm motion.
   static constexpr double setup_stages = 25, stages_per_step = 0.1;
 
+  /// B dt^2 may take this of the tolerance for the energy. As steps become shorter while B grows from B_0, B dt^2 / 6
+  /// ln(B / B_0) comes on top.
+  static constexpr double share_of_tolerance = 0.8;
+
   /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
   StabilityMonitor(NodalBody& body, Machine const& machine);
 
-  /// Counts a step, and measures the frequency again if that is due. `halvings`: how often the step had to be halved.
-  void update(int halvings);
+  /// Counts the step dt [s] that was just taken, and measures again what is due. `halvings`: how often it had to be
+  /// halved.
+  void update(double dt, int halvings);
   /// The step to take [s]: a share of the limit, the smaller the faster strains change.
   double step() const;
   /// Largest frequency that was measured last, and never less than that of the start [1/s].
   double frequency() const;
+
+  /// The largest energy of the body at the measurements so far [J].
+  double energy() const { return energy_; }
+  /// B = (v.K.v + a.M.a) / 8 [J/s2], which a vibration keeps: Verlet steps let its energy rise and fall by B dt^2.
+  double unrest() const { return unrest_; }
 
   /// Everything that the next step depends on, but for the strains of the last measurement, which are a field.
   std::vector<double> state() const;
@@ -48,12 +58,14 @@ class StabilityMonitor {
   void each_number(F const& f) const;
   void keep_own(Vector& u) const;
   double largest_on_ranks(Vector const& u) const;
-  void measure(int cycles);
+  void measure(int cycles, bool at_start);
+  bool should_look(double dt) const;
+  void look_at_unrest(double dt);
+  double unrest_at_start(Vector const& x, Vector const& rest, double size);
   Estimate iterate(Vector const& x, Vector const& rest, double size);
   Vector accelerations();
   Vector positions() const;
   void put_moved(Vector const& x, double scale, Vector const& mode);
-  double square_of_accelerations() const;
   double product(Vector const& u, Vector const& v) const;
 
   NodalBody& body_;
@@ -63,9 +75,13 @@ class StabilityMonitor {
   double start_ = 0;          ///< 1/s, at the start
   double steps_ = 0;          ///< since the last measurement
   double caution_ = 1;        ///< share of the step that is left after steps that had to be halved
-  double accurate_ = 0;       ///< step that keeps the energy as well as is wanted [s]; 0: any
   double pace_ = 0;           ///< steps between the last two measurements; 0: there was one alone
   double interval_ = 0;       ///< steps to the next measurement while strains change little
+  double waited_ = 0;         ///< since the last measurement, in steps of calm motion
+  double energy_ = 0;         ///< the largest that was measured [J]
+  double unrest_ = 0;         ///< see unrest() [J/s2]
+  double lately_ = 0;         ///< the largest unrest since it was last forgotten or kept, and for how long
+  double lately_age_ = 0;     ///< that was, in steps of calm motion
 };
 
 }  // namespace piola::nodal
