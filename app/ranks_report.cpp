@@ -31,10 +31,10 @@ void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cons
   Assembly const assembly = assemble(spec, particles);
   refuse_on_ranks(assembly, ranks);
   if (!runs_on_ranks(cost) || !assembly.surfaces.empty() || !assembly.rigid_shapes.empty())
-    throw InputError(
-        fmt::format("--ranks {}: what this case would send is not known before it runs (it is for bodies of jst_sph "
-                    "that meet nothing) - run some steps with mpirun, and look at \"ranks\" in summary.json",
-                    ranks));
+    throw InputError(fmt::format(
+        "--ranks {}: what this case would send is not known before it runs (it is for bodies of jst_sph "
+        "and of nodal that meet nothing) - run some steps with mpirun, and look at \"ranks\" in summary.json",
+        ranks));
   Scaling const s = scale(particles, cost, ranks);
   say("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
       cost.threads == 1 ? "thread" : "threads");

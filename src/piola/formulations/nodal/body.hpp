@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
 #include "piola/formulations/nodal/boundary.hpp"
 #include "piola/formulations/nodal/fields.hpp"
 #include "piola/formulations/nodal/gathered.hpp"
@@ -38,6 +39,8 @@ class NodalBody {
   /// Of all ranks that share the particles this one takes a part: from now on it works on that. Collective.
   void share();
   bool shared() const { return halo_ != nullptr; }
+  /// What its particles tell those of other ranks, in calm motion.
+  Talk talk() const;
   /// Slots of particles that this rank works on: all of them on one rank.
   Range own() const;
   /// Of a field that all ranks have in part, what the others have comes to rank 0. Collective.

@@ -3,6 +3,7 @@
 // comes by messages. The slots of a particle are the same on all ranks, so nothing else of the body changes.
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/formulations/nodal/list_sums.hpp"
+#include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
@@ -49,6 +50,17 @@ std::vector<Index> NodalBody::slots_read() const {
       read.push_back(b < order_.slots() ? b : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
     }
   return read;
+}
+
+Talk NodalBody::talk() const {
+  Talk talk;
+  talk.reach = usual_reach * *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D_);
+  int const rows = D_ * row_of(D_)[0];
+  talk.values = reference_.lattice ? std::vector{D_, D_ * D_, rows} : std::vector{D_, rows};
+  // The first failure, work, the largest change of a strain; and, in calm motion, sums of the unrest in every fourth
+  // step and of what is measured in fewer.
+  talk.collectives = 4;
+  return talk;
 }
 
 void NodalBody::gather(FieldRef const& field, int components) const { gather_slots(field, own(), components); }

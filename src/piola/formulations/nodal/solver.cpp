@@ -124,6 +124,11 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return 1; }
+  std::optional<Talk> talk(std::size_t body) const override {
+    Talk talk = bodies_[body]->talk();  // and impulses of supports and of loads
+    talk.collectives += (actions_.supports.empty() ? 0 : 1) + (actions_.loads.empty() ? 0 : 1);
+    return talk;
+  }
   std::vector<std::pair<std::string, double>> costs() const override;
   std::size_t memory_bytes() const override {
     std::size_t total = set_.bytes();
