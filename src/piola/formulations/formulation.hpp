@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/rigid_state.hpp"
+#include "piola/particles/ordering.hpp"
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -73,6 +74,7 @@ struct Talk {
   double reach = 0;         ///< m, as the particles stood at the start
   std::vector<int> values;  ///< numbers per particle, of each exchange of a right-hand side
   double collectives = 0;   ///< per step: what all ranks add, or take the largest of
+  SlotOrder (*order)(ParticleSet const&, Body const&) = &pencil_order;  ///< of which each rank has a run
 };
 
 /// Receives or returns the evolved state by name, in Id order; bit-exact doubles.

@@ -15,8 +15,7 @@ struct Owned {
   std::vector<int> owner;
 };
 
-Owned owned_of(ParticleSet const& particles, Body const& body, int ranks) {
-  SlotOrder const order = pencil_order(particles, body);
+Owned owned_of(ParticleSet const& particles, SlotOrder const& order, int ranks) {
   Owned owned;
   for (int r = 0; r < ranks; ++r) {
     Range const share = share_of(order.slots(), r, ranks);
@@ -54,8 +53,9 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   s.collectives = 1;  // what rank 0 tells the others to do
   double heaviest = 0;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
-    add_body(owned_of(particles, particles.bodies[b], ranks), *cost.talk[b], cost.stages, s.shares);
-    s.collectives += cost.talk[b]->collectives;
+    Talk const& talk = *cost.talk[b];
+    add_body(owned_of(particles, talk.order(particles, particles.bodies[b]), ranks), talk, cost.stages, s.shares);
+    s.collectives += talk.collectives;
   }
   double const all = static_cast<double>(particles.size());
   StepTimes& t = s.times;
