@@ -38,7 +38,7 @@ class Solver final : public Formulation {
   double settled_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (auto const& monitor : monitors_) dt = std::min(dt, monitor->step());
-    return std::min(dt, calm_time_step());
+    return std::min(dt, std::max(calm_time_step(), StabilityMonitor::least_of_limit * dt));
   }
 
   StepRule step_rule() const override {

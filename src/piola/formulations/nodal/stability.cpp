@@ -217,6 +217,7 @@ void StabilityMonitor::look_at_unrest(double dt) {
   double const now = 0.125 * (std::abs(stiff) / (dt * dt) + fast - body_.boundary().square_of_held(s));
   unrest_ = std::max(unrest_, now);
   lately_ = std::max(lately_, now);
+  energy_ = std::max(energy_, body_.kinetic_energy());  // what was at rest at the last measurement may have been hit
 }
 
 /// From the velocities alone: accelerations have yet to come. `size` [m]: of the trial displacement.

@@ -16,6 +16,9 @@ class StabilityMonitor {
   /// B dt^2 may take this of the tolerance for the energy. As steps become shorter while B grows from B_0, B dt^2 / 6
   /// ln(B / B_0) comes on top.
   static constexpr double share_of_tolerance = 0.8;
+  /// No step is shorter for that than this share of what is stable: a body that was at rest and has just been hit has
+  /// all of its energy in few particles, and more to come.
+  static constexpr double least_of_limit = 0.05;
 
   /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
   StabilityMonitor(NodalBody& body, Machine const& machine);
