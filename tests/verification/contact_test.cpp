@@ -136,7 +136,9 @@ TEST_P(SurfaceContact, ForcesOfShapesAndSupportsAreTheRateOfMomentum) {
           (d.total_energy() + column(d, "friction_heat") + column(d, "contact_dissipation") + d.stabilisation_loss) /
           work;
       EXPECT_LT(kept, 1.01);
-      EXPECT_GT(kept, books_all() ? 0.99 : 0.9);
+      // What is pushed by the plane and damps, see above, loses while it is alone already.
+      double const least = GetParam().left != "taylor_sph" ? 0.99 : books_all() ? 0.96 : 0.9;
+      EXPECT_GT(kept, least);
     }
   }
   EXPECT_GT(work, 0) << "of the ram";

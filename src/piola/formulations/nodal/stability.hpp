@@ -18,7 +18,7 @@ class StabilityMonitor {
   static constexpr double share_of_tolerance = 0.8;
   /// No step is shorter for that than this share of what is stable: a body that was at rest and has just been hit has
   /// all of its energy in few particles, and more to come.
-  static constexpr double least_of_limit = 0.05;
+  static constexpr double least_of_limit = 0.2;
 
   /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
   StabilityMonitor(NodalBody& body, Machine const& machine);
