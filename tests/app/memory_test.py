@@ -15,12 +15,13 @@ end = "1e-7 s"
 [[body]]
 name = "cube"
 shape = {{ box = {{ min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "1 m"] }}, particles = [{n}, {n}, {n}]{more} }}
-material = {{ law = "neo_hookean", density = "7000 kg/m^3", youngs_modulus = "21 GPa", poissons_ratio = 0.3 }}
-formulation = {{ name = "{formulation}" }}
+material = {{ law = "{law}", density = "7000 kg/m^3", youngs_modulus = "21 GPa", poissons_ratio = 0.3 }}
+formulation = {{ name = "{formulation}"{words} }}
 initial_velocity = ["0 m/s", "10 m/s", "0 m/s"]
 [output.history]
 every = "1 s"
 """
+FLOWING = ', description = "eulerian"'
 UNITS = {"kB": 1e3, "MB": 1e6, "GB": 1e9}
 
 
@@ -32,7 +33,8 @@ def largest_resident(command):
     return 1024 * usage.ru_maxrss
 
 
-def check(name, folder, **keys):
+def check(name, folder, law="neo_hookean", more="", words="", **keys):
+    keys |= {"law": law, "more": more, "words": words}
     case = folder / f"{name}.toml"
     case.write_text(CASE.format(**keys))
     told = subprocess.run([PROGRAM, "check", case], check=True, capture_output=True, text=True).stdout
@@ -47,9 +49,12 @@ def check(name, folder, **keys):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         good = [
-            check("lattice", Path(folder), n=48, more="", formulation="jst_sph"),
+            check("lattice", Path(folder), n=48, formulation="jst_sph"),
             check("cloud", Path(folder), n=28, more=", jitter = 0.2", formulation="jst_sph"),
-            check("nodal", Path(folder), n=32, more="", formulation="nodal"),
+            check("nodal", Path(folder), n=32, formulation="nodal"),
+            check("adaptle", Path(folder), n=28, law="elastic", formulation="adaptle"),
+            check("flowing", Path(folder), n=28, law="elastic", formulation="adaptle", words=FLOWING),
+            check("simplices", Path(folder), n=20, law="linear_elastic", formulation="taylor_sph"),
         ]
     return 0 if all(good) else 1
 

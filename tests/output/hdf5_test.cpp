@@ -6,8 +6,12 @@
 #include "piola/output/seal.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
+#include <csignal>
 #include <functional>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace piola {
 namespace {
@@ -55,6 +59,51 @@ std::string complaint_of(std::function<void()> const& action) {
     std::string const said = complaint_of([&] { action; });                \
     EXPECT_NE(said.find(part), std::string::npos) << #action ": " << said; \
   }
+
+/// In a child, because of the limit. Exit status 0: as it should be.
+int write_under_every_limit(std::filesystem::path const& path) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::vector<double> const values(5000, 1.5);
+  auto const write = [&] {
+    hdf5::Writer file(path);
+    file.group("/state");
+    for (char const* name : {"/state/a", "/state/b"}) file.dataset<double>(name, values);
+    file.dataset<double>("/state/c", values, 5, hdf5::Storage::compressed);
+    file.attribute("/state/a", "name", "a");
+    file.finish();
+  };
+  write();
+  std::string const before = testing::text_of(path);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  for (limit.rlim_cur = 0; limit.rlim_cur < before.size(); limit.rlim_cur += 1 + limit.rlim_cur / 3) {
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::string const said = complaint_of(write);
+    if (said.find("cannot be written, File too large - raise the limit") == std::string::npos) return 1;
+    if (std::filesystem::exists(path.string() + ".part") || testing::text_of(path) != before) return 2;
+  }
+  limit.rlim_cur = before.size();
+  setrlimit(RLIMIT_FSIZE, &limit);
+  write();
+  return testing::text_of(path) == before ? 0 : 3;
+}
+
+TEST(Hdf5Writer, LeavesWhatWasThereWhereverTheDiskIsFull) {
+  testing::TemporaryFolder const folder;
+  pid_t const child = fork();
+  if (child == 0) ::_exit(write_under_every_limit(folder / "file.h5"));
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(hdf5::Reader(folder / "file.h5").dataset<double>("/state/c", 5), std::vector<double>(5000, 1.5));
+}
+
+TEST(Hdf5Writer, LeavesNothingOfAFileThatIsNotFinished) {
+  testing::TemporaryFolder const folder;
+  hdf5::Writer(folder / "file.h5").group("/state");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
 
 TEST(Hdf5Reader, ReadsNoAttributeThatIsAnArrayOrOfAnotherKind) {
   testing::TemporaryFolder const folder;

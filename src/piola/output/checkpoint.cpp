@@ -15,7 +15,7 @@ constexpr std::int64_t layout_version = 3;
 /// Puts arrays into a group of a file.
 class GroupWriter : public StateWriter {
  public:
-  GroupWriter(hdf5::Image& file, std::string group) : file_(file), group_(std::move(group)) { file_.group(group_); }
+  GroupWriter(hdf5::Writer& file, std::string group) : file_(file), group_(std::move(group)) { file_.group(group_); }
   void put(std::string_view name, std::span<double const> values) override {
     std::string path = fmt::format("{}/{}", group_, name);  // a name may hold slashes, which HDF5 would take for groups
     std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
@@ -24,7 +24,7 @@ class GroupWriter : public StateWriter {
   }
 
  private:
-  hdf5::Image& file_;
+  hdf5::Writer& file_;
   std::string group_;
 };
 
@@ -68,7 +68,7 @@ void NamedState::get(std::string_view name, std::span<double> values) {
 void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
                       std::function<void(StateWriter&)> const& save) {
   make_folder(path.parent_path());
-  hdf5::Image file;
+  hdf5::Writer file(path);
   file.attribute("/", "piola_checkpoint", std::array{layout_version});
   file.attribute("/", "version", c.version);
   file.attribute("/", "machine", c.machine);
@@ -87,7 +87,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
     put_all(c.state, state);
   GroupWriter observers(file, "/observers");
   put_all(c.observers, observers);
-  file.write(path);
+  file.finish();
 }
 
 Checkpoint read_checkpoint(std::filesystem::path const& path) {

@@ -2,6 +2,7 @@
 #include "piola/output/files.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace piola {
 namespace {
@@ -36,32 +38,10 @@ class Descriptor {
     if (fd_ >= 0) ::close(fd_);
   }
   int get() const { return fd_; }
-  /// Closes now and says whether that went well (a network disk may report a full disk only here).
-  bool close() {
-    int const fd = fd_;
-    fd_ = -1;
-    return ::close(fd) == 0;
-  }
 
  private:
   int fd_;
 };
-
-/// Returns 0 or the errno of the first failure.
-int write_and_sync(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0) return errno;
-  for (auto part : {content, std::as_bytes(std::span(end.data(), end.size()))}) {
-    while (!part.empty()) {
-      ::ssize_t const written = ::write(file.get(), part.data(), part.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) return errno;
-      part = part.subspan(static_cast<std::size_t>(written));
-    }
-  }
-  if (::fsync(file.get()) != 0) return errno;
-  return file.close() ? 0 : errno;
-}
 
 /// Makes the rename itself durable; a file system that cannot sync a folder is not an error.
 void sync_folder(std::filesystem::path const& folder) {
@@ -76,16 +56,62 @@ std::string cannot_write(std::filesystem::path const& path, int error) {
                      advice(error));
 }
 
-void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {
-  std::filesystem::path part = path;
-  part += ".part";
-  int error = write_and_sync(part, content, end);
-  if (error == 0 && ::rename(part.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(part.c_str());
-    throw FileError(cannot_write(path, error));
+NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
+  part_ += ".part";
+  fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd_ < 0) throw FileError(cannot_write(path_, errno));
+}
+
+NewFile::~NewFile() { remove(); }
+
+void NewFile::remove() noexcept {
+  if (fd_ < 0) return;
+  ::close(std::exchange(fd_, -1));
+  ::unlink(part_.c_str());
+}
+
+void NewFile::write(std::uint64_t at, std::span<std::byte const> bytes) noexcept {
+  while (!bytes.empty() && error_ == 0) {
+    ::ssize_t const written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<::off_t>(at));
+    if (written < 0 && errno != EINTR) error_ = errno;
+    if (written <= 0) continue;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    at += static_cast<std::uint64_t>(written);
   }
-  sync_folder(path.parent_path());
+}
+
+void NewFile::read(std::uint64_t at, std::span<std::byte> bytes) const noexcept {
+  while (!bytes.empty()) {
+    ::ssize_t const had = ::pread(fd_, bytes.data(), bytes.size(), static_cast<::off_t>(at));
+    if (had < 0 && errno == EINTR) continue;
+    if (had <= 0) break;
+    bytes = bytes.subspan(static_cast<std::size_t>(had));
+    at += static_cast<std::uint64_t>(had);
+  }
+  std::fill(bytes.begin(), bytes.end(), std::byte{0});
+}
+
+void NewFile::demand_written() const {
+  if (error_ != 0) throw FileError(cannot_write(path_, error_));
+}
+
+void NewFile::finish(std::uint64_t bytes, std::string_view end) {
+  write(bytes, std::as_bytes(std::span(end.data(), end.size())));
+  if (error_ == 0 && ::fsync(fd_) != 0) error_ = errno;
+  demand_written();
+  // A network disk may report a full disk only here.
+  if (::close(std::exchange(fd_, -1)) != 0 || ::rename(part_.c_str(), path_.c_str()) != 0) {
+    error_ = errno;
+    ::unlink(part_.c_str());
+  }
+  demand_written();
+  sync_folder(path_.parent_path());
+}
+
+void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {
+  NewFile file(path);
+  file.write(0, content);
+  file.finish(content.size(), end);
 }
 
 void write_whole_file(std::filesystem::path const& path, std::string_view content) {

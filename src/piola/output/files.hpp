@@ -9,9 +9,34 @@
 
 namespace piola {
 
-/// Writes a file so that a reader sees either the old content or all of the new one: to "PATH.part", synced to the
-/// disk, then renamed. Throws FileError with path, reason and advice (the part file is removed, other files are
-/// untouched). `end` follows the content.
+/// A file of which a reader sees either the old content or all of the new one: it is "PATH.part" until finish(), and is
+/// removed if that is never called or fails. Other files are untouched.
+class NewFile {
+ public:
+  /// Throws FileError with path, reason and advice if it cannot be made.
+  explicit NewFile(std::filesystem::path path);
+  NewFile(NewFile const&) = delete;
+  NewFile& operator=(NewFile const&) = delete;
+  ~NewFile();
+
+  /// Never throws: the first failure is kept, what comes after it is not written.
+  void write(std::uint64_t at, std::span<std::byte const> bytes) noexcept;
+  /// Zeros where nothing has been written.
+  void read(std::uint64_t at, std::span<std::byte> bytes) const noexcept;
+  /// Throws FileError if something could not be written so far.
+  void demand_written() const;
+  /// Gives the file this end behind its `bytes` first ones, syncs it to the disk and gives it its name. Throws
+  /// FileError with path, reason and advice.
+  void finish(std::uint64_t bytes, std::string_view end = {});
+
+ private:
+  void remove() noexcept;
+  std::filesystem::path path_, part_;
+  int fd_ = -1;
+  int error_ = 0;  ///< errno of the first failure
+};
+
+/// Writes a file as a whole, as NewFile. Throws FileError with path, reason and advice. `end` follows the content.
 void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end = {});
 void write_whole_file(std::filesystem::path const& path, std::string_view content);
 

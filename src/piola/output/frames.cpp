@@ -29,7 +29,7 @@ std::vector<float> to_float(std::span<double const> values) {
 bool is_integer(std::string_view field) { return field == "Body" || field == "Id"; }
 
 /// Every particle is one cell of type VTK_VERTEX.
-void put_cells(hdf5::Image& file, std::int64_t particles, Storage storage) {
+void put_cells(hdf5::Writer& file, std::int64_t particles, Storage storage) {
   auto const n = static_cast<std::size_t>(particles);
   std::vector<std::int64_t> offsets(n + 1);
   for (std::size_t i = 0; i <= n; ++i) offsets[i] = static_cast<std::int64_t>(i);
@@ -43,7 +43,7 @@ void put_cells(hdf5::Image& file, std::int64_t particles, Storage storage) {
   file.dataset<std::uint8_t>("/VTKHDF/Types", types, 1, storage);
 }
 
-void put_field(hdf5::Image& file, FieldInfo const& info, std::span<double const> values, Storage storage) {
+void put_field(hdf5::Writer& file, FieldInfo const& info, std::span<double const> values, Storage storage) {
   std::string const path = "/VTKHDF/PointData/" + info.name;
   if (is_integer(info.name)) {  // a float would lose ids above 16 million
     std::vector<std::int64_t> const whole(values.begin(), values.end());
@@ -76,7 +76,7 @@ std::vector<FieldInfo> FrameWriter::chosen(FieldCache const& cache) const {
 void FrameWriter::write(double time, FieldCache& cache) {
   make_folder(folder_ / "frames");
   Storage const storage = compress_ ? Storage::compressed : Storage::contiguous;
-  hdf5::Image file;
+  hdf5::Writer file(folder_ / frame_name(times_.size()));
   file.group("/VTKHDF/PointData");
   file.group("/VTKHDF/CellData");
   file.group("/VTKHDF/FieldData");
@@ -89,7 +89,7 @@ void FrameWriter::write(double time, FieldCache& cache) {
   for (FieldInfo const& info : fields) put_field(file, info, cache.values(info.name), storage);
   file.dataset<float>("/VTKHDF/PointData/Volume", to_float(cache.particles().volume), 1, storage);
   file.dataset<double>("/VTKHDF/FieldData/TimeValue", one(time));
-  file.write(folder_ / frame_name(times_.size()));
+  file.finish();
   times_.push_back(time);
   if (times_.size() == 1 || !index_.add({time, frame_name(times_.size() - 1)})) write_index();
 }

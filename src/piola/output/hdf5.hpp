@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <hdf5.h>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,11 +36,16 @@ class Handle {
 /// How the numbers of a data set lie on the disk.
 enum class Storage { contiguous, compressed };
 
-/// Builds a file in memory; the caller writes the image in one go. In this way a full disk meets a plain write with a
-/// clear reason and never the inside of the HDF5 library.
-class Image {
+/// Writes a file, which has its name when it is finished. HDF5 never hears that a disk is full (hdf5_driver.hpp), so
+/// that this ends in a FileError with a clear reason and never inside the library; of the content only what HDF5 keeps
+/// of its own is in memory.
+class Writer {
  public:
-  Image();
+  /// Throws FileError, as all that follows, if the file cannot be written.
+  explicit Writer(std::filesystem::path path);
+  Writer(Writer const&) = delete;
+  Writer& operator=(Writer const&) = delete;
+  ~Writer();
   /// Makes a group and those above it; "/" exists already.
   void group(std::string const& path);
   /// values[row * columns + c]; columns = 1 gives a one-dimensional data set.
@@ -49,12 +55,12 @@ class Image {
   void attribute(std::string const& object, std::string const& name, std::string_view text);
   void attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values);
   void attribute(std::string const& object, std::string const& name, double value);
-  /// Writes the finished file with its seal, whole (write_whole_file), from where HDF5 built it: there is no second
-  /// copy in memory. The builder cannot be used after this.
-  void write(std::filesystem::path const& path);
+  /// Gives the file its seal and its name. Nothing can be written after this.
+  void finish();
 
  private:
-  Handle file_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// Reads a file. The whole file is checked against its seal before HDF5 opens it; then every answer is checked against

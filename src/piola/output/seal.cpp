@@ -27,8 +27,10 @@ void CheckSum::add(std::string_view text) { add(std::as_bytes(std::span(text.dat
 std::string seal_of(std::span<std::byte const> content) {
   CheckSum sum;
   sum.add(content);
-  return seal_text(sum.value(), content.size());
+  return seal_of(sum, content.size());
 }
+
+std::string seal_of(CheckSum const& sum, std::uint64_t bytes) { return seal_text(sum.value(), bytes); }
 
 void append_seal(std::vector<std::byte>& file) {
   std::string const seal = seal_of(file);

@@ -25,6 +25,7 @@ class CheckSum {
 /// The seal is the last line of a binary file: "piola seal: CRC-32 1a2b3c4d over 00000000000000001234 bytes\n". Readers
 /// of HDF5 ignore what stands behind the end that a file states itself, so that sealed files stay ordinary HDF5 files.
 std::string seal_of(std::span<std::byte const> content);
+std::string seal_of(CheckSum const& sum, std::uint64_t bytes);
 void append_seal(std::vector<std::byte>& file);
 
 /// Whether the last line of a file is a seal, whatever it says. False, too, for a file that cannot be read.
