@@ -17,8 +17,11 @@ if(_sources)
   # A quarter less to compile; what is hot is in the library.
   target_compile_options(piola_tests PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(piola_tests PRIVATE
-    PIOLA_VERSION="${PROJECT_VERSION}" PIOLA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    $<$<TARGET_EXISTS:piola_app>:PIOLA_PROGRAM="$<TARGET_FILE:piola_app>">)
+    PIOLA_VERSION="${PROJECT_VERSION}" $<$<TARGET_EXISTS:piola_app>:PIOLA_HAS_PROGRAM>)
+  # Only there: all other files are compiled alike in every folder.
+  set_property(SOURCE "${PROJECT_SOURCE_DIR}/tests/support/places.cpp" PROPERTY COMPILE_DEFINITIONS
+    PIOLA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    PIOLA_PROGRAM="$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>")
   target_link_libraries(piola_tests PRIVATE
     piola piola_warnings piola_host GTest::gtest GTest::gtest_main rapidcheck ${PIOLA_WEBPDEMUX_LIBRARY}
     Piola::hdf5 PNG::PNG nlohmann_json::nlohmann_json)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/read_case.hpp"
+#include "support/places.hpp"
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@ namespace {
 
 std::vector<std::filesystem::path> corpus() {
   std::vector<std::filesystem::path> files;
-  for (auto const& entry : std::filesystem::directory_iterator(PIOLA_SOURCE_DIR "/tests/fuzz/corpus/case")) {
+  for (auto const& entry : std::filesystem::directory_iterator(testing::source_folder() + "/tests/fuzz/corpus/case")) {
     files.push_back(entry.path());
   }
   return files;
@@ -36,7 +37,7 @@ TEST(Corpus, EveryFileIsACaseOrAnInputError) {
 }
 
 TEST(Corpus, EveryCutAndEveryChangedByteOfAGoodCaseIsSurvived) {
-  std::string const text = content_of(PIOLA_SOURCE_DIR "/tests/fuzz/corpus/case/column.toml");
+  std::string const text = content_of(testing::source_folder() + "/tests/fuzz/corpus/case/column.toml");
   ReadLimits const limits{.particles = 5000, .memory = false};
   for (std::size_t i = 0; i < text.size(); ++i) {
     for (std::string const& variant : {text.substr(0, i), std::string(text).replace(i, 1, "~")}) {

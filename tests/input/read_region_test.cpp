@@ -2,6 +2,7 @@
 // Places with names, and bodies of several materials.
 #include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
+#include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -94,7 +95,7 @@ TEST(Regions, NearASurfaceFromAFile) {
   CaseSpec const spec = read_case_text(block(R"(
 [[region]]
 name = "skin"
-near = { file = ")" + std::string(PIOLA_SOURCE_DIR) +
+near = { file = ")" + testing::source_folder() +
                                              R"(/cases/geometry/meshes/bracket.stl", unit = "mm", within = "2 mm" }
 )"),
                                        "case.toml");
@@ -124,9 +125,10 @@ where = "X > t"
 name = "gone"
 near = { file = "none.stl", unit = "mm", within = 0 }
 )"));
-  for (std::string const part : {"region \"depth\" has the name of something else",
-                                 "region \"L\" has the name of something else", "region has no of where, shape, near",
-                                 "region has 2 of where, shape, near", "depends on t", "region.near.within is 0"})
+  for (std::string const part :
+       {"region \"depth\" has the name of something else", "region \"L\" has the name of something else",
+        "region needs one of where, shape, near (has none)", "region has 2 of where, shape, near", "depends on t",
+        "region.near.within is 0"})
     EXPECT_NE(wrong.find(part), std::string::npos) << part << "\n" << wrong;
 }
 

@@ -53,13 +53,10 @@ TEST(BoundaryMessages, SupportsThatContradictAreNamed) {
 }
 
 TEST(BoundaryMessages, LoadsAreOfOneKind) {
-  EXPECT_EQ(
-      with("[[load]]\nbody = \"column\"\n"),
-      "case.toml:23:1: load has no of traction, pressure, body_force, acceleration (allowed: one) - add or remove "
-      "one");
+  EXPECT_EQ(with("[[load]]\nbody = \"column\"\n"),
+            "case.toml:23:1: load needs one of traction, pressure, body_force, acceleration (has none) - add one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nbody_force = [0, 0, 0]\nacceleration = [0, 0, 0]\n"),
-            "case.toml:23:1: load has 2 of traction, pressure, body_force, acceleration (allowed: one) - add or remove "
-            "one");
+            "case.toml:23:1: load has 2 of traction, pressure, body_force, acceleration (allowed: one) - keep one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nforce = [0, 0, 0]\nbody_force = [0, \"1 Pa\", 0]\n"),
             "case.toml:25:1: \"force\" is not a key of load (allowed: name, body, where, traction, pressure, follows, "
             "face, patch, body_force, acceleration, until) - choose one of these\n"

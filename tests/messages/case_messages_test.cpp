@@ -119,9 +119,8 @@ TEST(CaseMessages, ShapesNeedOneKindAndOneFineness) {
       "case.toml:9:9: body.shape needs \"particles\" or \"spacing\" (how fine the body is) - add particles = [...]");
   EXPECT_EQ(message_of(sample_with("particles = [5, 25, 5]", "particles = [5, 25, 5], spacing = 1")),
             "case.toml:9:111: body.shape has both \"particles\" and \"spacing\" (allowed: one of them) - remove one");
-  EXPECT_EQ(
-      message_of(sample_with("box = {", "sphere = { centre = [0, 0, 0], radius = 1 }, box = {")),
-      "case.toml:9:9: body.shape has 2 of box, sphere, cylinder or another shape (allowed: one) - add or remove one");
+  EXPECT_EQ(message_of(sample_with("box = {", "sphere = { centre = [0, 0, 0], radius = 1 }, box = {")),
+            "case.toml:9:9: body.shape has 2 of box, sphere, cylinder or another shape (allowed: one) - keep one");
 }
 
 TEST(CaseMessages, AnEmptyBodyIsReported) {

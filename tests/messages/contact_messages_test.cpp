@@ -215,10 +215,9 @@ TEST(ContactMessages, TheLawOfSurfacesNeedsSurfaces) {
 }
 
 TEST(ContactMessages, RigidShapesAreOfOneKind) {
-  EXPECT_EQ(rigid(""),
-            "case.toml:23:1: rigid has no of plane, sphere, cylinder, box (allowed: one) - add or remove one");
+  EXPECT_EQ(rigid(""), "case.toml:23:1: rigid needs one of plane, sphere, cylinder, box (has none) - add one");
   EXPECT_EQ(rigid("sphere = { centre = [0, 0, 0], radius = 1 }\nplane = { point = [0, 0, 0], normal = [0, 1, 0] }"),
-            "case.toml:23:1: rigid has 2 of plane, sphere, cylinder, box (allowed: one) - add or remove one");
+            "case.toml:23:1: rigid has 2 of plane, sphere, cylinder, box (allowed: one) - keep one");
   EXPECT_EQ(rigid("cone = 1\nsphere = { centre = [0, 0, 0], radius = 1 }"),
             "case.toml:25:1: \"cone\" is not a key of rigid (allowed: name, plane, sphere, cylinder, box, velocity, "
             "angular_velocity, motion, mass, density, inertia, gravity, fix, turns) - choose one of these");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `piola check` and `piola describe` say, by running the program.
+#include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <array>
@@ -9,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 
-#ifdef PIOLA_PROGRAM
+#ifdef PIOLA_HAS_PROGRAM
 
 namespace piola {
 namespace {
@@ -21,7 +22,7 @@ struct Answer {
 
 Answer ask(std::string const& arguments) {
   Answer answer;
-  std::FILE* const pipe = popen((std::string("'" PIOLA_PROGRAM "' ") + arguments + " 2>&1").c_str(), "r");
+  std::FILE* const pipe = popen(("'" + testing::program() + "' " + arguments + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return answer;
   std::array<char, 4096> buffer{};
   while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe)) answer.text.append(buffer.data(), n);
@@ -114,14 +115,14 @@ TEST(DescribeCommand, DescribesTheLibrary) {
     EXPECT_EQ(renamed.code, 2);
     EXPECT_EQ(renamed.text, "piola: the material \"steel_adaptle_3_3\" is now \"steel_linear_hardening\"\n");
   }
-  std::ifstream file(PIOLA_SOURCE_DIR "/docs/user/materials.md");
+  std::ifstream file(testing::source_folder() + "/docs/user/materials.md");
   std::string const page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(ask("describe library --markdown").text, page)
       << "write it anew: piola describe library --markdown > docs/user/materials.md";
 }
 
 TEST(DescribeCommand, WritesTheManualPageThatIsInTheManual) {
-  std::ifstream file(PIOLA_SOURCE_DIR "/docs/user/case-reference.md");
+  std::ifstream file(testing::source_folder() + "/docs/user/case-reference.md");
   std::string const page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(ask("describe --markdown").text, page)
       << "write it anew: piola describe --markdown > docs/user/case-reference.md";

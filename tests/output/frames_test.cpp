@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
 #include "support/fake_formulation.hpp"
+#include "support/places.hpp"
 #include "support/temporary_folder.hpp"
 #include <csignal>
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ TEST_P(FramesAsStored, AreReadByAnIndependentProgram) {
   ParticleSet const set = testing::make_plate(600);  // more than one chunk
   FrameWriter writer(folder.path(), {}, GetParam());
   write_frames(writer, set, {0.125});
-  std::string const script = std::string(PIOLA_SOURCE_DIR) + "/tests/output/read_frame.py";
+  std::string const script = testing::source_folder() + "/tests/output/read_frame.py";
   int const status = std::system(
       fmt::format("/usr/bin/python3 '{}' '{}' 0.125 {}", script, (folder / "frames/000000.hdf").string(), set.size())
           .c_str());

@@ -23,9 +23,9 @@ struct ReadPoints {
 ReadPoints read_foreign(std::function<void(hdf5::Image&)> const& fill, CloudOptions const& options = {}) {
   TemporaryFolder const folder;
   auto const path = folder.path() / "points.h5";
-  hdf5::Image image;
-  fill(image);
-  image.write(path);
+  hdf5::Writer file(path);
+  fill(file);
+  file.finish();
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - seal_of({}).size());
   ReadPoints read;
   read.cloud = read_cloud(path.string(), options, read.problems);
@@ -48,19 +48,19 @@ Numbers component(std::size_t c) {
   return values;
 }
 
-void put(hdf5::Image& image, std::string const& path, Numbers const& values, int columns = 1) {
-  image.dataset<double>(path, values, columns);
+void put(hdf5::Writer& file, std::string const& path, Numbers const& values, int columns = 1) {
+  file.dataset<double>(path, values, columns);
 }
 
 TEST(CloudDatasets, TakesATableOfPlacesInAGroupWithUnits) {
   auto const [cloud, problems] = read_foreign(
-      [](hdf5::Image& image) {
-        image.group("/PartType0");
-        put(image, "/PartType0/Coordinates", places(), 3);
-        put(image, "/PartType0/volume", Numbers(27, 1000));
-        put(image, "/PartType0/Density", Numbers(27, 7800));
-        image.attribute("/PartType0/Coordinates", "units", "cm");
-        image.attribute("/PartType0/volume", "unit", "mm^3");
+      [](hdf5::Writer& file) {
+        file.group("/PartType0");
+        put(file, "/PartType0/Coordinates", places(), 3);
+        put(file, "/PartType0/volume", Numbers(27, 1000));
+        put(file, "/PartType0/Density", Numbers(27, 7800));
+        file.attribute("/PartType0/Coordinates", "units", "cm");
+        file.attribute("/PartType0/volume", "unit", "mm^3");
       },
       {.group = "PartType0"});
   EXPECT_EQ(problems, Words{});
@@ -76,13 +76,13 @@ TEST(CloudDatasets, TakesATableOfPlacesInAGroupWithUnits) {
 
 TEST(CloudDatasets, TakesListsOfComponentsAndOneBody) {
   auto const [cloud, problems] = read_foreign(
-      [](hdf5::Image& image) {
+      [](hdf5::Writer& file) {
         Numbers body(27, 4);
         for (std::size_t i = 0; i < 9; ++i) body[i] = -7;  // the lowest layer
-        put(image, "/x", component(0));
-        put(image, "/Y", component(1));
-        put(image, "/z", component(2));
-        put(image, "/body", body);
+        put(file, "/x", component(0));
+        put(file, "/Y", component(1));
+        put(file, "/z", component(2));
+        put(file, "/body", body);
       },
       {.length_unit = 0.001, .total_volume = 18e-9, .body = "4"});
   EXPECT_EQ(problems, Words{});
@@ -96,30 +96,30 @@ TEST(CloudDatasets, SaysWhatIsMissingOrWrong) {
     auto const problems = read_foreign(fill, options).problems;
     return problems.size() == 1 ? problems[0] : "not one problem but " + std::to_string(problems.size());
   };
-  EXPECT_EQ(refused([](hdf5::Image& image) { image.group("/gas"); }, {.group = "dust"}),
+  EXPECT_EQ(refused([](hdf5::Writer& file) { file.group("/gas"); }, {.group = "dust"}),
             "has no group \"dust\" (it has \"gas\") - correct the group");
-  EXPECT_EQ(refused([](hdf5::Image& image) {
-              put(image, "/mass", {1, 2});
+  EXPECT_EQ(refused([](hdf5::Writer& file) {
+              put(file, "/mass", {1, 2});
             }),
             "has no places (it has \"mass\"; expected a data set \"points\" of two or three columns, or lists \"x\", "
             "\"y\", \"z\") - name them so, or give the group that holds them");
-  EXPECT_EQ(refused([](hdf5::Image& image) {
-              put(image, "/points", places(), 3);
-              put(image, "/volume", {1, 1});
+  EXPECT_EQ(refused([](hdf5::Writer& file) {
+              put(file, "/points", places(), 3);
+              put(file, "/volume", {1, 1});
             }),
             "\"volume\" has 2 values and \"x\" has 27 - give each point one of each");
   EXPECT_EQ(refused(
-                [](hdf5::Image& image) {
-                  put(image, "/points", places(), 3);
-                  put(image, "/body", Numbers(27, 0.5));
+                [](hdf5::Writer& file) {
+                  put(file, "/points", places(), 3);
+                  put(file, "/body", Numbers(27, 0.5));
                 },
                 {.total_volume = 27}),
             "\"body\" holds values that are no whole numbers - number the bodies");
-  EXPECT_EQ(refused([](hdf5::Image& image) {
+  EXPECT_EQ(refused([](hdf5::Writer& file) {
               Numbers X = places();
               X[4] = std::nan("");
-              put(image, "/points", X, 3);
-              put(image, "/volume", Numbers(27, 1));
+              put(file, "/points", X, 3);
+              put(file, "/volume", Numbers(27, 1));
             }),
             "particle 1: y is nan m (expected a finite number) - correct the row");
 }
@@ -127,10 +127,10 @@ TEST(CloudDatasets, SaysWhatIsMissingOrWrong) {
 TEST(CloudDatasets, FilesThatAreCutOffOrDamagedAreRefused) {
   TemporaryFolder const folder;
   auto const path = folder.path() / "points.h5";
-  hdf5::Image image;
-  put(image, "/points", places(), 3);
-  put(image, "/volume", Numbers(27, 1));
-  image.write(path);
+  hdf5::Writer file(path);
+  put(file, "/points", places(), 3);
+  put(file, "/volume", Numbers(27, 1));
+  file.finish();
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   Words problems;
   read_cloud(path.string(), {}, problems);

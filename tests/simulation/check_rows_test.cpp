@@ -2,6 +2,7 @@
 // What the rows of every cases/*/*/checks.toml promise, whatever their numbers are.
 #include "piola/base/text.hpp"
 #include "piola/simulation/verify.hpp"
+#include "support/places.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ struct CaseRows {
 std::vector<CaseRows> const& all_rows() {
   static std::vector<CaseRows> const list = [] {
     std::vector<CaseRows> rows;
-    std::filesystem::path const cases = std::filesystem::path(PIOLA_SOURCE_DIR) / "cases";
+    std::filesystem::path const cases = std::filesystem::path(testing::source_folder()) / "cases";
     for (auto const& folder : find_cases(cases, {}))
       rows.push_back({folder.lexically_relative(cases).generic_string(), read_checks(folder / "checks.toml").checks});
     return rows;

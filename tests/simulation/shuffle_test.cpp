@@ -7,6 +7,7 @@
 #include "piola/simulation/build.hpp"
 #include "exec/thread_count.hpp"
 #include "formulations/small_bodies.hpp"
+#include "support/places.hpp"
 #include "support/temporary_folder.hpp"
 #include <algorithm>
 #include <cstring>
@@ -86,7 +87,7 @@ std::vector<std::string> differences(Told const& a, Told const& b) {
 /// Those with a body of a formulation that takes a dealt order: all of them.
 std::vector<std::string> shuffled_cases() {
   std::vector<std::string> cases;
-  fs::path const root = fs::path(PIOLA_SOURCE_DIR) / "cases";
+  fs::path const root = fs::path(testing::source_folder()) / "cases";
   for (auto const& entry : fs::recursive_directory_iterator(root)) {
     if (entry.path().filename() != "case.toml") continue;
     std::string const text = testing::text_of(entry.path());
@@ -124,7 +125,7 @@ class ShuffledCase : public ::testing::TestWithParam<std::string> {};
 
 /// All numbers of owners over the cases.
 TEST_P(ShuffledCase, TakesTheSameStepsWhoeverOwnsTheParticles) {
-  ReadCase const read(fs::path(PIOLA_SOURCE_DIR) / "cases" / GetParam() / "case.toml");
+  ReadCase const read(fs::path(testing::source_folder()) / "cases" / GetParam() / "case.toml");
   if (expect_same_steps(read, static_cast<int>(std::hash<std::string>{}(GetParam()) % 7)).empty())
     GTEST_SKIP() << "its bodies are smaller than two tiles";
 }
@@ -210,7 +211,7 @@ class ShuffledContact : public ::testing::TestWithParam<Acting> {};
 
 TEST_P(ShuffledContact, IsTheSameWhoeverOwnsTheParticles) {
   Acting const& c = GetParam();
-  ReadCase const read(fs::path(PIOLA_SOURCE_DIR) / "cases" / c.folder / "case.toml", c.overrides);
+  ReadCase const read(fs::path(testing::source_folder()) / "cases" / c.folder / "case.toml", c.overrides);
   Told const told = expect_same_steps(read, static_cast<int>(std::strlen(c.name)));
   ASSERT_FALSE(told.empty());
   EXPECT_GT(told.at(c.acts).front(), 0);

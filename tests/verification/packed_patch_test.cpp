@@ -2,6 +2,7 @@
 #include "piola/geometry/mesh.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"
+#include "support/places.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -42,7 +43,7 @@ void expect_exact(std::string const& shape, std::string const& formulation) {
 }
 
 TEST(PackedPatch, BracketFromAMeshHasTheExactGradient) {
-  auto const file = std::filesystem::path(PIOLA_SOURCE_DIR) / "cases/geometry/meshes/bracket.stl";
+  auto const file = std::filesystem::path(testing::source_folder()) / "cases/geometry/meshes/bracket.stl";
   geometry::MeshReport report;
   if (!geometry::read_mesh(file.string(), {.scale = 1e-3}, report)) {
     ASSERT_NE(report.problems.at(0).find("built without meshes"), std::string::npos) << report.problems[0];

@@ -132,9 +132,7 @@ void read_load_value(Section const& section, BodyNames const* body, LoadSpec& lo
     if (auto value = read_vector(section, kinds[k], *body)) load.value = std::move(*value);
   }
   if (given == 1) return;
-  section.problems().add(section.place(), "load has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                                              " of traction, pressure, body_force, acceleration (allowed: one) - add "
-                                              "or remove one");
+  section.refuse_count("load", given, "traction, pressure, body_force, acceleration");
 }
 
 }  // namespace

@@ -63,8 +63,7 @@ Names::OfPlace read_what(Section const& section, Names const& names, RegionSpec&
   auto const given =
       std::count_if(region_kinds.begin(), region_kinds.end(), [&](std::string_view kind) { return section.has(kind); });
   if (given != 1) {
-    section.problems().add(section.place(), "region has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                                                " of where, shape, near (allowed: one) - add or remove one");
+    section.refuse_count("region", given, "where, shape, near");
     return {};
   }
   if (section.has("where")) return read_condition(section, names);

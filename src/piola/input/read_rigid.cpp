@@ -83,8 +83,7 @@ void read_kind(Section const& section, int dimension, RigidShape& shape) {
     part->refuse_unknown();
   }
   if (given == 1) return;
-  section.problems().add(section.place(), "rigid has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                                              " of plane, sphere, cylinder, box (allowed: one) - add or remove one");
+  section.refuse_count("rigid", given, "plane, sphere, cylinder, box");
 }
 
 }  // namespace

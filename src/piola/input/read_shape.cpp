@@ -158,9 +158,7 @@ ShapeSpec read_shape(Section const& section, Names const& names) {
   }
   section.refuse_unknown();
   if (given != 1) {
-    section.problems().add(section.place(),
-                           "body.shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                               " of box, sphere, cylinder or another shape (allowed: one) - add or remove one");
+    section.refuse_count("body.shape", given, "box, sphere, cylinder or another shape");
     return shape;
   }
   using Placement = ShapeSpec::Placement;

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
 
@@ -46,11 +48,7 @@ class SolidReader {
       solid = read_kind(node, kind);
     }
     if (given != 1) {
-      node.problems().add(node.place(),
-                          "a shape has " + (given == 0 ? std::string("no") : std::to_string(given)) +
-                              " of box, sphere, cylinder, torus, cone, capsule, half_space, formula, "
-                              "extrude, revolve, mesh, union, difference, intersection (allowed: one) - add or "
-                              "remove one");
+      node.refuse_count("a shape", given, fmt::format("{}", fmt::join(solid_kinds, ", ")));
       return nullptr;
     }
     return solid ? placed_by(node, solid) : nullptr;

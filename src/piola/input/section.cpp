@@ -2,6 +2,7 @@
 #include "piola/input/section.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace piola {
 namespace {
@@ -42,6 +43,11 @@ std::string Section::name_of(std::string_view key) const {
 }
 
 KeyInfo const& Section::info_of(std::string_view key) const { return key_info(section_, key); }
+
+void Section::refuse_count(std::string_view owner, std::ptrdiff_t given, std::string_view kinds) const {
+  problems().add(place(), given == 0 ? fmt::format("{} needs one of {} (has none) - add one", owner, kinds)
+                                     : fmt::format("{} has {} of {} (allowed: one) - keep one", owner, given, kinds));
+}
 
 void Section::refuse(std::string_view key, std::string const& reason) const {
   if (has(key)) problems_.add(place_of(key), name_of(key) + " " + reason + " - remove it");

@@ -75,6 +75,8 @@ class Section {
   void report_missing(std::string_view key, std::string_view about, std::string_view example) const;
   /// Reports a key that has no meaning here, if it is given.
   void refuse(std::string_view key, std::string const& reason) const;
+  /// "OWNER needs one of KINDS (has none) - add one", or how many it has that should have one. `given` is not 1.
+  void refuse_count(std::string_view owner, std::ptrdiff_t given, std::string_view kinds) const;
 
  private:
   Node const& node_;
