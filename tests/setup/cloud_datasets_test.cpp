@@ -20,7 +20,7 @@ struct ReadPoints {
 };
 
 /// A file as another program writes it: without our seal.
-ReadPoints read_foreign(std::function<void(hdf5::Image&)> const& fill, CloudOptions const& options = {}) {
+ReadPoints read_foreign(std::function<void(hdf5::Writer&)> const& fill, CloudOptions const& options = {}) {
   TemporaryFolder const folder;
   auto const path = folder.path() / "points.h5";
   hdf5::Writer file(path);
