@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What no case of cases/ has, for ranks_test.py: clouds that are not lattices, bodies that touch at the start, loads
-that follow a face, releases, steps that crush cells, all ways of Taylor-SPH."""
+that follow a face, releases, steps that crush cells, all ways of Taylor-SPH, particles of AdapTLE that convert."""
 
 OUTPUT = """
 [output.frames]
@@ -135,6 +135,10 @@ initial_velocity = ["-200000*(X + 30*X*X)", "0", "0"]
 every = "0.2 us"
 """
 
+# Particles that are not to be placed any more, from the first step on.
+ESCAPED = FAILING.replace('"nodal"', '"adaptle", description = "total_lagrangian"').replace(
+    "-200000*(X + 30*X*X)", "X > 0.0142 ? 1e31 : 0")
+
 HELD = """title = "Packed block, held by a patch, hit by a ball"
 [run]
 end = "1 ms"
@@ -230,6 +234,77 @@ name = "wall"
 plane = { point = ["0 mm", "0 mm"], normal = [0, 1] }
 """
 
+# Two bodies of AdapTLE convert where they meet, each by a rule of its own, beside a packed block and a floor.
+TORN = """title = "Plate that is torn between a disc and a block"
+[run]
+end = "1 ms"
+[[body]]
+name = "disc"
+shape = { sphere = { centre = ["-5.5 mm", "0 mm"], radius = "5 mm", arrangement = "rings" }, spacing = "0.4 mm" }
+material = { name = "aluminium_perfectly_plastic", spall_pressure = "1.5 GPa" }
+formulation = { name = "adaptle", convert_strain = 0.05, hourglass = 0.1 }
+initial_velocity = ["3100 m/s", "200 m/s"]
+[[body]]
+name = "plate"
+shape = { box = { min = ["0 mm", "-9 mm"], max = ["2 mm", "9 mm"] }, spacing = "0.4 mm", jitter = 0.1 }
+material = { name = "aluminium_perfectly_plastic", spall_pressure = "1.5 GPa" }
+formulation = { name = "adaptle", convert_when = "plastic_strain > 0.05", hourglass = 0.1 }
+initial_velocity = ["500 m/s", "0 m/s"]
+[[body]]
+name = "block"
+shape = { box = { min = ["6 mm", "-9 mm"], max = ["12 mm", "9 mm"] }, spacing = "0.6 mm", jitter = 0.1 }
+material = { name = "aluminium_perfectly_plastic" }
+formulation = { name = "nodal" }
+[[rigid]]
+name = "floor"
+plane = { point = ["0 mm", "-9.4 mm"], normal = [0, 1] }
+[[load]]
+name = "wind"
+body = "plate"
+acceleration = ["0 m/s^2", "-1e8*(1 + X)"]
+[[support]]
+name = "end"
+body = "plate"
+where = "Y > 8.5e-3"
+fix = "y"
+until = "0.3 us"
+[[probe]]
+name = "lead"
+body = "disc"
+kind = "maximum"
+quantities = ["position_x", "pressure"]
+"""
+# Surfaces of whole bodies of AdapTLE rub and tie as others do.
+RUBBING = """title = "Bar of AdapTLE that rubs on a packed block and on itself"
+[run]
+end = "1 ms"
+[contact]
+friction = 0.3
+self = true
+[[body]]
+name = "bar"
+shape.box = { min = ["0 mm", "0 mm", "0 mm"], max = ["24 mm", "12 mm", "10 mm"] }
+shape.spacing = "2 mm"
+shape.jitter = 0.1
+shape.placement = "cell_centred"
+material = { name = "copper_ofhc", damage = "none" }
+formulation = { name = "adaptle", description = "total_lagrangian" }
+initial_velocity = ["100 m/s", "10 m/s", "-150 m/s"]
+[[body]]
+name = "block"
+shape.box = { min = ["4 mm", "-2 mm", "-10 mm"], max = ["30 mm", "14 mm", "0 mm"] }
+shape.spacing = "2.5 mm"
+shape.jitter = 0.15
+shape.placement = "cell_centred"
+material = { name = "copper_ofhc", damage = "none" }
+formulation = { name = "nodal" }
+[[rigid]]
+name = "ball"
+sphere = { centre = ["12 mm", "6 mm", "14.1 mm"], radius = "4 mm" }
+motion = "free"
+mass = "5 g"
+velocity = ["0 m/s", "0 m/s", "-300 m/s"]
+"""
 
 MANY_TRIANGLES = """title = "Plate with more triangles than every rank should make"
 [run]
@@ -261,4 +336,41 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "adjoint, triangles": of_taylor("", 0.15),
     "adjoint, boxes": of_taylor(', virtual_particles = "lattice_cells", hourglass_stiffness = 0.05'),
     "Taylor-SPH between others": TAYLOR_BETWEEN,
+    "torn plate": TORN,
+    "deleted disc": TORN.replace("convert_strain = 0.05", 'description = "total_lagrangian", failed = "delete", '
+                                                          "convert_strain = 0.05"),
+    "rubbing bar of AdapTLE": RUBBING,
 }.items()}
+
+NEAR = ('body.disc.shape={ sphere = { centre = ["-5.2 mm", 0], radius = "5 mm", arrangement = "rings" }, '
+        'spacing = "0.25 mm" }')
+COARSE = 'body.plate.shape={ box = { min = [0, "-9 mm"], max = ["2 mm", "9 mm"] }, spacing = "0.25 mm" }'
+SHEET = "body.sheet.formulation."
+PATCH = [SHEET + "description=patch", SHEET + "eulerian_where=Y > 0.5"]
+RING = "body.ring."
+HALVES = "body.bar.formulation."
+
+# Cases of cases/adaptle with other words, and a column that is above zero at the end.
+VARIANTS = {
+    "torn": ("impact_2d", "converted_particles", [NEAR, COARSE, "body.plate.formulation.convert_strain=0.05"]),
+    "guarded": ("impact_2d", "guard_conversions", [NEAR, COARSE, "body.plate.formulation.jacobian_min=0.98"]),
+    "by formula": ("impact_2d", "converted_particles",
+                   [NEAR, COARSE, "body.plate.formulation.convert_when=plastic_strain > 0.02"]),
+    "deleted": ("expanding_ring", "deleted_particles",
+                [RING + "formulation.description=total_lagrangian", RING + "formulation.failed=delete",
+                 RING + "material.d1=0.00001"]),
+    "released": ("expanding_ring", "failed_particles", [RING + "material.d1=0.00001"]),
+    "meeting": ("impact_2d", "contact_overlap", [NEAR, COARSE]),
+    "by the printed law": ("impact_2d", "contact_overlap", [NEAR, COARSE, "contact.law=printed",
+                                                            "contact.stiffness=1e9"]),
+    "jittered patch": ("tensile_patch", "eulerian_particles", [*PATCH, "body.sheet.shape.jitter=0.2"]),
+    "blended patch": ("tensile_patch", "eulerian_particles", [*PATCH, SHEET + "blend=4"]),
+    "damped patch": ("tensile_patch", "eulerian_particles",
+                     [*PATCH, SHEET + "hourglass=0.2", SHEET + "hourglass_stiffness=0.1"]),
+    "printed patch": ("tensile_patch", "eulerian_particles",
+                      [*PATCH, SHEET + "interface=printed", SHEET + "correction=material"]),
+    "corrected": ("tensile_patch", "eulerian_particles", [SHEET + "description=eulerian"]),
+    "fluxes": ("colliding_halves", "eulerian_particles",
+               [HALVES + "description=eulerian", HALVES + "viscosity=riemann"]),
+    "on a wall": ("taylor_bar", "contact_overlap", ["body.bar.shape.spacing=0.8 mm"]),
+}

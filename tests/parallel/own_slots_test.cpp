@@ -27,6 +27,17 @@ TEST(OwnSlots, OfOneRankStayAsTheyAre) {
   EXPECT_EQ(sum_over_slots(false, {10, 20}, [&](Index i) { return field.at(i, 1); }), 2 * 145 + 10);
 }
 
+TEST(OwnSlots, OfSeveralBodiesAreNamedRankByRank) {
+  std::vector<Range> const bodies{{0, 100}, {100, 130}};
+  SlotsOfRanks const odd(bodies, [](Index slot) { return slot % 2 == 1; });
+  EXPECT_EQ(odd.starts, (std::vector<std::size_t>{0, 65}));
+  EXPECT_EQ(odd.slots.front(), 1);
+  EXPECT_EQ(odd.slots.back(), 129);
+  std::vector<double> values(130, 7);
+  complete_slots(std::vector<FieldPart>{{{.data = values.data()}, 0, 1}}, odd);
+  EXPECT_EQ(values, std::vector<double>(130, 7));
+}
+
 TEST(OwnSlots, KeepTheFirstFailureOfOneRank) {
   std::vector<std::int64_t> const id{7, 5, -1};
   FailureSlot slot{.index = 1, .code = 2, .id = id.data()};

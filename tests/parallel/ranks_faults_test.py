@@ -2,8 +2,8 @@
 """Ranks in trouble: one that is killed at any moment, cannot read a file, has no memory or no disk left ends all of
 them, with one message and the exit code of one rank; a killed run goes on from its last checkpoint with the same bits.
 
-Needs a program with MPI and mpirun; is skipped otherwise. Arguments: kills faults (default: both); PIOLA_KILLS: how
-many (default 50, or 4 if PIOLA_RANKS_TESTS=quick); PIOLA_SEED chooses who and when.
+Needs a program with MPI and mpirun; is skipped otherwise. Arguments: kills conversions faults (default: all);
+PIOLA_KILLS: how many of each (default 50, or 4 if PIOLA_RANKS_TESTS=quick); PIOLA_SEED chooses who and when.
 """
 import os
 import random
@@ -15,6 +15,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from cases_on_ranks import TORN
 from on_ranks import (ENVIRONMENT, QUICK, checkpoint, command, differences, differently, expect, finish, piola,
                       short_bar, skip_without_ranks, start)
 
@@ -55,12 +56,21 @@ def final_state(folder):
     return (files[-1].name, checkpoint(files[-1])) if files else ("none", {})
 
 
+def torn_plate(folder):
+    """Particles of AdapTLE convert between its checkpoints."""
+    case = folder / "torn.toml"
+    text = TORN.replace('end = "1 ms"', 'end = "2 us"')
+    case.write_text(text + '[output.checkpoints]\nevery = "0.1 us"\n[output.pictures]\nevery = "10 us"\n')
+    return case
+
+
 def check_kills(bar, work):
     chance = random.Random(SEED)
     whole = work / "whole"
+    shutil.rmtree(whole, ignore_errors=True)
     piola(1, "run", bar, "--out", whole)
     begun = time.monotonic()
-    piola(2, "run", bar, "--out", work / "timed")
+    piola(2, "run", bar, "--out", work / "timed", "--force")
     takes = time.monotonic() - begun
     killed = resumed = 0
     for number in range(KILLS):
@@ -88,7 +98,7 @@ def check_kills(bar, work):
                f"kill {number}: has another history")
         shutil.rmtree(folder)
     expect(3 * killed >= KILLS, f"only {killed} of {KILLS} runs were killed before their end")
-    print(f"{killed} of {KILLS} runs killed (seed {SEED}), {resumed} resumed from a checkpoint", flush=True)
+    print(f"{bar.name}: {killed} of {KILLS} runs killed (seed {SEED}), {resumed} resumed from a checkpoint", flush=True)
 
 
 def said(run):
@@ -159,9 +169,11 @@ def check_faults(bar, work):
 skip_without_ranks()
 with tempfile.TemporaryDirectory() as name:
     place = Path(name)
-    chosen = sys.argv[1:] or ["kills", "faults"]
+    chosen = sys.argv[1:] or ["kills", "conversions", "faults"]
     if "faults" in chosen:
         check_faults(short_bar(place), place)
     if "kills" in chosen:
         check_kills(short_bar(place), place)
+    if "conversions" in chosen:
+        check_kills(torn_plate(place), place)
 finish()

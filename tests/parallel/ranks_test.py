@@ -2,9 +2,9 @@
 """Ranks: every case that can, on 1, 2, 3 and 5 ranks, has the same bits: history, frames, checkpoints, pictures. A run
 goes on with another number of ranks; what is refused is said once.
 
-Needs a program with MPI and mpirun; is skipped otherwise. Words choose: cases, own, mixed, restarts, words; a part of
-the name of a case, cases/contact for example, chooses among the cases of the first two. PIOLA_RANKS_TESTS=quick takes
-a part of them, on 2 and 3 ranks.
+Needs a program with MPI and mpirun; is skipped otherwise. Words choose: cases, own, variants, mixed, restarts, words; a
+part of the name of a case, cases/contact for example, chooses among the cases of the first three.
+PIOLA_RANKS_TESTS=quick takes a part of them, on 2 and 3 ranks.
 """
 import re
 import shutil
@@ -13,13 +13,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-from cases_on_ranks import FAILING, MANY_TRIANGLES, OWN_CASES
+from cases_on_ranks import ESCAPED, FAILING, MANY_TRIANGLES, OWN_CASES, VARIANTS
 from on_ranks import (QUICK, SOURCE, checkpoint, contents, differences, expect, finish, piola, short_bar,
                       skip_without_ranks)
 
 STEPS = 20
-QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "adjoint, boxes", "restarts", "words"]
-SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph)"')  # the formulations of bodies that ranks share
+QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "adjoint, boxes", "torn plate", "damped patch",
+              "deleted", "restarts", "words"]
+SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",  # columns above zero at the end
+         "deleted disc": "deleted_particles", "rubbing bar of AdapTLE": "friction_heat"}
+SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph|adaptle)"')  # the formulations of bodies that ranks share
 # What no case of one rank has together: two bodies, a metal, jitter, a mirror plane, loads, a release.
 MIXED = """title = "Two bodies"
 contact = "none"
@@ -77,27 +80,36 @@ def able_cases():
     return [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if SHARED.search(file.read_text())]
 
 
-def first_step(file, work):
+def first_step(file, work, settings=()):
     """[s], as the run says it; the run itself is as short as can be."""
-    told = piola(1, "run", file, "--no-pictures", "--out", work / "first", "--set", 'run.end="1e-12 s"').stdout
+    words = ["run", file, "--no-pictures", "--out", work / "first", "--set", 'run.end="1e-12 s"']
+    told = piola(1, *words, *settings).stdout
     value, unit = re.search(r"first step ([\d.e+-]+) (\w+)", told).groups()
     return float(value) * {"s": 1, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "ps": 1e-12}[unit]
 
 
-def compare_case(file, name, work):
-    end = f'run.end="{STEPS * first_step(file, work):.9e} s"'
+def last_of(folder, column):
+    """The last value of a column of history.csv."""
+    lines = [line for line in (folder / "history.csv").read_text().strip().splitlines()]
+    names = [line for line in lines if column in line][-1]
+    return float(lines[-1].split(",")[names.split(",").index(column)])
+
+
+def compare_case(file, name, work, overrides=(), column=None):
+    """column: what is above zero at the end, so that it is compared."""
+    settings = [word for override in overrides for word in ("--set", override)]
+    end = f'run.end="{STEPS * first_step(file, work, settings):.9e} s"'
+    settings = ["--set", end, *settings]
     reference = work / "one"
-    one = piola(1, "run", file, "--out", reference, "--set", end)
+    one = piola(1, "run", file, "--out", reference, *settings)
     expect(one.returncode == 0, f"{name} on one rank: {one.stderr}")
     expected = contents(reference)
     expect(any(key.startswith("checkpoints") for key in expected), f"{name}: no checkpoint to compare")
-    if name == "crushed cells":
-        last = (reference / "history.csv").read_text().strip().splitlines()[-1].split(",")
-        names = [line for line in (reference / "history.csv").read_text().splitlines() if "repeated_steps" in line][-1]
-        expect(float(last[names.split(",").index("repeated_steps")]) > 0, "no step is taken again")
+    if column:
+        expect(last_of(reference, column) > 0, f"{name}: nothing of what is to be compared, {column}")
     for ranks, threads in ((2, 1), (3, 1)) if QUICK else ((2, 2), (3, 1), (5, 1)):
         several = work / str(ranks)
-        run = piola(ranks, "run", file, "--out", several, "--set", end, threads=threads)
+        run = piola(ranks, "run", file, "--out", several, *settings, threads=threads)
         expect(run.returncode == 0, f"{name} on {ranks} ranks: {run.stdout}{run.stderr}")
         expect(run.stdout.count("completed at") == 1, f"{name} on {ranks} ranks speaks with several voices")
         different = differences(expected, contents(several)) if several.is_dir() else ["everything"]
@@ -150,7 +162,7 @@ def check_words(bar, work):
             (["run", work / "many.toml", "--out", work / "no"], 2, "triangulations are made by every rank"),
             (["run", bar, "--set", "run.ende=1"], 2, "is not a key of run"),
             (["run", "nothing.toml"], 2, "no such case file"),
-            (["run", SOURCE / "cases/adaptle/noh", "--out", work / "no"], 2, 'formulation "adaptle" runs on one'),
+            (["run", SOURCE / "cases/jst_sph/advection", "--out", work / "no"], 2, '"jst_advection" runs on one'),
             (["check", bar], 2, "start this command without mpirun"),
             (["fly"], 2, "fly")):
         told = piola(2, *words)
@@ -164,37 +176,40 @@ def check_words(bar, work):
     expect(shared.returncode == 3, f"the soft bar on 3 ranks: exit code {shared.returncode}")
     said = [line for line in alone.stderr.splitlines() if "particle" in line][:1]
     expect(said and said[0] in shared.stderr, f"the failure on 3 ranks is another one: {shared.stderr}")
-    (work / "crushed.toml").write_text(FAILING)
-    alone, shared = (piola(n, "run", work / "crushed.toml", "--out", work / f"crushed{n}") for n in (1, 3))
-    expect(alone.returncode == 3 and shared.returncode == 3,
-           f"crushed cells end with {alone.returncode}, on 3 ranks with {shared.returncode}: {shared.stderr}")
-    different = differences(*(contents(work / f"crushed{n}") for n in (1, 3)))
-    expect(not different, f"what the failure leaves differs on 3 ranks in {different[:8]}")
+    for name, text in (("crushed", FAILING), ("escaped", ESCAPED)):
+        (work / f"{name}.toml").write_text(text)
+        alone, shared = (piola(n, "run", work / f"{name}.toml", "--out", work / f"{name}{n}") for n in (1, 3))
+        expect(alone.returncode == 3 and shared.returncode == 3,
+               f"{name} ends with {alone.returncode}, on 3 ranks with {shared.returncode}: {shared.stderr}")
+        different = differences(*(contents(work / f"{name}{n}") for n in (1, 3)))
+        expect(not different, f"what the failure of {name} leaves differs on 3 ranks in {different[:8]}")
 
 
 skip_without_ranks()
 with tempfile.TemporaryDirectory() as folder:
     work = Path(folder)
     bar = short_bar(work)
-    chosen = sys.argv[1:] or (QUICK_PART if QUICK else ["cases", "own", "mixed", "restarts", "words"])
-    cases = [(file, f"cases/{file.parent.relative_to(SOURCE / 'cases')}", "cases") for file in able_cases()]
-    expect(len(cases) >= 45, f"only {len(cases)} cases run on ranks")
+    chosen = sys.argv[1:] or (QUICK_PART if QUICK else ["cases", "own", "variants", "mixed", "restarts", "words"])
+    cases = [(file, f"cases/{file.parent.relative_to(SOURCE / 'cases')}", "cases", (), None) for file in able_cases()]
+    expect(len(cases) >= 65, f"only {len(cases)} cases run on ranks")
     for name, text in OWN_CASES.items():
         file = work / f"{re.sub('[^a-z]+', '_', name.lower())}.toml"
         file.write_text(text)
-        cases.append((file, name, "own"))
-    for file, name, kind in cases:
+        cases.append((file, name, "own", (), SHOWN.get(name)))
+    for name, (folder, column, overrides) in VARIANTS.items():
+        cases.append((SOURCE / "cases/adaptle" / folder / "case.toml", name, "variants", overrides, column))
+    for file, name, kind, overrides, column in cases:
         if kind in chosen or any(word in name for word in chosen):
             own = work / file.stem / name.replace(" ", "_").replace("/", "_")
             own.mkdir(parents=True)
-            compare_case(file, name, own)
+            compare_case(file, name, own, overrides, column)
             shutil.rmtree(own)
     if "mixed" in chosen:
         (work / "mixed.toml").write_text(MIXED)
         compare_case(work / "mixed.toml", "two bodies", work)
     if "restarts" in chosen:
         compare_restarts(bar, work)
-        for name in ("touching bodies", "mirrored copper", "adjoint, triangles"):
+        for name in ("touching bodies", "mirrored copper", "adjoint, triangles", "torn plate", "deleted disc"):
             compare_own_restart(name, OWN_CASES[name], work / f"restart_{name.replace(chr(32), chr(95))}")
     if "words" in chosen:
         check_words(bar, work)

@@ -8,14 +8,11 @@
 #include <vector>
 
 namespace piola {
-namespace {
 
 Range part_of(Range whole, int rank) {
   Range const share = share_of(whole.last - whole.first, rank, ranks::count());
   return {whole.first + share.first, whole.first + share.last};
 }
-
-}  // namespace
 
 Range own_part(Range whole) { return part_of(whole, ranks::own()); }
 
@@ -31,6 +28,30 @@ void complete_slots(double* data, std::ptrdiff_t size, Range whole) {
 void complete_slots(FieldRef const& field, int components, Range whole) {
   PIOLA_EXPECTS(field.particle_stride == 1 && field.tile_extra == 0);
   for (int c = 0; c < components; ++c) complete_slots(field.data + c * field.component_stride, 1, whole);
+}
+
+void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some) {
+  if (!ranks::several() || some.slots.empty()) return;
+  std::size_t width = 0;
+  for (FieldPart const& part : parts) width += static_cast<std::size_t>(part.count);
+  std::vector<double> values(width * some.slots.size());
+  // f(value in the message, value in its field) of the slots k in [first, last).
+  auto const each = [&](std::size_t first, std::size_t last, auto const& f) {
+    exec_host::for_each_in_set_up(static_cast<Index>(last - first), [&](Index k) {
+      std::size_t const place = first + static_cast<std::size_t>(k);
+      double* value = &values[place * width];
+      for (FieldPart const& part : parts)
+        for (int c = 0; c < part.count; ++c) f(*value++, value_at(part.field, some.slots[place], part.first + c));
+    });
+  };
+  auto const own = static_cast<std::size_t>(ranks::own());
+  each(some.starts[own], some.starts[own + 1], [](double& told, double& here) { told = here; });
+  std::vector<std::size_t> starts = some.starts;
+  for (std::size_t& start : starts) start *= width;
+  ranks::complete(values, starts);
+  auto const take = [](double& told, double& here) { here = told; };
+  each(0, some.starts[own], take);
+  each(some.starts[own + 1], some.slots.size(), take);
 }
 
 void gather_slots(FieldRef const& field, Range own, int components) {

@@ -2,13 +2,17 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <span>
+#include <vector>
 
 /// A body of which every rank has all slots, in the same order, and works on some of them: what the ranks have to tell
 /// each other besides halos. Every function but own_part() is collective, and none does anything on one rank.
 namespace piola {
 
-/// The part of a range that this rank works on: of the whole range the same blocks of 64 for any number of ranks.
+/// The part of a range that a rank works on: of the whole range the same blocks of 64 for any number of ranks.
+Range part_of(Range whole, int rank);
+/// That of this rank.
 Range own_part(Range whole);
 
 /// Of values per slot, `size` of slot i at data[i * size], that each rank has right in its own part of a range: all
@@ -16,6 +20,32 @@ Range own_part(Range whole);
 void complete_slots(double* data, std::ptrdiff_t size, Range whole);
 /// Of a field that is not tiled.
 void complete_slots(FieldRef const& field, int components, Range whole);
+
+/// Some of the slots of several bodies, which all ranks name alike: those of rank 0, then those of rank 1, and so on.
+struct SlotsOfRanks {
+  std::vector<Index> slots;
+  std::vector<std::size_t> starts{0};  ///< per rank, one more at the end
+  /// bodies: their ranges, of which each rank has its part. wanted(slot): whether it is one of them.
+  template <class F>
+  SlotsOfRanks(std::span<Range const> bodies, F const& wanted) {
+    for (int rank = 0; rank < ranks::count(); ++rank) {
+      for (Range const& body : bodies) {
+        Range const part = part_of(body, rank);
+        for (Index i = part.first; i < part.last; ++i)
+          if (wanted(i)) slots.push_back(i);
+      }
+      starts.push_back(slots.size());
+    }
+  }
+};
+
+/// Components [first, first + count) of a field.
+struct FieldPart {
+  FieldRef field;
+  int first, count;
+};
+/// Of fields that each rank has right in its own slots: all ranks have these slots of all of them, in one message.
+void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some);
 
 /// Of a field that each rank has right in its own slots, a share of them as share_of() has it: rank 0 has all of it.
 void gather_slots(FieldRef const& field, Range own, int components);

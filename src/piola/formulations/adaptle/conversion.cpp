@@ -25,15 +25,17 @@ double strain_of(int dimension, Deformation const& d, SymMat<3> const& stress, B
 
 }  // namespace
 
-/// Evaluates convert_when; true if a particle wants to convert by it.
+/// Evaluates convert_when; true if a particle wants to convert by it, of any rank.
 bool Particles::wishes_by_formula() {
-  bool any_wish = false;
+  double any_wish = 0;
+  bool asked = false;
   for (std::size_t k = 0; k < body_.size(); ++k) {
     BodyConstants const& b = body_[k];
     if (!options_.bodies[k].convert_when) continue;
+    asked = true;
     Expression const& formula = *options_.bodies[k].convert_when;
     with_solid(b.material, [&](auto const& law) {
-      for (Index i = b.first; i < b.last; ++i) {
+      for (Index i = own_[k].first; i < own_[k].last; ++i) {
         State const& s = state_[at(i)];
         if (s.phi > 0 || wish_[at(i)] == 1) continue;
         double const p = acting_pressure(law, s, system_.own, i, s.rho, s.energy / reference_[at(i)].mass);
@@ -49,16 +51,18 @@ bool Particles::wishes_by_formula() {
                                 s.rho};
         if (formula(X(i), books_.time, values) == 0) continue;
         wish_[at(i)] = 1;
-        any_wish = true;
+        any_wish = 1;
       }
     });
   }
-  return any_wish;
+  if (exchanges_ && asked) ranks::take_largest(any_wish);
+  return any_wish > 0;
 }
 
 /// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not. Those that the guard
-/// alone wants come last, so that nothing depends on who comes first.
+/// alone wants come last, so that nothing depends on who comes first. All ranks do it for all particles.
 void Particles::convert(double dt) {
+  if (exchanges_) exchanges_->wishes(system_);
   ConversionSums sums;
   for (Index i = 0; i < system_.particles; ++i) {
     if (wish_[at(i)] == 0) continue;
@@ -73,6 +77,7 @@ void Particles::convert(double dt) {
   }
   for (Index i = 0; i < system_.particles; ++i)
     if (wish_[at(i)] == 2 && !body_[at(body_of_[at(i)])].deletes) make_eulerian(i, dt, true, sums);
+  if (exchanges_) ranks::add(sums);
   books_.converted_mass += sums.value(0);
   books_.energy_change += sums.value(1);
   books_.momentum_change += sums.value(2);
@@ -83,13 +88,14 @@ void Particles::convert(double dt) {
 void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums) {
   State& s = state_[at(i)];
   if (s.phi == 1) return;
+  books_.converted += 1;
+  books_.by_guard += by_guard ? 1 : 0;
   Share const before(s, reference_[at(i)]);
   Half const& h = half_[at(i)];
   if (s.phi == 0) s.rho = h.rho * std::exp(-0.5 * dt * h.divergence);
   s.phi = 1;
   Share const after(s, reference_[at(i)]);
-  books_.converted += 1;
-  books_.by_guard += by_guard ? 1 : 0;
+  if (!is_own(i)) return;  // the others know of it that it has converted
   double const jump[3]{reference_[at(i)].mass, std::abs(after.energy - before.energy),
                        std::hypot(after.momentum[0] - before.momentum[0], after.momentum[1] - before.momentum[1],
                                   after.momentum[2] - before.momentum[2])};

@@ -51,7 +51,6 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
     rows_.emplace_back(set, order, set.bodies[b], bodies[b].material_h, begin_, neighbour_, lanes, rounded_,
                        components);
   for (LatticeRows& rows : rows_) row_views_.push_back(rows.view());
-  for (BodyConstants const& body : bodies) bodies_.emplace_back(body.first, body.last);
 }
 
 void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, Body const& geometry,
@@ -176,7 +175,8 @@ void MaterialLists::correct(std::vector<Reference> const& reference, std::vector
     }
 }
 
-void MaterialLists::choose(std::vector<State> const& state, std::vector<Reference> const& reference, bool printed,
+void MaterialLists::choose(std::span<Range const> own_slots, std::vector<State> const& state,
+                           std::vector<Reference> const& reference, bool printed,
                            std::vector<Deformation>& deformation) {
   bool const deleted = std::any_of(state.begin(), state.end(), [](State const& s) { return !(s.alive > 0); });
   if (deleted || deleted_) sum_gradients([&](Index j) { return state[at(j)].alive > 0; }, reference);
@@ -202,7 +202,7 @@ void MaterialLists::choose(std::vector<State> const& state, std::vector<Referenc
   target_.clear();
   for (std::size_t b = 0; b < rows_.size(); ++b) {
     if (rows_[b].has_rows()) continue;
-    for (Index i = bodies_[b].first; i < bodies_[b].second; ++i) {
+    for (Index i = own_slots[b].first; i < own_slots[b].last; ++i) {
       if ((part_[at(i)] & Part::kinematic) != 0) kinematic_.push_back(i);
       if ((part_[at(i)] & Part::target) != 0) target_.push_back(i);
     }

@@ -16,9 +16,10 @@ class MaterialLists {
              std::vector<Reference> const& reference, Settings const& settings, int lanes);
 
   /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0 in
-  /// `deformation`, others by -1. Deleted ones leave the sums of their neighbours.
-  void choose(std::vector<State> const& state, std::vector<Reference> const& reference, bool printed,
-              std::vector<Deformation>& deformation);
+  /// `deformation`, others by -1. Deleted ones leave the sums of their neighbours. own: the slots of each body that
+  /// this rank works on.
+  void choose(std::span<Range const> own, std::vector<State> const& state, std::vector<Reference> const& reference,
+              bool printed, std::vector<Deformation>& deformation);
 
   /// f(b) for the reference neighbours of a within the distance [m].
   template <class F>
@@ -33,6 +34,14 @@ class MaterialLists {
       }
       if (square <= within * within) f(b);
     }
+  }
+
+  /// f(b) for the reference neighbours b of the slots of a range.
+  template <class F>
+  void each_neighbour_of(Range slots, F const& f) const {
+    for (Offset k = begin_[static_cast<std::size_t>(slots.first)]; k < begin_[static_cast<std::size_t>(slots.last)];
+         ++k)
+      if (Index const b = neighbour_[static_cast<std::size_t>(k)]; b < particles_) f(b);
   }
 
   void put_into(MaterialTable& table) const;
@@ -73,7 +82,6 @@ class MaterialLists {
   std::vector<std::uint8_t> part_;
   std::vector<LatticeRows> rows_;        ///< per body
   std::vector<MaterialRows> row_views_;  ///< per body
-  std::vector<std::pair<Index, Index>> bodies_;
 };
 
 }  // namespace piola::adaptle

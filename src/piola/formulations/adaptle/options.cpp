@@ -278,6 +278,7 @@ FormulationInfo info() {
   info.mirrors = false;
   info.contact = true;
   info.pushable = true;
+  info.on_ranks = true;
   info.formulas = formulas;
   return info;
 }

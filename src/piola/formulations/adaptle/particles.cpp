@@ -83,6 +83,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
     });
   books_.next_dt = dt;
   start();
+  share();
 }
 
 /// Lists, contact energy, rates and the stable step of the initial state: without rates the first prediction would know
@@ -133,6 +134,7 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.deletes = o.deletes;
     with_solid(b.material, [&](auto const& law) { take_constants(law, o, reach, b); });
     body_.push_back(b);
+    own_.push_back({b.first, b.last});
   }
 }
 
@@ -198,6 +200,7 @@ void Particles::allocate(Assembly const& assembly) {
   s.bodies = static_cast<int>(body_.size());
   s.particles = static_cast<Index>(n);
   s.body = body_.data();
+  s.part = own_.data();
   s.body_of = body_of_.data();
   s.reference = reference_.data();
   s.state = state_.data();
@@ -268,7 +271,7 @@ void Particles::choose_material() {
   system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
   lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
   if (!material_.built()) return;
-  material_.choose(state_, reference_, options_.settings.interface_form == Interface::printed, deformation_);
+  material_.choose(own_, state_, reference_, options_.settings.interface_form == Interface::printed, deformation_);
   material_.put_into(system_.material);
   system_.material.used = lagrangian_;
 }
@@ -314,7 +317,7 @@ void Particles::prepare_supports(double time) {
     if (has_ended(support.until, time)) continue;
     for (auto const id : support.particles)
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) {
-        if (!support.fix[c]) continue;
+        if (!support.fix[c] || !is_own(order_.slot(id))) continue;
         std::size_t const k = 3 * at(order_.slot(id)) + c;
         held_[k] = 1;
         holder_[k] = number;
@@ -330,6 +333,7 @@ void Particles::prepare_loads(double time) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
       Index const slot = order_.slot(load.particles[k]);
+      if (!is_own(slot)) continue;
       auto const a = load_on(load, k, X(slot), time);
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) load_[3 * at(slot) + c] += a[c];
     }
@@ -373,40 +377,53 @@ void Particles::step(double time, double dt) {
   evaluate(dt);
   sum_actions(time, dt);
   factors_.end_of_step();
+  if (exchanges_) share_failures();
 }
 
-/// Forces act at half time and at the places of then, for the whole step.
-void Particles::sum_actions(double time, double dt) {
-  actions_.begin(dt);
+/// Forces act at half time and at the places of then, for the whole step: impulses of the supports, then of the loads,
+/// on the slots of this rank.
+std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
+  std::vector<ImpulseSum> sums(supports_.size() + loads_.size());
   auto const place = [&](std::size_t slot) {
     return std::array{position_[3 * slot], position_[3 * slot + 1], position_[3 * slot + 2]};
   };
-  for (std::size_t s = 0; s < supports_.size(); ++s) {
-    ImpulseSum sum;
+  for (std::size_t s = 0; s < supports_.size(); ++s)
     for (auto const particle : supports_[s].particles) {
       std::size_t const slot = at(order_.slot(particle));
+      if (!is_own(order_.slot(particle))) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < 3; ++c)
         if (holder_[3 * slot + c] == s) impulse[c] = dt * reaction_[3 * slot + c];
-      sum.add(place(slot), impulse);
+      sums[s].add(place(slot), impulse);
     }
-    actions_.supports[s].add(sum.value());
-  }
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     if (loads_[l].name.empty() || has_ended(loads_[l].until, time + 0.5 * dt)) continue;
-    ImpulseSum sum;
     for (std::size_t k = 0; k < loads_[l].particles.size(); ++k) {
       Index const slot = order_.slot(loads_[l].particles[k]);
+      if (!is_own(slot)) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
         impulse[c] = dt * reference_[at(slot)].mass * load_on(loads_[l], k, X(slot), time + 0.5 * dt)[c];
-      sum.add(place(at(slot)), impulse);
+      sums[supports_.size() + l].add(place(at(slot)), impulse);
     }
-    actions_.loads[l].add(sum.value());
   }
+  return sums;
+}
+
+void Particles::sum_actions(double time, double dt) {
+  actions_.begin(dt);
+  std::vector<ImpulseSum> sums = impulses(time, dt);
+  std::vector<exec::ExactSums<6>> rigids(shapes_.size());
+  for (std::size_t block = 0; block < rigid_action_.size(); block += 6)
+    rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
+  if (exchanges_) {
+    ranks::add(std::span(sums));
+    ranks::add(std::span(rigids));
+  }
+  for (std::size_t s = 0; s < supports_.size(); ++s) actions_.supports[s].add(sums[s].value());
+  for (std::size_t l = 0; l < loads_.size(); ++l) actions_.loads[l].add(sums[supports_.size() + l].value());
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
-    exec::ExactSums<6> sum;
-    for (std::size_t at = 6 * k; at < rigid_action_.size(); at += 6 * shapes_.size()) sum.add(&rigid_action_[at]);
+    exec::ExactSums<6> const& sum = rigids[k];
     actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
                             {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
     std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
@@ -419,7 +436,11 @@ void Particles::sweep(double dt) {
   System& s = system_;
   if (lagrangian_) machine_->deform(s);
   machine_->half_state(s, dt);
-  if (s.settings.corrected && s.spatial.targets > 0) machine_->correct(s);
+  if (exchanges_) exchanges_->after_half_state(s, spatial_);
+  if (s.settings.corrected) {
+    if (s.spatial.targets > 0) machine_->correct(s);
+    if (exchanges_) exchanges_->after_correction(s);
+  }
   machine_->sweep(s);
 }
 
@@ -430,11 +451,16 @@ void Particles::evaluate(double dt) {
     Stopwatch const watch(seconds_.points);
     machine_->predict(s, dt);
   }
+  if (exchanges_) {
+    share_failure(failure_);
+    if (failure_.index == FailureSlot::none) exchanges_->after_prediction(s);
+  }
   if (failure_.index != FailureSlot::none) return;
   {
     Stopwatch const watch(seconds_.lists);
     spatial_.build(s, *machine_);
     spatial_.put_into(s);
+    if (exchanges_) exchanges_->after_lists(s, spatial_);
   }
   sweep(dt);
   Measures m;
@@ -448,8 +474,10 @@ void Particles::evaluate(double dt) {
   books_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
   books_.overlap = std::max(books_.overlap, m.overlap);
   books_.next_dt = m.dt;
+  crowded_ = m.crowded;
   Stopwatch const watch(seconds_.conversion);
-  if (wishes_by_formula() || m.wishes > 0) convert(dt);
+  bool const by_formula = wishes_by_formula();
+  if (by_formula || m.wishes > 0) convert(dt);
 }
 
 void Particles::damp(double factor) {
@@ -461,10 +489,14 @@ void Particles::damp(double factor) {
 }
 
 double Particles::kinetic_energy() const {
-  return exec_host::sum_of(system_.particles, [&](Index i) {
-    double const* v = state_[at(i)].v;
-    return 0.5 * reference_[at(i)].mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  });
+  exec::ExactSums<1> sum;
+  for (Range const& own : own_)
+    sum.add(exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
+      double const* v = state_[at(own.first + k)].v;
+      *x = 0.5 * reference_[at(own.first + k)].mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }));
+  if (exchanges_) ranks::add(sum);
+  return sum.value();
 }
 
 std::size_t Particles::bytes() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/exact_sum.hpp"
+#include "piola/formulations/adaptle/exchanges.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
@@ -9,6 +10,7 @@
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,13 @@ class Particles {
   std::vector<double>& rigid_centres() { return rigid_centre_; }
   /// After a checkpoint has been read.
   void resumed();
+  /// A particle has more neighbours than can be listed.
+  bool crowded() const { return crowded_; }
+  /// Motion of these particles, the same on all ranks [m], [m/s].
+  void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
+                   std::span<std::array<double, 3>> v) const;
+  /// Where ranks share the particles: rank 0 has all of them.
+  void gather();
 
  private:
   bool deleted() const;
@@ -89,6 +98,13 @@ class Particles {
   bool wishes_by_formula();
   /// Mass, change of energy and of momentum of those that convert in a step.
   using ConversionSums = exec::ExactSums<3>;
+  void share();
+  bool is_own(Index slot) const {
+    Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
+    return slot >= own.first && slot < own.last;
+  }
+  void share_failures();
+  std::vector<ImpulseSum> impulses(double time, double dt) const;
   void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
   void remove(Index i);
 
@@ -97,6 +113,8 @@ class Particles {
   Machine const* machine_;
   System system_;
   std::vector<BodyConstants> body_;
+  std::vector<Range> own_;                ///< of each body: the slots that this rank works on
+  std::unique_ptr<Exchanges> exchanges_;  ///< null: one rank, which has all
   std::vector<int> body_of_;
   std::vector<Reference> reference_;
   std::vector<State> state_;
@@ -118,6 +136,7 @@ class Particles {
   Books books_;
   PartSeconds seconds_;
   bool lagrangian_ = false;  ///< some particle is not wholly Eulerian
+  bool crowded_ = false;
   // Boundaries
   std::vector<Support> supports_;
   std::vector<Load> loads_;

@@ -69,11 +69,7 @@ class Solver final : public Formulation {
   void damp(double factor) override { particles_.damp(factor); }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      State const& s = particles_.system().state[particles_.order().slot(ids[k])];
-      std::copy_n(s.x, 3, x[k].begin());
-      std::copy_n(s.v, 3, v[k].begin());
-    }
+    particles_.read_motion(ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
     System const& system = particles_.system();  // what is deleted flies on and touches nobody
@@ -103,6 +99,7 @@ class Solver final : public Formulation {
     return {{"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
   }
   std::size_t memory_bytes() const override { return particles_.bytes(); }
+  void gather() override { particles_.gather(); }
 
  private:
   /// f(place by slot, place by id) of the first of `width` numbers of each particle.
@@ -119,7 +116,7 @@ class Solver final : public Formulation {
 std::optional<Failure> Solver::failure() const {
   FailureSlot const& slot = particles_.failure();
   System const& s = particles_.system();
-  bool const crowded = particles_.spatial().overflow();
+  bool const crowded = particles_.crowded();
   if (slot.index == FailureSlot::none && !crowded) return std::nullopt;
   Index const i = slot.index == FailureSlot::none ? particles_.order().slot(0) : slot.index;
   State const& p = s.state[i];

@@ -2,7 +2,6 @@
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include <algorithm>
-#include <numeric>
 
 namespace piola::adaptle {
 namespace {
@@ -14,6 +13,12 @@ constexpr Index most_neighbours = 4096;
 std::array<double, 3> origin_of_cells(System const& s) {
   double const* X = s.reference[s.slot_of != nullptr ? s.slot_of[0] : 0].X;
   return {X[0], X[1], X[2]};
+}
+
+/// Whether this rank works on it.
+bool is_own(System const& s, Index slot) {
+  Range const own = s.part[s.body_of[slot]];
+  return slot >= own.first && slot < own.last;
 }
 
 /// Calls f(cell) for the cells around one.
@@ -48,6 +53,7 @@ void SpatialLists::choose_targets(System const& s) {
   spatial_.target.clear();
   contact_.target.clear();
   cell_near_.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
+  meets_.assign(s.shared ? at(s.particles) : 0, 0);
   Index last = -1;
   bool eulerian = false;
   std::int32_t low = 0, high = 0;
@@ -66,8 +72,12 @@ void SpatialLists::choose_targets(System const& s) {
       // Targets read the records of all particles around them.
       if (eulerian) each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) { cell_near_[at(other)] = 1; });
     }
+    Index const slot = grid_.slots()[k];
+    bool const touches = s.contact.law > 0 && high > low;
+    if (touches && s.shared) meets_[at(slot)] = 1;
+    if (!is_own(s, slot)) continue;
     if (eulerian) spatial_.target.push_back(k);
-    if (s.contact.law > 0 && high > low) contact_.target.push_back(k);
+    if (touches) contact_.target.push_back(k);
   }
   near_.resize(at(s.particles));
   for (Index k = 0; k < s.particles; ++k) near_[at(grid_.slots()[k])] = cell_near_[at(grid_.cells()[k])];
@@ -77,21 +87,21 @@ void SpatialLists::build(System const& s, Machine const& machine) {
   eulerian_ = s.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
-  bool const touching = s.contact.law > 0 && s.bodies > 1;
-  if (!eulerian_ && !touching) return;
+  of_all_.clear();
+  if (!needed(s)) return;
   widest_ = 0;
   for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
   grid_.sort(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s), s.slot_of);
-  everyone_ = s.eulerians == s.particles && !touching;
+  everyone_ = s.eulerians == s.particles && !touching(s);
   if (everyone_) {
-    spatial_.target.resize(at(s.particles));
-    std::iota(spatial_.target.begin(), spatial_.target.end(), 0);
+    for (Index k = 0; k < s.particles; ++k)
+      if (is_own(s, grid_.slots()[k])) spatial_.target.push_back(k);
   } else {
     mark_cells(s);
     choose_targets(s);
   }
   search(s, machine, spatial_, false);
-  if (touching) search(s, machine, contact_, true);
+  if (touching(s)) search(s, machine, contact_, true);
   if (!eulerian_) return;
   if (record_room_ < s.particles + 1) {
     record_room_ = s.particles + 1;
@@ -119,7 +129,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
   q.dimension = s.dimension;
   q.sources = s.particles;
   for (int c = 0; c < 3; ++c) q.place[c] = grid_.place(c);
-  q.group = s.contact.law > 0 && s.bodies > 1 ? group_.data() : nullptr;
+  q.group = touching(s) ? group_.data() : nullptr;
   q.across = across;
   q.cell = grid_.cells();
   q.begin = grid_.begins();
@@ -154,6 +164,7 @@ void SpatialLists::put_into(System& s) {
   s.spatial.length = spatial_.length.data();
   s.spatial.near = everyone_ ? nullptr : near_.data();
   s.spatial.record = eulerian_ ? records_.data() : nullptr;
+  s.crowded = overflow_;
   s.contact.targets = static_cast<Index>(contact_.target.size());
   s.contact.target = contact_.target.data();
   s.contact.capacity = contact_.capacity;
@@ -162,6 +173,7 @@ void SpatialLists::put_into(System& s) {
 }
 
 std::vector<int> SpatialLists::neighbours_by_slot(System const& s) const {
+  if (!of_all_.empty()) return of_all_;
   std::vector<int> count(at(s.particles), 0);
   for (std::size_t t = 0; t < spatial_.found.size() && t < spatial_.target.size(); ++t)
     count[at(grid_.slots()[spatial_.target[t]])] = spatial_.found[t];

@@ -15,8 +15,16 @@ class SpatialLists {
   std::size_t bytes() const;
   Index longest() const { return longest_; }
   bool overflow() const { return overflow_; }  ///< a particle has more neighbours than can be listed
+  /// Whether there is anything to list.
+  static bool needed(System const& system) { return system.eulerians > 0 || touching(system); }
+  static bool touching(System const& system) { return system.contact.law > 0 && system.bodies > 1; }
+  /// Whether particles of other slots read what this one says of itself: in spatial sums, and in contacts.
+  bool near(Index slot) const { return everyone_ || near_[static_cast<std::size_t>(slot)] != 0; }
+  bool meets(Index slot) const { return meets_[static_cast<std::size_t>(slot)] != 0; }
   /// Of the last step, per slot; 0 where there is no list.
   std::vector<int> neighbours_by_slot(System const& system) const;
+  /// What all ranks have found, per slot; forgotten with the next lists.
+  void set_neighbours(std::vector<int> of_all) { of_all_ = std::move(of_all); }
 
  private:
   struct List {
@@ -28,7 +36,7 @@ class SpatialLists {
   void search(System const& system, Machine const& machine, List& list, bool across);
 
   MovingGrid grid_;
-  std::vector<std::uint8_t> cell_has_eulerian_, cell_near_, near_;
+  std::vector<std::uint8_t> cell_has_eulerian_, cell_near_, near_, meets_;
   std::vector<std::int32_t> cell_low_, cell_high_, group_;
   std::vector<float> reach_;
   List spatial_, contact_;
@@ -37,6 +45,7 @@ class SpatialLists {
   double widest_ = 0;
   bool eulerian_ = false, overflow_ = false;
   bool everyone_ = false;  ///< every particle is a target
+  std::vector<int> of_all_;
 };
 
 }  // namespace piola::adaptle

@@ -227,14 +227,18 @@ struct Measures {
   double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0,
          viscous_power = 0;  ///< [W]
   double overlap = 0;
-  Index wishes = 0;  ///< particles that want to convert or to be deleted
+  Index wishes = 0;      ///< particles that want to convert or to be deleted
+  bool crowded = false;  ///< a particle has more neighbours than can be listed
 };
 
 struct System {
+  bool shared = false;   ///< by several ranks
+  bool crowded = false;  ///< as in Measures, of the lists of this rank
   int dimension = 3, bodies = 0;
   Index particles = 0;
   Settings settings;
   BodyConstants const* body = nullptr;
+  Range const* part = nullptr;     ///< per body: the slots that this rank works on
   int const* body_of = nullptr;    ///< per slot
   Index const* slot_of = nullptr;  ///< per id; null: slots are ids
   Reference const* reference = nullptr;

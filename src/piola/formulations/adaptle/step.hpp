@@ -6,6 +6,7 @@
 #include "piola/formulations/adaptle/riemann_sweep.hpp"
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
 #include "piola/neighbours/moving_search.hpp"
+#include "piola/parallel/ranks.hpp"
 
 /// One step, part by part; the host sorts particles and updates tables between the parts.
 namespace piola::adaptle::inline PIOLA_MACHINE {
@@ -14,7 +15,7 @@ template <int D>
 struct Step {
   System& s;
 
-  Range body_range(int b) const { return {s.body[b].first, s.body[b].last}; }
+  Range body_range(int b) const { return s.part[b]; }
 
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
@@ -71,6 +72,8 @@ struct Step {
             r, Finish<D, std::decay_t<decltype(law)>>{law, s.body[b], s.settings, dt, s, rigid_power, s.partial});
         add_blocks(exec::block_count(r), m, sums);
       });
+    m.crowded = s.crowded;
+    if (s.shared) combine_over_ranks(m, sums);
     using B = BlockMeasures;
     m.contact_power = sums.value(B::contact);
     m.hourglass_power = sums.value(B::hourglass);
@@ -120,7 +123,8 @@ struct Step {
     if (!s.material.used) return;
     for (int b = 0; b < s.bodies; ++b) {
       MaterialTable const table = material_of(b);
-      if (table.rows.record != nullptr) f(s.body[b], table, Range{0, s.body[b].last - s.body[b].first});
+      Index const first = s.body[b].first;
+      if (table.rows.record != nullptr) f(s.body[b], table, Range{s.part[b].first - first, s.part[b].last - first});
     }
   }
 
@@ -156,6 +160,25 @@ struct Step {
     else
       exec::for_each_block(targets,
                            SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+  }
+
+  /// What the steps of all ranks say: the same on all of them.
+  static void combine_over_ranks(Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) {
+    struct Said {
+      Measures m;
+      exec::ExactSums<BlockMeasures::sums> sums;
+    } said{m, sums};
+    ranks::combine(said, [](void const* other, void* mine) {
+      Said const& from = *static_cast<Said const*>(other);
+      Said& to = *static_cast<Said*>(mine);
+      to.sums.add(from.sums);
+      to.m.dt = from.m.dt < to.m.dt ? from.m.dt : to.m.dt;
+      to.m.overlap = from.m.overlap > to.m.overlap ? from.m.overlap : to.m.overlap;
+      to.m.wishes += from.m.wishes;
+      to.m.crowded = to.m.crowded || from.m.crowded;
+    });
+    m = said.m;
+    sums = said.sums;
   }
 
   void add_blocks(Index blocks, Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/exchanges.hpp"
+#include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include <algorithm>
+#include <array>
+
+namespace piola::adaptle {
+namespace {
+
+/// f(layout) with the layout of the records of reference neighbours in so many dimensions.
+template <class F>
+auto with_material(int dimension, F const& f) {
+  return dimension == 2 ? f(MaterialRecord<2>{}) : f(MaterialRecord<3>{});
+}
+
+/// Components [first, last) of the records of spatial neighbours: what the correction reads of them, or the rest.
+struct SpatialParts {
+  int corrected, all;
+};
+template <int D, bool Corrected>
+SpatialParts parts_of(Settings const& settings) {
+  using R = SpatialRecord<D, Corrected>;
+  return {R::volume + 1, R::values(settings.artificial_stress)};
+}
+SpatialParts parts_of(System const& s) {
+  if (s.dimension == 2) return s.settings.corrected ? parts_of<2, true>(s.settings) : parts_of<2, false>(s.settings);
+  return s.settings.corrected ? parts_of<3, true>(s.settings) : parts_of<3, false>(s.settings);
+}
+
+constexpr int deformation_and_rate = 18;
+
+FieldRef positions(System const& s) { return {.data = s.position, .component_stride = 1, .particle_stride = 3}; }
+FieldRef half_velocity(System const& s) {
+  return {.data = s.half->v, .component_stride = 1, .particle_stride = s.half[1].v - s.half[0].v};
+}
+FieldRef half_volume(System const& s) {
+  return {.data = &s.half->volume, .component_stride = 1, .particle_stride = &s.half[1].volume - &s.half[0].volume};
+}
+FieldRef spatial_records(System const& s) {
+  return {.data = s.spatial.record, .component_stride = 1, .particle_stride = s.spatial.stride};
+}
+
+/// Records of the reference neighbours of a body, by its own slots.
+FieldRef material_records(System const& s, int body) {
+  MaterialRows const& rows = s.material.rows_of[body];
+  if (rows.record != nullptr) return {.data = rows.record, .component_stride = rows.stride, .particle_stride = 1};
+  int const stride = with_material(s.dimension, [&](auto r) { return decltype(r)::stride(s.settings.published); });
+  return {.data = s.material.record + std::ptrdiff_t{s.body[body].first} * stride,
+          .component_stride = 1,
+          .particle_stride = stride};
+}
+
+std::vector<Range> ranges_of(System const& s) {
+  std::vector<Range> bodies;
+  for (int b = 0; b < s.bodies; ++b) bodies.push_back({s.body[b].first, s.body[b].last});
+  return bodies;
+}
+
+}  // namespace
+
+Exchanges::Exchanges(System const& s, MaterialLists const& lists)
+    : bodies_(ranges_of(s)), all_(bodies_, [](Index) { return true; }), near_({}, [](Index) { return false; }) {
+  for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(to_neighbours(s, lists, b));
+}
+
+/// Displacement, velocity, volume and viscosity before the first sweep, what carries stress before the second; where
+/// particles beside Eulerian ones leave damping and springs to the others, also F and its rate.
+Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists const& lists, int body) const {
+  BodyConstants const& b = s.body[body];
+  std::vector<Index> read;
+  lists.each_neighbour_of(s.part[body], [&](Index i) { read.push_back(i - b.first); });
+  ToNeighbours told{HaloPlan(b.last - b.first, std::move(read)), material_records(s, body), {}, {}};
+  auto const [motion, stress, values] = with_material(s.dimension, [&](auto r) {
+    using R = decltype(r);
+    return std::array{R::X, R::A, R::values(s.settings.published)};
+  });
+  told.stress = told.motion;
+  told.stress.data += stress * told.motion.component_stride;
+  told.plan.add(told.motion, 0, motion);
+  told.plan.add(told.stress, 0, values - stress);
+  if (b.hourglass > 0 || b.hourglass_stiffness > 0) {
+    told.hourglass = {.data = s.deformation[b.first].F, .component_stride = 1, .particle_stride = Deformation::values};
+    told.plan.add(told.hourglass, 0, deformation_and_rate);
+  }
+  return told;
+}
+
+void Exchanges::after_prediction(System const& s) {
+  if (SpatialLists::needed(s)) complete_slots(std::array{FieldPart{positions(s), 0, 3}}, all_);
+  for (ToNeighbours& told : to_neighbours_)
+    if (s.material.used) told.plan.exchange(told.motion);
+}
+
+/// Contacts read positions where steps have left them.
+void Exchanges::after_lists(System const& s, SpatialLists const& lists) {
+  for (Index i = 0; i < s.particles && SpatialLists::touching(s); ++i)
+    if (lists.meets(i)) std::copy_n(s.position + std::ptrdiff_t{3} * i, 3, s.state[i].x);
+  near_ = SlotsOfRanks(bodies_, [&](Index i) { return s.spatial.record != nullptr && lists.near(i); });
+  for (Index& slot : near_.slots) slot = s.spatial.sorted[slot];
+}
+
+void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
+  for (ToNeighbours& told : to_neighbours_) {
+    if (!s.material.used) break;
+    told.plan.exchange(told.stress);
+    if (told.hourglass.data != nullptr && s.eulerians > 0) told.plan.exchange(told.hourglass);
+  }
+  if (SpatialLists::touching(s))
+    complete_slots(std::array{FieldPart{half_velocity(s), 0, 3}, FieldPart{half_volume(s), 0, 1}},
+                   SlotsOfRanks(bodies_, [&](Index i) { return lists.meets(i); }));
+  auto const [corrected, all] = parts_of(s);
+  tell_records(s, 0, s.settings.corrected ? corrected : all);
+}
+
+void Exchanges::after_correction(System const& s) {
+  auto const [corrected, all] = parts_of(s);
+  tell_records(s, corrected, all);
+}
+
+void Exchanges::tell_records(System const& s, int first, int last) const {
+  complete_slots(std::array{FieldPart{spatial_records(s), first, last - first}}, near_);
+}
+
+void Exchanges::wishes(System const& s) const {
+  std::vector<double> wishes(s.wish, s.wish + s.particles);
+  complete_slots(std::array{FieldPart{{.data = wishes.data()}, 0, 1}}, all_);
+  std::transform(wishes.begin(), wishes.end(), s.wish, [](double wish) { return static_cast<std::int8_t>(wish); });
+}
+
+void Exchanges::gather(FieldRef const& field, int components) const {
+  for (Range const& body : bodies_) {
+    FieldRef of_body = field;
+    of_body.data += body.first * field.particle_stride;
+    Range const own = own_part(body);
+    gather_slots(of_body, {own.first - body.first, own.last - body.first}, components);
+  }
+}
+
+}  // namespace piola::adaptle

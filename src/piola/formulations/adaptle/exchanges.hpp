@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/material_lists.hpp"
+#include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/own_slots.hpp"
+#include <vector>
+
+namespace piola::adaptle {
+
+/// What ranks tell each other in a step. Each works on its part of the tiles of every body, and its results are those
+/// of these slots; all have the same descriptions and lists of who may be near whom, and convert the same particles.
+/// Reference neighbours are told by halos. Who is near in space changes in every step, so of those that are near
+/// somebody all ranks are told. What is told, and when, stands in exchanges.cpp alone; every function is collective.
+class Exchanges {
+ public:
+  /// system: of a run that several ranks share, with its tables.
+  Exchanges(System const& system, MaterialLists const& lists);
+
+  /// Between the parts of a step (Machine), in this order.
+  void after_prediction(System const& system);
+  void after_lists(System const& system, SpatialLists const& lists);
+  void after_half_state(System const& system, SpatialLists const& lists);
+  void after_correction(System const& system);
+  void wishes(System const& system) const;
+
+  /// Rank 0 has all of a field that each rank has right in its own slots.
+  void gather(FieldRef const& field, int components) const;
+
+ private:
+  /// What one body tells its reference neighbours.
+  struct ToNeighbours {
+    HaloPlan plan;
+    FieldRef motion, stress, hourglass;  ///< data null: nothing
+  };
+  ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
+  void tell_records(System const& system, int first, int last) const;
+
+  std::vector<Range> bodies_;  ///< all slots of each
+  SlotsOfRanks all_, near_;    ///< near_: places of records in the order of cells
+  std::vector<ToNeighbours> to_neighbours_;
+};
+
+}  // namespace piola::adaptle

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ranks: every rank makes all bodies and lists and then works on its part of the slots of each body.
+#include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <algorithm>
+
+namespace piola::adaptle {
+
+/// From here on; the initial state is that of one rank.
+void Particles::share() {
+  if (!ranks::several()) return;
+  system_.shared = true;
+  // Records of reference neighbours hold what never changes, too.
+  machine_->predict(system_, 0);
+  std::fill(rigid_action_.begin(), rigid_action_.end(), 0);
+  for (Range& own : own_) own = own_part(own);
+  choose_material();
+  exchanges_ = std::make_unique<Exchanges>(system_, material_);
+}
+
+/// What a checkpoint holds, and who has how many neighbours, is all that observers see.
+void Particles::gather() {
+  if (!exchanges_) return;
+  each_array([&](char const*, double* values, int width) {
+    exchanges_->gather({.data = values, .component_stride = 1, .particle_stride = width}, width);
+  });
+  std::vector<int> const found = spatial_.neighbours_by_slot(system_);
+  std::vector<double> neighbours(found.begin(), found.end());
+  exchanges_->gather({.data = neighbours.data()}, 1);
+  spatial_.set_neighbours({neighbours.begin(), neighbours.end()});
+}
+
+/// Of the ranks' first failures the first; then rank 0 has all that there is to say about it.
+void Particles::share_failures() {
+  share_failure(failure_);
+  if (failure_.index != FailureSlot::none || crowded_) gather();
+}
+
+void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
+                            std::span<std::array<double, 3>> v) const {
+  std::vector<double> motion(6 * ids.size(), 0);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    Index const slot = order_.slot(ids[k]);
+    if (!is_own(slot)) continue;
+    std::copy_n(state_[at(slot)].x, 3, &motion[6 * k]);
+    std::copy_n(state_[at(slot)].v, 3, &motion[6 * k + 3]);
+  }
+  if (exchanges_) ranks::merge(motion);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    std::copy_n(&motion[6 * k], 3, x[k].begin());
+    std::copy_n(&motion[6 * k + 3], 3, v[k].begin());
+  }
+}
+
+}  // namespace piola::adaptle
