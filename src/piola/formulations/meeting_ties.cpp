@@ -44,9 +44,9 @@ void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, st
   inverse.reserve(masses.size());
   for (double const m : masses) inverse.push_back(m > 0 ? 1 / m : 0);
   frequency2_ = ties_.frequency2(inverse);
-  springs_.clear();
-  for (std::size_t r = 0; r < system.rigids().size(); ++r)
-    springs_.push_back(ties_.springs_of_shape(r, system.rigids()));
+  if (springs_.empty())  // and not of shapes that have turned, whose last digits differ
+    for (std::size_t r = 0; r < system.rigids().size(); ++r)
+      springs_.push_back(ties_.springs_of_shape(r, system.rigids()));
   if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));
   for (std::size_t row = 0; row < ties_.count(); ++row)
     if (ties_.has_failed(row)) leave_out(system, row, false);
