@@ -221,6 +221,16 @@ def tie(**given):
     return make
 
 
+def tie_to_rigid(formulation):
+    """A block that would fly off a fixed shape."""
+    block = body(formulation, box([0, 0], [8, 5]), initial_velocity=["0", "10"])
+    if formulation == "adaptle":
+        block["formulation"]["description"] = "total_lagrangian"
+    floor = {"name": "floor", "box": {"min": [-1, -0.5], "max": [2, 0]}}
+    made = case(block) | {"rigid": [floor], "contact": {"law": "surface"}}
+    return made | {"tie": [{"between": ["block", "floor"]}]}, made
+
+
 def crack(formulation):
     made = plain(formulation) | {"load": [{"body": "block", "face": "+y", "traction": ["0", "1e5"]}]}
     made["body"][0] |= {"shape": box([0, 0], [8, 6])}
@@ -320,6 +330,7 @@ FEATURES = {
     "rigid shapes that are driven": rigid(velocity=["0", "10"]),
     "free rigid bodies": rigid(motion="free", mass=100),
     "ties": tie(),
+    "ties to rigid shapes": tie_to_rigid,
     "cohesive zones": tie(strength=1e5, toughness=1000),
     "cracks": crack,
 }

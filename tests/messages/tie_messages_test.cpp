@@ -37,12 +37,16 @@ std::string const both = "between = [\"lower\", \"upper\"]\n";
 
 TEST(TieMessages, ATieNamesTwoBodies) {
   EXPECT_EQ(told(both), "");
-  EXPECT_EQ(told(""), "case.toml:14:1: tie needs \"between\" (names of two bodies) - add between = [...]");
+  EXPECT_EQ(told(""),
+            "case.toml:14:1: tie needs \"between\" (names of two bodies, or of a body and a rigid shape) - add between "
+            "= [...]");
   EXPECT_EQ(told("between = [\"lower\"]"), "case.toml:15:11: tie.between is a list of 1 (allowed: a list of 2)");
   EXPECT_EQ(told("between = [\"lower\", \"uper\"]"),
-            "case.toml:15:21: tie.between[1] is \"uper\" (allowed: lower, upper, bodies) - did you mean \"upper\"?");
-  EXPECT_EQ(told("between = [\"lower\", \"lower\"]"),
-            "case.toml:15:11: tie.between names \"lower\" twice (allowed: two bodies) - name another body");
+            "case.toml:15:21: tie.between[1] is \"uper\" (allowed: lower, upper) - did you mean \"upper\"?");
+  EXPECT_EQ(
+      told("between = [\"lower\", \"lower\"]"),
+      "case.toml:15:11: tie.between names \"lower\" twice (allowed: two bodies, or a body and a rigid shape) - name "
+      "another body");
 }
 
 TEST(TieMessages, ConditionsAreNumbers) {
@@ -50,13 +54,45 @@ TEST(TieMessages, ConditionsAreNumbers) {
   EXPECT_NE(told(both + "where = \"q > 1\"").find("tie.where"), std::string::npos);
 }
 
-TEST(TieMessages, RigidShapesAreNoBodies) {
-  std::string const text = stack(
-      "between = [\"lower\", \"floor\"]\n[[rigid]]\nname = \"floor\"\n"
-      "plane = { point = [0, 0], normal = [0, 1] }\n");
-  EXPECT_EQ(message_of(text),
-            "case.toml:15:21: tie.between[1] is \"floor\", a rigid shape (allowed: lower, upper, bodies) - hold a body "
-            "by a [[support]], driven where the shape moves");
+/// The stack on a rigid floor at a height.
+std::string on_floor(std::string const& between, std::string const& height = "0", std::string const& more = "") {
+  return stack("between = " + between + "\n" + more + "[[rigid]]\nname = \"floor\"\nplane = { point = [0, " + height +
+               "], normal = [0, 1] }\n[[rigid]]\nname = \"ball\"\nsphere = { centre = [\"5 mm\", \"30 mm\"], radius = "
+               "\"3 mm\" }\nmotion = \"free\"\nmass = 1\n");
+}
+
+TEST(TieMessages, RigidShapesHoldBodies) {
+  EXPECT_EQ(message_of(on_floor("[\"lower\", \"floor\"]")), "");
+  EXPECT_EQ(message_of(on_floor("[\"floor\", \"lower\"]")), "");
+  EXPECT_EQ(message_of(on_floor("[\"floor\", \"ball\"]")),
+            "case.toml:15:11: tie.between names two rigid shapes (allowed: two bodies, or a body and a rigid shape) - "
+            "name a body");
+  EXPECT_EQ(message_of(on_floor("[\"lower\", \"flor\"]")),
+            "case.toml:15:21: tie.between[1] is \"flor\" (allowed: lower, upper, floor, ball) - did you mean "
+            "\"floor\"?");
+  EXPECT_EQ(message_of(on_floor("[\"lower\", \"floor\"]", "\"-0.7 mm\"")),
+            "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"floor\" the nearest surfaces "
+            "that face each other are 0.7 spacings apart, as a gap or an overlap (allowed: half a spacing) - let the "
+            "bodies touch");
+  EXPECT_NE(message_of(on_floor("[\"floor\", \"lower\"]", "0", "strength = \"20 MPa\"\ntoughness = \"100 J/m^2\"\n"))
+                .find("the tie \"tie_0\" is too soft for its strength"),
+            std::string::npos);
+}
+
+TEST(TieMessages, BodiesWithAContactOfTheirOwnAreHeldBySurfaces) {
+  std::string const solid =
+      "material = { law = \"elastic\", density = 7800, youngs_modulus = \"200 GPa\", poissons_ratio = 0.3 }\n"
+      "formulation = { name = \"adaptle\", description = \"total_lagrangian\" }\n[[body]]\nname = \"upper\"";
+  std::string const rubber =
+      "material = { law = \"neo_hookean\", density = 1000, youngs_modulus = \"1 GPa\", poissons_ratio = 0.3 }\n"
+      "formulation = { name = \"nodal\" }\n[[body]]\nname = \"upper\"";
+  std::string const text = replaced(on_floor("[\"lower\", \"floor\"]"), rubber, solid);
+  EXPECT_NE(message_of(text).find("case.toml:15:11: the tie \"tie_0\" holds body \"lower\" to a rigid shape from which "
+                                  "adaptle keeps it by a contact of its own (allowed: contact by surfaces) - set "
+                                  "contact.law = \"surface\""),
+            std::string::npos)
+      << message_of(text);
+  EXPECT_EQ(message_of(text + "[contact]\nlaw = \"surface\"\n"), "");
 }
 
 TEST(TieMessages, NamesOfColumnsAreTheirOwn) {

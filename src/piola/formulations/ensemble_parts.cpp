@@ -108,6 +108,7 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
     a.mirrors.push_back(mirror);
   }
   for (contact::TieRule tie : whole.ties) {
+    if (tie.rigid) continue;
     auto const first = part.body_in_part(tie.bodies[0]), second = part.body_in_part(tie.bodies[1]);
     if (!first || !second) continue;
     tie.bodies = {*first, *second};

@@ -245,7 +245,7 @@ double Meeting::limit(double step) const {
   return std::min(with_frequency(step, omega2), closing_);
 }
 
-double Meeting::settled(double step) const { return with_frequency(step, ties_.frequency2()); }
+double Meeting::settled(double step) const { return with_frequency(step, ties_.settled_frequency2()); }
 
 std::vector<Action> Meeting::pairs() const {
   std::vector<Action> all;

@@ -27,7 +27,8 @@ std::vector<Vec<3>> starts(Assembly const& whole, std::vector<std::int64_t> cons
 }  // namespace
 
 MeetingTies::MeetingTies(Assembly const& whole, contact::System& system)
-    : ties_(whole.ties, whole.particles, whole.surfaces, system.carriers(), starts(whole, system.ids())),
+    : ties_(whole.ties, whole.particles, whole.surfaces, system.carriers(), starts(whole, system.ids()),
+            system.rigids()),
       impulses_(whole.ties.size()) {
   for (std::size_t row = 0; row < ties_.count(); ++row) leave_out(system, row, true);
 }
@@ -43,6 +44,9 @@ void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, st
   inverse.reserve(masses.size());
   for (double const m : masses) inverse.push_back(m > 0 ? 1 / m : 0);
   frequency2_ = ties_.frequency2(inverse);
+  if (springs_.empty())  // and not of shapes that have turned, whose last digits differ
+    for (std::size_t r = 0; r < system.rigids().size(); ++r)
+      springs_.push_back(ties_.springs_of_shape(r, system.rigids()));
   if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));
   for (std::size_t row = 0; row < ties_.count(); ++row)
     if (ties_.has_failed(row)) leave_out(system, row, false);
@@ -51,8 +55,13 @@ void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, st
 
 void MeetingTies::evaluate(contact::System& system, std::vector<Vec<3>> const& x) {
   if (!any()) return;
-  ties_.evaluate(system.carriers(), x);
+  ties_.evaluate(system.carriers(), x, system.rigids());
+  for (std::size_t r = 0; r < springs_.size(); ++r) system.tie_rigid(r, ties_.on_rigid(r), springs_[r]);
   for (std::size_t const row : ties_.released()) leave_out(system, row, false);
+}
+
+double MeetingTies::settled_frequency2() const {
+  return frequency2_ + (springs_.empty() ? 0 : *std::max_element(springs_.begin(), springs_.end()));
 }
 
 void MeetingTies::hand_over(contact::System const& system) {

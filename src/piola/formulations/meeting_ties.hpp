@@ -17,7 +17,7 @@ class MeetingTies {
   /// Forces of the state as it is: before the first step, and after a checkpoint has been read. x [m] and masses [kg]
   /// by index into System::ids().
   void look(contact::System& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses);
-  void evaluate(contact::System& system, std::vector<Vec<3>> const& x);
+  void evaluate(contact::System& system, std::vector<Vec<3>> const& x);  ///< tells rigid shapes in the system, too
   /// After contact has been evaluated, too: what it stores at points that have just failed comes from the ties.
   void hand_over(contact::System const& system);
   std::vector<Index> const& pushed() const { return ties_.pushed(); }
@@ -26,10 +26,12 @@ class MeetingTies {
   void begin();            ///< of a step
   void book(double half);  ///< impulses of `half` [s]
   double frequency2() const { return frequency2_; }
+  /// The same with free rigid shapes that are tied.
+  double settled_frequency2() const;
   double energy() const { return ties_.totals().energy; }
   /// Columns of history.csv.
   void report(Diagnostics& sum) const;
-  /// What the second body did to the first one in the step; the moment about the origin.
+  /// What the second body, or rigid shape, did to the first one in the step; the moment about the origin.
   void add_actions(double scale, std::vector<Action>& all) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
@@ -44,7 +46,8 @@ class MeetingTies {
   std::vector<contact::Ties::Force> impulses_;  ///< of the step, by tie
   std::vector<double> loaded_;                  ///< of a checkpoint, until the state of the bodies is read
   double frequency2_ = 0;
-  double handed_over_ = 0;  ///< to contact so far [J]
+  std::vector<double> springs_;  ///< by rigid shape, see Ties::springs_of_shape [1/s2]
+  double handed_over_ = 0;       ///< to contact so far [J]
 };
 
 }  // namespace piola

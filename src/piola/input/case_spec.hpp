@@ -128,7 +128,7 @@ struct ContactPairSpec : ContactPair {
   Places places;
 };
 
-/// [[tie]]: two bodies held together where their surfaces touch at the start.
+/// [[tie]]: two bodies, or a body and a rigid shape, held together where their surfaces touch at the start.
 struct TieSpec : contact::TieRule {
   std::array<std::string, 2> between;
   Places places;

@@ -40,11 +40,22 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
   return mirrored ? "it has skew mirror planes" : "its particles may turn Eulerian";
 }
 
+/// adaptle among itself keeps its bodies from shapes that do not turn by the kernel, held points, too.
+void check_own_contact(CaseSpec const& spec, TieSpec const& tie, Problems& problems) {
+  if (!tie.rigid || spec.rigids[*tie.rigid].turns() || !knows_contact(spec, tie.bodies[0])) return;
+  problems.add(place_of(tie.places, "between"),
+               "the tie " + in_quotes(tie.name) + " holds body " + in_quotes(spec.bodies[tie.bodies[0]].name) +
+                   " to a rigid shape from which adaptle keeps it by a contact of its own (allowed: contact by "
+                   "surfaces) - set contact.law = \"surface\"");
+}
+
 /// Whether the bodies of all ties have surfaces.
 bool check_bodies(CaseSpec const& spec, Problems& problems) {
   bool sound = true;
-  for (TieSpec const& tie : spec.ties)
-    for (std::size_t const b : tie.bodies) {
+  for (TieSpec const& tie : spec.ties) {
+    check_own_contact(spec, tie, problems);
+    for (std::size_t k = 0; k < (tie.rigid ? 1U : 2U); ++k) {
+      std::size_t const b = tie.bodies[k];
       std::string const why = why_not(spec, b);
       if (why.empty()) continue;
       sound = false;
@@ -54,13 +65,14 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
               " (allowed: bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without skew mirrors) - "
               "choose another body or formulation");
     }
+  }
   return sound;
 }
 
 void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
-  if (found.points[0] > 0 && found.points[1] > 0) return;
+  if (found.points[0] > 0 && (tie.rigid || found.points[1] > 0)) return;
   for (std::size_t const k : {0, 1})
-    if (found.points[1 - k] > 0) {
+    if (!tie.rigid && found.points[1 - k] > 0) {
       problems.add(place_of(tie.places, "between"),
                    "the tie " + in_quotes(tie.name) + " holds no point of " + in_quotes(tie.between[k]) +
                        " (allowed: points of both bodies) - let it hold more" + (tie.where ? ", by where" : ""));
@@ -112,7 +124,9 @@ std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSe
     auto const at = start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]);
     x.push_back(vector_of(at));
   }
-  return contact::Ties({spec.ties.begin(), spec.ties.end()}, particles, surfaces, carriers, x).found();
+  std::vector<contact::RigidSurface> rigids;
+  for (RigidSpec const& rigid : spec.rigids) rigids.push_back(contact::surface_of(rigid, particles.dimension));
+  return contact::Ties({spec.ties.begin(), spec.ties.end()}, particles, surfaces, carriers, x, rigids).found();
 }
 
 void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {

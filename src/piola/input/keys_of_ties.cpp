@@ -14,10 +14,10 @@ constexpr std::array tie_keys{
             "",
             {},
             "tie_0, tie_1, ...",
-            "first part of the columns NAME.force_x to NAME.moment_z of history.csv, what the second body does to the "
+            "first part of the columns NAME.force_x to NAME.moment_z of history.csv, what the second one does to the "
             "first",
             {}},
-    KeyInfo{"tie", "between", list, "", {}, "", "names of two bodies", {}},
+    KeyInfo{"tie", "between", list, "", {}, "", "names of two bodies, or of a body and a rigid shape", {}},
     KeyInfo{"tie",
             "where",
             formula,

@@ -6,7 +6,7 @@
 namespace piola {
 namespace {
 
-/// Indices of the bodies that a tie names, as far as there are such bodies.
+/// Indices of what a tie names, as far as there are such bodies and rigid shapes.
 void read_between(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids,
                   TieSpec& tie) {
   auto const value = section.find("between");
@@ -16,28 +16,36 @@ void read_between(Section const& section, std::vector<BodyNames> const& bodies, 
   std::vector<std::string> known;
   for (BodyNames const& body : bodies)
     if (!body.name.empty()) known.push_back(body.name);
-  int right = 0;
+  for (RigidSpec const& rigid : rigids)
+    if (!rigid.name.empty()) known.push_back(rigid.name);
+  std::vector<std::size_t> found;  // bodies
+  int shapes = 0;
   for (std::size_t k = 0; k < 2; ++k) {
     auto const name = read_text((*items)[k], section.problems());
     if (!name) continue;
     tie.between[k] = *name;
     auto const body = std::find_if(bodies.begin(), bodies.end(), [&](BodyNames const& b) { return b.name == *name; });
-    tie.bodies[k] = static_cast<std::size_t>(body - bodies.begin());
+    auto const rigid = std::find_if(rigids.begin(), rigids.end(), [&](RigidSpec const& r) { return r.name == *name; });
     if (body != bodies.end()) {
-      ++right;
-      continue;
+      found.push_back(static_cast<std::size_t>(body - bodies.begin()));
+    } else if (rigid != rigids.end()) {
+      ++shapes;
+      tie.rigid = static_cast<std::size_t>(rigid - rigids.begin());
+      tie.rigid_first = k == 0;
+    } else {
+      section.problems().add((*items)[k].node.place, (*items)[k].name + " is " + in_quotes(*name) + " (allowed: " +
+                                                         joined(known) + ") - " + advice_for_name(*name, known));
     }
-    tie.bodies[k] = 0;
-    bool const rigid = std::any_of(rigids.begin(), rigids.end(), [&](RigidSpec const& r) { return r.name == *name; });
-    section.problems().add(
-        (*items)[k].node.place,
-        (*items)[k].name + " is " + in_quotes(*name) + (rigid ? ", a rigid shape" : "") +
-            " (allowed: " + joined(known) + ", bodies) - " +
-            (rigid ? "hold a body by a [[support]], driven where the shape moves" : advice_for_name(*name, known)));
   }
-  if (right == 2 && tie.bodies[0] == tie.bodies[1])
-    section.problems().add(value->node.place, "tie.between names " + in_quotes(tie.between[0]) +
-                                                  " twice (allowed: two bodies) - name another body");
+  if (found.empty() && shapes == 2)
+    section.problems().add(value->node.place,
+                           "tie.between names two rigid shapes (allowed: two bodies, or a body and a rigid shape) - "
+                           "name a body");
+  if (found.size() == 2 && found[0] == found[1])
+    section.problems().add(value->node.place,
+                           "tie.between names " + in_quotes(tie.between[0]) +
+                               " twice (allowed: two bodies, or a body and a rigid shape) - name another body");
+  if (!found.empty()) tie.bodies = {found.front(), found.back()};
 }
 
 }  // namespace

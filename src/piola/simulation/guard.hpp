@@ -17,20 +17,25 @@ namespace piola {
 /// The energy that a run has to do with [J]: shares of energy are shares of this.
 class EnergyScale {
  public:
-  /// mass [kg], spacing: the smallest [m].
-  EnergyScale(double mass, double spacing) : mass_(mass), spacing_(spacing) {}
+  /// mass [kg], spacing: the smallest [m]; rounding: see energy_of_rounding [J].
+  EnergyScale(double mass, double spacing, double rounding) : mass_(mass), spacing_(spacing), rounding_(rounding) {}
   void see(Diagnostics const& now, Moment const& moment);
   /// The largest of: energy at the start, sum of the sizes of external work, kinetic energy so far. At least what the
-  /// body would have with 1e-9 of its wave speed, because a body at rest has nothing but rounding.
+  /// body would have with 1e-9 of its wave speed, and what tells strain energy from rounding, because a body at rest
+  /// has nothing else.
   double value() const;
   double initial() const { return initial_; }
   void save(StateWriter& writer) const;
   void load(NamedState& reader);
 
  private:
-  double mass_, spacing_;
+  double mass_, spacing_, rounding_;
   double begun_ = 0, initial_ = 0, work_ = 0, last_work_ = 0, kinetic_ = 0, floor_ = 0;
 };
+
+/// Energies of which a hundredth is above the rounding of strain energy [J]: terms of the size of the moduli, which
+/// cancel where nothing is strained, are known to 1e-16 of themselves.
+double energy_of_rounding(CaseSpec const& spec, ParticleSet const& particles);
 
 /// What guards look at.
 struct Look {

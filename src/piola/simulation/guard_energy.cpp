@@ -159,6 +159,9 @@ class DissipationGuard : public Guard {
     if (!intended) part_[3] = gone - d.stabilisation_loss - d.projection_loss - rubbed;
     part_[4] = d.stabilisation_loss + d.projection_loss + rubbed - gone;
     for (double& p : part_) p = std::isfinite(p) ? std::max(p, 0.0) : 0.0;
+    // As with a rise: the first looks at a load may miss most of it.
+    looks_ = share() > limit_ ? looks_ + 1 : 0;
+    last_ = look.last;
   }
   std::optional<GuardNumbers> numbers() const override {
     return GuardNumbers{"dissipation",
@@ -171,7 +174,7 @@ class DissipationGuard : public Guard {
                         words()};
   }
   std::string words() const override {
-    if (!(share() > limit_)) return "";
+    if (!(share() > limit_) || (looks_ < lasting_looks && !last_)) return "";
     static constexpr std::array names{"stabilisation", "momentum projections", "viscosity and hourglass damping",
                                       "the time steps and averages of the scheme"};
     std::string parts;
@@ -184,12 +187,13 @@ class DissipationGuard : public Guard {
         100 * share(), parts);
   }
   void save(StateWriter& writer) const override {
-    writer.put("guard_dissipation", std::array{scale_, part_[0], part_[1], part_[2], part_[3], part_[4]});
+    writer.put("guard_dissipation", std::array{scale_, part_[0], part_[1], part_[2], part_[3], part_[4], looks_});
   }
   void load(NamedState& reader) override {
-    std::array<double, 6> v{};
+    std::array<double, 7> v{};
     reader.get("guard_dissipation", v);
     scale_ = v[0];
+    looks_ = v[6];
     std::copy_n(v.begin() + 1, 5, part_.begin());
   }
 
@@ -197,7 +201,8 @@ class DissipationGuard : public Guard {
   double of(std::size_t part) const { return scale_ > 0 ? part_[part] / scale_ : 0; }
   double share() const { return of(0) + of(1) + of(2) + of(3); }
   double limit_;
-  double scale_ = 0;
+  double scale_ = 0, looks_ = 0;  ///< looks: in a row with too large a loss
+  bool last_ = false;
   std::array<double, 5> part_{};  ///< stabilisation, projections, viscosity, booked nowhere; energy fed [J]
 };
 

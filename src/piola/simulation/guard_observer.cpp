@@ -20,7 +20,9 @@ double finest_spacing(ParticleSet const& particles) {
 }  // namespace
 
 GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const& history)
-    : results_(std::move(results)), history_(history), scale_(mass, finest_spacing(results_.particles)) {
+    : results_(std::move(results)),
+      history_(history),
+      scale_(mass, finest_spacing(results_.particles), energy_of_rounding(results_.spec, results_.particles)) {
   if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   for (BodySpec const& body : results_.spec.bodies)

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double near_enough = 0.5;   // of a spacing: points farther from the planes of the other body are not held
 constexpr double least_share = 0.05;  // points that see less of a face are beyond its rim
+constexpr double looked_at = 2;       // spacings: how far from a rigid shape a point may be said to face it
+constexpr double opposed = 0.5;       // cosine between the normals of a point and a rigid shape that it lies on
 
 std::size_t index(Index k) { return static_cast<std::size_t>(k); }
 
@@ -54,12 +56,17 @@ struct Ties::Binding {
 };
 
 Ties::Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
-           Carriers const& carriers, std::vector<Vec<3>> const& x)
-    : rules_(std::move(rules)), found_(rules_.size()), on_first_(rules_.size()) {
+           Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids)
+    : rules_(std::move(rules)), found_(rules_.size()), on_first_(rules_.size()), on_rigid_(rigids.size()) {
   if (rules_.empty()) return;
   Binding const at(set, surfaces, carriers, x);
-  for (std::size_t tie = 0; tie < rules_.size(); ++tie)
+  for (std::size_t tie = 0; tie < rules_.size(); ++tie) {
+    if (rules_[tie].rigid) {
+      bind_to_rigid(tie, rigids[*rules_[tie].rigid], at);
+      continue;
+    }
     for (std::size_t side = 0; side < 2; ++side) bind(tie, side, at);
+  }
   list_by_particle(x.size());
   opened_.resize(rows_.size());
   lost_.resize(rows_.size());
@@ -82,8 +89,7 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   exec::ExactSum held, left;
   for (std::size_t k = 0; k < own.points.size(); ++k) {
     SurfacePoint const& point = own.points[k];
-    Vec<3> const Y = vector_of(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
-    if (point.image || (rule.where && (*rule.where)({Y[0], Y[1], Y[2]}) == 0)) continue;
+    if (!selects(rule, point, at)) continue;
     Plane const& plane = at.planes[a][k];
     auto shares = at.weights(plane, b, grid, pair.reach);
     std::vector<double> weights(shares.size());
@@ -109,6 +115,46 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   }
   found.area += held.value();
   found.left_area += left.value();
+}
+
+/// Holds the points of a body that lie on a rigid shape, with the whole law: the shape has no points of its own.
+void Ties::bind_to_rigid(std::size_t tie, RigidSurface const& rigid, Binding const& at) {
+  TieRule const& rule = rules_[tie];
+  std::size_t const a = rule.bodies[0];
+  Surface const& own = at.surfaces[a];
+  double const K = layer_stiffness(1, rule.stiffness, own.modulus, own.spacing);
+  CohesiveLaw const law = cohesive_law(K, rule.strength, rule.toughness, rule.shear_weight);
+  Found& found = found_[tie];
+  found.stiffness = K;
+  exec::ExactSum held, left;
+  for (std::size_t k = 0; k < own.points.size(); ++k) {
+    SurfacePoint const& point = own.points[k];
+    if (!selects(rule, point, at)) continue;
+    Plane const& plane = at.planes[a][k];
+    Distance const d = distance_from(rigid, plane.y);
+    double const far = std::fabs(d.value) / own.spacing;
+    if (!(far < looked_at) || !(-dot(plane.n, d.normal) > opposed)) continue;
+    found.nearest = std::min(found.nearest, far);
+    if (far > near_enough) {
+      found.left += 1;
+      left += point.area;
+      continue;
+    }
+    found.farthest = std::max(found.farthest, far);
+    found.points[0] += 1;
+    held += point.area;
+    add_row(tie, {a, k, at.surfaces.size() + *rule.rigid}, point.area, law, at, {});
+    rows_.back().rigid = *rule.rigid;
+    rows_.back().arm = transpose(rigid.turn) * (plane.y - rigid.centre);
+  }
+  found.area = held.value();
+  found.left_area = left.value();
+}
+
+/// Whether a tie means a point at all.
+bool Ties::selects(TieRule const& rule, SurfacePoint const& point, Binding const& at) {
+  Vec<3> const Y = vector_of(at.set.X[static_cast<std::size_t>(point.particle)]) + point.offset;
+  return !point.image && (!rule.where || (*rule.where)({Y[0], Y[1], Y[2]}) != 0);
 }
 
 /// c of y_p = x_p + F_p S by the positions around p; the factor of the particle itself is left to the caller.
@@ -141,7 +187,8 @@ void Ties::add_row(std::size_t tie, Hold const& hold, double area, CohesiveLaw c
   row.other = terms_.size();
   for (auto const& [particle, c] : other) terms_.push_back({particle, c});
   row.last = terms_.size();
-  // So that the forces of a row sum to nothing.
+  // So that the forces of a row sum to nothing, or to that on a rigid shape.
+  terms_[row.first].c = shares.empty() ? 1 : 0;
   for (std::size_t k = row.first + 1; k < row.last; ++k) terms_[row.first].c -= terms_[k].c;
   rows_.push_back(row);
 }

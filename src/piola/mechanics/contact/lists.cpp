@@ -77,13 +77,21 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
 }
 
 void System::leave_out(std::size_t body, std::size_t point, std::size_t other, bool out) {
-  left_out_.resize(points_.size() * surfaces_.size());
-  left_out_[place_of(body, point) * surfaces_.size() + other] = out ? 1 : 0;
+  left_out_.resize(points_.size() * others());
+  left_out_[place_of(body, point) * others() + other] = out ? 1 : 0;
   listed_at_.clear();
 }
 
 double System::stored_at(std::size_t body, std::size_t point, std::size_t other) const {
   std::size_t const target = place_of(body, point);
+  if (other >= surfaces_.size()) {
+    std::size_t const r = other - surfaces_.size();
+    Surface const& own = surfaces_[body];
+    if (!is_met(static_cast<Index>(target), r)) return 0;
+    double const k = layer_stiffness(1, with_rigid(body, r).factor, own.modulus, own.spacing);
+    return points_[target].area *
+           layer(distance_from(rigids_[r], planes_[target].y).value, k, 0.5 * own.spacing).energy;
+  }
   for (std::size_t k = 0; k < runs_.size(); ++k) {
     if (at(runs_[k].target) != target || runs_[k].body != other || !gaps_[k].seen()) continue;
     PairRule const& rule = rules_[body][other];
@@ -99,7 +107,7 @@ void System::list_points_near_rigids() {
     double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
     bool any = false;
     for (std::size_t r = 0; r < rigids_.size() && !any && !points_[k].image; ++r)
-      any = with_rigid(points_[k].body, r).meets && distance_from(rigids_[r], planes_[k].y).value < reach;
+      any = is_met(static_cast<Index>(k), r) && distance_from(rigids_[r], planes_[k].y).value < reach;
     if (any) near_rigid_.push_back(static_cast<Index>(k));
   }
 }

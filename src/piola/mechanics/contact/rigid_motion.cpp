@@ -91,7 +91,7 @@ void RigidMotion::evaluate(System const& bodies, double dt) {
 }
 
 RigidPairs::Load RigidMotion::on(System const& bodies, std::size_t shape) const {
-  auto const& by_bodies = bodies.on_rigid(shape);
+  Between const by_bodies = bodies.on_rigid(shape);
   RigidPairs::Load const& by_shapes = pairs_.on(shape);
   return {by_bodies.force + by_shapes.force, by_bodies.moment + by_shapes.moment};
 }

@@ -167,9 +167,9 @@ void System::push_from_rigids() {
     Surface const& surface = surfaces_[point.body];
     double const length = 0.5 * surface.spacing;
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
-      Touch const& touch = with_rigid(point.body, r);
-      if (!touch.meets) continue;
-      double const layer_modulus = layer_stiffness(1, touch.factor, surface.modulus, surface.spacing);
+      if (!is_met(k, r)) continue;
+      double const layer_modulus =
+          layer_stiffness(1, with_rigid(point.body, r).factor, surface.modulus, surface.spacing);
       Distance const d = distance_from(rigids_[r], planes_[at(k)].y);
       if (!(d.value < near * surface.spacing)) continue;
       double const in_lengths = std::min(d.value, 0.0) / length;
@@ -298,7 +298,7 @@ double System::closing_step(std::vector<Vec<3>> const& v) const {
   for (Index const k : near_rigid_)
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
       RigidSurface const& rigid = rigids_[r];
-      if (!with_rigid(points_[at(k)].body, r).meets) continue;
+      if (!is_met(k, r)) continue;
       Distance const d = distance_from(rigid, planes_[at(k)].y);
       double const spacing = surfaces_[points_[at(k)].body].spacing;
       if (!(d.value < near * spacing)) continue;

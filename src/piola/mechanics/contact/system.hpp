@@ -50,9 +50,10 @@ class System {
   void set_masses(std::vector<double> const& masses);
   /// Whether body b pushes body a here.
   bool meets(std::size_t a, std::size_t b) const { return setting_[a][b].meets; }
-  /// Body `other` does not push this surface point of a body, or does so again.
+  /// Body `other`, or a rigid shape, whose number follows those of the bodies, does not push this surface point of a
+  /// body, or does so again.
   void leave_out(std::size_t body, std::size_t point, std::size_t other, bool out);
-  /// What body `other` stores because it pushes this point [J].
+  /// What it stores because it pushes this point [J].
   double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
@@ -72,14 +73,21 @@ class System {
   std::vector<Index> const& pushed() const { return pushed_; }
   Totals const& totals() const { return totals_; }
   using Between = contact::Between;
+  /// What ties do to a rigid shape beside contact; the moment about its centre. springs: as in Frequencies [1/s2].
+  void tie_rigid(std::size_t k, Between const& load, double springs) { ties_on_rigid_[k] = {load, springs}; }
   /// What bodies do to a rigid shape; the moment about its centre.
-  Between const& on_rigid(std::size_t k) const { return on_rigid_[k]; }
+  Between on_rigid(std::size_t k) const {
+    Between const &pushed = on_rigid_[k], &tied = ties_on_rigid_[k].load;
+    return {pushed.force + tied.force, pushed.moment + tied.moment};
+  }
   /// Springs between a free rigid shape and the points near it: the largest square of the frequency that one of them
   /// gives its point, and the sum of the squares that they give the shape [1/s2]. The sum of both is a bound.
   struct Frequencies {
     double of_points = 0, of_shape = 0;
   };
-  Frequencies const& frequencies(std::size_t k) const { return frequencies_[k]; }
+  Frequencies frequencies(std::size_t k) const {
+    return {frequencies_[k].of_points, frequencies_[k].of_shape + ties_on_rigid_[k].springs};
+  }
   /// What body b does to body a; the moment about the origin.
   Between const& between(std::size_t a, std::size_t b) const { return between_[a][b]; }
 
@@ -137,8 +145,12 @@ class System {
     for (std::size_t b = 0; b < body; ++b) point += surfaces_[b].points.size();
     return point;
   }
-  bool is_left_out(std::size_t point, std::size_t body) const {
-    return !left_out_.empty() && left_out_[point * surfaces_.size() + body] != 0;
+  std::size_t others() const { return surfaces_.size() + rigids_.size(); }
+  bool is_left_out(std::size_t point, std::size_t other) const {
+    return !left_out_.empty() && left_out_[point * others() + other] != 0;
+  }
+  bool is_met(Index point, std::size_t rigid) const {
+    return with_rigid(points_[at(point)].body, rigid).meets && !is_left_out(at(point), surfaces_.size() + rigid);
   }
   void list_points_near_rigids();
   void activate(std::vector<char> const& points);
@@ -184,7 +196,7 @@ class System {
   std::vector<Vec<3>> listed_at_;         ///< positions of carriers when the lists were made [m]
   std::vector<RigidPose> listed_rigids_;  ///< and rigid shapes
   double skin_ = 0;                       ///< [m]
-  std::vector<char> left_out_;            ///< by point and body, or empty
+  std::vector<char> left_out_;            ///< by point and other, or empty
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run
@@ -224,6 +236,11 @@ class System {
   std::vector<Index> pushed_;
   std::vector<char> is_pushed_;
   std::vector<Between> on_rigid_;
+  struct Tied {
+    Between load;
+    double springs = 0;
+  };
+  std::vector<Tied> ties_on_rigid_ = std::vector<Tied>(rigids_.size());
   std::vector<Frequencies> frequencies_;
   std::vector<std::vector<Between>> between_;
   Totals totals_;

@@ -8,10 +8,19 @@ namespace {
 
 std::size_t place_of(Index k) { return static_cast<std::size_t>(k); }
 
+Vec<3> place_on(RigidSurface const& shape, Vec<3> const& arm) { return shape.centre + shape.turn * arm; }
+
 }  // namespace
 
+/// Whether the held point is one of what the tie names first.
+bool Ties::is_of_first(Row const& row) const {
+  TieRule const& rule = rules_[row.tie];
+  return row.hold.body == rule.bodies[0] && !rule.rigid_first;
+}
+
 /// Jump and traction of a row; writes what belongs to the row alone.
-void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> const& x) {
+void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> const& x,
+                   std::vector<RigidSurface> const& rigids) {
   Row const& row = rows_[r];
   if (has_failed(r)) {
     pulls_[r] = {};
@@ -22,6 +31,7 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
   for (std::size_t k = row.first + 1; k < row.other; ++k) own = own + terms_[k].c * (x[place_of(terms_[k].at)] - self);
   for (std::size_t k = row.other; k < row.last; ++k) other = other + terms_[k].c * (x[place_of(terms_[k].at)] - self);
   Pull pull{own + other, self + own, {}, {}};
+  if (row.rigid != no_shape) pull.jump = pull.y - place_on(rigids[row.rigid], row.arm);
   Bond bond;
   if (rules_[row.tie].fails()) {
     Vec<3> const n = carried_normal(carriers.F(row.carrier, x), row.N);
@@ -42,11 +52,12 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
   pulls_[r] = pull;
 }
 
-void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x) {
+void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids) {
   released_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r)
     if (!has_failed(r)) released_.push_back(r);
-  exec_host::for_each_in_set_up(static_cast<Index>(rows_.size()), [&](Index r) { stretch(place_of(r), carriers, x); });
+  exec_host::for_each_in_set_up(static_cast<Index>(rows_.size()),
+                                [&](Index r) { stretch(place_of(r), carriers, x, rigids); });
   std::erase_if(released_, [&](std::size_t r) { return !has_failed(r); });
   exec_host::for_each_in_set_up(static_cast<Index>(touched_.size()), [&](Index k) {
     Vec<3> sum;
@@ -55,14 +66,15 @@ void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x) {
     forces_[place_of(touched_[place_of(k)])] = sum;
   });
   std::vector<BetweenSum> on_first(rules_.size());
-  add_up(on_first);
+  add_up(on_first, rigids);
   for (std::size_t r = 0; r < rows_.size(); ++r)
     if (dot(pulls_[r].by_normal, pulls_[r].by_normal) > 0)
       on_first[rows_[r].tie].add(turn(rows_[r], pulls_[r].by_normal, carriers, x));
   for (std::size_t tie = 0; tie < rules_.size(); ++tie) on_first_[tie] = on_first[tie].value();
 }
 
-void Ties::add_up(std::vector<BetweenSum>& on_first) {
+void Ties::add_up(std::vector<BetweenSum>& on_first, std::vector<RigidSurface> const& rigids) {
+  std::vector<BetweenSum> on_rigid(on_rigid_.size());
   exec::ExactSum energy, heat, can_fail, failed;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     Row const& row = rows_[r];
@@ -71,10 +83,13 @@ void Ties::add_up(std::vector<BetweenSum>& on_first) {
     heat += lost_[r];
     if (rules_[row.tie].fails()) can_fail += row.area;
     if (has_failed(r)) failed += row.area;
-    bool const first = row.hold.body == rules_[row.tie].bodies[0];
+    bool const first = is_of_first(row);
     Vec<3> const f = (first ? -1.0 : 1.0) * pull.by_jump, y = first ? pull.y : pull.y - pull.jump;
     on_first[row.tie].add(f, cross(y, f));
+    if (row.rigid != no_shape)
+      on_rigid[row.rigid].add(pull.by_jump, cross(rigids[row.rigid].turn * row.arm, pull.by_jump));
   }
+  for (std::size_t k = 0; k < on_rigid.size(); ++k) on_rigid_[k] = on_rigid[k].value();
   totals_ = {energy.value(), heat.value(), can_fail.value() > 0 ? failed.value() / can_fail.value() : 0};
 }
 
@@ -90,7 +105,16 @@ Vec<3> Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carri
     forces_[self] = forces_[self] + f;
     moment = moment - cross(x[place_of(b.at)] - x[self], f);
   }
-  return row.hold.body == rules_[row.tie].bodies[0] ? moment : Vec<3>{};
+  return is_of_first(row) ? moment : Vec<3>{};
+}
+
+double Ties::springs_of_shape(std::size_t shape, std::vector<RigidSurface> const& rigids) const {
+  exec::ExactSum sum;
+  for (Row const& row : rows_)
+    if (row.rigid == shape)
+      sum += row.area * row.law.stiffness * std::max(1.0, row.law.shear2) *
+             rigids[shape].mobility(place_on(rigids[shape], row.arm));
+  return sum.value();
 }
 
 std::vector<double> Ties::state() const {

@@ -3,6 +3,7 @@
 #include "piola/mechanics/contact/between.hpp"
 #include "piola/mechanics/contact/cohesive.hpp"
 #include "piola/mechanics/contact/planes.hpp"
+#include "piola/mechanics/contact/rigid.hpp"
 #include "piola/mechanics/contact/surface.hpp"
 #include "piola/mechanics/contact/tie_rule.hpp"
 #include <array>
@@ -14,13 +15,14 @@ namespace piola::contact {
 /// The ties of a run: springs with memory between surface points of one body and the places of the other one that they
 /// lay on at the start. A jump is the same linear function of the positions of particles for ever,
 ///   jump_a = y_a - sum_b N_ab (y_b + F_b R_ab) = sum_i c_ai x_i,   sum_i c_ai = 0,
-/// so that the ties are rows of numbers. Particles are indices into Carriers::ids().
+/// so that the ties are rows of numbers. Of a rigid shape it is jump_a = y_a - (c + R arm), with the arm in the axes of
+/// the shape. Particles are indices into Carriers::ids().
 class Ties {
  public:
   Ties() = default;
   /// Binds what touches at x [m], the start. The set tells reference places.
   Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
-       Carriers const& carriers, std::vector<Vec<3>> const& x);
+       Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
 
   /// What a tie found at the start.
   struct Found {
@@ -35,7 +37,7 @@ class Ties {
   std::vector<TieRule> const& rules() const { return rules_; }
   std::vector<Found> const& found() const { return found_; }
 
-  /// A surface point of a body that a tie holds to another one.
+  /// A surface point of a body that a tie holds to another one; rigid shapes follow the bodies.
   struct Hold {
     std::size_t body, point, other;
   };
@@ -46,7 +48,7 @@ class Ties {
   std::vector<std::size_t> const& released() const { return released_; }
 
   /// Forces [N] at x [m]: functions of x and of the largest openings so far, which may grow.
-  void evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x);
+  void evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
   std::vector<Vec<3>> const& forces() const { return forces_; }
   std::vector<Index> const& pushed() const { return touched_; }  ///< ascending
 
@@ -59,6 +61,11 @@ class Ties {
   using Force = Between;
   /// What a tie does to its first body; the moment about the origin.
   Force const& on_first(std::size_t tie) const { return on_first_[tie]; }
+  /// What ties do to a rigid shape; the moment about its centre.
+  Force const& on_rigid(std::size_t shape) const { return on_rigid_[shape]; }
+  /// The sum of the squares of the frequencies that ties give a free rigid shape on points that rest, nothing failed
+  /// [1/s2]. With frequency2 it bounds the square of the frequency of both.
+  double springs_of_shape(std::size_t shape, std::vector<RigidSurface> const& rigids) const;
   /// A bound of the square of the largest frequency of the ties with these inverse masses [1/kg], nothing failed
   /// [1/s2].
   double frequency2(std::vector<double> const& inverse_masses) const;
@@ -81,21 +88,28 @@ class Ties {
     double area;  ///< half of the held one: both sides pull
     CohesiveLaw law;
     std::size_t first, other, last;  ///< terms of the own body, from `other` on of the other one; the first is its own
+    std::size_t rigid = no_shape;
+    Vec<3> arm = {};  ///< in the axes of the rigid shape, from its centre [m]
   };
   struct Pull {
     Vec<3> jump, y, by_jump, by_normal;
     double energy = 0;
   };
+  static constexpr std::size_t no_shape = static_cast<std::size_t>(-1);
   struct Binding;
 
   void bind(std::size_t tie, std::size_t side, Binding const& at);
+  void bind_to_rigid(std::size_t tie, RigidSurface const& rigid, Binding const& at);
   void add_row(std::size_t tie, Hold const& hold, double area, CohesiveLaw const& law, Binding const& at,
                std::vector<std::pair<std::size_t, double>> const& shares);
+  bool is_of_first(Row const& row) const;
+  static bool selects(TieRule const& rule, SurfacePoint const& point, Binding const& at);
   void list_by_particle(std::size_t particles);
-  void stretch(std::size_t row, Carriers const& carriers, std::vector<Vec<3>> const& x);
+  void stretch(std::size_t row, Carriers const& carriers, std::vector<Vec<3>> const& x,
+               std::vector<RigidSurface> const& rigids);
   /// The moment that it has on the first body of the tie.
   Vec<3> turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x);
-  void add_up(std::vector<BetweenSum>& on_first);
+  void add_up(std::vector<BetweenSum>& on_first, std::vector<RigidSurface> const& rigids);
 
   std::vector<TieRule> rules_;
   std::vector<Found> found_;
@@ -109,7 +123,7 @@ class Ties {
   std::vector<Pull> pulls_;         ///< by row
   std::vector<std::size_t> released_;
   std::vector<Vec<3>> forces_;
-  std::vector<Force> on_first_;
+  std::vector<Force> on_first_, on_rigid_;
   Totals totals_;
 };
 
