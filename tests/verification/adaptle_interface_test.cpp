@@ -32,7 +32,7 @@ double ghost_force(double stretch, std::string const& interface, double blend) {
   cloud.evaluate();
   double worst = 0;
   for (Index i = 0; i < cloud.size(); ++i) {
-    auto const& X = cloud.system().reference[i].X;
+    Point const X = cloud.X(i);
     if (std::fmin(X[0], 1 - X[0]) < 5.5 * dx || std::fmin(X[1], 1 - X[1]) < 5.5 * dx) continue;
     double const sigma = std::fabs(1e8 - cloud.half(i).pressure);
     worst = std::fmax(worst,

@@ -9,23 +9,26 @@
 #include "piola/math/symmetric_eigen.hpp"
 #include "piola/math/tensor.hpp"
 #include <cmath>
+#include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
 
 /// The word `spall` of a solid: what follows where tension reaches spall_pressure.
 inline constexpr std::array<std::string_view, 3> spall_words{"limit", "hydrostatic", "principal"};
 
-/// What a point of a solid remembers besides density and energy.
-struct SolidHistory {
-  SymMat<3> S{};              ///< deviatoric Cauchy stress [Pa]
-  double plastic_strain = 0;  ///< equivalent plastic strain
-  double temperature = 0;     ///< [K]; starts at Solid::initial_temperature
-  double damage = 0;          ///< 0 to 1
-  double plastic_work = 0;    ///< per reference volume [J/m^3]
-  double bulking = 0;         ///< pressure of broken material that wants more room [Pa]
-  double burnt = 1;           ///< part of an explosive that has become gas
-  double toughness = 1;       ///< the point's own factor on what it bears before it fails; never changes
+/// What a point of a solid remembers besides density and energy, or one point per lane.
+template <class V>
+struct SolidHistoryOf {
+  SymMat<3, V> S{};           ///< deviatoric Cauchy stress [Pa]
+  V plastic_strain = V(0.0);  ///< equivalent plastic strain
+  V temperature = V(0.0);     ///< [K]; starts at Solid::initial_temperature
+  V damage = V(0.0);          ///< 0 to 1
+  V plastic_work = V(0.0);    ///< per reference volume [J/m^3]
+  V bulking = V(0.0);         ///< pressure of broken material that wants more room [Pa]
+  V burnt = V(1.0);           ///< part of an explosive that has become gas
+  V toughness = V(1.0);       ///< the point's own factor on what it bears before it fails; never changes
 };
+using SolidHistory = SolidHistoryOf<double>;
 
 /// Where the parameters of a solid with this strength lie in MaterialParameters::value: elastic constants, strength,
 /// heat, equations of state, damage, spall, scatter.
@@ -42,18 +45,22 @@ struct SolidLayout {
 };
 
 /// von Mises stress sqrt(3/2 S:S) of a deviator [Pa].
-PIOLA_FN double von_mises(SymMat<3> const& S) {
-  double const diagonal = S.c[0] * S.c[0] + S.c[1] * S.c[1] + S.c[2] * S.c[2];
-  return std::sqrt(1.5 * (diagonal + 2 * (S.c[3] * S.c[3] + S.c[4] * S.c[4] + S.c[5] * S.c[5])));
+template <class V>
+PIOLA_FN V von_mises(SymMat<3, V> const& S) {
+  V const diagonal = S.c[0] * S.c[0] + S.c[1] * S.c[1] + S.c[2] * S.c[2];
+  return square_root(1.5 * (diagonal + 2.0 * (S.c[3] * S.c[3] + S.c[4] * S.c[4] + S.c[5] * S.c[5])));
 }
 
 /// An isotropic solid in rate form: Cauchy stress S - p I, the deviator S by its Jaumann rate and radial return to the
 /// yield surface of von Mises (Wilkins 1964; Simo, Hughes, Computational Inelasticity, 1998, box 3.1), the pressure p
-/// by an equation of state of density and energy. Heating is adiabatic. Pure: the history is the caller's.
+/// by an equation of state of density and energy. Heating is adiabatic. Pure: the history is the caller's. V is
+/// `double` or a pack of lanes; strengths that search for the flow stress are asked lane by lane, where a lane may
+/// yield at all.
 template <class Strength, class Eos>
 class Solid {
  public:
   using Layout = SolidLayout<Strength>;
+  static constexpr bool yields = Strength::yields;
   static constexpr bool pressed = Strength::pressed;  ///< the strength asks for the pressure
   static constexpr bool brittle = Strength::brittle;  ///< what is broken still bears shear under pressure
 
@@ -72,17 +79,21 @@ class Solid {
   /// [J/kg].
   PIOLA_FN double pressure(double rho, double e) const { return pressure(SolidHistory{}, rho, e); }
   /// The same of a point with a history: with its bulking, and with the tension that it bears.
-  PIOLA_FN double pressure(SolidHistory const& h, double rho, double e) const {
-    double const p = h.burnt * eos_.pressure(rho, e) + h.bulking;
-    double most = spall_pressure * h.toughness;
+  template <class V>
+  PIOLA_FN V pressure(SolidHistoryOf<V> const& h, std::type_identity_t<V> const& rho,
+                      std::type_identity_t<V> const& e) const {
+    V const p = h.burnt * eos_.template pressure<V>(rho, e) + h.bulking;
+    V most = spall_pressure * h.toughness;
     if constexpr (Strength::brittle) most = minimum(most, strength_.largest_tension(h.damage));
-    return p < -most ? -most : p;
+    V const least = -most;
+    return select(p < least, least, p);
   }
   /// Speed of pressure waves in the current state [m/s]: c^2 = dp/drho + (p/rho^2) dp/de + 4 mu / (3 rho). The part of
   /// the pressure is never below a ten-thousandth of the one at rest; the limit of tension does not lower it.
-  PIOLA_FN double sound_speed(double rho, double e) const {
-    double const bulk = eos_.sound_speed_squared(rho, e), least = 1e-4 * kappa / rho0;
-    return std::sqrt((bulk > least ? bulk : least) + 4 * mu / (3 * rho));
+  template <class V = double>
+  PIOLA_FN V sound_speed(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    V const bulk = eos_.template sound_speed_squared<V>(rho, e), least(1e-4 * kappa / rho0);
+    return square_root(select(bulk > least, bulk, least) + 4 * mu / (3.0 * rho));
   }
   /// sqrt(kappa/rho0) [m/s].
   PIOLA_FN double bulk_sound_speed() const { return std::sqrt(kappa / rho0); }
@@ -108,17 +119,19 @@ class Solid {
   }
 
   /// Rate of the deviator, 2 mu dev D + W S - S W [Pa/s], D and W the parts of the velocity gradient L [1/s].
-  PIOLA_FN SymMat<3> deviator_rate(SymMat<3> const& S, Mat<3> const& L) const {
-    double const mean = (L(0, 0) + L(1, 1) + L(2, 2)) / 3;
+  template <class V>
+  PIOLA_FN SymMat<3, V> deviator_rate(SymMat<3, V> const& S, Mat<3, V> const& L) const {
+    V const mean = (L(0, 0) + L(1, 1) + L(2, 2)) / 3.0;
     // W S - S W with the three components of W: x = W_xy, y = W_xz, z = W_yz.
-    double const x = 0.5 * (L(0, 1) - L(1, 0)), y = 0.5 * (L(0, 2) - L(2, 0)), z = 0.5 * (L(1, 2) - L(2, 1));
-    double const xy = S(0, 1), xz = S(0, 2), yz = S(1, 2);
-    SymMat<3> rate;
+    V const x = 0.5 * (L(0, 1) - L(1, 0)), y = 0.5 * (L(0, 2) - L(2, 0)), z = 0.5 * (L(1, 2) - L(2, 1));
+    V const xy = S(0, 1), xz = S(0, 2), yz = S(1, 2);
+    SymMat<3, V> rate;
     for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) rate(i, j) = mu * (L(i, j) + L(j, i)) - (i == j ? 2 * mu * mean : 0);
-    rate(0, 0) += 2 * (x * xy + y * xz);
-    rate(1, 1) += 2 * (z * yz - x * xy);
-    rate(2, 2) -= 2 * (y * xz + z * yz);
+      for (int j = i; j < 3; ++j)
+        rate(i, j) = i == j ? mu * (L(i, j) + L(j, i)) - 2 * mu * mean : mu * (L(i, j) + L(j, i));
+    rate(0, 0) += 2.0 * (x * xy + y * xz);
+    rate(1, 1) += 2.0 * (z * yz - x * xy);
+    rate(2, 2) -= 2.0 * (y * xz + z * yz);
     rate(0, 1) += x * (S(1, 1) - S(0, 0)) + y * yz + z * xz;
     rate(0, 2) += y * (S(2, 2) - S(0, 0)) + x * yz - z * xy;
     rate(1, 2) += z * (S(2, 2) - S(1, 1)) - x * xz - y * xy;
@@ -127,40 +140,49 @@ class Solid {
 
   /// The trial deviator brought back to the yield surface after dt [s], for predictions: the history stays as it is.
   /// pressure [Pa]; compression: rho/rho0.
-  PIOLA_FN SymMat<3> returned(SolidHistory const& h, SymMat<3> const& trial, double dt, double pressure = 0,
-                              double compression = 1) const {
-    double const mises = von_mises(trial);
-    return scaled(trial, mises, strength_.increment(mises, 3 * mu, flow_state(h, pressure, compression), dt));
+  template <class V>
+  PIOLA_FN SymMat<3, V> returned(SolidHistoryOf<V> const& h, SymMat<3, V> const& trial, double dt,
+                                 std::type_identity_t<V> const& pressure = V(0.0),
+                                 std::type_identity_t<V> const& compression = V(1.0)) const {
+    V const mises = von_mises(trial);
+    return scaled(trial, mises, increment(mises, h, pressure, compression, dt, V(0.0)));
   }
 
   /// The same from the flow stress of the last plastic step [Pa], 0 where there was none: laws whose yield stress asks
   /// for powers and logarithms are spared them, as it changes little from step to step. A strength that asks for the
   /// pressure waits until that is known: the trial itself.
-  PIOLA_FN SymMat<3> predicted(SolidHistory const& h, SymMat<3> const& trial, double flow, double dt) const {
+  template <class V>
+  PIOLA_FN SymMat<3, V> predicted(SolidHistoryOf<V> const& h, SymMat<3, V> const& trial,
+                                  std::type_identity_t<V> const& flow, double dt) const {
     if constexpr (pressed) return trial;
-    if (!Strength::thermal || !(flow > 0)) return returned(h, trial, dt);
-    double const mises = von_mises(trial);
-    return scaled(trial, mises, (mises - flow) / (3 * mu));
+    if constexpr (!Strength::thermal) return returned(h, trial, dt);
+    V const mises = von_mises(trial);
+    auto const known = flow > 0.0;
+    V strain = (mises - flow) / (3 * mu);
+    if (any(!known)) strain = select(known, strain, increment(mises, h, V(0.0), V(1.0), dt, V(0.0)));
+    return scaled(trial, mises, strain);
   }
 
   /// One step of dt [s] with the trial deviator [Pa]: radial return, plastic strain, plastic work, heat and damage.
   /// pressure [Pa] and rho [kg/m^3] are those of the end of the step; `last_flow` is what the last plastic step
   /// returned, from where the search starts. Returns the von Mises stress after plastic flow [Pa], 0 after an elastic
   /// step.
-  PIOLA_FN double update(SolidHistory& h, SymMat<3> const& trial, double pressure, double rho, double dt,
-                         double last_flow = 0) const {
-    FlowState const before = flow_state(h, pressure, rho / rho0);
-    double const mises = von_mises(trial), strain = strength_.increment(mises, 3 * mu, before, dt, last_flow);
+  template <class V>
+  PIOLA_FN V update(SolidHistoryOf<V>& h, SymMat<3, V> const& trial, std::type_identity_t<V> const& pressure,
+                    std::type_identity_t<V> const& rho, double dt,
+                    std::type_identity_t<V> const& last_flow = V(0.0)) const {
+    V const mises = von_mises(trial), strain = increment(mises, h, pressure, rho / rho0, dt, last_flow);
     h.S = scaled(trial, mises, strain);
-    if (spalls(h.S, pressure, h.toughness)) h.damage = 1;
-    if (!(strain > 0)) return 0;
-    double const flow = mises - 3 * mu * strain, rate = dt > 0 ? strain / dt : 0;
-    wear(h, before, flow, strain, rate, rho);
-    double const work = (flow > 0 ? flow : 0) * strain * rho0 / rho;
-    h.plastic_strain += strain;
-    h.plastic_work += work;
-    h.temperature += heat_.fraction * work / (rho0 * heat_.specific_heat);
-    return flow > 0 ? flow : 0;
+    if (spall_ != 0) tear(h, pressure);
+    auto const flows = strain > 0.0;
+    if (!any(flows)) return V(0.0);
+    V const left = mises - 3 * mu * strain, flow = select(left > 0.0, left, V(0.0));
+    if (wears_) wear(h, pressure, left, strain, rho, dt);
+    V const work = flow * strain * rho0 / rho;
+    h.plastic_strain = select(flows, h.plastic_strain + strain, h.plastic_strain);
+    h.plastic_work = select(flows, h.plastic_work + work, h.plastic_work);
+    h.temperature = select(flows, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
+    return select(flows, flow, V(0.0));
   }
 
   /// Whether tension tears the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
@@ -199,10 +221,79 @@ class Solid {
   PIOLA_FN static FlowState flow_state(SolidHistory const& h, double pressure, double compression = 1) {
     return {h.plastic_strain, h.temperature, pressure, h.damage, compression};
   }
-  /// Damage of a plastic step, and the bulking that follows from it.
-  PIOLA_FN void wear(SolidHistory& h, FlowState const& before, double flow, double strain, double rate,
-                     double rho) const {
-    if (!wears_) return;
+  /// Plastic strain of a step from a trial stress with the von Mises stress `mises` [Pa].
+  template <class V>
+  PIOLA_FN V increment(V const& mises, SolidHistoryOf<V> const& h, V const& pressure, V const& compression, double dt,
+                       V const& last_flow) const {
+    if constexpr (!Strength::yields) {
+      return V(0.0);
+    } else if constexpr (requires { strength_.increments(mises, mu, h.plastic_strain); }) {
+      return strength_.increments(mises, 3 * mu, h.plastic_strain);
+    } else {
+      V least(0.0);
+      if constexpr (requires { strength_.least_yield_stress(h.temperature); })
+        least = strength_.least_yield_stress(h.temperature);
+      if (!any(mises > least)) return V(0.0);
+      double strain[width<V>];
+      for (int l = 0; l < width<V>; ++l)
+        strain[l] = lane(mises, l) > lane(least, l)
+                        ? strength_.increment(lane(mises, l), 3 * mu,
+                                              flow_state(lane_of(h, l), lane(pressure, l), lane(compression, l)), dt,
+                                              lane(last_flow, l))
+                        : 0;
+      return load<V>(strain);
+    }
+  }
+
+  /// What the laws of one point ask of the history of a lane.
+  template <class V>
+  PIOLA_FN static SolidHistory lane_of(SolidHistoryOf<V> const& h, int l) {
+    SolidHistory one;
+    one.plastic_strain = lane(h.plastic_strain, l);
+    one.temperature = lane(h.temperature, l);
+    one.damage = lane(h.damage, l);
+    one.bulking = lane(h.bulking, l);
+    one.toughness = lane(h.toughness, l);
+    return one;
+  }
+
+  /// Fails what tension tears.
+  template <class V>
+  PIOLA_FN void tear(SolidHistoryOf<V>& h, V const& pressure) const {
+    V const most = spall_pressure * h.toughness;
+    if (spall_ == 1) {
+      h.damage = select(pressure > -most, h.damage, V(1.0));
+      return;
+    }
+    if (!any(eigenvalue_bound(h.S) - pressure > most)) return;  // most particles
+    double damage[width<V>];
+    for (int l = 0; l < width<V>; ++l) {
+      SymMat<3> S;
+      for (int c = 0; c < 6; ++c) S.c[c] = lane(h.S.c[c], l);
+      damage[l] = spalls(S, lane(pressure, l), lane(h.toughness, l)) ? 1 : lane(h.damage, l);
+    }
+    h.damage = load<V>(damage);
+  }
+
+  /// Damage of a plastic step, and the bulking that follows from it, of the lanes that yield.
+  template <class V>
+  PIOLA_FN void wear(SolidHistoryOf<V>& h, V const& pressure, V const& flow, V const& strain, V const& rho,
+                     double dt) const {
+    double damage[width<V>], bulking[width<V>];
+    for (int l = 0; l < width<V>; ++l) {
+      SolidHistory one = lane_of(h, l);
+      double const more = lane(strain, l);
+      if (more > 0)
+        wear_one(one, flow_state(one, lane(pressure, l), lane(rho, l) / rho0), lane(flow, l), more,
+                 dt > 0 ? more / dt : 0, lane(rho, l));
+      damage[l] = one.damage;
+      bulking[l] = one.bulking;
+    }
+    h.damage = load<V>(damage);
+    h.bulking = load<V>(bulking);
+  }
+  PIOLA_FN void wear_one(SolidHistory& h, FlowState const& before, double flow, double strain, double rate,
+                         double rho) const {
     if constexpr (Strength::brittle) {
       h.damage = JohnsonCookDamage::grown(h.damage, strain, h.toughness * strength_.fracture_strain(before.pressure));
       double const held = strength_.yield_stress(before, rate);
@@ -215,10 +306,13 @@ class Solid {
       h.damage = JohnsonCookDamage::grown(h.damage, strain, h.toughness * fracture);
     }
   }
-  PIOLA_FN SymMat<3> scaled(SymMat<3> S, double mises, double strain) const {
-    if (!(strain > 0)) return S;
-    double const left = mises - 3 * mu * strain, factor = left > 0 ? left / mises : 0;
-    for (double& s : S.c) s *= factor;
+  template <class V>
+  PIOLA_FN SymMat<3, V> scaled(SymMat<3, V> S, V const& mises, V const& strain) const {
+    auto const flows = strain > 0.0;
+    if (!any(flows)) return S;
+    V const left = mises - 3 * mu * strain;
+    V const factor = select(flows, select(left > 0.0, left / mises, V(0.0)), V(1.0));
+    for (V& s : S.c) s = s * factor;
     return S;
   }
 

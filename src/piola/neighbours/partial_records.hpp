@@ -38,7 +38,8 @@ inline void load_two(double const* const (&row)[8], __m512d (&r)[2]) {
 
 /// As load_records; what is left of the components beyond a multiple of eight, up to four, costs half a transposition.
 template <int N>
-PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
+[[gnu::always_inline]] PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index,
+                                                     Lanes (&f)[N]) {
   constexpr int rest = N % 8, whole = N - rest;
   if constexpr (rest == 0 || rest > 4) {
     load_records<N>(base, stride, index, f);
@@ -59,9 +60,32 @@ PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index c
     for (int c = 0; c < rest; ++c) f[whole + c] = Lanes(r[c]);
   }
 }
+
+/// to[l][first + c] = lane l of f[c], for the rows that are not null.
+template <int N>
+PIOLA_FN void store_records(double* const (&to)[8], int first, Lanes const (&f)[N]) {
+  for (int begin = 0; begin < N; begin += 8) {
+    int const size = N - begin < 8 ? N - begin : 8;
+    __m512d r[8];
+    for (int c = 0; c < 8; ++c)
+      r[c] = c < size ? static_cast<__m512d>(f[c < size ? begin + c : 0]) : _mm512_setzero_pd();
+    detail::transpose(r);
+    auto const part = static_cast<__mmask8>((1 << size) - 1);
+    for (int l = 0; l < 8; ++l)
+      if (to[l] != nullptr) _mm512_mask_storeu_pd(to[l] + first + begin, part, r[l]);
+  }
+}
 #else
 template <int N>
-PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
+PIOLA_FN void store_records(double* const (&to)[lane_count], int first, Lanes const (&f)[N]) {
+  for (int c = 0; c < N; ++c)
+    for (int l = 0; l < lane_count; ++l)
+      if (to[l] != nullptr) to[l][first + c] = lane(f[c], l);
+}
+
+template <int N>
+[[gnu::always_inline]] PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index,
+                                                     Lanes (&f)[N]) {
   load_records<N>(base, stride, index, f);
 }
 #endif

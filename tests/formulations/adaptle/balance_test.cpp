@@ -14,8 +14,11 @@ struct Balance {
 Balance balance_of(Cloud const& cloud) {
   double force[3]{}, torque[3]{}, power = 0, forces = 0, powers = 0, torques = 0;
   for (Index i = 0; i < cloud.size(); ++i) {
-    double const *F = cloud.sums(i).force, *v = cloud.half(i).v, *x = cloud.state[i].x;
-    double work = cloud.rates[i].energy + cloud.sums(i).hourglass;
+    Sums const sums = cloud.sums(i);
+    Half const half = cloud.half(i);
+    double const *F = sums.force, *v = half.v;
+    Components const x = cloud.state[i].x;
+    double work = cloud.state[i].energy_rate + sums.hourglass;
     for (int c = 0; c < 3; ++c) {
       int const a = (c + 1) % 3, b = (c + 2) % 3;
       force[c] += F[c];
@@ -95,8 +98,9 @@ TEST_P(AdaptleBalance, ViscosityAndArtificialStressAreThere) {
     cloud.evaluate();
     std::pair<Values, double> r;
     for (Index i = 0; i < cloud.size(); ++i) {
-      r.first.insert(r.first.end(), cloud.sums(i).force, cloud.sums(i).force + GetParam().dimension);
-      r.second += cloud.sums(i).heat;
+      Sums const sums = cloud.sums(i);
+      r.first.insert(r.first.end(), sums.force, sums.force + GetParam().dimension);
+      r.second += sums.heat;
     }
     return r;
   };
@@ -198,9 +202,10 @@ TEST(AdaptleBalances, BothFormsOfTheViscosityAgreeWithoutDeformation) {
       double heat = 0;
       for (Index i = 0; i < cloud.size(); ++i) {
         Values& force = of[form][0];
-        force.insert(force.end(), cloud.sums(i).force, cloud.sums(i).force + dimension);
-        of[form][1].push_back(cloud.sums(i).compression);
-        heat += cloud.sums(i).heat;
+        Sums const sums = cloud.sums(i);
+        force.insert(force.end(), sums.force, sums.force + dimension);
+        of[form][1].push_back(sums.compression);
+        heat += sums.heat;
       }
       of[form][2] = {heat};  // each particle's share of the damping differs, the sum does not
     }

@@ -10,12 +10,62 @@
 /// Bodies of AdapTLE, through its particles: tests may write any state and see the sums of a step.
 namespace piola::testing {
 
-using adaptle::Deformation;
-using adaptle::Half;
-using adaptle::Rates;
-using adaptle::State;
-using adaptle::Sums;
 using adaptle::System;
+
+/// The components of one particle in a field.
+struct Components {
+  double* first;
+  std::ptrdiff_t step;
+  int count;
+  struct Iterator {
+    double* at;
+    std::ptrdiff_t step;
+    double& operator*() const { return *at; }
+    Iterator& operator++() {
+      at += step;
+      return *this;
+    }
+    bool operator!=(Iterator const& other) const { return at != other.at; }
+  };
+  double& operator[](int c) const { return first[c * step]; }
+  Iterator begin() const { return {first, step}; }
+  Iterator end() const { return {first + count * step, step}; }
+};
+
+/// A particle's state, to be read and written where it is.
+struct State {
+  Components x, v, S;
+  double &rho, &energy, &plastic_strain, &plastic_work, &damage, &viscosity, &phi, &alive, &released, &energy_rate;
+
+  State(adaptle::ParticleFields const& f, Index i)
+      : x(part(f.x, i, 3)),
+        v(part(f.v, i, 3)),
+        S(part(f.S, i, 6)),
+        rho(value_at(f.rho, i)),
+        energy(value_at(f.energy, i)),
+        plastic_strain(value_at(f.plastic_strain, i)),
+        plastic_work(value_at(f.plastic_work, i)),
+        damage(value_at(f.damage, i)),
+        viscosity(value_at(f.viscosity, i)),
+        phi(value_at(f.phi, i)),
+        alive(value_at(f.alive, i)),
+        released(value_at(f.released, i)),
+        energy_rate(value_at(f.energy_rate, i)) {}
+
+ private:
+  static Components part(FieldRef const& f, Index i, int count) { return {&value_at(f, i), f.component_stride, count}; }
+};
+
+/// What a step has found for one particle; zero what the case does not have.
+struct Half {
+  double v[3], S[6], volume, rho, pressure, c;
+};
+struct Sums {
+  double force[3], heat, L[9], contact, hourglass, stiffness, overlap, closing, compression;
+};
+struct Deformation {
+  double F[9], rate[9], gap;
+};
 
 inline std::vector<std::string> adaptle_machines() {
   std::vector<std::string> r;
@@ -52,18 +102,55 @@ inline double take_steps(Formulation& f, double time, int steps) {
 struct Cloud {
   explicit Cloud(Assembly const& a)
       : particles(std::make_unique<adaptle::Particles>(a, adaptle::read_options(a),
-                                                       *adaptle::find_machine(a.machine.c_str()))) {
-    particles->each_array([&](std::string_view name, double* first, int) {
-      if (name == "state") state = reinterpret_cast<State*>(first);
-      if (name == "rates") rates = reinterpret_cast<Rates*>(first);
-    });
-  }
+                                                       *adaptle::find_machine(a.machine.c_str()))),
+        state{&particles->system().field} {}
   Index size() const { return system().particles; }
   System const& system() const { return particles->system(); }
-  Sums const& sums(Index i) const { return system().sums[i]; }
-  Half const& half(Index i) const { return system().half[i]; }
-  double mass(Index i) const { return system().reference[i].mass; }
-  Deformation const& deformation(Index i) const { return system().deformation[i]; }
+  double mass(Index i) const { return value_at(system().field.mass, i); }
+  double volume(Index i) const { return value_at(system().field.volume, i); }
+  Point X(Index i) const { return point_at(system().field.X, i, 3); }
+
+  /// Of all sweeps.
+  Sums sums(Index i) const {
+    adaptle::ParticleFields const& f = system().field;
+    using R = adaptle::SpatialResult;
+    using C = adaptle::ContactSum;
+    adaptle::SpatialTable const& spatial = system().spatial;
+    double none[R::stride]{};
+    double const* const own = spatial.result != nullptr ? spatial.result + spatial.result_of[i] * R::stride : none;
+    Sums r{};
+    for (int c = 0; c < 3; ++c) r.force[c] = own[R::force + c] + of(f.force, i, c);
+    for (int c = 0; c < 9; ++c) r.L[c] = own[R::L + c];
+    r.heat = own[R::heat] + of(f.heat, i);
+    r.compression = std::max(own[R::compression], of(f.compression, i));
+    r.hourglass = of(f.hourglass, i);
+    r.contact = of(f.contact, i, C::power);
+    r.stiffness = of(f.contact, i, C::stiffness);
+    r.overlap = of(f.contact, i, C::overlap);
+    r.closing = of(f.contact, i, C::closing);
+    return r;
+  }
+  Half half(Index i) const {
+    adaptle::ParticleFields const& f = system().field;
+    Half r{};
+    for (int c = 0; c < 3; ++c) r.v[c] = of(f.v_half, i, c);
+    for (int c = 0; c < 6; ++c) r.S[c] = of(f.S_half, i, c);
+    r.volume = of(f.volume_half, i);
+    r.rho = of(f.rho_half, i);
+    r.pressure = of(f.pressure, i);
+    r.c = of(f.c, i);
+    return r;
+  }
+  Deformation deformation(Index i) const {
+    adaptle::ParticleFields const& f = system().field;
+    Deformation r{};
+    for (int c = 0; c < 9; ++c) {
+      r.F[c] = of(f.F, i, c);
+      r.rate[c] = of(f.F_rate, i, c);
+    }
+    r.gap = of(f.gap, i);
+    return r;
+  }
 
   /// Lists who is what after `state` has been written.
   void changed() { particles->resumed(); }
@@ -75,9 +162,10 @@ struct Cloud {
     Mat<3> L, F, rate;
     for (int c = 0; c < 9; ++c) L.c[c] = sums(i).L[c];
     if (state[i].phi == 1) return L;
+    Deformation const d = deformation(i);
     for (int c = 0; c < 9; ++c) {
-      F.c[c] = deformation(i).F[c];
-      rate.c[c] = deformation(i).rate[c];
+      F.c[c] = d.F[c];
+      rate.c[c] = d.rate[c];
     }
     double const phi = state[i].phi;
     Mat<3> const material = rate * inverse(F);
@@ -86,8 +174,13 @@ struct Cloud {
   }
 
   std::unique_ptr<adaptle::Particles> particles;
-  State* state = nullptr;
-  Rates* rates = nullptr;
+  struct {
+    adaptle::ParticleFields const* field;
+    State operator[](Index i) const { return {*field, i}; }
+  } state;
+
+ private:
+  static double of(FieldRef const& f, Index i, int c = 0) { return f.data != nullptr ? value_at(f, i, c) : 0; }
 };
 
 /// Gives particles of a cloud random velocities, stresses, densities, energies and switches of the viscosity, and
@@ -95,7 +188,7 @@ struct Cloud {
 inline void shake_up(Cloud& cloud, int dimension, double shake, std::uint32_t seed = 7) {
   Random random(seed);
   for (Index i = 0; i < cloud.size(); ++i) {
-    State& s = cloud.state[i];
+    State const s = cloud.state[i];
     double const x = s.x[0], y = s.x[1], z = s.x[2];
     s.x[0] = 1.04 * x + 0.1 * y + 0.03 * z;
     s.x[1] = 0.97 * y - 0.05 * x;

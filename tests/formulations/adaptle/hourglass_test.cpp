@@ -30,11 +30,11 @@ double stored(Cloud const& cloud) {
       for (int p = 0; p < s.dimension; ++p) {
         double e = s.position[3 * j + p] - s.position[3 * i + p];
         for (int q = 0; q < s.dimension; ++q)
-          e -= cloud.deformation(i).F[3 * p + q] * (s.reference[j].X[q] - s.reference[i].X[q]);
+          e -= cloud.deformation(i).F[3 * p + q] *
+               (cloud.X(j)[static_cast<std::size_t>(q)] - cloud.X(i)[static_cast<std::size_t>(q)]);
         square += e * e;
       }
-      sum += 0.25 * kappa * s.reference[i].volume * s.reference[j].volume *
-             static_cast<double>(s.material.gradient[k]) * square;
+      sum += 0.25 * kappa * cloud.volume(i) * cloud.volume(j) * static_cast<double>(s.material.gradient[k]) * square;
     }
   return sum;
 }
@@ -45,7 +45,7 @@ TEST_P(AdaptleHourglass, LinearDeformationsAndRotationsFeelNoSprings) {
   Cloud with(springy(GetParam(), 5)), without(springy(GetParam(), 0));
   for (Cloud* cloud : {&with, &without}) {
     for (Index i = 0; i < cloud->size(); ++i) {
-      double* x = cloud->state[i].x;
+      Components const x = cloud->state[i].x;
       double const X = x[0], Y = x[1];
       x[0] = 0.6 * X - 0.8 * Y;
       x[1] = 0.88 * X + 0.66 * Y;  // turned by 53 degrees, then stretched by 1.1

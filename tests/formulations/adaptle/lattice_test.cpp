@@ -38,7 +38,8 @@ Values sums_of(Cloud& cloud, int dimension) {
   cloud.evaluate();
   Values r;
   for (Index i = 0; i < cloud.size(); ++i) {
-    r.insert(r.end(), cloud.sums(i).force, cloud.sums(i).force + dimension);
+    Sums const sums = cloud.sums(i);
+    r.insert(r.end(), sums.force, sums.force + dimension);
   }
   return r;
 }

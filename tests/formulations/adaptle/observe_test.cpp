@@ -21,19 +21,16 @@ struct Observed {
     give_velocity(assembly, [](Point const& X) { return Point{1 + X[0], 2, 0}; });
     formulation = make_formulation(assembly);
     SavedState state = saved(*formulation);
-    auto* s = reinterpret_cast<State*>(state.values.at("state").data());
+    auto& values = state.values;
     for (std::size_t i = 0; i < assembly.particles.X.size(); ++i) {
-      s[i].x[0] *= 1.1;
-      s[i].rho = rho0 / 1.1;
-      s[i].S[0] = 4e6;
-      s[i].S[1] = -1e6;
-      s[i].S[2] = -3e6;
-      s[i].S[3] = 2e6;
-      s[i].energy = 10 * rho0 * assembly.particles.volume[i];
-      s[i].plastic_strain = 0.25;
-      s[i].temperature = 400 + static_cast<double>(i);
-      s[i].damage = i < 2 ? 1 : 0.5;
-      s[i].plastic_work = 7;
+      values.at("Position")[3 * i] *= 1.1;
+      values.at("Density")[i] = rho0 / 1.1;
+      std::copy_n(std::array{4e6, -1e6, -3e6, 2e6}.begin(), 4, &values.at("StressDeviator")[6 * i]);
+      values.at("InternalEnergy")[i] = 10 * rho0 * assembly.particles.volume[i];
+      values.at("EquivalentPlasticStrain")[i] = 0.25;
+      values.at("Temperature")[i] = 400 + static_cast<double>(i);
+      values.at("Damage")[i] = i < 2 ? 1 : 0.5;
+      values.at("PlasticWork")[i] = 7;
     }
     formulation->load(state);
   }

@@ -31,7 +31,8 @@ double potential(System const& s, Index i, Index j, double r) {
   ContactPair const& pair = s.contact.pair[s.body_of[i] * s.bodies + s.body_of[j]];
   if (s.contact.law == 2) return r < pair.dp ? 0.5 * pair.eps * std::pow(1 - r / pair.dp, 2) : 0;
   Kernel<D> const kernel(pair.h);
-  double const eps = s.contact.law == 1 ? pair.eps : s.contact.printed * s.reference[i].volume * s.reference[j].volume;
+  double const eps =
+      s.contact.law == 1 ? pair.eps : s.contact.printed * value_at(s.field.volume, i) * value_at(s.field.volume, j);
   return eps * std::pow(kernel(r) / kernel(pair.dp), s.contact.exponent);
 }
 
@@ -43,7 +44,7 @@ double energy_of_contacts(System const& s) {
     for (Index k = 0; k < s.contact.length[t]; ++k) {
       Index const j = s.spatial.slot[s.contact.list[static_cast<std::ptrdiff_t>(t) * s.contact.capacity + k]];
       double square = 0;
-      for (int c = 0; c < D; ++c) square += std::pow(s.state[i].x[c] - s.state[j].x[c], 2);
+      for (int c = 0; c < D; ++c) square += std::pow(value_at(s.field.x, i, c) - value_at(s.field.x, j, c), 2);
       energy += 0.5 * potential<D>(s, i, j, std::sqrt(square));
     }
   }
@@ -51,7 +52,7 @@ double energy_of_contacts(System const& s) {
     for (int k = 0; k < s.rigids; ++k) {
       double normal[3];
       BodyConstants const& b = s.body[s.body_of[i]];
-      double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], s.state[i].x, normal);
+      double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], point_at(s.field.x, i, 3).data(), normal);
       if (depth > 0) energy += s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
     }
   return energy.value();

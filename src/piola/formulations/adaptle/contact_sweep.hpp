@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/adaptle/components.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 
 /// Contact between bodies, and with rigid shapes: central, frictionless repulsion.
@@ -39,9 +40,8 @@ struct ContactSweep {
   BodyConstants const* body;
   int const* body_of;
   int bodies;
-  State const* state;
-  Half const* half;
-  Sums* sums;
+  Components x, v_half, volume_half;
+  OwnComponents force, sums;  ///< sums: in the order of ContactSum
 
   PIOLA_FN void operator()(Range block, Index) const {
     for (Index t = block.first; t < block.last; ++t) visit(t);
@@ -52,44 +52,44 @@ struct ContactSweep {
     if (table.law == 2) return linear_contact(pair, r);
     if (table.law == 1) return kernel_contact<D>(pair, table.exponent, r);
     ContactPair printed = pair;
-    printed.eps = table.printed * half[i].volume * half[j].volume;
+    printed.eps = table.printed * volume_half.at(i) * volume_half.at(j);
     return kernel_contact<D>(printed, table.exponent, r);
   }
 
   /// Speed at which two particles come nearer to each other at the distance r [m/s].
   PIOLA_FN double approach(Index i, Index j, double r) const {
     double sum = 0;
-    for (int c = 0; c < D; ++c) sum += (half[j].v[c] - half[i].v[c]) * (state[i].x[c] - state[j].x[c]);
+    for (int c = 0; c < D; ++c) sum += (v_half.at(j, c) - v_half.at(i, c)) * (x.at(i, c) - x.at(j, c));
     return sum > 0 ? sum / r : 0;
   }
 
   PIOLA_FN void visit(Index t) const {
     Index const i = slot[table.target[t]];
     Index const* const row = table.list + static_cast<std::ptrdiff_t>(t) * table.capacity;
-    Sums& out = sums[i];
     for (Index k = 0; k < table.length[t]; ++k) {
       Index const j = slot[row[k]];
       ContactPair const& pair = table.pair[body_of[i] * bodies + body_of[j]];
       double square = 0;
       for (int c = 0; c < D; ++c) {
-        double const d = state[i].x[c] - state[j].x[c];
+        double const d = x.at(i, c) - x.at(j, c);
         square += d * d;
       }
       double const r = std::sqrt(square);
       ContactForce const f = force_of(pair, i, j, r);
       if (!(f.stiffness > 0)) continue;
-      out.closing = maximum(out.closing, approach(i, j, r) / pair.dp);
+      raise(i, ContactSum::closing, approach(i, j, r) / pair.dp);
       double power = 0;
       for (int c = 0; c < D; ++c) {
-        double const force = f.force * (state[i].x[c] - state[j].x[c]) / (r > 0 ? r : 1);
-        out.force[c] += force;
-        power += 0.5 * (half[j].v[c] - half[i].v[c]) * force;
+        double const push = f.force * (x.at(i, c) - x.at(j, c)) / (r > 0 ? r : 1);
+        force.at(i, c) += push;
+        power += 0.5 * (v_half.at(j, c) - v_half.at(i, c)) * push;
       }
-      out.contact += power;
-      out.stiffness += f.stiffness;
-      out.overlap = maximum(out.overlap, f.overlap);
+      sums.at(i, ContactSum::power) += power;
+      sums.at(i, ContactSum::stiffness) += f.stiffness;
+      raise(i, ContactSum::overlap, f.overlap);
     }
   }
+  PIOLA_FN void raise(Index i, int which, double value) const { sums.at(i, which) = maximum(sums.at(i, which), value); }
 };
 
 /// Distance of a point from the surface of a rigid shape, negative inside, and the outward normal there.
@@ -163,11 +163,10 @@ struct RigidSweep {
   double scale;
   BodyConstants const* body;
   int const* body_of;
-  State const* state;
-  Half const* half;
-  Sums* sums;
-  double* power_on_bodies;  ///< per slot: of the moving shapes [W]
-  double* action;           ///< [block][shape]: force [N] and moment about the origin [N m]
+  Components x, v_half;
+  OwnComponents force, sums;  ///< sums: in the order of ContactSum
+  double* power_on_bodies;    ///< per slot: of the moving shapes [W]
+  double* action;             ///< [block][shape]: force [N] and moment about the origin [N m]
 
   PIOLA_FN void operator()(Range block, Index number) const {
     double* const of_block = action + static_cast<std::ptrdiff_t>(number) * shapes * 6;
@@ -182,29 +181,29 @@ struct RigidSweep {
   PIOLA_FN void push(Index i, RigidPlace const& s, double* sum) const {
     double normal[3];
     BodyConstants const& b = body[body_of[i]];
-    double const stand_off = 0.5 * b.spacing, distance = distance_to<D>(s, state[i].x, normal);
-    Sums& out = sums[i];
+    double const stand_off = 0.5 * b.spacing, place[3]{x.at(i), x.at(i, 1), x.at(i, 2)},
+                 distance = distance_to<D>(s, place, normal);
     if (distance < 4 * stand_off) {
       double closing = 0;
-      for (int c = 0; c < D; ++c) closing += (s.velocity[c] - half[i].v[c]) * normal[c];
-      out.closing = maximum(out.closing, closing / b.spacing);
+      for (int c = 0; c < D; ++c) closing += (s.velocity[c] - v_half.at(i, c)) * normal[c];
+      raise(i, ContactSum::closing, closing / b.spacing);
     }
     if (!(distance < stand_off)) return;
     double k = 2 * scale * b.bulk_modulus;
     for (int c = 2; c < D; ++c) k *= b.spacing;
     for (int c = 0; c < D; ++c) {
-      double const force = k * (stand_off - distance) * normal[c];
-      out.force[c] += force;
-      sum[c] += force;
-      sum[3 + (c + 1) % 3] += state[i].x[(c + 2) % 3] * force;
-      sum[3 + (c + 2) % 3] -= state[i].x[(c + 1) % 3] * force;
-      out.contact -= force * (half[i].v[c] - s.velocity[c]);
-      power_on_bodies[i] += force * s.velocity[c];
+      double const f = k * (stand_off - distance) * normal[c];
+      force.at(i, c) += f;
+      sum[c] += f;
+      sum[3 + (c + 1) % 3] += place[(c + 2) % 3] * f;
+      sum[3 + (c + 2) % 3] -= place[(c + 1) % 3] * f;
+      sums.at(i, ContactSum::power) -= f * (v_half.at(i, c) - s.velocity[c]);
+      power_on_bodies[i] += f * s.velocity[c];
     }
-    out.stiffness += k;
-    double const overlap = 1 - distance / stand_off;
-    out.overlap = maximum(out.overlap, overlap);
+    sums.at(i, ContactSum::stiffness) += k;
+    raise(i, ContactSum::overlap, 1 - distance / stand_off);
   }
+  PIOLA_FN void raise(Index i, int which, double value) const { sums.at(i, which) = maximum(sums.at(i, which), value); }
 };
 
 }  // namespace piola::adaptle::inline PIOLA_MACHINE

@@ -9,18 +9,8 @@
 namespace piola::adaptle {
 namespace {
 
-struct Share {
-  double energy = 0, momentum[3]{};
-  Share(State const& s, Reference const& r) : energy(s.energy) {
-    for (int c = 0; c < 3; ++c) {
-      energy += 0.5 * r.mass * s.v[c] * s.v[c];
-      momentum[c] = r.mass * s.v[c];
-    }
-  }
-};
-
-double strain_of(int dimension, Deformation const& d, SymMat<3> const& stress, BodyConstants const& b) {
-  return dimension == 2 ? equivalent_strain<2>(d.F, stress, b) : equivalent_strain<3>(d.F, stress, b);
+double strain_of(int dimension, Mat<3> const& F, SymMat<3> const& stress, BodyConstants const& b) {
+  return dimension == 2 ? equivalent_strain<2>(F, stress, b) : equivalent_strain<3>(F, stress, b);
 }
 
 }  // namespace
@@ -35,20 +25,23 @@ bool Particles::wishes_by_formula() {
     asked = true;
     Expression const& formula = *options_.bodies[k].convert_when;
     with_solid(b.material, [&](auto const& law) {
+      PointFields const point(system_.field, system_.own);
+      Components const F(read(system_.field.F));
+      Fields const& f = fields_;
       for (Index i = own_[k].first; i < own_[k].last; ++i) {
-        State const& s = state_[at(i)];
-        if (s.phi > 0 || wish_[at(i)] == 1) continue;
-        double const p = acting_pressure(law, s, system_.own, i, s.rho, s.energy / reference_[at(i)].mass);
-        SymMat<3> stress = symmetric_of(s.S);
+        if (f.phi.at(i) > 0 || wish_[at(i)] == 1) continue;
+        double const rho = f.rho.at(i), p = point.pressure<double>(law, i, rho, f.energy.at(i) / f.mass.at(i));
+        SymMat<3> const S = point.S.symmetric<double>(i);
+        SymMat<3> stress = S;
         for (int c = 0; c < 3; ++c) stress.c[c] -= p;
-        std::array const values{s.damage,
-                                s.plastic_strain,
-                                b.rho0 / s.rho,
+        std::array const values{f.damage.at(i),
+                                f.plastic_strain.at(i),
+                                b.rho0 / rho,
                                 -p,
-                                von_mises(symmetric_of(s.S)),
-                                s.temperature,
-                                strain_of(system_.dimension, deformation_[at(i)], stress, b),
-                                s.rho};
+                                von_mises(S),
+                                f.temperature.at(i),
+                                strain_of(system_.dimension, F.matrix<double>(i), stress, b),
+                                rho};
         if (formula(X(i), books_.time, values) == 0) continue;
         wish_[at(i)] = 1;
         any_wish = 1;
@@ -70,7 +63,7 @@ void Particles::convert(double dt) {
     if (body_[body].deletes)
       remove(i);
     else if (wish_[at(i)] == 1) {
-      material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].material_h, reference_,
+      material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].material_h, fields_,
                                [&](Index j) { make_eulerian(j, dt, false, sums); });
       make_eulerian(i, dt, false, sums);
     }
@@ -86,32 +79,47 @@ void Particles::convert(double dt) {
 
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
 void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums) {
-  State& s = state_[at(i)];
-  if (s.phi == 1) return;
+  Fields& f = fields_;
+  if (f.phi.at(i) == 1) return;
   books_.converted += 1;
   books_.by_guard += by_guard ? 1 : 0;
-  Share const before(s, reference_[at(i)]);
-  Half const& h = half_[at(i)];
-  if (s.phi == 0) s.rho = h.rho * std::exp(-0.5 * dt * h.divergence);
-  s.phi = 1;
-  Share const after(s, reference_[at(i)]);
-  if (!is_own(i)) return;  // the others know of it that it has converted
-  double const jump[3]{reference_[at(i)].mass, std::abs(after.energy - before.energy),
-                       std::hypot(after.momentum[0] - before.momentum[0], after.momentum[1] - before.momentum[1],
-                                  after.momentum[2] - before.momentum[2])};
+  if (!is_own(i)) {  // the others know of it that it has converted
+    f.phi.at(i) = 1;
+    return;
+  }
+  double const before = energy_of(i);
+  std::array const momentum = momentum_of(i);
+  double const rho = f.rho_half.at(i), divergence = -f.rho_rate.at(i) / rho;
+  if (f.phi.at(i) == 0) f.rho.at(i) = rho * std::exp(-0.5 * dt * divergence);
+  f.phi.at(i) = 1;
+  std::array const after = momentum_of(i);
+  double const jump[3]{f.mass.at(i), std::abs(energy_of(i) - before),
+                       std::hypot(after[0] - momentum[0], after[1] - momentum[1], after[2] - momentum[2])};
   sums.add(jump);
+}
+
+/// Internal and kinetic [J].
+double Particles::energy_of(Index i) const {
+  double energy = fields_.energy.at(i);
+  for (int c = 0; c < 3; ++c) energy += 0.5 * fields_.mass.at(i) * fields_.v.at(i, c) * fields_.v.at(i, c);
+  return energy;
+}
+
+std::array<double, 3> Particles::momentum_of(Index i) const {
+  double const m = fields_.mass.at(i);
+  return {m * fields_.v.at(i, 0), m * fields_.v.at(i, 1), m * fields_.v.at(i, 2)};
 }
 
 /// Bears no stress any more and leaves the sums of its neighbours; its deformation stays as it is.
 void Particles::remove(Index i) {
-  State& s = state_[at(i)];
-  if (!(s.alive > 0)) return;
-  s.alive = 0;
-  for (double& c : s.S) c = 0;
-  Rates& k = rates_[at(i)];
-  for (double& c : k.S) c = 0;
-  k.rho = k.energy = k.thickness = 0;
-  for (double& c : deformation_[at(i)].rate) c = 0;
+  Fields& f = fields_;
+  if (!(f.alive.at(i) > 0)) return;
+  f.alive.at(i) = 0;
+  for (int c = 0; c < 6; ++c) f.S.at(i, c) = f.S_rate.at(i, c) = 0;
+  f.rho_rate.at(i) = f.energy_rate.at(i) = 0;
+  if (f.holds(f.thickness_rate)) f.thickness_rate.at(i) = 0;
+  if (f.holds(f.F_rate))
+    for (int c = 0; c < 9; ++c) f.F_rate.at(i, c) = 0;
   books_.deleted += 1;
 }
 

@@ -28,15 +28,7 @@ SpatialParts parts_of(System const& s) {
   return s.settings.corrected ? parts_of<3, true>(s.settings) : parts_of<3, false>(s.settings);
 }
 
-constexpr int deformation_and_rate = 18;
-
 FieldRef positions(System const& s) { return {.data = s.position, .component_stride = 1, .particle_stride = 3}; }
-FieldRef half_velocity(System const& s) {
-  return {.data = s.half->v, .component_stride = 1, .particle_stride = s.half[1].v - s.half[0].v};
-}
-FieldRef half_volume(System const& s) {
-  return {.data = &s.half->volume, .component_stride = 1, .particle_stride = &s.half[1].volume - &s.half[0].volume};
-}
 FieldRef spatial_records(System const& s) {
   return {.data = s.spatial.record, .component_stride = 1, .particle_stride = s.spatial.stride};
 }
@@ -49,6 +41,12 @@ FieldRef material_records(System const& s, int body) {
   return {.data = s.material.record + std::ptrdiff_t{s.body[body].first} * stride,
           .component_stride = 1,
           .particle_stride = stride};
+}
+
+/// By the slots of a body alone.
+FieldRef of_body(FieldRef field, BodyConstants const& body) {
+  field.data += body.first * field.particle_stride;
+  return field;
 }
 
 std::vector<Range> ranges_of(System const& s) {
@@ -80,8 +78,8 @@ Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists 
   told.plan.add(told.motion, 0, motion);
   told.plan.add(told.stress, 0, values - stress);
   if (b.hourglass > 0 || b.hourglass_stiffness > 0) {
-    told.hourglass = {.data = s.deformation[b.first].F, .component_stride = 1, .particle_stride = Deformation::values};
-    told.plan.add(told.hourglass, 0, deformation_and_rate);
+    told.hourglass = {of_body(s.field.F, b), of_body(s.field.F_rate, b)};
+    for (FieldRef const& field : told.hourglass) told.plan.add(field, 0, 9);
   }
   return told;
 }
@@ -95,7 +93,7 @@ void Exchanges::after_prediction(System const& s) {
 /// Contacts read positions where steps have left them.
 void Exchanges::after_lists(System const& s, SpatialLists const& lists) {
   for (Index i = 0; i < s.particles && SpatialLists::touching(s); ++i)
-    if (lists.meets(i)) std::copy_n(s.position + std::ptrdiff_t{3} * i, 3, s.state[i].x);
+    for (int c = 0; c < 3 && lists.meets(i); ++c) value_at(s.field.x, i, c) = s.position[std::ptrdiff_t{3} * i + c];
   near_ = SlotsOfRanks(bodies_, [&](Index i) { return s.spatial.record != nullptr && lists.near(i); });
   for (Index& slot : near_.slots) slot = s.spatial.sorted[slot];
 }
@@ -104,10 +102,11 @@ void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
   for (ToNeighbours& told : to_neighbours_) {
     if (!s.material.used) break;
     told.plan.exchange(told.stress);
-    if (told.hourglass.data != nullptr && s.eulerians > 0) told.plan.exchange(told.hourglass);
+    for (FieldRef const& field : told.hourglass)
+      if (s.eulerians > 0) told.plan.exchange(field);
   }
   if (SpatialLists::touching(s))
-    complete_slots(std::array{FieldPart{half_velocity(s), 0, 3}, FieldPart{half_volume(s), 0, 1}},
+    complete_slots(std::array{FieldPart{s.field.v_half, 0, 3}, FieldPart{s.field.volume_half, 0, 1}},
                    SlotsOfRanks(bodies_, [&](Index i) { return lists.meets(i); }));
   auto const [corrected, all] = parts_of(s);
   tell_records(s, 0, s.settings.corrected ? corrected : all);

@@ -31,7 +31,8 @@ class Exchanges {
   /// What one body tells its reference neighbours.
   struct ToNeighbours {
     HaloPlan plan;
-    FieldRef motion, stress, hourglass;  ///< data null: nothing
+    FieldRef motion, stress;
+    std::vector<FieldRef> hourglass;  ///< F and its rate, where neighbours read them
   };
   ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
   void tell_records(System const& system, int first, int last) const;

@@ -102,51 +102,76 @@ struct MaterialForces {
   using R = MaterialRecord<D>;
   using S = ForcePairs<D, Form>;
   MaterialTable table;
-  Settings settings;
   Index particles;
-  BodyConstants const* body;
-  int const* body_of;
-  Reference const* reference;
-  State const* state;
-  Deformation const* deformation;
-  Sums* sums;
+  BodyConstants body;
+  bool printed;
+  Components phi, alive, volume, F, F_rate, gradient_sum, kernel_sum;
+  OwnComponents force, heat, compression;
+  S pairs;
 
-  PIOLA_FN bool takes_part(Index i, RecordPlace const& own) const {
-    if (!(state[i].alive > 0)) return false;
-    // In the printed interface Eulerian particles have their forces from spatial sums alone.
-    return own[R::viscosity] > 0 || settings.interface_form == Interface::owner;
+  MaterialForces(System const& s, MaterialTable const& of_body, BodyConstants const& b)
+      : table(of_body),
+        particles(s.particles),
+        body(b),
+        printed(s.settings.interface_form == Interface::printed),
+        phi(read(s.field.phi)),
+        alive(read(s.field.alive)),
+        volume(read(s.field.volume)),
+        F(read(s.field.F)),
+        F_rate(read(s.field.F_rate)),
+        gradient_sum(read(s.field.gradient_sum)),
+        kernel_sum(read(s.field.kernel_sum)),
+        force(write(s.field.force)),
+        heat(write(s.field.heat)),
+        compression(write(s.field.compression)),
+        pairs{b.alpha, b.beta, b.material_h, b.rho0, b.c, printed} {}
+
+  /// Whether a particle takes part. In the printed interface Eulerian particles have their forces from spatial sums
+  /// alone.
+  PIOLA_FN bool operator()(Index i) const {
+    return (table.part[i] & MaterialPart::target) != 0 && alive.at(i) > 0 && !(printed && phi.at(i) > 0);
   }
 
-  PIOLA_FN S pairs_of(BodyConstants const& b) const {
-    return {b.alpha, b.beta, b.material_h, b.rho0, b.c, settings.interface_form == Interface::printed};
-  }
-
-  template <class Totals>
-  PIOLA_FN void store(Index i, RecordPlace const& own, Totals const& a) const {
-    BodyConstants const& b = body[body_of[i]];
-    bool const leaves = !(own[R::viscosity] > 0) && (b.hourglass > 0 || b.hourglass_stiffness > 0);
-    Vec<D> extra{};
-    if (leaves) extra = hourglass_of_neighbours(i, own, b);
-    double const volume = reference[i].volume;
-    MaterialCorrection const& k = table.moments[i];
-    Sums& to = sums[i];
+  /// marks: of the lanes that take part.
+  PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes const (&a)[S::sums]) const {
+    Index const i = g.first;
+    Lanes own[S::last_component - R::A], extra[D];
+    load_own_records<D>(table, S::published, g, R::A, own);
+    hourglass_of_neighbours(g, marks, extra);
+    auto const wanted = marks > 0.0;
+    Lanes const V = volume.scalar<Lanes>(i);
     for (int p = 0; p < D; ++p) {
-      double force = volume * (a[S::Q + p] + extra[p]);
-      for (int q = 0; q < D; ++q) force += own[R::A + p * D + q] * k.G[q];
-      if constexpr (S::shifts) force -= own[R::a + p] * k.W;
-      to.force[p] += force;
+      Lanes total = V * (a[S::Q + p] + extra[p]);
+      for (int q = 0; q < D; ++q) total += own[p * D + q] * gradient_sum.scalar<Lanes>(i, q);
+      if constexpr (S::shifts) total -= own[R::a - R::A + p] * kernel_sum.scalar<Lanes>(i);
+      force.add(g, select(wanted, total, Lanes(0.0)), p);
     }
     if constexpr (S::published) {
-      to.heat += volume * a[S::heat];
-      to.compression = maximum(to.compression, -a[S::mu]);
+      heat.add(g, select(wanted, V * a[S::heat], Lanes(0.0)));
+      compression.put(g, maximum(compression.seen().template scalar<Lanes>(i), select(wanted, -a[S::mu], Lanes(0.0))));
     }
   }
 
  private:
   /// Particles that are not total-Lagrangian do not feel the damping and the springs that come with A of their
   /// neighbours: what takes them out again, over V0.
-  PIOLA_FN Vec<D> hourglass_of_neighbours(Index i, RecordPlace const& own, BodyConstants const& b) const {
-    double const damping = 0.5 * damping_of(b), stiffness = S::published ? 0 : 0.5 * stiffness_of(b);
+  PIOLA_FN void hourglass_of_neighbours(Group g, Lanes const& marks, Lanes (&extra)[D]) const {
+    for (Lanes& value : extra) value = Lanes(0.0);
+    auto const leaves = marks > 0.0 && phi.scalar<Lanes>(g.first) > 0.0;
+    if (!(body.hourglass > 0 || body.hourglass_stiffness > 0) || !any(leaves)) return;
+    Lanes const others = select(leaves, Lanes(1.0), Lanes(0.0));
+    double of[D][lane_count]{};
+    for (int l = 0; l < g.count; ++l) {
+      if (!(lane(others, l) > 0)) continue;
+      Vec<D> const one = hourglass_around(g.first + l);
+      for (int p = 0; p < D; ++p) of[p][l] = one[p];
+    }
+    for (int p = 0; p < D; ++p) extra[p] = load<Lanes>(of[p]);
+  }
+
+  PIOLA_FN Vec<D> hourglass_around(Index i) const {
+    double const damping = 0.5 * damping_of(body), stiffness = S::published ? 0 : 0.5 * stiffness_of(body);
+    RecordPlace const own = record_of<D>(table, S::published, i);
     Lanes sum[D];
     for (auto& s : sum) s = Lanes(0.0);
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
@@ -155,15 +180,12 @@ struct MaterialForces {
       Lanes const s = load_gradients(gradients_of<Form>(table) + k),
                   weight = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
       if (!any(weight > 0.0)) continue;
-      constexpr int used = D == 3 ? 9 : 5;  // of the 3 x 3 tensors, rows of three
-      constexpr auto stride = static_cast<int>(sizeof(Deformation) / sizeof(double));
-      Lanes F[used], rate[used];
-      load_components<used>(deformation->F, stride, table.neighbour + k, F);
-      load_components<used>(deformation->rate, stride, table.neighbour + k, rate);
       for (int q = 0; q < D; ++q) {
         Lanes const r = weight * (f[R::X + q] - own[R::X + q]);
         for (int p = 0; p < D; ++p)
-          sum[p] += (damping * rate[3 * p + q] + stiffness * (F[3 * p + q] - (p == q ? 1.0 : 0.0))) * r;
+          sum[p] +=
+              (damping * listed(F_rate, k, 3 * p + q) + stiffness * (listed(F, k, 3 * p + q) - (p == q ? 1.0 : 0.0))) *
+              r;
       }
     }
     double a[whole(D)];
@@ -172,38 +194,33 @@ struct MaterialForces {
     for (int p = 0; p < D; ++p) r[p] = a[p];
     return r;
   }
+
+  /// A component of a field of listed neighbours; zero of fillers.
+  PIOLA_FN Lanes listed(Components const& field, Offset k, int c) const {
+    double values[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+      Index const j = table.neighbour[k + l];
+      values[l] = j < particles ? field.at(j, c) : 0;
+    }
+    return load<Lanes>(values);
+  }
 };
 
-/// The second sweep over bodies with lists.
+/// The second sweep over a body with lists, by slots.
 template <int D, MaterialForm Form>
 struct ForceLists {
   MaterialForces<D, Form> end;
 
-  PIOLA_FN void operator()(Range block, Index) const {
-    for (Index t = block.first; t < block.last; ++t) visit(end.table.target[t]);
-  }
-
- private:
-  PIOLA_FN void visit(Index i) const {
-    RecordPlace const own = record_of<D>(end.table, is_published(Form), i);
-    if (!end.takes_part(i, own)) return;
-    double a[whole(ForcePairs<D, Form>::sums + 1)];
-    sum_listed<D, Form>(end.table, i, end.pairs_of(end.body[end.body_of[i]]), own, a);
-    end.store(i, own, Column{a, 1});
-  }
+  PIOLA_FN void operator()(Range block, Index) const { each_in_lists<D, Form>(end.table, end.pairs, block, end, end); }
 };
 
 /// The second sweep over a body on a lattice, by places.
 template <int D, MaterialForm Form>
 struct ForceRows {
   MaterialForces<D, Form> end;
-  BodyConstants own_body;
 
   PIOLA_FN void operator()(Range block, Index) const {
-    each_in_rows<D, Form>(end.table, end.pairs_of(own_body), block, own_body.last, MaterialPart::target,
-                          [&](Index i, RecordPlace const& own, Column const& a) {
-                            if (end.takes_part(i, own)) end.store(i, own, a);
-                          });
+    each_in_rows<D, Form>(end.table, end.pairs, block, end.body.last, end, end);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/material_rows.hpp"
 #include <algorithm>
 #include <vector>
@@ -13,23 +14,21 @@ class MaterialLists {
   /// Within 2h of each body, in order of ids, with what the sums of `settings` need. Particles whose correction is
   /// singular keep plain gradients.
   void build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
-             std::vector<Reference> const& reference, Settings const& settings, int lanes);
+             Fields& fields, Settings const& settings, int lanes);
 
-  /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0 in
-  /// `deformation`, others by -1. Deleted ones leave the sums of their neighbours. own: the slots of each body that
-  /// this rank works on.
-  void choose(std::span<Range const> own, std::vector<State> const& state, std::vector<Reference> const& reference,
-              bool printed, std::vector<Deformation>& deformation);
+  /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0, others by
+  /// -1. Deleted ones leave the sums of their neighbours.
+  void choose(Fields& fields, bool printed);
 
   /// f(b) for the reference neighbours of a within the distance [m].
   template <class F>
-  void each_neighbour(Index a, double within, std::vector<Reference> const& reference, F const& f) const {
+  void each_neighbour(Index a, double within, Fields const& fields, F const& f) const {
     for (Offset k = begin_[static_cast<std::size_t>(a)]; k < begin_[static_cast<std::size_t>(a) + 1]; ++k) {
       Index const b = neighbour_[static_cast<std::size_t>(k)];
       if (b >= particles_) continue;
       double square = 0;
       for (int c = 0; c < 3; ++c) {
-        double const d = reference[static_cast<std::size_t>(b)].X[c] - reference[static_cast<std::size_t>(a)].X[c];
+        double const d = fields.X.at(b, c) - fields.X.at(a, c);
         square += d * d;
       }
       if (square <= within * within) f(b);
@@ -58,12 +57,12 @@ class MaterialLists {
 
  private:
   void list(ParticleSet const& set, ParticleOrder const& order, Body const& geometry, BodyConstants const& body,
-            std::vector<Reference> const& reference, int lanes);
+            Fields const& fields, int lanes);
   void add_pair(int dimension, double h, Index j, double square);
-  void correct(std::vector<Reference> const& reference, std::vector<BodyConstants> const& bodies, int dimension);
-  void invert(std::vector<Reference> const& reference, int dimension, bool corrected);
+  void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
+  void invert(Fields& fields, int dimension, bool corrected);
   template <class F>
-  void sum_gradients(F const& alive, std::vector<Reference> const& reference);
+  void sum_gradients(F const& alive, Fields& fields);
   /// s of pair k as the sums see it.
   double gradient(Offset k) const {
     auto const place = static_cast<std::size_t>(k);
@@ -73,12 +72,10 @@ class MaterialLists {
   Index particles_ = 0;
   bool published_ = false, rounded_ = false, deleted_ = false;
   std::vector<Offset> begin_;
-  std::vector<Index> neighbour_, kinematic_, target_;
+  std::vector<Index> neighbour_;
   std::vector<float> gradient_;
   std::vector<double> s_, W_;
   std::vector<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
-  std::vector<FoldedCorrection> correction_;
-  std::vector<MaterialCorrection> moments_;
   std::vector<std::uint8_t> part_;
   std::vector<LatticeRows> rows_;        ///< per body
   std::vector<MaterialRows> row_views_;  ///< per body

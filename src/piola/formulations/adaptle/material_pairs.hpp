@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/adaptle/components.hpp"
 #include "piola/formulations/adaptle/viscosity.hpp"
 #include "piola/neighbours/loaders.hpp"
 
@@ -51,13 +52,6 @@ PIOLA_FN void load_listed(MaterialTable const& table, bool published, Offset k, 
   }
   for (int c = 0; c < N; ++c) f[c] = load<Lanes>(gathered[c]);
 }
-
-/// Sums of one particle among those of several.
-struct Column {
-  double const* value;
-  int step;
-  PIOLA_FN double operator[](int c) const { return value[c * step]; }
-};
 
 /// Loads a value of the particle itself: one for all lanes of neighbours, or those of as many particles.
 template <class V>
@@ -124,24 +118,76 @@ PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs
   for (int c = 0; c < Pairs::sums; ++c) result[c] = sums[c];
 }
 
-/// f(slot, own record, sums) for the particles of a block of places on a lattice whose `part` has a bit.
-template <int D, MaterialForm Form, class Pairs, class F>
-PIOLA_FN void each_in_rows(MaterialTable const& table, Pairs const& pairs, Range block, Index last, std::uint8_t bit,
+/// Components [first, first + N) of the records of a group, to where they belong.
+template <int D, int N>
+PIOLA_FN void store_in_records(MaterialTable const& table, bool published, Group g, int first, Lanes const (&f)[N]) {
+  RecordPlace const place = record_of<D>(table, published, g.first);
+  if (table.rows.record != nullptr) {
+    for (int c = 0; c < N; ++c) store_group(place.value + (first + c) * place.step, g, f[c]);
+    return;
+  }
+  double* to[lane_count];
+  for (int l = 0; l < lane_count; ++l)
+    to[l] = l < g.count ? place.value + std::ptrdiff_t{l} * MaterialRecord<D>::stride(published) : nullptr;
+  store_records(to, first, f);
+}
+/// And back.
+template <int D, int N>
+PIOLA_FN void load_own_records(MaterialTable const& table, bool published, Group g, int first, Lanes (&f)[N]) {
+  RecordPlace const place = record_of<D>(table, published, g.first);
+  if (table.rows.record != nullptr) {
+    for (int c = 0; c < N; ++c) f[c] = load<Lanes>(place.value + (first + c) * place.step);
+    return;
+  }
+  Index slots[lane_count];
+  for (int l = 0; l < lane_count; ++l) slots[l] = l < g.count ? l : 0;
+  load_components<N>(place.value + first, MaterialRecord<D>::stride(published), slots, f);
+}
+
+/// Lanes of the particles that a sweep is for: wants(slot).
+template <class Wants>
+PIOLA_FN Lanes marks_of(Group g, Wants const& wants) {
+  double marks[lane_count];
+  for (int l = 0; l < lane_count; ++l) marks[l] = l < g.count && wants(g.first + l) ? 1 : 0;
+  return load<Lanes>(marks);
+}
+
+/// f(group, marks, sums) for the particles of a block of places on a lattice that `wants` takes.
+template <int D, MaterialForm Form, class Pairs, class Wants, class F>
+PIOLA_FN void each_in_rows(MaterialTable const& table, Pairs const& pairs, Range block, Index last, Wants const& wants,
                            F const& f) {
   MaterialRows const& rows = table.rows;
-  for (Index i = block.first; i < block.last; i += lane_count) {
-    Index const slot = rows.first + i, end = slot + lane_count < last ? slot + lane_count : last;
-    bool wanted = false;
-    for (Index k = slot; k < end; ++k) wanted = wanted || (table.part[k] & bit) != 0;
-    if (!wanted) continue;
+  each_group(block, [&](Group places) {
+    Index const slot = rows.first + places.first;
+    Group const g{slot, static_cast<int>(last - slot < places.count ? last - slot : places.count)};
+    Lanes const marks = marks_of(g, wants);
+    if (!any(marks > 0.0)) return;
     Lanes sums[Pairs::sums];
-    sum_rows<D, Form>(rows, i, pairs, sums);
-    double a[Pairs::sums][lane_count];
-    for (int c = 0; c < Pairs::sums; ++c) store(sums[c], a[c]);
-    for (Index k = slot; k < end; ++k)
-      if ((table.part[k] & bit) != 0)
-        f(k, RecordPlace{rows.record + (k - rows.first), rows.stride}, Column{a[0] + (k - slot), lane_count});
-  }
+    sum_rows<D, Form>(rows, places.first, pairs, sums);
+    f(g, marks, sums);
+  });
+}
+
+/// The same over the lists of a block of slots.
+template <int D, MaterialForm Form, class Pairs, class Wants, class F>
+PIOLA_FN void each_in_lists(MaterialTable const& table, Pairs const& pairs, Range block, Wants const& wants,
+                            F const& f) {
+  each_group(block, [&](Group g) {
+    Lanes const marks = marks_of(g, wants);
+    if (!any(marks > 0.0)) return;
+    double a[lane_count][whole(Pairs::sums + 1)];
+    for (int l = 0; l < lane_count; ++l) {
+      if (lane(marks, l) > 0)
+        sum_listed<D, Form>(table, g.first + l, pairs, record_of<D>(table, is_published(Form), g.first + l), a[l]);
+      else
+        for (double& value : a[l]) value = 0;
+    }
+    Lanes sums[Pairs::sums];
+    Index rows[lane_count];
+    for (int l = 0; l < lane_count; ++l) rows[l] = l;
+    load_components<Pairs::sums>(a[0], whole(Pairs::sums + 1), rows, sums);
+    f(g, marks, sums);
+  });
 }
 
 }  // namespace piola::adaptle::inline PIOLA_MACHINE

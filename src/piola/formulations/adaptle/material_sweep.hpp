@@ -115,70 +115,94 @@ struct Deform {
   using S = DeformPairs<D, Form>;
   MaterialTable table;
   Index particles;
-  State const* state;
-  Half const* half;
-  Reference const* reference;
-  Deformation* out;
-  Sums* sums;
+  Components phi, alive, volume, thickness_half, K, N, gradient_mean;
+  OwnComponents F, F_rate, gap, force, heat, hourglass, compression;
   S pairs;
 
-  template <class Totals>
-  PIOLA_FN void store(Index i, RecordPlace const& own, Totals const& a) const {
+  Deform(System const& s, MaterialTable const& of_body, BodyConstants const& body)
+      : table(of_body),
+        particles(s.particles),
+        phi(read(s.field.phi)),
+        alive(read(s.field.alive)),
+        volume(read(s.field.volume)),
+        thickness_half(read(s.field.thickness_half)),
+        K(read(s.field.K)),
+        N(read(s.field.N)),
+        gradient_mean(read(s.field.gradient_mean)),
+        F(write(s.field.F)),
+        F_rate(write(s.field.F_rate)),
+        gap(write(s.field.gap)),
+        force(write(s.field.force)),
+        heat(write(s.field.heat)),
+        hourglass(write(s.field.hourglass)),
+        compression(write(s.field.compression)),
+        pairs{PairConstants(body)} {}
+
+  /// Whether F of a particle is needed; what is deleted keeps its own.
+  PIOLA_FN bool operator()(Index i) const { return (table.part[i] & MaterialPart::kinematic) != 0 && alive.at(i) > 0; }
+
+  /// marks: of the lanes that are wanted.
+  PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes const (&a)[S::sums]) const {
+    Index const i = g.first;
     PairConstants const& b = pairs.b;
-    Deformation& d = out[i];
-    set_gradients(i, a, d);
-    d.gap = 0;
-    if (!(own[R::viscosity] > 0)) return;
-    Sums& to = sums[i];
-    double const volume = reference[i].volume;
-    double heat = a[S::heat], stored = 0;
+    auto const wanted = marks > 0.0;
+    Mat<3, Lanes> gradient = identity<3, Lanes>(), rate = 0.0 * gradient;
+    set_gradients(i, a, gradient, rate);
+    for (int c = 0; c < 9; ++c) {
+      F.put(g, select(wanted, gradient.c[c], F.seen().template scalar<Lanes>(i, c)), c);
+      F_rate.put(g, select(wanted, rate.c[c], F_rate.seen().template scalar<Lanes>(i, c)), c);
+    }
+    gap.put(g, select(wanted, Lanes(0.0), gap.seen().template scalar<Lanes>(i)));
+    auto const lagrangian = wanted && !(phi.scalar<Lanes>(i) > 0.0);
+    if (!any(lagrangian)) return;
+    Lanes const weight = select(lagrangian, volume.scalar<Lanes>(i), Lanes(0.0));
+    Lanes loss = a[S::heat], stored(0.0);
     if constexpr (!S::published) stored = a[S::stored];
     for (int p = 0; p < D; ++p) {
-      to.force[p] += volume * a[S::T + p];
+      force.add(g, weight * a[S::T + p], p);
       for (int q = 0; q < D; ++q) {
-        double const first_moment = a[S::dv + p * D + q];
-        heat -= 0.5 * b.damping * d.rate[3 * p + q] * first_moment;
-        if constexpr (!S::published) stored -= 0.5 * b.stiffness * (d.F[3 * p + q] - (p == q ? 1 : 0)) * first_moment;
+        Lanes const first_moment = a[S::dv + p * D + q];
+        loss = loss - (0.5 * b.damping) * rate(p, q) * first_moment;
+        if constexpr (!S::published)
+          stored = stored - (0.5 * b.stiffness) * (gradient(p, q) - (p == q ? 1.0 : 0.0)) * first_moment;
       }
     }
-    to.heat += volume * heat;
-    to.hourglass += volume * stored;
-    if constexpr (!S::published) to.compression = maximum(to.compression, -a[S::mu]);
-    if ((table.part[i] & MaterialPart::mixed) != 0) leave_out_others(i, own, d, to);
+    heat.add(g, weight * loss);
+    hourglass.add(g, weight * stored);
+    if constexpr (!S::published)
+      compression.put(g,
+                      maximum(compression.seen().template scalar<Lanes>(i), select(lagrangian, -a[S::mu], Lanes(0.0))));
+    Lanes const own = select(lagrangian, Lanes(1.0), Lanes(0.0));
+    for (int l = 0; l < g.count; ++l)
+      if (lane(own, l) > 0 && (table.part[i + l] & MaterialPart::mixed) != 0) leave_out_others(i + l);
   }
 
  private:
-  template <class Totals>
-  PIOLA_FN void set_gradients(Index i, Totals const& a, Deformation& d) const {
-    for (int c = 0; c < 9; ++c) {
-      d.F[c] = c % 4 == 0 ? 1 : 0;
-      d.rate[c] = 0;
-    }
-    for (int p = 0; p < D; ++p)
-      for (int q = 0; q < D; ++q)
-        for (int l = 0; l < D; ++l) {
-          double K, u = a[S::du + p * D + l], v = a[S::dv + p * D + l];
-          if constexpr (S::published) {
-            FoldedCorrection const& k = table.correction[i];
-            K = k.N[3 * q + l];
-            if constexpr (S::shifts) {
-              u -= a[S::uW + p] * k.G[l];
-              v -= a[S::vW + p] * k.G[l];
-            }
-          } else {
-            K = table.moments[i].K[SymMat<D>::at(q, l)];
-          }
-          d.F[3 * p + q] += u * K;
-          d.rate[3 * p + q] += v * K;
+  PIOLA_FN void set_gradients(Index i, Lanes const (&a)[S::sums], Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
+    for (int l = 0; l < D; ++l)
+      for (int p = 0; p < D; ++p) {
+        Lanes u = a[S::du + p * D + l], v = a[S::dv + p * D + l];
+        if constexpr (S::shifts) {
+          Lanes const G = gradient_mean.scalar<Lanes>(i, l);
+          u -= a[S::uW + p] * G;
+          v -= a[S::vW + p] * G;
         }
-    if constexpr (D < 3) d.F[8] = half[i].thickness;
+        for (int q = 0; q < D; ++q) {
+          Lanes const k = S::published ? N.scalar<Lanes>(i, 3 * q + l) : K.scalar<Lanes>(i, SymMat<D>::at(q, l));
+          gradient(p, q) += u * k;
+          rate(p, q) += v * k;
+        }
+      }
+    if constexpr (D < 3) gradient(2, 2) = thickness_half.scalar_or<Lanes>(i, 1.0);
   }
 
   /// Takes neighbours that are not total-Lagrangian out of damping and springs, and sees how far they have gone from
   /// where the deformation gradient would put them.
-  PIOLA_FN void leave_out_others(Index i, RecordPlace const& own, Deformation& d, Sums& to) const {
+  PIOLA_FN void leave_out_others(Index i) const {
     PairConstants const& b = pairs.b;
-    Lanes sum[D + 2], gap = Lanes(0.0);
+    RecordPlace const own = record_of<D>(table, S::published, i);
+    Mat<3> const gradient = F.seen().template matrix<double>(i), rate = F_rate.seen().template matrix<double>(i);
+    Lanes sum[D + 2], farthest = Lanes(0.0);
     for (auto& a : sum) a = Lanes(0.0);
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
       Lanes f[R::A];
@@ -196,8 +220,8 @@ struct Deform {
       for (int p = 0; p < D; ++p) {
         Lanes place = Lanes(0.0), speed = Lanes(0.0);
         for (int q = 0; q < D; ++q) {
-          place += d.F[3 * p + q] * r[q];
-          speed += d.rate[3 * p + q] * r[q];
+          place += gradient(p, q) * r[q];
+          speed += rate(p, q) * r[q];
         }
         Lanes const moved = place - r[p], away = u[p] - moved;
         square += away * away;
@@ -205,39 +229,24 @@ struct Deform {
         sum[D] += weight * speed * w[p];
         sum[D + 1] += weight * moved * w[p];
       }
-      gap = maximum(gap, select(weight > 0.0, square, Lanes(0.0)));
+      farthest = maximum(farthest, select(weight > 0.0, square, Lanes(0.0)));
     }
     double a[whole(D + 2)];
     add_lanes(sum, a);
-    double const volume = reference[i].volume;
-    for (int p = 0; p < D; ++p) to.force[p] += 0.5 * volume * a[p];
-    to.heat += 0.5 * b.damping * volume * a[D];
-    if constexpr (!S::published) to.hourglass += 0.5 * b.stiffness * volume * a[D + 1];
-    d.gap = std::sqrt(largest_of(gap)) / b.h;
+    double const V = volume.at(i);
+    for (int p = 0; p < D; ++p) force.at(i, p) += 0.5 * V * a[p];
+    heat.at(i) += 0.5 * b.damping * V * a[D];
+    if constexpr (!S::published) hourglass.at(i) += 0.5 * b.stiffness * V * a[D + 1];
+    gap.at(i) = std::sqrt(largest_of(farthest)) / b.h;
   }
 };
 
-/// The first sweep over bodies with lists.
+/// The first sweep over a body with lists, by slots.
 template <int D, MaterialForm Form>
 struct DeformLists {
   Deform<D, Form> end;
-  BodyConstants const* body;
-  int const* body_of;
 
-  PIOLA_FN void operator()(Range block, Index) const {
-    for (Index t = block.first; t < block.last; ++t) visit(end.table.kinematic[t]);
-  }
-
- private:
-  PIOLA_FN void visit(Index i) const {
-    if (!(end.state[i].alive > 0)) return;  // deleted: frozen
-    Deform<D, Form> here = end;
-    here.pairs.b = PairConstants(body[body_of[i]]);
-    RecordPlace const own = record_of<D>(here.table, is_published(Form), i);
-    double a[whole(DeformPairs<D, Form>::sums + 1)];
-    sum_listed<D, Form>(here.table, i, here.pairs, own, a);
-    here.store(i, own, Column{a, 1});
-  }
+  PIOLA_FN void operator()(Range block, Index) const { each_in_lists<D, Form>(end.table, end.pairs, block, end, end); }
 };
 
 /// The first sweep over a body on a lattice, by places.
@@ -247,10 +256,7 @@ struct DeformRows {
   Index last;  ///< slot after the last of the body
 
   PIOLA_FN void operator()(Range block, Index) const {
-    each_in_rows<D, Form>(end.table, end.pairs, block, last, MaterialPart::kinematic,
-                          [&](Index i, RecordPlace const& own, Column const& a) {
-                            if (end.state[i].alive > 0) end.store(i, own, a);  // deleted: frozen
-                          });
+    each_in_rows<D, Form>(end.table, end.pairs, block, last, end, end);
   }
 };
 

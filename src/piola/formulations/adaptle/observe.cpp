@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/observe.hpp"
-#include "piola/formulations/adaptle/point_passes.hpp"
+#include "piola/formulations/adaptle/point_fields.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/observation.hpp"
 #include "piola/formulations/observed.hpp"
@@ -33,10 +33,10 @@ template <class F>
 void each_particle(System const& s, F const& f) {
   for (int b = 0; b < s.bodies; ++b)
     with_solid(s.body[b].material, [&](auto const& law) {
+      PointFields const point(s.field, s.own);
       for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
-        State const& p = s.state[i];
-        double const specific = p.energy / s.reference[i].mass;
-        f(i, -acting_pressure(law, p, s.own, i, p.rho, specific));
+        double const specific = value_at(s.field.energy, i) / value_at(s.field.mass, i);
+        f(i, -point.pressure<double>(law, i, value_at(s.field.rho, i), specific));
       }
     });
 }
@@ -48,50 +48,49 @@ std::vector<FieldInfo> observed_fields() { return field_infos(offered); }
 void sample(Particles const& particles, std::string_view field, std::span<double> values) {
   ObservedField const& found = find_observed(field, offered);
   System const& s = particles.system();
+  Fields const& f = particles.fields();
   std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
   each_particle(s, [&](Index i, double pressure) {
-    State const& now = s.state[i];
     ObservedParticle p;
     p.id = static_cast<double>(particles.order().id(i));
     p.body = s.body_of[i];
-    p.neighbours = now.phi > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
-    std::copy_n(now.x, 3, p.x.begin());
-    std::copy_n(now.v, 3, p.v.begin());
-    for (std::size_t c = 0; c < 3; ++c) p.displacement[c] = p.x[c] - s.reference[i].X[c];
+    p.kernel_type = f.phi.at(i);
+    p.neighbours = p.kernel_type > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
+    p.x = point_at(s.field.x, i, 3);
+    p.v = point_at(s.field.v, i, 3);
+    for (int c = 0; c < 3; ++c) p.displacement[at(c)] = p.x[at(c)] - f.X.at(i, c);
     p.pressure = pressure;
-    for (int c = 0; c < 6; ++c) p.cauchy.c[c] = now.S[c] + (c < 3 ? pressure : 0);
-    p.J = s.body[s.body_of[i]].rho0 / now.rho;
-    p.inertia = p.density = now.rho;
-    p.plastic_strain = now.plastic_strain;
-    p.damage = now.damage;
-    p.temperature = now.temperature;
-    p.specific_energy = now.energy / s.reference[i].mass;
-    p.kernel_type = now.phi;
+    for (int c = 0; c < 6; ++c) p.cauchy.c[c] = f.S.at(i, c) + (c < 3 ? pressure : 0);
+    p.inertia = p.density = f.rho.at(i);
+    p.J = s.body[s.body_of[i]].rho0 / p.density;
+    p.plastic_strain = f.plastic_strain.at(i);
+    p.damage = f.damage.at(i);
+    p.temperature = f.temperature.at(i);
+    p.specific_energy = f.energy.at(i) / f.mass.at(i);
     put(found, p, values);
   });
 }
 
 Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   System const& s = particles.system();
+  Fields const& f = particles.fields();
   Books const& books = particles.books();
   Observation o;
   std::vector<double> pressures(at(s.particles));
   exec::ExactSum internal_sum, plastic;
   double eulerian = 0, failed = 0, hottest = 0;
   each_particle(s, [&](Index i, double pressure) {
-    State const& p = s.state[i];
-    Reference const& r = s.reference[i];
     if (i == s.body[s.body_of[i]].first) o.open_body(set.bodies[at(s.body_of[i])].name);
-    double const rho0 = s.body[s.body_of[i]].rho0;
+    double const rho0 = s.body[s.body_of[i]].rho0, mass = f.mass.at(i), energy = f.energy.at(i);
     pressures[particles.order().id(i)] = pressure;
-    o.add_motion({p.x[0], p.x[1], p.x[2]}, {p.v[0], p.v[1], p.v[2]}, r.mass);
-    o.add_state(rho0 / p.rho, pressure, r.volume);
-    internal_sum += p.energy;
-    o.add_strain_energy(p.energy);
-    plastic += r.mass / rho0 * p.plastic_work;
-    eulerian += p.phi > 0 ? 1 : 0;
-    failed += p.damage >= 1 || !(p.alive > 0) ? 1 : 0;
-    hottest = std::max(hottest, p.temperature);
+    o.add_motion(point_at(s.field.x, i, 3), point_at(s.field.v, i, 3), mass);
+    o.add_state(rho0 / f.rho.at(i), pressure, f.volume.at(i));
+    internal_sum += energy;
+    o.add_strain_energy(energy);
+    plastic += mass / rho0 * f.plastic_work.at(i);
+    eulerian += f.phi.at(i) > 0 ? 1 : 0;
+    failed += f.damage.at(i) >= 1 || !(f.alive.at(i) > 0) ? 1 : 0;
+    hottest = std::max(hottest, f.temperature.at(i));
   });
   for (Body const& body : set.bodies) {
     std::vector<double> const p(pressures.begin() + body.first, pressures.begin() + body.last);

@@ -57,6 +57,15 @@ class Stopwatch {
 
 }  // namespace
 
+std::vector<double> Books::state() const {
+  return std::apply([](auto const&... value) { return std::vector<double>{value...}; }, listed(*this));
+}
+
+void Books::restore(std::span<double const> values) {
+  std::size_t k = 0;
+  std::apply([&](auto&... value) { ((value = values[k++]), ...); }, listed(*this));
+}
+
 Particles::Particles(Assembly const& assembly, Options const& options, Machine const& machine)
     : options_(options),
       order_(assembly.particles),
@@ -141,37 +150,40 @@ void Particles::set_bodies(Assembly const& assembly) {
 void Particles::set_particles(Assembly const& assembly) {
   auto const& set = assembly.particles;
   body_of_.reserve(set.X.size());
-  reference_.reserve(set.X.size());
-  state_.reserve(set.X.size());
+  auto const n = static_cast<Index>(set.size());
+  Fields::Needs needs;
+  needs.lagrangian = std::any_of(options_.bodies.begin(), options_.bodies.end(),
+                                 [](BodyOptions const& o) { return o.description != Description::eulerian; });
+  needs.published = options_.settings.published;
+  needs.plane_stress = options_.settings.plane_stress;
+  needs.touching = body_.size() > 1 || !shapes_.empty();
+  fields_.allocate(n, needs);
   for (Index slot = 0; slot < static_cast<Index>(set.size()); ++slot) {
     std::size_t const i = order_.id(slot);
     int const body = set.body[i];
     BodyConstants const& b = body_[static_cast<std::size_t>(body)];
     body_of_.push_back(body);
-    Reference r{};
-    State s{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      r.X[c] = set.X[i][c];
-      s.x[c] = r.X[c] + (assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][c]);
-      s.v[c] = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][c];
+    for (int c = 0; c < 3; ++c) {
+      auto const k = static_cast<std::size_t>(c);
+      fields_.X.at(slot, c) = set.X[i][k];
+      fields_.x.at(slot, c) =
+          set.X[i][k] + (assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][k]);
+      fields_.v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][k];
     }
-    r.volume = set.volume[i];
-    r.mass = b.rho0 * r.volume;
-    s.rho = b.rho0;
-    s.thickness = s.viscosity = s.alive = 1;
+    fields_.volume.at(slot) = set.volume[i];
+    fields_.mass.at(slot) = b.rho0 * set.volume[i];
+    fields_.rho.at(slot) = b.rho0;
+    fields_.viscosity.at(slot) = fields_.alive.at(slot) = 1;
+    if (needs.plane_stress) fields_.thickness.at(slot) = 1;
+    if (needs.lagrangian)
+      for (int c = 0; c < 9; c += 4) fields_.F.at(slot, c) = 1;
     with_solid(b.material, [&](auto const& law) {
-      s.temperature = law.initial_temperature();
-      s.energy = r.mass * law.initial_energy();
+      fields_.temperature.at(slot) = law.initial_temperature();
+      fields_.energy.at(slot) = fields_.mass.at(slot) * law.initial_energy();
     });
-    reference_.push_back(r);
-    state_.push_back(s);
   }
-  std::size_t const n = state_.size();
-  rates_.resize(n);
-  half_.resize(n);
-  sums_.resize(n);
-  wish_.resize(n);
-  if (options_.settings.corrected) correction_.resize(n);
+  wish_.resize(at(n));
+  if (options_.settings.corrected) correction_.resize(at(n));
 }
 
 void Particles::set_contact(Assembly const& assembly) {
@@ -179,7 +191,7 @@ void Particles::set_contact(Assembly const& assembly) {
   for (std::size_t b = 0; b < body_.size(); ++b)
     for (std::size_t c = 0; c < 3; ++c) {
       Index const first = body_[b].first, n = body_[b].last - first;
-      mean[b][c] = exec_host::sum_of(n, [&](Index k) { return state_[at(first + k)].v[c]; }) / n;
+      mean[b][c] = exec_host::sum_of(n, [&](Index k) { return fields_.v.at(first + k, static_cast<int>(c)); }) / n;
     }
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
   leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
@@ -202,15 +214,12 @@ void Particles::allocate(Assembly const& assembly) {
   s.body = body_.data();
   s.part = own_.data();
   s.body_of = body_of_.data();
-  s.reference = reference_.data();
-  s.state = state_.data();
-  s.rates = rates_.data();
-  s.half = half_.data();
+  s.field = fields_.refs();
   s.correction = correction_.data();
-  s.sums = sums_.data();
   s.wish = wish_.data();
   position_.resize(3 * n);
-  for (std::size_t i = 0; i < n; ++i) std::copy_n(state_[i].x, 3, &position_[3 * i]);
+  for (Index i = 0; i < s.particles; ++i)
+    for (int c = 0; c < 3; ++c) position_[3 * at(i) + at(c)] = fields_.x.at(i, c);
   s.position = position_.data();
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
@@ -227,76 +236,71 @@ void Particles::set_descriptions(Assembly const& assembly) {
     std::vector<Index> outside;
     for (Index i = body_[k].first; i < body_[k].last; ++i) {
       bool const inside = o.description == Description::patch && (*o.eulerian_where)(X(i)) != 0;
-      state_[at(i)].phi = o.description == Description::eulerian || inside ? 1 : 0;
+      fields_.phi.at(i) = o.description == Description::eulerian || inside ? 1 : 0;
       if (o.description == Description::patch && !inside) outside.push_back(i);
     }
     double const width = o.blend * body_[k].spacing;
     if (o.description != Description::patch || width == 0 || options_.settings.interface_form == Interface::printed)
       continue;
     for (Index i = body_[k].first; i < body_[k].last; ++i) {
-      State& s = state_[at(i)];
-      if (s.phi == 0) continue;
+      if (fields_.phi.at(i) == 0) continue;
       double nearest = width;
       for (Index const j : outside) {
         auto const &p = X(i), &q = X(j);
         nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
       }
       double const z = nearest / width;
-      s.phi = z * z * (3 - 2 * z);
+      fields_.phi.at(i) = z * z * (3 - 2 * z);
     }
   }
-  lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
+  lagrangian_ = any_of([&](Index i) { return fields_.phi.at(i) < 1; });
   if (!lagrangian_) return;
-  deformation_.resize(state_.size() + 2);  // loops read whole lanes of a filler after the last
-  for (auto& d : deformation_)
-    for (int c = 0; c < 9; ++c) d.F[c] = c % 4 == 0 ? 1 : 0;
-  system_.deformation = deformation_.data();
-  material_.build(assembly.particles, order_, body_, reference_, options_.settings, machine_->lanes);
+  material_.build(assembly.particles, order_, body_, fields_, options_.settings, machine_->lanes);
   if (!material_.needs_records()) return;
   using Flat = MaterialRecord<2>;
   using Deep = MaterialRecord<3>;
   bool const flat = system_.dimension == 2, published = options_.settings.published;
   int const stride = flat ? Flat::stride(published) : Deep::stride(published);
-  material_records_ = Memory((state_.size() + 1) * static_cast<std::size_t>(stride));
-  double* filler = material_records_.data() + static_cast<std::ptrdiff_t>(state_.size()) * stride;
+  material_records_ = Memory((at(system_.particles) + 1) * at(stride));
+  double* filler = material_records_.data() + std::ptrdiff_t{system_.particles} * stride;
   filler[flat ? Flat::viscosity : Deep::viscosity] = 1;
   if (published) filler[flat ? Flat::inverse_J : Deep::inverse_J] = 1;
   system_.material.record = material_records_.data();
 }
 
 void Particles::choose_material() {
-  eulerian_.resize(state_.size());
-  for (std::size_t i = 0; i < state_.size(); ++i) eulerian_[i] = state_[i].phi > 0 ? 1 : 0;
+  eulerian_.resize(at(system_.particles));
+  for (Index i = 0; i < system_.particles; ++i) eulerian_[at(i)] = fields_.phi.at(i) > 0 ? 1 : 0;
   system_.eulerian = eulerian_.data();
   system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
-  lagrangian_ = std::any_of(state_.begin(), state_.end(), [](State const& s) { return s.phi < 1; });
+  lagrangian_ = any_of([&](Index i) { return fields_.phi.at(i) < 1; });
   if (!material_.built()) return;
-  material_.choose(own_, state_, reference_, options_.settings.interface_form == Interface::printed, deformation_);
+  material_.choose(fields_, options_.settings.interface_form == Interface::printed);
   material_.put_into(system_.material);
   system_.material.used = lagrangian_;
 }
 
 void Particles::set_factors() {
-  factors_.build(body_, options_.bodies, reference_, order_, X_, books_.time);
+  factors_.build(body_, options_.bodies, fields_.volume.ref(), system_.particles, order_, X_, books_.time);
   system_.own = factors_.view();
 }
 
 void Particles::set_boundaries(Assembly const&) {
   if (!supports_.empty()) {
-    held_.resize(3 * state_.size());
-    held_velocity_.resize(3 * state_.size());
-    holder_.resize(3 * state_.size());
-    reaction_.resize(3 * state_.size());
+    held_.resize(3 * at(system_.particles));
+    held_velocity_.resize(3 * at(system_.particles));
+    holder_.resize(3 * at(system_.particles));
+    reaction_.resize(3 * at(system_.particles));
     system_.reaction = reaction_.data();
     system_.held = held_.data();
     system_.held_velocity = held_velocity_.data();
   }
   if (!loads_.empty()) {
-    load_.resize(3 * state_.size());
+    load_.resize(3 * at(system_.particles));
     system_.load = load_.data();
   }
   if (shapes_.empty()) return;
-  rigid_power_.resize(state_.size());
+  rigid_power_.resize(at(system_.particles) + 16);  // loops read whole lanes
   rigid_.resize(shapes_.size());
   system_.rigid = rigid_.data();
   system_.rigids = static_cast<int>(rigid_.size());
@@ -403,7 +407,7 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
       if (!is_own(slot)) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
-        impulse[c] = dt * reference_[at(slot)].mass * load_on(loads_[l], k, X(slot), time + 0.5 * dt)[c];
+        impulse[c] = dt * fields_.mass.at(slot) * load_on(loads_[l], k, X(slot), time + 0.5 * dt)[c];
       sums[supports_.size() + l].add(place(at(slot)), impulse);
     }
   }
@@ -482,34 +486,32 @@ void Particles::evaluate(double dt) {
 
 void Particles::damp(double factor) {
   double const before = kinetic_energy();
-  for (std::size_t i = 0; i < state_.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      if (held_.empty() || held_[3 * i + c] == 0) state_[i].v[c] *= factor;
+  for (Index i = 0; i < system_.particles; ++i)
+    for (int c = 0; c < 3; ++c)
+      if (held_.empty() || held_[3 * at(i) + at(c)] == 0) fields_.v.at(i, c) *= factor;
   books_.damping_loss += before - kinetic_energy();
 }
 
 double Particles::kinetic_energy() const {
   exec::ExactSums<1> sum;
   for (Range const& own : own_)
-    sum.add(exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
-      double const* v = state_[at(own.first + k)].v;
-      *x = 0.5 * reference_[at(own.first + k)].mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    sum.add(exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* of_one) {
+      Index const i = own.first + k;
+      double const x = fields_.v.at(i, 0), y = fields_.v.at(i, 1), z = fields_.v.at(i, 2);
+      *of_one = 0.5 * fields_.mass.at(i) * (x * x + y * y + z * z);
     }));
   if (exchanges_) ranks::add(sum);
   return sum.value();
 }
 
 std::size_t Particles::bytes() const {
-  return order_.bytes() +
-         state_.size() *
-             (sizeof(Reference) + sizeof(State) + sizeof(Rates) + sizeof(Half) + sizeof(Sums) + sizeof(int)) +
-         sizeof(Deformation) * deformation_.size() + sizeof(double) * position_.size() +
+  return order_.bytes() + fields_.bytes() + sizeof(int) * body_of_.size() + sizeof(double) * position_.size() +
          correction_.size() * sizeof(Correction) + material_records_.bytes() + material_.bytes() + spatial_.bytes();
 }
 
 /// Whether some particle is.
 bool Particles::deleted() const {
-  return std::any_of(state_.begin(), state_.end(), [](State const& s) { return !(s.alive > 0); });
+  return any_of([&](Index i) { return !(fields_.alive.at(i) > 0); });
 }
 
 void Particles::resumed() {

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/exact_sum.hpp"
 #include "piola/formulations/adaptle/exchanges.hpp"
+#include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
@@ -11,7 +12,9 @@
 #include "piola/mechanics/prescribed.hpp"
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace piola::adaptle {
@@ -22,7 +25,18 @@ struct Books {
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
   double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
-  static constexpr int values = 14;
+
+  /// Of a checkpoint, and back.
+  std::vector<double> state() const;
+  void restore(std::span<double const> values);
+
+ private:
+  template <class Self>
+  static auto listed(Self& b) {
+    return std::tie(b.contact_energy, b.viscous_loss, b.external_work, b.converted, b.by_guard, b.converted_mass,
+                    b.energy_change, b.momentum_change, b.deleted, b.overlap, b.time, b.next_dt, b.damping_loss,
+                    b.hourglass_energy);
+  }
 };
 
 /// Wall time by part of a step [s].
@@ -55,17 +69,23 @@ class Particles {
   int reference_neighbours(Index i) const { return material_.built() ? material_.neighbours(i) : 0; }
   std::size_t bytes() const;
 
-  /// f(name, first double of slot 0, doubles per particle) for everything that a checkpoint holds. Deformation follows
-  /// from positions, but for particles that were deleted; of those the state is told first.
-  template <class F>
-  void each_array(F const& f) {
-    f("state", reinterpret_cast<double*>(state_.data()), State::values);
-    f("rates", reinterpret_cast<double*>(rates_.data()), Rates::values);
-    if (!deformation_.empty() && deleted())
-      f("deformation", reinterpret_cast<double*>(deformation_.data()), Deformation::values);
+  Fields& fields() { return fields_; }
+  Fields const& fields() const { return fields_; }
+  Books& books() { return books_; }
+  /// f(field) for everything that a checkpoint holds. Deformation follows from positions, but for particles that were
+  /// deleted; of those `alive` is told before.
+  template <class Set, class F>
+  void each_saved(Set& fields, F const& f) const {
+    fields.each([&](auto& field) {
+      if (field.role() == Role::evolved && fields.holds(field)) f(field);
+    });
+    if (!fields.holds(fields.F) || !deleted()) return;
+    f(fields.F);
+    f(fields.F_rate);
+    f(fields.gap);
   }
-  double* books_data() { return reinterpret_cast<double*>(&books_); }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
+  std::vector<double> const& rigid_centres() const { return rigid_centre_; }
   /// After a checkpoint has been read.
   void resumed();
   /// A particle has more neighbours than can be listed.
@@ -78,6 +98,13 @@ class Particles {
 
  private:
   bool deleted() const;
+  /// Whether f(slot) is true of some particle.
+  template <class F>
+  bool any_of(F const& f) const {
+    for (Index i = 0; i < system_.particles; ++i)
+      if (f(i)) return true;
+    return false;
+  }
   void set_bodies(Assembly const& assembly);
   void set_particles(Assembly const& assembly);
   void set_descriptions(Assembly const& assembly);
@@ -106,6 +133,8 @@ class Particles {
   void share_failures();
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
+  double energy_of(Index i) const;
+  std::array<double, 3> momentum_of(Index i) const;
   void remove(Index i);
 
   Options options_;
@@ -116,13 +145,8 @@ class Particles {
   std::vector<Range> own_;                ///< of each body: the slots that this rank works on
   std::unique_ptr<Exchanges> exchanges_;  ///< null: one rank, which has all
   std::vector<int> body_of_;
-  std::vector<Reference> reference_;
-  std::vector<State> state_;
-  std::vector<Rates> rates_;
-  std::vector<Half> half_;
-  std::vector<Deformation> deformation_;
+  Fields fields_;
   std::vector<Correction> correction_;
-  std::vector<Sums> sums_;
   std::vector<std::int8_t> wish_;
   std::vector<double> position_;
   std::vector<std::uint8_t> eulerian_;

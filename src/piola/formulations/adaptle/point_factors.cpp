@@ -11,10 +11,11 @@ std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 void PointFactors::build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
-                         std::vector<Reference> const& particles, ParticleOrder const& order,
+                         FieldRef const& volume, Index particles, ParticleOrder const& order,
                          std::span<std::array<double, 3> const> X, double time) {
   *this = {};
-  particles_ = particles;
+  volume_ = volume;
+  room_ = place(particles) + 16;  // loops read whole lanes
   order_ = &order;
   X_ = X;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -27,7 +28,7 @@ void PointFactors::build(std::vector<BodyConstants> const& bodies, std::vector<B
 }
 
 void PointFactors::add_initial_pressure(BodyConstants const& body, BodyOptions const& options) {
-  initial_pressure_.resize(particles_.size());
+  initial_pressure_.resize(room_);
   for (Index i = body.first; i < body.last; ++i) initial_pressure_[place(i)] = (*options.initial_pressure)(X(i));
   if (!options.initial_pressure_lasts) impulses_.push_back({body.first, body.last});
 }
@@ -37,8 +38,8 @@ void PointFactors::add_explosive(BodyConstants const& body, BodyOptions const& o
   double front = 0;
   with_solid(body.material, [&](auto const& law) { front = law.front_speed(); });
   if (!(front > 0)) return;
-  lit_.resize(particles_.size());
-  burnt_.resize(particles_.size(), 1);
+  lit_.resize(room_);
+  burnt_.resize(room_, 1);
   for (Index i = body.first; i < body.last && options.ignition; ++i) lit_[place(i)] = (*options.ignition)(X(i));
   explosives_.push_back({body.first, body.last, front / (1.5 * body.spacing)});
 }
@@ -46,9 +47,9 @@ void PointFactors::add_explosive(BodyConstants const& body, BodyOptions const& o
 void PointFactors::add_scatter(BodyConstants const& body) {
   with_solid(body.material, [&](auto const& law) {
     if (!(law.scatter.modulus < unbounded)) return;
-    toughness_.resize(particles_.size(), 1);
+    toughness_.resize(room_, 1);
     for (Index i = body.first; i < body.last; ++i)
-      toughness_[place(i)] = law.scatter.factor(order_->id(i), particles_[place(i)].volume);
+      toughness_[place(i)] = law.scatter.factor(order_->id(i), value_at(volume_, i));
   });
 }
 

@@ -12,9 +12,8 @@ namespace piola::adaptle {
 class PointFactors {
  public:
   /// At a time [s]: that of the start, or of a resumed run. X: reference positions, per id [m].
-  void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
-             std::vector<Reference> const& particles, ParticleOrder const& order,
-             std::span<std::array<double, 3> const> X, double time);
+  void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options, FieldRef const& volume,
+             Index particles, ParticleOrder const& order, std::span<std::array<double, 3> const> X, double time);
   /// Brings what changes to a time [s].
   void go_to(double time);
   /// What acts for one step only is gone.
@@ -34,7 +33,8 @@ class PointFactors {
     double rate;  ///< of burning [1/s]
   };
 
-  std::span<Reference const> particles_;
+  FieldRef volume_;
+  std::size_t room_ = 0;
   ParticleOrder const* order_ = nullptr;
   std::span<std::array<double, 3> const> X_;
   std::vector<double> initial_pressure_, burnt_, toughness_;  ///< per slot; empty: none

@@ -1,99 +1,365 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/adaptle/material_pairs.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/formulations/adaptle/point_fields.hpp"
+#include "piola/math/embedding.hpp"
 
-/// What happens at one particle between the sweeps. The scheme drifts half a step, evaluates everything once at half
-/// time with predicted rates, kicks, and drifts the other half.
+/// What happens at one particle between the sweeps, a group of lanes at a time. The scheme drifts half a step,
+/// evaluates everything once at half time with predicted rates, kicks, and drifts the other half. What does not ask for
+/// the law of a body is a struct without it, so that it is compiled once.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-PIOLA_FN SymMat<3> symmetric_of(double const* c) { return {{c[0], c[1], c[2], c[3], c[4], c[5]}}; }
-PIOLA_FN Mat<3> matrix_of(double const* c) {
-  Mat<3> m;
-  for (int k = 0; k < 9; ++k) m.c[k] = c[k];
-  return m;
-}
-PIOLA_FN SolidHistory history_of(State const& s, double const* S, OwnFactors const& own, Index i) {
-  return {symmetric_of(S),
-          s.plastic_strain,
-          s.temperature,
-          s.damage,
-          s.plastic_work,
-          s.bulking,
-          own.burnt != nullptr ? own.burnt[i] : 1,
-          own.toughness != nullptr ? own.toughness[i] : 1};
-}
+/// Factor of the viscosity, never zero: its sign tells descriptions apart.
+PIOLA_FN Lanes positive_factor(Lanes const& viscosity) { return maximum(viscosity, Lanes(1e-300)); }
 
-/// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without the tension that
-/// a failed particle has released, with what the case adds. e: specific energy [J/kg].
-template <class Law>
-PIOLA_FN double acting_pressure(Law const& law, State const& s, OwnFactors const& own, Index i, double rho, double e) {
-  if (!(s.alive > 0)) return 0;
-  double p = law.pressure(history_of(s, s.S, own, i), rho, e);
-  if (p < 0) p *= 1 - s.released;
-  return own.initial_pressure != nullptr ? p - own.initial_pressure[i] : p;
-}
+/// To half time; what the first sweep reads of neighbours, and sums that begin with zero.
+template <int D>
+struct Drift {
+  double dt;
+  Components X, volume, v, a, viscosity, phi, alive, thickness, thickness_rate;
+  OwnComponents x, v_half, thickness_half, force, heat, hourglass, compression, contact;
+  double* position;
+  MaterialTable material;
+  bool published;  ///< material sums
+  FailureSlot* failure;
+
+  Drift(System const& s, MaterialTable const& table, double step)
+      : dt(step),
+        X(read(s.field.X)),
+        volume(read(s.field.volume)),
+        v(read(s.field.v)),
+        a(read(s.field.a)),
+        viscosity(read(s.field.viscosity)),
+        phi(read(s.field.phi)),
+        alive(read(s.field.alive)),
+        thickness(read(s.field.thickness)),
+        thickness_rate(read(s.field.thickness_rate)),
+        x(write(s.field.x)),
+        v_half(write(s.field.v_half)),
+        thickness_half(write(s.field.thickness_half)),
+        force(write(s.field.force)),
+        heat(write(s.field.heat)),
+        hourglass(write(s.field.hourglass)),
+        compression(write(s.field.compression)),
+        contact(write(s.field.contact)),
+        position(s.position),
+        material(table),
+        published(s.settings.published),
+        failure(s.failure) {}
+
+  PIOLA_FN void operator()(Range block) const {
+    each_group(block, [&](Group g) { move(g); });
+  }
+
+ private:
+  PIOLA_FN void move(Group g) const {
+    Index const i = g.first;
+    double const step = 0.5 * dt;
+    Vec<3, Lanes> place, speed;
+    double places[3][lane_count];
+    auto finite = g.mask();
+    for (int c = 0; c < 3; ++c) {
+      Lanes const before = v.scalar<Lanes>(i, c);
+      speed[c] = before + step * a.scalar<Lanes>(i, c);
+      place[c] = x.seen().scalar<Lanes>(i, c) + step * before;
+      v_half.put(g, speed[c], c);
+      x.put(g, place[c], c);
+      store(place[c], places[c]);
+      finite = finite && magnitude(place[c]) < 1e30 && magnitude(speed[c]) < 1e30;
+    }
+    for (int l = 0; l < g.count; ++l)
+      for (int c = 0; c < 3; ++c) position[3 * (i + l) + c] = places[c][l];
+    if (any(g.mask() && !finite)) report(g, places);
+    if (thickness_half.data != nullptr)
+      thickness_half.put(g, thickness.scalar<Lanes>(i) + step * thickness_rate.scalar<Lanes>(i));
+    clear(g);
+    if (material.used) write_record(g, place, speed);
+  }
+
+  PIOLA_FN void report(Group g, double const (&places)[3][lane_count]) const {
+    for (int l = 0; l < g.count; ++l)
+      for (int c = 0; c < 3; ++c)
+        if (!(std::fabs(places[c][l]) < 1e30 && std::fabs(v_half.at(g.first + l, c)) < 1e30))
+          exec::record(failure, g.first + l, not_a_number);
+  }
+
+  PIOLA_FN void clear(Group g) const {
+    for (int c = 0; c < 3 && force.data != nullptr; ++c) force.put(g, Lanes(0.0), c);
+    for (int c = 0; c < ContactSum::size && contact.data != nullptr; ++c) contact.put(g, Lanes(0.0), c);
+    if (heat.data == nullptr) return;
+    heat.put(g, Lanes(0.0));
+    hourglass.put(g, Lanes(0.0));
+    compression.put(g, Lanes(0.0));
+  }
+
+  /// Deleted particles have no volume; the rest of what they say does not matter.
+  PIOLA_FN void write_record(Group g, Vec<3, Lanes> const& place, Vec<3, Lanes> const& speed) const {
+    using R = MaterialRecord<D>;
+    Lanes r[R::A];
+    for (int c = 0; c < D; ++c) {
+      r[R::X + c] = X.scalar<Lanes>(g.first, c);
+      r[R::u + c] = place[c] - r[R::X + c];
+      r[R::v + c] = speed[c];
+    }
+    auto const there = alive.scalar<Lanes>(g.first) > 0.0;
+    r[R::volume] = select(there, volume.scalar<Lanes>(g.first), Lanes(0.0));
+    Lanes const factor = positive_factor(viscosity.scalar<Lanes>(g.first));
+    r[R::viscosity] = select(phi.scalar<Lanes>(g.first) > 0.0 && there, -factor, factor);
+    store_in_records<D>(material, published, g, 0, r);
+  }
+};
 
 /// Drifts to half time and predicts there with the rates of the step before. S is brought back to the yield surface
 /// without a change of history.
 template <int D, class Law>
 struct Predict {
   Law law;
-  double dt;
-  Reference const* reference;
-  State* state;
-  Rates const* rates;
-  Half* half;
-  Sums* sums;
-  double* position;
-  MaterialTable material;
-  bool published;  ///< material sums
-  OwnFactors own;
-  FailureSlot* failure;
+  Drift<D> drift;
+  PointFields point;
+  Components S_rate, flow;
+  OwnComponents S_half;
+
+  Predict(Law const& of_body, System const& s, MaterialTable const& table, double dt)
+      : law(of_body),
+        drift(s, table, dt),
+        point(s.field, s.own),
+        S_rate(read(s.field.S_rate)),
+        flow(read(s.field.flow)),
+        S_half(write(s.field.S_half)) {}
 
   PIOLA_FN void operator()(Range block, Index) const {
-    for (Index i = block.first; i < block.last; ++i) visit(i);
+    drift(block);
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      double const step = 0.5 * drift.dt;
+      SymMat<3, Lanes> const before = point.S.symmetric<Lanes>(i);
+      SymMat<3, Lanes> trial;
+      for (int c = 0; c < 6; ++c) trial.c[c] = before.c[c] + step * S_rate.scalar<Lanes>(i, c);
+      auto const bears = point.bears<Lanes>(i);
+      SymMat<3, Lanes> const S = law.predicted(point.history<Lanes>(i, before), trial, flow.scalar<Lanes>(i), step);
+      for (int c = 0; c < 6; ++c) S_half.put(g, select(bears, S.c[c], Lanes(0.0)), c);
+    });
+  }
+};
+
+/// Density and volume of half time.
+struct HalfVolume {
+  double rho0, step;  ///< step: half of a time step [s]
+  MaterialTable material;
+  Components mass, rho, rho_rate, thickness_half, phi, F;
+  OwnComponents rho_half, volume_half;
+  FailureSlot* failure;
+
+  HalfVolume(System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+      : rho0(body.rho0),
+        step(0.5 * dt),
+        material(table),
+        mass(read(s.field.mass)),
+        rho(read(s.field.rho)),
+        rho_rate(read(s.field.rho_rate)),
+        thickness_half(read(s.field.thickness_half)),
+        phi(read(s.field.phi)),
+        F(read(s.field.F)),
+        rho_half(write(s.field.rho_half)),
+        volume_half(write(s.field.volume_half)),
+        failure(s.failure) {}
+
+  PIOLA_FN Lanes thickness_at(Index i) const { return thickness_half.scalar_or<Lanes>(i, 1.0); }
+
+  PIOLA_FN void operator()(Range block) const {
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      Lanes const blend = phi.scalar<Lanes>(i);
+      Lanes density = rho.scalar<Lanes>(i) + step * rho_rate.scalar<Lanes>(i);
+      if (material.used) {
+        Lanes const J = determinant(F.matrix<Lanes>(i));
+        fail(g, blend < 1.0 && !(J > 0.0), inverted);
+        density = select(blend > 0.0, density, rho0 / J);
+      }
+      fail(g, !(density > 0.0), negative_density);
+      rho_half.put(g, density);
+      volume_half.put(g, mass.scalar<Lanes>(i) / (density * thickness_at(i)));
+    });
   }
 
  private:
-  PIOLA_FN void visit(Index i) const {
-    State& s = state[i];
-    Rates const& k = rates[i];
-    Half& out = half[i];
-    double const step = 0.5 * dt;
-    bool finite = true;
-    for (int c = 0; c < 3; ++c) {
-      out.v[c] = s.v[c] + step * k.a[c];
-      s.x[c] += step * s.v[c];
-      position[3 * i + c] = s.x[c];
-      finite = finite && std::fabs(s.x[c]) < 1e30 && std::fabs(out.v[c]) < 1e30;
-    }
-    if (!finite) exec::record(failure, i, not_a_number);
-    SymMat<3> trial;
-    for (int c = 0; c < 6; ++c) trial.c[c] = s.S[c] + step * k.S[c];
-    bool const bears = s.alive > 0 && s.released < 1;
-    SymMat<3> const S = bears ? law.predicted(history_of(s, s.S, own, i), trial, k.flow, step) : SymMat<3>{};
-    for (int c = 0; c < 6; ++c) out.S[c] = S.c[c];
-    out.energy = s.energy + step * k.energy;
-    out.thickness = s.thickness + step * k.thickness;
-    out.rho = s.rho + step * k.rho;
-    sums[i] = Sums{};
-    if (material.used) write_record(i, s, out);
+  template <class Mask>
+  PIOLA_FN void fail(Group g, Mask const& where, int code) const {
+    record_where(failure, g, where, code);
+  }
+};
+
+/// What neighbours read: of the stress of half time.
+template <int D, bool Corrected>
+struct WriteRecords {
+  BodyConstants body;
+  Settings settings;
+  HalfVolume half;
+  Components x, v_half, volume, viscosity, alive, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
+      gradient_mean;
+  SpatialTable spatial;    ///< records null: none are needed
+  MaterialTable material;  ///< records null: none are needed
+
+  WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
+      : body(of),
+        settings(s.settings),
+        half(s, of, table, dt),
+        x(read(s.field.x)),
+        v_half(read(s.field.v_half)),
+        volume(read(s.field.volume)),
+        viscosity(read(s.field.viscosity)),
+        alive(read(s.field.alive)),
+        S_half(read(s.field.S_half)),
+        pressure(read(s.field.pressure)),
+        rho_half(read(s.field.rho_half)),
+        volume_half(read(s.field.volume_half)),
+        F_rate(read(s.field.F_rate)),
+        gap(read(s.field.gap)),
+        K(read(s.field.K)),
+        N(read(s.field.N)),
+        gradient_mean(read(s.field.gradient_mean)),
+        spatial(s.spatial),
+        material(table) {}
+
+  PIOLA_FN void operator()(Range block) const {
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      Lanes const p = pressure.scalar<Lanes>(i);
+      SymMat<3, Lanes> const S = S_half.symmetric<Lanes>(i);
+      SymMat<D, Lanes> stress;
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b) stress(a, b) = a == b ? S(a, b) - p : S(a, b);
+      Here const here{half.phi.scalar<Lanes>(i),    alive.scalar<Lanes>(i), rho_half.scalar<Lanes>(i),
+                      volume_half.scalar<Lanes>(i), half.thickness_at(i),   stress};
+      if (spatial.record != nullptr) write_spatial(g, here);
+      if (!material.used) return;
+      if (settings.published)
+        write_published(g, here);
+      else
+        write_material(g, here);
+    });
   }
 
-  /// Deleted particles have no volume; the rest of what they say does not matter.
-  PIOLA_FN void write_record(Index i, State const& s, Half const& h) const {
-    using R = MaterialRecord<D>;
-    RecordPlace const record = record_of<D>(material, published, i);
-    for (int c = 0; c < D; ++c) {
-      double const X = reference[i].X[c];
-      record[R::u + c] = s.x[c] - X;
-      record[R::v + c] = h.v[c];
-      record[R::X + c] = X;
+ private:
+  /// A group at half time.
+  struct Here {
+    Lanes phi, alive, rho, volume, thickness;
+    SymMat<D, Lanes> stress;
+  };
+  using R = MaterialRecord<D>;
+
+  /// The D dimensions of F.
+  PIOLA_FN Mat<D, Lanes> deformation(Index i) const { return restrict_to<D>(half.F.matrix<Lanes>(i)); }
+
+  /// The halves of damping and springs that A carries, per unit of dF/dt and of F - I: of total-Lagrangian particles.
+  PIOLA_FN void add_hourglass(Index i, Here const& here, Mat<D, Lanes> const& F, Lanes* A) const {
+    Lanes const share = select(here.phi > 0.0, Lanes(0.0), 0.5 * volume.scalar<Lanes>(i));
+    Lanes const damping = share * damping_of(body);
+    Mat<D, Lanes> const rate = restrict_to<D>(F_rate.matrix<Lanes>(i));
+    Lanes const stiffness = share * (settings.published ? 0 : stiffness_of(body));
+    for (int p = 0; p < D; ++p)
+      for (int q = 0; q < D; ++q)
+        A[p * D + q] = A[p * D + q] - (damping * rate(p, q) + stiffness * (F(p, q) - (p == q ? 1.0 : 0.0)));
+  }
+
+  /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from the density where that
+  /// is evolved.
+  PIOLA_FN void write_material(Group g, Here const& here) const {
+    Index const i = g.first;
+    Lanes A[D * D];
+    auto const bears = here.phi < 1.0 && here.alive > 0.0;
+    if (any(bears)) {
+      Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
+      Mat<D, Lanes> const F = restrict_to<D>(full);
+      SymMat<D, Lanes> correction;
+      for (int c = 0; c < SymMat<D>::size; ++c) correction.c[c] = K.scalar<Lanes>(i, c);
+      Lanes const weight = (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness,
+                                                     determinant(full) * volume.scalar<Lanes>(i));
+      Mat<D, Lanes> const FN = transpose(inverse(F)) * correction;
+      for (int p = 0; p < D; ++p)
+        for (int q = 0; q < D; ++q) {
+          Lanes sum(0.0);
+          for (int l = 0; l < D; ++l) sum += here.stress(p, l) * FN(l, q);
+          A[p * D + q] = weight * sum;
+        }
+      add_hourglass(i, here, F, A);
     }
-    record[R::volume] = s.alive > 0 ? reference[i].volume : 0;
-    double const factor = s.viscosity > 1e-300 ? s.viscosity : 1e-300;
-    record[R::viscosity] = s.phi > 0 && s.alive > 0 ? -factor : factor;
+    for (Lanes& value : A) value = select(bears, value, Lanes(0.0));
+    store_in_records<D>(material, false, g, R::A, A);
+  }
+
+  /// Of set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over that of the start.
+  PIOLA_FN void write_published(Group g, Here const& here) const {
+    Index const i = g.first;
+    constexpr int first = R::A;
+    Lanes r[R::inverse_J + 1 - first];
+    bool const printed = settings.interface_form == Interface::printed;
+    // Eulerian particles of the printed interface have a deformation gradient only near total-Lagrangian ones.
+    auto bears = here.phi < 1.0;
+    if (printed) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
+    bears = bears && here.alive > 0.0;
+    for (Lanes& value : r) value = Lanes(0.0);
+    if (any(bears)) {
+      Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
+      Mat<D, Lanes> const F = restrict_to<D>(full), FN = transpose(inverse(F)) * restrict_to<D>(N.matrix<Lanes>(i));
+      // V sigma = V0 P F^T: with the current volume, which follows from the density where that is evolved.
+      Lanes const at_rest = determinant(full) * volume.scalar<Lanes>(i);
+      Lanes const share =
+          printed ? at_rest : (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest);
+      for (int p = 0; p < D; ++p) {
+        Lanes a(0.0), n(0.0);
+        for (int q = 0; q < D; ++q) {
+          Lanes A(0.0);
+          for (int l = 0; l < D; ++l) A += here.stress(p, l) * FN(l, q);
+          Lanes const G = gradient_mean.scalar<Lanes>(i, q);
+          r[p * D + q] = share * A;
+          r[R::N - first + p * D + q] = FN(p, q);
+          a += share * A * G;
+          n += FN(p, q) * G;
+        }
+        r[R::a - first + p] = a;
+        r[R::n - first + p] = n;
+      }
+      r[R::inverse_J - first] = here.rho * here.thickness / body.rho0;
+      add_hourglass(i, here, F, r);
+    }
+    for (int c = 0; c < R::inverse_J - first; ++c) r[c] = select(bears, r[c], Lanes(0.0));
+    r[R::inverse_J - first] = select(bears, r[R::inverse_J - first], Lanes(1.0));
+    store_in_records<D>(material, true, g, first, r);
+  }
+
+  PIOLA_FN void write_spatial(Group g, Here const& here) const {
+    using Q = SpatialRecord<D, Corrected>;
+    Index const i = g.first;
+    double* to[lane_count];
+    bool wanted = false;
+    for (int l = 0; l < lane_count; ++l) {
+      bool const near = l < g.count && (spatial.near == nullptr || spatial.near[i + l] != 0);
+      to[l] = near ? spatial.record + static_cast<std::ptrdiff_t>(spatial.sorted[i + l]) * spatial.stride : nullptr;
+      wanted = wanted || near;
+    }
+    if (!wanted) return;
+    Lanes r[Q::M + SymMat<D>::size];
+    for (int c = 0; c < D; ++c) {
+      r[Q::x + c] = x.scalar<Lanes>(i, c);
+      r[Q::v + c] = v_half.scalar<Lanes>(i, c);
+    }
+    r[Q::volume] = here.volume;
+    r[Q::rho] = here.rho * here.thickness;
+    r[Q::c] = Lanes(body.c);
+    Lanes const factor = positive_factor(viscosity.scalar<Lanes>(i));
+    r[Q::viscosity] = select(here.phi > 0.0, factor, -factor);
+    Lanes const weight = settings.interface_form == Interface::printed ? Lanes(1.0) : here.phi;
+    for (int c = 0; c < SymMat<D>::size; ++c) r[Q::M + c] = weight * here.volume * here.thickness * here.stress.c[c];
+    store_records(to, 0, r);
+    if (settings.artificial_stress) {
+      SymMat<D, Lanes> stress = artificial_stress<D>(here.stress, here.rho, body.artificial_stress);
+      for (Lanes& c : stress.c) c = c / here.thickness;
+      store_records(to, Q::R, stress.c);
+    }
+    if constexpr (Corrected)
+      for (int l = 0; l < lane_count; ++l)
+        for (int c = Q::M + SymMat<D>::size; c < Q::R && to[l] != nullptr; ++c) to[l][c] = 0;
   }
 };
 
@@ -101,154 +367,39 @@ struct Predict {
 template <int D, bool Corrected, class Law>
 struct HalfState {
   Law law;
-  BodyConstants body;
-  Settings settings;
-  double dt;
-  Reference const* reference;
-  State const* state;
-  Half* half;
-  Deformation* deformation;
-  OwnFactors own;
-  SpatialTable spatial;    ///< records null: none are needed
-  MaterialTable material;  ///< records null: none are needed
-  FailureSlot* failure;
+  HalfVolume volume;
+  WriteRecords<D, Corrected> records;
+  PointFields point;
+  Components energy, energy_rate;
+  OwnComponents pressure, c, S_half;
+
+  HalfState(Law const& of_body, System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+      : law(of_body),
+        volume(s, body, table, dt),
+        records(s, body, table, dt),
+        point(s.field, s.own),
+        energy(read(s.field.energy)),
+        energy_rate(read(s.field.energy_rate)),
+        pressure(write(s.field.pressure)),
+        c(write(s.field.c)),
+        S_half(write(s.field.S_half)) {}
 
   PIOLA_FN void operator()(Range block, Index) const {
-    for (Index i = block.first; i < block.last; ++i) visit(i);
-  }
-
- private:
-  PIOLA_FN void visit(Index i) const {
-    State const& s = state[i];
-    Half& h = half[i];
-    double J = 1;
-    if (material.used && s.phi < 1) {
-      J = determinant(matrix_of(deformation[i].F));
-      if (!(J > 0)) exec::record(failure, i, inverted);
-    }
-    if (!(s.phi > 0)) h.rho = body.rho0 / J;
-    if (!(h.rho > 0)) exec::record(failure, i, negative_density);
-    h.volume = reference[i].mass / (h.rho * h.thickness);
-    double const specific = h.energy / reference[i].mass;
-    h.pressure = acting_pressure(law, s, own, i, h.rho, specific);
-    if constexpr (Law::pressed) {
-      SolidHistory const history = history_of(s, h.S, own, i);
-      SymMat<3> const S = law.returned(history, history.S, 0.5 * dt, h.pressure, h.rho / law.rho0);
-      for (int c = 0; c < 6; ++c) h.S[c] = S.c[c];
-    }
-    h.c = law.sound_speed(h.rho, specific);
-    SymMat<3> stress = symmetric_of(h.S);
-    for (int c = 0; c < 3; ++c) stress.c[c] -= h.pressure;
-    SymMat<D> plane;
-    for (int p = 0; p < D; ++p)
-      for (int q = p; q < D; ++q) plane(p, q) = stress(p, q);
-    if (spatial.record != nullptr && (spatial.near == nullptr || spatial.near[i] != 0)) write_spatial(i, s, h, plane);
-    if (!material.used) return;
-    if (settings.published)
-      write_published(i, s, h, plane, J);
-    else
-      write_record(i, s, h, plane, J);
-  }
-
-  /// The halves of damping and springs that A carries, per unit of dF/dt and of F - I: of total-Lagrangian particles.
-  PIOLA_FN void add_hourglass(Index i, State const& s, RecordPlace const& A) const {
-    if (s.phi > 0) return;
-    Deformation const& d = deformation[i];
-    double const share = 0.5 * reference[i].volume, damping = share * damping_of(body),
-                 stiffness = settings.published ? 0 : share * stiffness_of(body);
-    for (int p = 0; p < D; ++p)
-      for (int q = 0; q < D; ++q)
-        A[p * D + q] -= damping * d.rate[3 * p + q] + stiffness * (d.F[3 * p + q] - (p == q ? 1 : 0));
-  }
-
-  /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from the density where that
-  /// is evolved.
-  PIOLA_FN void write_record(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
-    RecordPlace const record = record_of<D>(material, false, i),
-                      A{record.value + MaterialRecord<D>::A * record.step, record.step};
-    if (!(s.phi < 1 && s.alive > 0)) {
-      for (int c = 0; c < D * D; ++c) A[c] = 0;
-      return;
-    }
-    double const* K = material.moments[i].K;
-    Mat<D> F, N;
-    for (int p = 0; p < D; ++p)
-      for (int q = 0; q < D; ++q) {
-        F(p, q) = deformation[i].F[3 * p + q];
-        N(p, q) = K[SymMat<D>::at(p, q)];
+    volume(block);
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      Lanes const rho = records.rho_half.template scalar<Lanes>(i);
+      Lanes const e =
+          (energy.scalar<Lanes>(i) + volume.step * energy_rate.scalar<Lanes>(i)) / volume.mass.scalar<Lanes>(i);
+      Lanes const p = point.pressure<Lanes>(law, i, rho, e);
+      pressure.put(g, p);
+      c.put(g, law.template sound_speed<Lanes>(rho, e));
+      if constexpr (Law::pressed) {
+        SymMat<3, Lanes> const trial = S_half.seen().symmetric<Lanes>(i);
+        S_half.put_all(g, law.returned(point.history<Lanes>(i, trial), trial, volume.step, p, rho / law.rho0).c);
       }
-    double const weight = (1 - s.phi) * (s.phi > 0 ? h.volume * h.thickness : J * reference[i].volume);
-    Mat<D> const FN = transpose(inverse(F)) * N;
-    for (int p = 0; p < D; ++p)
-      for (int q = 0; q < D; ++q) {
-        double sum = 0;
-        for (int l = 0; l < D; ++l) sum += stress(p, l) * FN(l, q);
-        A[p * D + q] = weight * sum;
-      }
-    add_hourglass(i, s, A);
-  }
-
-  PIOLA_FN void write_spatial(Index i, State const& s, Half const& h, SymMat<D> const& stress) const {
-    using R = SpatialRecord<D, Corrected>;
-    double* r = spatial.record + static_cast<std::ptrdiff_t>(spatial.sorted[i]) * spatial.stride;
-    for (int c = 0; c < D; ++c) {
-      r[R::x + c] = s.x[c];
-      r[R::v + c] = h.v[c];
-    }
-    double const rho = h.rho * h.thickness;
-    r[R::volume] = h.volume;
-    r[R::rho] = rho;
-    r[R::c] = body.c;
-    double const factor = s.viscosity > 1e-300 ? s.viscosity : 1e-300;
-    r[R::viscosity] = s.phi > 0 ? factor : -factor;
-    double const weight = settings.interface_form == Interface::printed ? 1 : s.phi;
-    for (int c = 0; c < SymMat<D>::size; ++c) r[R::M + c] = weight * h.volume * h.thickness * stress.c[c];
-    if (settings.artificial_stress) {
-      SymMat<D> const R_a = piola::adaptle::artificial_stress<D>(stress, h.rho, body.artificial_stress);
-      for (int c = 0; c < SymMat<D>::size; ++c) r[R::R + c] = R_a.c[c] / h.thickness;
-    }
-    if constexpr (Corrected)
-      for (int c = R::M + SymMat<D>::size; c < R::R; ++c) r[c] = 0;
-  }
-
-  /// Of set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over that of the start.
-  PIOLA_FN void write_published(Index i, State const& s, Half const& h, SymMat<D> const& stress, double J) const {
-    using R = MaterialRecord<D>;
-    RecordPlace const r = record_of<D>(material, true, i);
-    bool const printed = settings.interface_form == Interface::printed;
-    double const weight = s.alive > 0 ? (printed ? 1 : 1 - s.phi) : 0;
-    // Eulerian particles of the printed interface have a deformation gradient only near total-Lagrangian ones.
-    if (weight == 0 || (s.phi == 1 && !(deformation[i].gap >= 0))) {
-      for (int c = R::A; c < R::inverse_J; ++c) r[c] = 0;
-      r[R::inverse_J] = 1;
-      return;
-    }
-    FoldedCorrection const& k = material.correction[i];
-    if (s.phi == 1) J = determinant(matrix_of(deformation[i].F));
-    Mat<D> F, N;
-    for (int p = 0; p < D; ++p)
-      for (int q = 0; q < D; ++q) {
-        F(p, q) = deformation[i].F[3 * p + q];
-        N(p, q) = k.N[3 * p + q];
-      }
-    Mat<D> const FN = transpose(inverse(F)) * N;
-    // V sigma = V0 P F^T: with the current volume, which follows from the density where that is evolved.
-    double const volume = weight * (s.phi > 0 && !printed ? h.volume * h.thickness : J * reference[i].volume);
-    for (int p = 0; p < D; ++p) {
-      double a = 0, n = 0;
-      for (int q = 0; q < D; ++q) {
-        double A = 0;
-        for (int l = 0; l < D; ++l) A += stress(p, l) * FN(l, q);
-        r[R::A + p * D + q] = volume * A;
-        r[R::N + p * D + q] = FN(p, q);
-        a += volume * A * k.G[q];
-        n += FN(p, q) * k.G[q];
-      }
-      r[R::a + p] = a;
-      r[R::n + p] = n;
-    }
-    r[R::inverse_J] = h.rho * h.thickness / body.rho0;
-    add_hourglass(i, s, {r.value + R::A * r.step, r.step});
+    });
+    records(block);
   }
 };
 

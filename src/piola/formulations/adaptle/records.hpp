@@ -48,7 +48,7 @@ struct Kernel {
   PIOLA_FN double operator()(double r) const { return norm * CubicSpline::w(r * inverse_h); }
   /// s = -W'(r)/r, so that grad_a W_ab = s (x_b - x_a), and W.
   template <class T>
-  PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
+  [[gnu::always_inline]] PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
     T const inverse_r = inverse_square_root(maximum(square, T(1e-300)));
     T const q = square * (inverse_r * inverse_h), scaled = (-norm * inverse_h) * inverse_r;
     s = CubicSpline::dw(q) * scaled;
@@ -58,10 +58,10 @@ struct Kernel {
 
 /// Zeros to start sums from; the argument is any finite number. That they are zeros is not known to the compiler, which
 /// would else also write them to memory that nobody reads.
-PIOLA_FN Lanes zeros_from(double finite) { return Lanes(finite - finite); }
+[[gnu::always_inline]] PIOLA_FN Lanes zeros_from(double finite) { return Lanes(finite - finite); }
 
 template <int D>
-PIOLA_FN Vec<D, Lanes> difference(Lanes const* there, int at, double const* here) {
+[[gnu::always_inline]] PIOLA_FN Vec<D, Lanes> difference(Lanes const* there, int at, double const* here) {
   Vec<D, Lanes> r;
   for (int c = 0; c < D; ++c) r[c] = there[at + c] - here[at + c];
   return r;

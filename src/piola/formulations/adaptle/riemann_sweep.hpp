@@ -16,7 +16,6 @@ struct RiemannSweep {
   SpatialTable table;
   BodyConstants const* body;
   int const* body_of;
-  Sums* sums;
 
   PIOLA_FN void operator()(Range block, Index) const {
     for (Index t = block.first; t < block.last; ++t) visit(t);
@@ -40,13 +39,13 @@ struct RiemannSweep {
     }
     double a[whole(count)];
     total(sum, a);
-    Sums& out = sums[target.slot];
+    double* const out = target.result;
     for (int i = 0; i < D; ++i) {
-      out.force[i] += own[R::volume] * a[F + i];
-      for (int j = 0; j < D; ++j) out.L[3 * i + j] = a[L + i * D + j];
+      out[SpatialResult::force + i] = own[R::volume] * a[F + i];
+      for (int j = 0; j < D; ++j) out[SpatialResult::L + 3 * i + j] = a[L + i * D + j];
     }
-    out.heat += own[R::volume] * a[heat];
-    out.compression = largest_of(mu);
+    out[SpatialResult::heat] = own[R::volume] * a[heat];
+    out[SpatialResult::compression] = largest_of(mu);
   }
 
   PIOLA_FN void add(double const* own, Lanes const* f, Kernel<D> const& kernel, BodyConstants const& b, Lanes* sum,

@@ -22,9 +22,7 @@ void Particles::share() {
 /// What a checkpoint holds, and who has how many neighbours, is all that observers see.
 void Particles::gather() {
   if (!exchanges_) return;
-  each_array([&](char const*, double* values, int width) {
-    exchanges_->gather({.data = values, .component_stride = 1, .particle_stride = width}, width);
-  });
+  each_saved(fields_, [&](Field const& field) { exchanges_->gather(field.ref(), field.components()); });
   std::vector<int> const found = spatial_.neighbours_by_slot(system_);
   std::vector<double> neighbours(found.begin(), found.end());
   exchanges_->gather({.data = neighbours.data()}, 1);
@@ -43,8 +41,8 @@ void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::ar
   for (std::size_t k = 0; k < ids.size(); ++k) {
     Index const slot = order_.slot(ids[k]);
     if (!is_own(slot)) continue;
-    std::copy_n(state_[at(slot)].x, 3, &motion[6 * k]);
-    std::copy_n(state_[at(slot)].v, 3, &motion[6 * k + 3]);
+    std::ranges::copy(point_at(fields_.x.ref(), slot, 3), &motion[6 * k]);
+    std::ranges::copy(point_at(fields_.v.ref(), slot, 3), &motion[6 * k + 3]);
   }
   if (exchanges_) ranks::merge(motion);
   for (std::size_t k = 0; k < ids.size(); ++k) {

@@ -72,16 +72,16 @@ class Solver final : public Formulation {
     particles_.read_motion(ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    System const& system = particles_.system();  // what is deleted flies on and touches nobody
+    Fields const& fields = particles_.fields();  // what is deleted flies on and touches nobody
     for (std::size_t k = 0; k < ids.size(); ++k) {
       Index const slot = particles_.order().slot(ids[k]);
-      m[k] = system.state[slot].alive > 0 ? system.reference[slot].mass : 0;
+      m[k] = fields.alive.at(slot) > 0 ? fields.mass.at(slot) : 0;
     }
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      State& s = particles_.system().state[particles_.order().slot(ids[k])];
-      for (std::size_t c = 0; c < 3; ++c) s.v[c] += change[k][c];
+      Index const slot = particles_.order().slot(ids[k]);
+      for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
   }
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
@@ -102,15 +102,15 @@ class Solver final : public Formulation {
   void gather() override { particles_.gather(); }
 
  private:
-  /// f(place by slot, place by id) of the first of `width` numbers of each particle.
+  /// f(position in values, slot, component) for the values of a field, by id.
   template <class F>
-  void each_part(int width, F const& f) const {
+  void each_value(Field const& field, F const& f) const {
     for (Index i = 0; i < particles_.system().particles; ++i)
-      f(at(i) * at(width), particles_.order().id(i) * at(width));
+      for (int c = 0; c < field.components(); ++c) f(particles_.order().id(i) * at(field.components()) + at(c), i, c);
   }
 
   ParticleSet set_;
-  mutable Particles particles_;  // arrays of a checkpoint are listed once, for writing and for reading
+  Particles particles_;
 };
 
 std::optional<Failure> Solver::failure() const {
@@ -119,7 +119,7 @@ std::optional<Failure> Solver::failure() const {
   bool const crowded = particles_.crowded();
   if (slot.index == FailureSlot::none && !crowded) return std::nullopt;
   Index const i = slot.index == FailureSlot::none ? particles_.order().slot(0) : slot.index;
-  State const& p = s.state[i];
+  Fields const& p = particles_.fields();
   Failure f;
   f.what = crowded                         ? "is in a crowd of more than 4096 neighbours"
            : slot.code == not_a_number     ? "has a position, velocity or stress that is not a number"
@@ -127,44 +127,38 @@ std::optional<Failure> Solver::failure() const {
                                            : "is inverted";
   f.particle = static_cast<std::int64_t>(particles_.order().id(i));
   f.body = set_.bodies[static_cast<std::size_t>(s.body_of[i])].name;
-  for (std::size_t c = 0; c < 3; ++c) {
-    f.X[c] = s.reference[i].X[c];
-    f.x[c] = p.x[c];
-  }
-  f.values = {{"rho / rho0", p.rho / s.body[s.body_of[i]].rho0},
-              {"KernelType", p.phi},
-              {"speed [m/s]", std::hypot(p.v[0], p.v[1], p.v[2])},
-              {"damage", p.damage},
-              {"plastic strain", p.plastic_strain},
+  f.X = point_at(s.field.X, i, 3);
+  f.x = point_at(s.field.x, i, 3);
+  auto const v = point_at(s.field.v, i, 3);
+  f.values = {{"rho / rho0", p.rho.at(i) / s.body[s.body_of[i]].rho0},
+              {"KernelType", p.phi.at(i)},
+              {"speed [m/s]", std::hypot(v[0], v[1], v[2])},
+              {"damage", p.damage.at(i)},
+              {"plastic strain", p.plastic_strain.at(i)},
               {"contact overlap", particles_.books().overlap}};
   return f;
 }
 
-/// By id.
 void Solver::save(StateWriter& writer) const {
-  auto const n = static_cast<std::size_t>(set_.size());
-  particles_.each_array([&](char const* name, double* values, int width) {
-    std::span<double const> const here(values, n * static_cast<std::size_t>(width));
-    if (!particles_.order().dealt()) return writer.put(name, here);
-    std::vector<double> sorted(here.size());
-    each_part(width, [&](std::size_t slot, std::size_t id) { std::copy_n(&here[slot], width, &sorted[id]); });
-    writer.put(name, sorted);
+  std::vector<double> values;
+  particles_.each_saved(particles_.fields(), [&](Field const& field) {
+    values.resize(at(particles_.system().particles) * at(field.components()));
+    each_value(field, [&](std::size_t place, Index i, int c) { values[place] = field.at(i, c); });
+    writer.put(field.name(), values);
   });
-  writer.put("books", std::span<double const>(particles_.books_data(), Books::values));
+  writer.put("books", particles_.books().state());
   writer.put("rigid_centres", particles_.rigid_centres());
   writer.put("actions", particles_.actions().state());
 }
 
 void Solver::load(StateReader& reader) {
-  auto const n = static_cast<std::size_t>(set_.size());
-  particles_.each_array([&](char const* name, double* values, int width) {
-    std::span<double> const here(values, n * static_cast<std::size_t>(width));
-    if (!particles_.order().dealt()) return reader.get(name, here);
-    std::vector<double> sorted(here.size());
-    reader.get(name, sorted);
-    each_part(width, [&](std::size_t slot, std::size_t id) { std::copy_n(&sorted[id], width, &here[slot]); });
+  std::vector<double> values;
+  particles_.each_saved(particles_.fields(), [&](Field& field) {
+    values.resize(at(particles_.system().particles) * at(field.components()));
+    reader.get(field.name(), values);
+    each_value(field, [&](std::size_t place, Index i, int c) { field.at(i, c) = values[place]; });
   });
-  reader.get("books", std::span<double>(particles_.books_data(), Books::values));
+  load_part(reader, "books", particles_.books());
   reader.get("rigid_centres", particles_.rigid_centres());
   load_part(reader, "actions", particles_.actions());
   particles_.resumed();

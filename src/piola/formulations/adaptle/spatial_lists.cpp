@@ -11,8 +11,7 @@ constexpr Index most_neighbours = 4096;
 
 /// The first particle of the case, where it starts: not of the moment, so that cells stay where they are.
 std::array<double, 3> origin_of_cells(System const& s) {
-  double const* X = s.reference[s.slot_of != nullptr ? s.slot_of[0] : 0].X;
-  return {X[0], X[1], X[2]};
+  return point_at(s.field.X, s.slot_of != nullptr ? s.slot_of[0] : 0, 3);
 }
 
 /// Whether this rank works on it.
@@ -110,7 +109,15 @@ void SpatialLists::build(System const& s, Machine const& machine) {
     double* filler = records_.data() + static_cast<std::ptrdiff_t>(s.particles) * s.spatial.stride;
     for (int c = 0; c < s.dimension; ++c) filler[c] = far_away;
     filler[2 * s.dimension + 1] = 1;  // density: it divides
+    results_ = Memory(static_cast<std::size_t>(record_room_) * SpatialResult::stride);
   }
+  place_results(s);
+}
+
+/// Those without a list have the zeros after the last.
+void SpatialLists::place_results(System const& s) {
+  result_of_.assign(at(s.particles) + 16, s.particles);
+  for (Index const t : spatial_.target) result_of_[at(grid_.slots()[t])] = t;
 }
 
 void SpatialLists::search(System const& s, Machine const& machine, List& list, bool across) {
@@ -165,6 +172,8 @@ void SpatialLists::put_into(System& s) {
   s.spatial.near = everyone_ ? nullptr : near_.data();
   s.spatial.record = eulerian_ ? records_.data() : nullptr;
   s.crowded = overflow_;
+  s.spatial.result = eulerian_ ? results_.data() : nullptr;
+  s.spatial.result_of = result_of_.data();
   s.contact.targets = static_cast<Index>(contact_.target.size());
   s.contact.target = contact_.target.data();
   s.contact.capacity = contact_.capacity;
@@ -184,8 +193,8 @@ std::size_t SpatialLists::bytes() const {
   auto const of = [](List const& l) {
     return sizeof(Index) * (l.target.size() + l.entry.size() + l.length.size() + l.found.size());
   };
-  return grid_.bytes() + of(spatial_) + of(contact_) + records_.bytes() +
-         cell_has_eulerian_.size() * (1 + 2 * sizeof(std::int32_t));
+  return grid_.bytes() + of(spatial_) + of(contact_) + records_.bytes() + results_.bytes() +
+         sizeof(Index) * result_of_.size() + cell_has_eulerian_.size() * (1 + 2 * sizeof(std::int32_t));
 }
 
 }  // namespace piola::adaptle

@@ -33,6 +33,7 @@ class SpatialLists {
   };
   void mark_cells(System const& system);
   void choose_targets(System const& system);
+  void place_results(System const& system);
   void search(System const& system, Machine const& machine, List& list, bool across);
 
   MovingGrid grid_;
@@ -40,7 +41,8 @@ class SpatialLists {
   std::vector<std::int32_t> cell_low_, cell_high_, group_;
   std::vector<float> reach_;
   List spatial_, contact_;
-  Memory records_;
+  Memory records_, results_;
+  std::vector<Index> result_of_;
   Index record_room_ = 0, longest_ = 0;
   double widest_ = 0;
   bool eulerian_ = false, overflow_ = false;

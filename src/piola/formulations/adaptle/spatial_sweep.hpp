@@ -11,11 +11,13 @@ struct SpatialTarget {
   double const* own;
   Index const* list;
   Index length;
+  double* result;  ///< SpatialResult; what a sweep of D dimensions does not write stays zero
   PIOLA_FN SpatialTarget(SpatialTable const& t, Index number)
       : slot(t.slot[t.target[number]]),
         own(t.record + static_cast<std::ptrdiff_t>(t.target[number]) * t.stride),
         list(t.list + static_cast<std::ptrdiff_t>(number) * t.capacity),
-        length(t.length[number]) {}
+        length(t.length[number]),
+        result(t.result + static_cast<std::ptrdiff_t>(t.target[number]) * SpatialResult::stride) {}
 };
 
 /// Forces, heat and velocity gradient of one spatial target. With r = x_b - x_a, g = s r:
@@ -33,7 +35,6 @@ struct SpatialSweep {
   Settings settings;
   BodyConstants const* body;
   int const* body_of;
-  Sums* sums;
 
   PIOLA_FN void operator()(Range block, Index) const {
     for (Index t = block.first; t < block.last; ++t) visit(t);
@@ -65,8 +66,9 @@ struct SpatialSweep {
     store(target, sum);
   }
 
-  PIOLA_FN void add_pairs(double const* own, Index const* list, Lanes const* f, BodyConstants const& b,
-                          Kernel<D> const& kernel, double inverse_reference, Accumulated& sum) const {
+  [[gnu::always_inline]] PIOLA_FN void add_pairs(double const* own, Index const* list, Lanes const* f,
+                                                 BodyConstants const& b, Kernel<D> const& kernel,
+                                                 double inverse_reference, Accumulated& sum) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
     Lanes const square = dot(r, r);
     Lanes s, W;
@@ -106,7 +108,8 @@ struct SpatialSweep {
   }
 
   /// Component i of M_b g + m_b W: minus t_ba over V_a.
-  PIOLA_FN static Lanes reaction(Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s, Lanes const& W, int i) {
+  [[gnu::always_inline]] PIOLA_FN static Lanes reaction(Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s,
+                                                        Lanes const& W, int i) {
     Lanes sum = Lanes(0.0);
     for (int j = 0; j < D; ++j) sum += f[R::M + (Corrected ? i * D + j : SymMat<D>::at(i, j))] * r[j];
     sum = s * sum;
@@ -119,7 +122,7 @@ struct SpatialSweep {
     return settings.interface_form == Interface::owner || own[R::viscosity] > 0;
   }
 
-  PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {
+  [[gnu::always_inline]] PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {
     Lanes const here(own > 0 ? 1.0 : 0.0), there = select(other > 0.0, Lanes(1.0), Lanes(0.0));
     if (settings.mixed_stress == MixedStress::both) return maximum(here, there);
     if (settings.mixed_stress == MixedStress::eulerian_only) return here;
@@ -127,9 +130,10 @@ struct SpatialSweep {
   }
 
   /// The same with plain gradients, gt_ab = -gt_ba = g.
-  PIOLA_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r, Vec<D, Lanes> const& w,
-                                Lanes const& Vs, Lanes const& closing, Lanes const& pressure,
-                                Lanes const& stress_weight, Accumulated& sum) const {
+  [[gnu::always_inline]] PIOLA_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r,
+                                                       Vec<D, Lanes> const& w, Lanes const& Vs, Lanes const& closing,
+                                                       Lanes const& pressure, Lanes const& stress_weight,
+                                                       Accumulated& sum) const {
     // Over V_a, as the sum Q: it shares its place.
     Lanes const weight = own[R::rho] * f[R::rho] * Vs, push = weight * pressure;
     Lanes power = -1.0 * push * closing;
@@ -152,9 +156,10 @@ struct SpatialSweep {
 
   /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity. Only they read the
   /// rest of the records.
-  PIOLA_FN void add_extra(double const* own, Index const* list, Lanes const* f, Vec<D, Lanes> const& r,
-                          Vec<D, Lanes> const& w, Lanes const& s, Lanes const& W, Lanes const& pressure,
-                          Lanes const& stress_weight, Accumulated& sum) const {
+  [[gnu::always_inline]] PIOLA_FN void add_extra(double const* own, Index const* list, Lanes const* f,
+                                                 Vec<D, Lanes> const& r, Vec<D, Lanes> const& w, Lanes const& s,
+                                                 Lanes const& W, Lanes const& pressure, Lanes const& stress_weight,
+                                                 Accumulated& sum) const {
     constexpr int N = 0, n = R::n - R::N, tensor = R::R - R::N, values = R::values(Stressed) - R::N;
     Lanes rest[values];
     load_components<values>(table.record + R::N, R::stride(Stressed), list, rest);
@@ -189,7 +194,7 @@ struct SpatialSweep {
     double a[whole(Accumulated::count)];
     total(sum.a, a);
     double const* own = target.own;
-    Sums& out = sums[target.slot];
+    double* const out = target.result;
     double const mass = own[R::volume] * own[R::rho];
     double const stress = bears_stress(own) ? 1 : 0;
     for (int i = 0; i < D; ++i) {
@@ -197,20 +202,20 @@ struct SpatialSweep {
       for (int j = 0; j < D; ++j)
         own_force += own[R::M + (Corrected ? i * D + j : SymMat<D>::at(i, j))] * a[Accumulated::G + j];
       if constexpr (Corrected) own_force -= own[R::m + i] * a[Accumulated::W];
-      out.force[i] += stress * own_force + own[R::volume] * a[Accumulated::Q + i];
-      if constexpr (Corrected) out.force[i] += mass * a[Accumulated::T + i];
+      double force = stress * own_force + own[R::volume] * a[Accumulated::Q + i];
+      if constexpr (Corrected) force += mass * a[Accumulated::T + i];
+      out[SpatialResult::force + i] = force;
       for (int j = 0; j < D; ++j) {
         double L = a[Accumulated::L + i * D + j];
         if constexpr (Corrected) {
           L = -a[Accumulated::LW + i] * own[R::n + j];
           for (int k = 0; k < D; ++k) L += a[Accumulated::L + i * D + k] * own[R::N + j * D + k];
         }
-        out.L[3 * i + j] = L;
+        out[SpatialResult::L + 3 * i + j] = L;
       }
     }
-    out.heat += 0.5 * (Corrected ? mass : own[R::volume]) * a[Accumulated::heat];
-    double const mu = largest_of(-1.0 * sum.mu);
-    out.compression = mu > out.compression ? mu : out.compression;
+    out[SpatialResult::heat] = 0.5 * (Corrected ? mass : own[R::volume]) * a[Accumulated::heat];
+    out[SpatialResult::compression] = maximum(largest_of(-1.0 * sum.mu), 0.0);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/moving_pairs.hpp"
@@ -20,32 +21,6 @@ enum class MixedStress { both, eulerian_only, none };
 /// Place in the lists of reference neighbours: a few dozen million particles have more pairs than an Index can count.
 using Offset = std::int64_t;
 
-/// What never changes.
-struct Reference {
-  double X[3];    ///< reference position [m]
-  double volume;  ///< in kernel sums [m^D]
-  double mass;    ///< [kg], per unit depth in two dimensions
-};
-
-/// The evolved state of one particle: what checkpoints hold, together with Rates.
-struct State {
-  double x[3], v[3];      ///< position [m], velocity [m/s]
-  double S[6];            ///< deviator of the Cauchy stress, XX YY ZZ XY YZ XZ [Pa]
-  double rho;             ///< [kg/m3]; total-Lagrangian: rho0 / J of half a step before
-  double energy;          ///< internal energy of the particle [J]
-  double plastic_strain;  ///< equivalent
-  double temperature;     ///< [K]
-  double damage;          ///< 1: failed
-  double plastic_work;    ///< per reference volume [J/m3]
-  double thickness;       ///< in plane stress, over that at the start; else 1
-  double viscosity;       ///< factor on alpha and beta of the switch of the viscosity
-  double phi;             ///< 0 total-Lagrangian, 1 Eulerian, between: blended
-  double alive;           ///< 0: deleted, bears no stress
-  double released;        ///< share of shear and tension that a failed particle does not bear any more
-  double bulking;         ///< pressure of broken material that wants more room [Pa]
-  static constexpr int values = 24;
-};
-
 /// What cases add to the law of a point, per slot; null: nothing.
 struct OwnFactors {
   double const* initial_pressure = nullptr;  ///< positive in tension [Pa]
@@ -53,60 +28,55 @@ struct OwnFactors {
   double const* toughness = nullptr;         ///< factor on what it bears before it fails
 };
 
-/// Rates of the last step, from which the next one predicts half time.
-struct Rates {
-  double a[3];  ///< [m/s2]
-  double S[6];  ///< [Pa/s]
-  double rho, energy, thickness, viscosity;
-  double flow;  ///< von Mises stress at the end of the last plastic step [Pa]; 0: the next prediction asks the law
-  static constexpr int values = 14;
+/// Fields as loops see them; what they are stands in Fields. Without data: the case does not need it.
+struct ParticleFields {
+  FieldRef X, volume, mass;
+  FieldRef x, v, S, rho, energy;
+  FieldRef plastic_strain, temperature, damage, plastic_work;
+  FieldRef thickness, thickness_half;  ///< in plane stress, over that at the start
+  FieldRef viscosity;                  ///< factor on alpha and beta of the switch of the viscosity
+  FieldRef phi;                        ///< 0 total-Lagrangian, 1 Eulerian, between: blended
+  FieldRef alive;                      ///< 0: deleted, bears no stress
+  FieldRef released;                   ///< share of shear and tension that a failed particle does not bear any more
+  FieldRef bulking;                    ///< pressure of broken material that wants more room
+  FieldRef a, S_rate, rho_rate, energy_rate, thickness_rate;
+  FieldRef flow;  ///< von Mises stress at the end of the last plastic step; 0: the next prediction asks the law
+  FieldRef v_half, S_half, volume_half, rho_half, c;
+  FieldRef pressure;  ///< positive in compression
+  FieldRef F, F_rate;
+  FieldRef gap;  ///< largest |x_b - x_a - F_a (X_b - X_a)| / material h over Eulerian reference neighbours b; -1: no F
+  FieldRef force, heat;  ///< of reference neighbours and contacts
+  FieldRef hourglass;    ///< power that the hourglass stiffness stores
+  FieldRef compression;  ///< largest |mu_ab| of the viscosity
+  FieldRef contact;      ///< in the order of ContactSum
+  // Of sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a:
+  FieldRef K;                 ///< inverse of sum_b V0_b s r (x) r, symmetric, of D dimensions; not as published
+  FieldRef gradient_sum;      ///< sum_b V0_b s r of those that are not deleted
+  FieldRef kernel_sum;        ///< sum_b V0_b W of these
+  FieldRef N, gradient_mean;  ///< as published, gt_ab = N (g - G W), with N = K/S and G over S
 };
 
-/// Half time: predicted, or known from positions.
-struct Half {
-  double v[3], S[6], energy, thickness;
-  double volume;    ///< current volume; in two dimensions area [m^D]
-  double rho;       ///< [kg/m3]
-  double pressure;  ///< positive in compression [Pa]
-  double c;         ///< speed of pressure waves [m/s]
-  double divergence;
+/// Components of ParticleFields::contact.
+struct ContactSum {
+  static constexpr int power = 0,  ///< of contact forces on half the relative velocities [W]
+      stiffness = 1,               ///< [N/m]
+      overlap = 2,                 ///< largest share of the stand-off distance that a contact has used up
+      closing = 3,                 ///< fastest approach of particles of other bodies within reach, over dp [1/s]
+      size = 4;
 };
 
-/// Material kinematics of half time, in three dimensions.
-struct Deformation {
-  double F[9], rate[9];  ///< deformation gradient and its rate
-  double gap = -1;       ///< largest |x_b - x_a - F_a (X_b - X_a)| / material h over Eulerian reference neighbours b
-  static constexpr int values = 19;
+/// Results of spatial sums, a record per sorted particle, so that they are written in the order of the sweep.
+struct SpatialResult {
+  static constexpr int force = 0,  ///< [N]
+      heat = 3,                    ///< of viscosity and artificial stress [W]
+      L = 4,                       ///< spatial velocity gradient [1/s]
+      compression = 13,            ///< largest |mu_ab| of the viscosity [m/s]
+      size = 14, stride = 16;
 };
 
 /// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
 struct Correction {
   double S, G[3], K[9];
-};
-
-/// The same of sums over reference neighbours, which never changes: gt_ab = N (g - G W), with N = K/S and G over S.
-struct FoldedCorrection {
-  double N[9], G[3];
-};
-
-/// Sums over reference neighbours that never change, with s = -W'(r)/r and r = X_b - X_a.
-struct MaterialCorrection {
-  double K[6];  ///< inverse of sum_b V0_b s r (x) r, as a symmetric matrix of D dimensions; 0 as published
-  double G[3];  ///< sum_b V0_b s r of those that are not deleted
-  double W;     ///< sum_b V0_b W of these; 0 but as published
-};
-
-/// Results of the sweeps.
-struct Sums {
-  double force[3];     ///< [N]
-  double heat;         ///< of viscosity and artificial stress [W]
-  double L[9];         ///< spatial velocity gradient [1/s]
-  double contact;      ///< power of contact forces on half the relative velocities [W]
-  double hourglass;    ///< power that the hourglass stiffness stores [W]
-  double stiffness;    ///< of contact [N/m]
-  double overlap;      ///< largest share of the stand-off distance that a contact has used up
-  double closing;      ///< fastest approach of particles of other bodies within reach, over dp [1/s]
-  double compression;  ///< largest |mu_ab| of the viscosity [m/s]
 };
 
 /// What the particles of one body share.
@@ -158,7 +128,9 @@ struct SpatialTable {
   Index const* length = nullptr;       ///< a multiple of the lanes
   std::uint8_t const* near = nullptr;  ///< per slot: whether it takes part; null: all do
   double* record = nullptr;
-  int stride = 0;  ///< of records
+  int stride = 0;                    ///< of records
+  double* result = nullptr;          ///< SpatialResult; zeros after the last; null: there are no spatial sums
+  Index const* result_of = nullptr;  ///< per slot: number of its result, which may be that of the zeros
 };
 
 /// Who takes part in material sums: bits of MaterialTable::part.
@@ -185,15 +157,9 @@ struct MaterialTable {
   double* record = nullptr;         ///< of bodies with lists; a filler after the last
   MaterialRows rows;                ///< of the body that a loop is about
   float const* gradient = nullptr;  ///< per pair: -W'(r)/r in the reference configuration, the same from both ends
-  double const *s = nullptr, *W = nullptr;       ///< the same in double, with plain gradients; W(r), as published
-  MaterialCorrection const* moments = nullptr;   ///< per slot
-  FoldedCorrection const* correction = nullptr;  ///< per slot, as published
-  std::uint8_t const* part = nullptr;            ///< per slot: MaterialPart
-  Index const* kinematic = nullptr;              ///< slots with lists whose F is needed
-  Index kinematics = 0;
-  Index const* target = nullptr;  ///< slots with lists that feel material forces
-  Index targets = 0;
-  MaterialRows const* rows_of = nullptr;  ///< per body
+  double const *s = nullptr, *W = nullptr;  ///< the same in double, with plain gradients; W(r), as published
+  std::uint8_t const* part = nullptr;       ///< per slot: MaterialPart
+  MaterialRows const* rows_of = nullptr;    ///< per body
 };
 
 struct ContactTable {
@@ -241,13 +207,8 @@ struct System {
   Range const* part = nullptr;     ///< per body: the slots that this rank works on
   int const* body_of = nullptr;    ///< per slot
   Index const* slot_of = nullptr;  ///< per id; null: slots are ids
-  Reference const* reference = nullptr;
-  State* state = nullptr;
-  Rates* rates = nullptr;
-  Half* half = nullptr;
-  Deformation* deformation = nullptr;
-  Correction* correction = nullptr;  ///< spatial
-  Sums* sums = nullptr;
+  ParticleFields field;
+  Correction* correction = nullptr;        ///< spatial
   double* position = nullptr;              ///< of half time, 3 per slot: what the cell grid sorts
   std::uint8_t const* eulerian = nullptr;  ///< per slot: phi > 0
   Index eulerians = 0;                     ///< how many are

@@ -20,9 +20,7 @@ struct Step {
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>{
-                                                law, dt, s.reference, s.state, s.rates, s.half, s.sums, s.position,
-                                                material_of(b), s.settings.published, s.own, s.failure});
+        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>(law, s, material_of(b), dt));
       });
   }
 
@@ -34,9 +32,8 @@ struct Step {
   void half_state(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>{
-                                                law, s.body[b], s.settings, dt, s.reference, s.state, s.half,
-                                                s.deformation, s.own, s.spatial, material_of(b), s.failure});
+        exec::for_each_block(
+            body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>(law, s, s.body[b], material_of(b), dt));
       });
   }
 
@@ -49,14 +46,16 @@ struct Step {
   void sweep() const {
     Range const targets{0, s.spatial.targets};
     if (s.settings.viscosity == Viscosity::riemann)
-      exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of, s.sums});
+      exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of});
     else if (s.settings.corrected)
       sweep_space<true>(targets);
     else
       sweep_space<false>(targets);
     with_form([&](auto form) { add_material_forces<form()>(); });
-    exec::for_each_block(Range{0, s.contact.targets}, ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of,
-                                                                      s.bodies, s.state, s.half, s.sums});
+    ParticleFields const& f = s.field;
+    exec::for_each_block(Range{0, s.contact.targets},
+                         ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, read(f.x),
+                                         read(f.v_half), read(f.volume_half), write(f.force), write(f.contact)});
     if (s.rigids > 0) push_off_shapes();
   }
 
@@ -67,9 +66,7 @@ struct Step {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
         Range const r = body_range(b);
-        double const* rigid_power = s.rigids > 0 ? s.rigid_power : nullptr;
-        exec::for_each_block(
-            r, Finish<D, std::decay_t<decltype(law)>>{law, s.body[b], s.settings, dt, s, rigid_power, s.partial});
+        exec::for_each_block(r, Finish<D, std::decay_t<decltype(law)>>(law, s, s.body[b], material_of(b), dt));
         add_blocks(exec::block_count(r), m, sums);
       });
     m.crowded = s.crowded;
@@ -90,8 +87,9 @@ struct Step {
     double* action = s.rigid_action;
     for (int b = 0; b < s.bodies; ++b) {
       Range const r = body_range(b);
-      exec::for_each_block(r, RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, s.state, s.half,
-                                            s.sums, s.rigid_power, action});
+      exec::for_each_block(
+          r, RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, read(s.field.x), read(s.field.v_half),
+                           write(s.field.force), write(s.field.contact), s.rigid_power, action});
       action += std::ptrdiff_t{6} * s.rigids * exec::block_count(r);
     }
   }
@@ -117,49 +115,39 @@ struct Step {
       f(std::integral_constant<Form, Form::plain>{});
   }
 
-  /// f(body, its table, its places) for the bodies that are lattices.
-  template <class F>
-  void each_lattice(F const& f) const {
-    if (!s.material.used) return;
+  /// Own places of a body on a lattice.
+  Range places_of(int b) const { return {s.part[b].first - s.body[b].first, s.part[b].last - s.body[b].first}; }
+
+  template <MaterialForm Form>
+  void deform_as() const {
     for (int b = 0; b < s.bodies; ++b) {
-      MaterialTable const table = material_of(b);
-      Index const first = s.body[b].first;
-      if (table.rows.record != nullptr) f(s.body[b], table, Range{s.part[b].first - first, s.part[b].last - first});
+      Range const slots = body_range(b);
+      Deform<D, Form> const end(s, material_of(b), s.body[b]);
+      if (end.table.rows.record != nullptr)
+        exec::for_each_block(places_of(b), DeformRows<D, Form>{end, slots.last});
+      else
+        exec::for_each_block(slots, DeformLists<D, Form>{end});
     }
   }
 
   template <MaterialForm Form>
-  void deform_as() const {
-    auto const end = [&](MaterialTable const& table, BodyConstants const& b) {
-      return Deform<D, Form>{table,       s.particles,   s.state, s.half,
-                             s.reference, s.deformation, s.sums,  {PairConstants(b)}};
-    };
-    exec::for_each_block(Range{0, s.material.kinematics},
-                         DeformLists<D, Form>{end(s.material, s.body[0]), s.body, s.body_of});
-    each_lattice([&](BodyConstants const& b, MaterialTable const& table, Range places) {
-      exec::for_each_block(places, DeformRows<D, Form>{end(table, b), b.last});
-    });
-  }
-
-  template <MaterialForm Form>
   void add_material_forces() const {
-    auto const end = [&](MaterialTable const& table) {
-      return MaterialForces<D, Form>{table,       s.settings, s.particles,   s.body, s.body_of,
-                                     s.reference, s.state,    s.deformation, s.sums};
-    };
-    exec::for_each_block(Range{0, s.material.targets}, ForceLists<D, Form>{end(s.material)});
-    each_lattice([&](BodyConstants const& b, MaterialTable const& table, Range places) {
-      exec::for_each_block(places, ForceRows<D, Form>{end(table), b});
-    });
+    for (int b = 0; b < s.bodies && s.material.used; ++b) {
+      Range const slots = body_range(b);
+      MaterialForces<D, Form> const end(s, material_of(b), s.body[b]);
+      if (end.table.rows.record != nullptr)
+        exec::for_each_block(places_of(b), ForceRows<D, Form>{end});
+      else
+        exec::for_each_block(slots, ForceLists<D, Form>{end});
+    }
   }
 
   template <bool Corrected>
   void sweep_space(Range targets) const {
     if (s.settings.artificial_stress)
-      exec::for_each_block(targets, SpatialSweep<D, Corrected, true>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, true>{s.spatial, s.settings, s.body, s.body_of});
     else
-      exec::for_each_block(targets,
-                           SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of, s.sums});
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of});
   }
 
   /// What the steps of all ranks say: the same on all of them.

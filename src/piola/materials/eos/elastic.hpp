@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/base/machine.hpp"
 #include "piola/materials/eos/values.hpp"
+#include "piola/math/lanes.hpp"
+#include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
 
@@ -10,9 +12,15 @@ class ElasticEos {
  public:
   PIOLA_FN explicit ElasticEos(EosValues const& values) : rho0_(values.rho0), kappa_(values.kappa) {}
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
-  PIOLA_FN double pressure(double rho, double) const { return kappa_ * (rho / rho0_ - 1); }
+  template <class V = double>
+  PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const&) const {
+    return kappa_ * (rho / rho0_ - 1.0);
+  }
   /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
-  PIOLA_FN double sound_speed_squared(double, double) const { return kappa_ / rho0_; }
+  template <class V = double>
+  PIOLA_FN V sound_speed_squared(std::type_identity_t<V> const&, std::type_identity_t<V> const&) const {
+    return V(kappa_ / rho0_);
+  }
   /// Bulk modulus at rest [Pa].
   PIOLA_FN double bulk_modulus() const { return kappa_; }
 

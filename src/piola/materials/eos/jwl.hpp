@@ -2,8 +2,8 @@
 #pragma once
 #include "piola/base/machine.hpp"
 #include "piola/materials/eos/values.hpp"
-#include "piola/math/root.hpp"
-#include <cmath>
+#include "piola/math/lanes.hpp"
+#include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
 
@@ -27,22 +27,30 @@ class JwlEos {
   double front_speed;     ///< of the detonation [m/s]
 
   /// Pressure of the gases, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
-  PIOLA_FN double pressure(double rho, double e) const {
-    return term(a_, r1_, rho).value + term(b_, r2_, rho).value + omega_ * rho * e;
+  template <class V = double>
+  PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    return term<V>(a_, r1_, rho).value + term<V>(b_, r2_, rho).value + omega_ * rho * e;
   }
   /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
-  PIOLA_FN double sound_speed_squared(double rho, double e) const {
-    return term(a_, r1_, rho).slope + term(b_, r2_, rho).slope + omega_ * e + pressure(rho, e) / rho * omega_;
+  template <class V = double>
+  PIOLA_FN V sound_speed_squared(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    return term<V>(a_, r1_, rho).slope + term<V>(b_, r2_, rho).slope + omega_ * e + pressure<V>(rho, e) / rho * omega_;
   }
   /// Bulk modulus of the gases in the volume of the explosive [Pa].
   PIOLA_FN double bulk_modulus() const { return rho0_ * sound_speed_squared(rho0_, initial_energy); }
 
  private:
+  template <class V>
+  struct Term {
+    V value, slope;
+  };
+
   /// One exponential of the density, and its derivative.
-  PIOLA_FN Sloped term(double factor, double r, double rho) const {
-    double const V = rho0_ / rho, fall = factor * std::exp(-r * V), part = omega_ / (r * V);
+  template <class T>
+  PIOLA_FN Term<T> term(double factor, double r, T const& rho) const {
+    T const V = rho0_ / rho, fall = factor * exponential_exact(-r * V), part = omega_ / (r * V);
     // dV/drho = -V/rho
-    return {fall * (1 - part), fall * (r * V * (1 - part) - part) / rho};
+    return {fall * (1.0 - part), fall * (r * V * (1.0 - part) - part) / rho};
   }
 
   double rho0_, a_, b_, r1_, r2_, omega_;

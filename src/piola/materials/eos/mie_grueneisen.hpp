@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/base/machine.hpp"
 #include "piola/materials/eos/values.hpp"
+#include "piola/math/lanes.hpp"
+#include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
 
@@ -27,14 +29,16 @@ class MieGrueneisen {
     end_ = fit(last_);
   }
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
-  PIOLA_FN double pressure(double rho, double e) const {
-    double const m = rho / rho0_ - 1;
+  template <class V = double>
+  PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    V const m = rho / rho0_ - 1.0;
     return cold(m).value + (g_ + a_ * m) * (rho0_ * e);
   }
   /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
-  PIOLA_FN double sound_speed_squared(double rho, double e) const {
-    double const m = rho / rho0_ - 1;
-    return cold(m).slope / rho0_ + a_ * e + pressure(rho, e) / (rho * rho) * rho0_ * (g_ + a_ * m);
+  template <class V = double>
+  PIOLA_FN V sound_speed_squared(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    V const m = rho / rho0_ - 1.0;
+    return cold(m).slope / rho0_ + a_ * e + pressure<V>(rho, e) / (rho * rho) * rho0_ * (g_ + a_ * m);
   }
   /// Bulk modulus at rest [Pa].
   PIOLA_FN double bulk_modulus() const { return kappa_; }
@@ -42,32 +46,41 @@ class MieGrueneisen {
  private:
   static constexpr double most = 10;  ///< no solid is pressed beyond eleven times its density
 
+  template <class V>
   struct Curve {
-    double value, slope;  ///< and d/dm
+    V value, slope;  ///< and d/dm
   };
 
-  PIOLA_FN Curve divisor(double m) const {
-    double const q = m / (m + 1), dq = 1 / ((m + 1) * (m + 1));
-    return {1 - (s1_ - 1) * m - s2_ * m * q - s3_ * m * q * q,
-            1 - s1_ - s2_ * (q + m * dq) - s3_ * (q * q + 2 * m * q * dq)};
+  template <class V>
+  PIOLA_FN Curve<V> divisor(V const& m) const {
+    V const q = m / (m + 1.0), dq = 1.0 / ((m + 1.0) * (m + 1.0));
+    return {1.0 - (s1_ - 1) * m - s2_ * m * q - s3_ * m * q * q,
+            1 - s1_ - s2_ * (q + m * dq) - s3_ * (q * q + 2.0 * m * q * dq)};
   }
-  PIOLA_FN Curve fit(double m) const {
-    double const n = m * (1 + (1 - g_ / 2) * m - a_ / 2 * m * m);
-    double const dn = 1 + 2 * (1 - g_ / 2) * m - 1.5 * a_ * m * m;
-    Curve const d = divisor(m);
-    double const d2 = d.value * d.value;
-    return {kappa_ * n / d2, kappa_ * (dn / d2 - 2 * n * d.slope / (d2 * d.value))};
+  template <class V>
+  PIOLA_FN Curve<V> fit(V const& m) const {
+    V const n = m * (1.0 + (1 - g_ / 2) * m - a_ / 2 * m * m);
+    V const dn = 1.0 + 2 * (1 - g_ / 2) * m - 1.5 * a_ * m * m;
+    Curve<V> const d = divisor(m);
+    V const d2 = d.value * d.value;
+    return {kappa_ * n / d2, kappa_ * (dn / d2 - 2.0 * n * d.slope / (d2 * d.value))};
   }
   /// The part of the pressure without the energy.
-  PIOLA_FN Curve cold(double m) const {
-    if (m <= 0) return {kappa_ * m, kappa_};
-    if (m <= last_) return fit(m);
-    return {end_.value + end_.slope * (m - last_), end_.slope};
+  template <class V>
+  PIOLA_FN Curve<V> cold(V const& m) const {
+    auto const pressed = m > 0.0;
+    Curve<V> r{kappa_ * m, V(kappa_)};
+    if (!any(pressed)) return r;
+    Curve<V> const fitted = fit(m);
+    auto const beyond = m > last_;
+    r.value = select(pressed, select(beyond, end_.value + end_.slope * (m - last_), fitted.value), r.value);
+    r.slope = select(pressed, select(beyond, V(end_.slope), fitted.slope), r.slope);
+    return r;
   }
 
   double rho0_, kappa_, g_, a_, s1_, s2_, s3_;
   double last_ = 0;  ///< largest m of the fit
-  Curve end_{};
+  Curve<double> end_{};
 };
 
 }  // namespace piola::inline PIOLA_MACHINE

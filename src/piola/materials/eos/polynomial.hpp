@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/base/machine.hpp"
 #include "piola/materials/eos/values.hpp"
+#include "piola/math/lanes.hpp"
+#include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
 
@@ -21,21 +23,26 @@ class PolynomialEos {
         c5_(values.c5),
         c6_(values.c6) {}
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
-  PIOLA_FN double pressure(double rho, double e) const {
-    double const m = rho / rho0_ - 1, pressed = m > 0 ? m : 0;
+  template <class V = double>
+  PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    V const m = rho / rho0_ - 1.0, pressed = select(m > 0.0, m, V(0.0));
     return c1_ * m + (c2_ + c3_ * pressed) * pressed * pressed + by_energy(m) * (rho0_ * e);
   }
   /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
-  PIOLA_FN double sound_speed_squared(double rho, double e) const {
-    double const m = rho / rho0_ - 1, pressed = m > 0 ? m : 0;
-    double const slope = c1_ + (2 * c2_ + 3 * c3_ * pressed) * pressed + (c5_ + 2 * c6_ * pressed) * (rho0_ * e);
-    return slope / rho0_ + pressure(rho, e) / (rho * rho) * rho0_ * by_energy(m);
+  template <class V = double>
+  PIOLA_FN V sound_speed_squared(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    V const m = rho / rho0_ - 1.0, pressed = select(m > 0.0, m, V(0.0));
+    V const slope = c1_ + (2 * c2_ + 3 * c3_ * pressed) * pressed + (c5_ + 2 * c6_ * pressed) * (rho0_ * e);
+    return slope / rho0_ + pressure<V>(rho, e) / (rho * rho) * rho0_ * by_energy(m);
   }
   /// Bulk modulus at rest [Pa].
   PIOLA_FN double bulk_modulus() const { return c1_; }
 
  private:
-  PIOLA_FN double by_energy(double m) const { return c4_ + c5_ * m + (m > 0 ? c6_ * m * m : 0); }
+  template <class V>
+  PIOLA_FN V by_energy(V const& m) const {
+    return c4_ + c5_ * m + select(m > 0.0, c6_ * m * m, V(0.0));
+  }
 
   double rho0_, c1_, c2_, c3_, c4_, c5_, c6_;
 };

@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/base/machine.hpp"
 #include "piola/materials/eos/values.hpp"
+#include "piola/math/lanes.hpp"
+#include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
 
@@ -12,10 +14,14 @@ class StiffenedGas {
   PIOLA_FN explicit StiffenedGas(EosValues const& values)
       : rho0_(values.rho0), c0_squared_(values.c0 * values.c0), g_(values.exponent - 1) {}
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
-  PIOLA_FN double pressure(double rho, double e) const { return c0_squared_ * (rho - rho0_) + g_ * rho * e; }
+  template <class V = double>
+  PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    return c0_squared_ * (rho - rho0_) + g_ * rho * e;
+  }
   /// dp/drho + (p/rho^2) dp/de, the square of the isentropic sound speed [m^2/s^2].
-  PIOLA_FN double sound_speed_squared(double rho, double e) const {
-    return c0_squared_ + g_ * e + pressure(rho, e) / rho * g_;
+  template <class V = double>
+  PIOLA_FN V sound_speed_squared(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
+    return c0_squared_ + g_ * e + pressure<V>(rho, e) / rho * g_;
   }
   /// Bulk modulus at rest [Pa].
   PIOLA_FN double bulk_modulus() const { return rho0_ * c0_squared_; }

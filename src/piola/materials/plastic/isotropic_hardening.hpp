@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/plastic/heat.hpp"
+#include "piola/math/lanes.hpp"
 #include <string_view>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -22,6 +23,13 @@ class IsotropicHardening {
   PIOLA_FN double increment(double mises, double three_mu, FlowState const& s, double, double = 0) const {
     double const yield = yield_stress(s, 0);
     return mises > yield ? (mises - yield) / (three_mu + modulus_) : 0;
+  }
+
+  /// The same of several points.
+  template <class V>
+  PIOLA_FN V increments(V const& mises, double three_mu, V const& plastic_strain) const {
+    V const yield = yield_ + modulus_ * plastic_strain;
+    return select(mises > yield, (mises - yield) / (three_mu + modulus_), V(0.0));
   }
 
  private:

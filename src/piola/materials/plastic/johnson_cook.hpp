@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/plastic/heat.hpp"
+#include "piola/math/lanes.hpp"
 #include <cmath>
 #include <string_view>
 
@@ -58,6 +59,14 @@ class JohnsonCook {
       if (last) break;
     }
     return x;
+  }
+
+  /// No state at this temperature [K] yields at less [Pa] (T*^m is at most T* for m >= 1).
+  template <class V>
+  PIOLA_FN V least_yield_stress(V const& temperature) const {
+    if (!(m_ >= 1)) return V(0.0);
+    V const part = (temperature - heat_.reference) * (1 / (heat_.melting - heat_.reference));
+    return (a_ * (1 - 1e-12)) * (1.0 - minimum(maximum(part, V(0.0)), V(1.0)));
   }
 
  private:

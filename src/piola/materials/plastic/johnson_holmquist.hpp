@@ -88,7 +88,10 @@ class JohnsonHolmquist {
     return P > 0 ? D1_ * std::pow(P, D2_) : 0;
   }
   /// Largest tension at a damage [Pa].
-  PIOLA_FN double largest_tension(double damage) const { return tension_ * (1 - damage); }
+  template <class V>
+  PIOLA_FN V largest_tension(V const& damage) const {
+    return tension_ * (1.0 - damage);
+  }
   /// Bulking pressure after the strength fell from `before` to `after` [Pa], at a compression m = rho/rho0 - 1.
   PIOLA_FN double bulked(double bulking, double before, double after, double m, double kappa, double mu) const {
     double const lost = (before * before - after * after) / (6 * mu);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/plastic/heat.hpp"
+#include "piola/math/lanes.hpp"
 #include <string_view>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -19,6 +20,12 @@ class PerfectPlasticity {
   /// Plastic strain of a step whose trial stress has the von Mises stress `mises` [Pa].
   PIOLA_FN double increment(double mises, double three_mu, FlowState const&, double, double = 0) const {
     return mises > yield_ ? (mises - yield_) / three_mu : 0;
+  }
+
+  /// The same of several points.
+  template <class V>
+  PIOLA_FN V increments(V const& mises, double three_mu, V const&) const {
+    return select(mises > yield_, (mises - yield_) / three_mu, V(0.0));
   }
 
  private:

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/point_passes.hpp"
+
+/// From the sums of half time to velocities, places, densities and energies at the end of a step.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// What the particles of a block say: sums and extrema, in the order of Measures.
+struct BlockMeasures {
+  static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, sums = 6, dt = 6,
+                       overlap = 7, wishes = 8, size = 9;
+};
+
+/// What the parts of the end of a step tell each other of the particles of a block.
+struct BlockScratch {
+  Index first;
+  alignas(64) double L[9][exec::block_size];  ///< velocity gradient [1/s]
+  alignas(64) double heat[exec::block_size];  ///< of all sums [W]
+  alignas(64) double compression[exec::block_size];
+
+  PIOLA_FN explicit BlockScratch(Index of) : first(of) {}
+  PIOLA_FN Mat<3, Lanes> gradient(Group g) const {
+    Mat<3, Lanes> r;
+    for (int c = 0; c < 9; ++c) r.c[c] = load<Lanes>(L[c] + (g.first - first));
+    return r;
+  }
+  PIOLA_FN Lanes heat_at(Group g) const { return load<Lanes>(heat + (g.first - first)); }
+  PIOLA_FN Lanes compression_at(Group g) const { return load<Lanes>(compression + (g.first - first)); }
+};
+
+/// Kick and second drift; the velocity gradient, phi (spatial) + (1 - phi) (material), in three dimensions.
+template <int D>
+struct Kick {
+  double dt;
+  System s;  ///< for what only some cases have: results of spatial sums, supports, loads
+  MaterialTable material;
+  Components mass, force, heat, compression, phi, F, F_rate;
+  OwnComponents x, v, a;
+
+  Kick(System const& system, MaterialTable const& table, double step)
+      : dt(step),
+        s(system),
+        material(table),
+        mass(read(s.field.mass)),
+        force(read(s.field.force)),
+        heat(read(s.field.heat)),
+        compression(read(s.field.compression)),
+        phi(read(s.field.phi)),
+        F(read(s.field.F)),
+        F_rate(read(s.field.F_rate)),
+        x(write(s.field.x)),
+        v(write(s.field.v)),
+        a(write(s.field.a)) {}
+
+  PIOLA_FN void operator()(Range block, BlockScratch& scratch, double* m) const {
+    using R = SpatialResult;
+    each_group(block, [&](Group g) {
+      Lanes spatial[R::stride];
+      for (Lanes& value : spatial) value = Lanes(0.0);
+      if (s.spatial.result != nullptr)
+        load_records<R::stride>(s.spatial.result, R::stride, s.spatial.result_of + g.first, spatial);
+      accelerate(g, spatial + R::force, m);
+      set_gradient(g, spatial + R::L, scratch);
+      Index const at = g.first - block.first;
+      bool const summed = heat.data != nullptr;
+      store(summed ? spatial[R::heat] + heat.scalar<Lanes>(g.first) : spatial[R::heat], scratch.heat + at);
+      store(summed ? maximum(spatial[R::compression], compression.scalar<Lanes>(g.first)) : spatial[R::compression],
+            scratch.compression + at);
+    });
+  }
+
+ private:
+  PIOLA_FN void accelerate(Group g, Lanes const* spatial, double* m) const {
+    Index const i = g.first;
+    Lanes const per_mass = 1.0 / mass.scalar<Lanes>(i);
+    double acceleration[D][lane_count], after[D][lane_count];
+    for (int c = 0; c < D; ++c) {
+      Lanes const total = force.data != nullptr ? spatial[c] + force.scalar<Lanes>(i, c) : spatial[c];
+      Lanes const rate = total * per_mass;
+      store(rate, acceleration[c]);
+      store(v.seen().scalar<Lanes>(i, c) + dt * rate, after[c]);
+    }
+    if (s.load != nullptr || s.held != nullptr)
+      for (int l = 0; l < g.count; ++l)
+        for (int c = 0; c < D; ++c) guide(i + l, c, acceleration[c][l], after[c][l], m);
+    for (int c = 0; c < D; ++c) {
+      Lanes const end = load<Lanes>(after[c]);
+      a.put(g, load<Lanes>(acceleration[c]), c);
+      v.put(g, end, c);
+      x.add(g, 0.5 * dt * end, c);
+    }
+  }
+
+  /// Loads and supports.
+  PIOLA_FN void guide(Index i, int c, double& acceleration, double& after, double* m) const {
+    double const before = v.at(i, c), own_mass = mass.at(i);
+    if (s.load != nullptr) {
+      double const push = s.load[3 * i + c];
+      acceleration += push;
+      m[BlockMeasures::load] += own_mass * push * (before + 0.5 * dt * acceleration);
+      after = before + dt * acceleration;
+    }
+    if (s.held == nullptr) return;
+    s.reaction[3 * i + c] = 0;
+    if (s.held[3 * i + c] == 0) return;
+    if (!(dt > 0)) {  // before the first step: velocities are as they were given
+      acceleration = 0;
+      after = before;
+      return;
+    }
+    double const wanted = (s.held_velocity[3 * i + c] - before) / dt;
+    s.reaction[3 * i + c] = own_mass * (wanted - acceleration);
+    m[BlockMeasures::held] += own_mass * (wanted - acceleration) * (before + 0.5 * dt * wanted);
+    acceleration = wanted;
+    after = s.held_velocity[3 * i + c];
+  }
+
+  PIOLA_FN void set_gradient(Group g, Lanes const* spatial, BlockScratch& scratch) const {
+    Index const i = g.first;
+    Mat<3, Lanes> L;
+    for (int c = 0; c < 9; ++c) L.c[c] = spatial[c];
+    Lanes const blend = phi.scalar<Lanes>(i);
+    auto const lagrangian = blend < 1.0;
+    if (material.used && any(lagrangian)) {
+      Mat<3, Lanes> const of_material = F_rate.matrix<Lanes>(i) * inverse(F.matrix<Lanes>(i));
+      for (int c = 0; c < 9; ++c)
+        L.c[c] = select(lagrangian, blend * L.c[c] + (1.0 - blend) * of_material.c[c], L.c[c]);
+    }
+    for (int c = 0; c < 9; ++c) store(L.c[c], scratch.L[c] + (i - scratch.first));
+  }
+};
+
+/// Density, thickness and internal energy to the end of the step.
+struct Balance {
+  Settings settings;
+  double dt, least_rho;
+  Components mass, phi, alive, S_half, pressure, rho_half, volume_half, thickness_half;
+  OwnComponents rho, rho_rate, thickness, thickness_rate, energy, energy_rate;
+
+  Balance(System const& s, BodyConstants const& body, double step)
+      : settings(s.settings),
+        dt(step),
+        least_rho(body.least_rho),
+        mass(read(s.field.mass)),
+        phi(read(s.field.phi)),
+        alive(read(s.field.alive)),
+        S_half(read(s.field.S_half)),
+        pressure(read(s.field.pressure)),
+        rho_half(read(s.field.rho_half)),
+        volume_half(read(s.field.volume_half)),
+        thickness_half(read(s.field.thickness_half)),
+        rho(write(s.field.rho)),
+        rho_rate(write(s.field.rho_rate)),
+        thickness(write(s.field.thickness)),
+        thickness_rate(write(s.field.thickness_rate)),
+        energy(write(s.field.energy)),
+        energy_rate(write(s.field.energy_rate)) {}
+
+  PIOLA_FN void operator()(Range block, BlockScratch const& scratch) const {
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      Mat<3, Lanes> const L = scratch.gradient(g);
+      Lanes const here = rho_half.scalar<Lanes>(i);
+      auto const evolves = phi.scalar<Lanes>(i) > 0.0;
+      Lanes rate = -here * trace(L);
+      Lanes next = select(evolves, rho.seen().scalar<Lanes>(i) + dt * rate, here);
+      // A particle fills its kernel at most: what flies apart further has no neighbours left, and two such particles
+      // would see each other's volume grow without bound.
+      auto const alone = evolves && next < least_rho;
+      next = select(alone, Lanes(least_rho), next);
+      rate = select(alone && rate < 0.0, Lanes(0.0), rate);
+      rho.put(g, next);
+      rho_rate.put(g, rate);
+      Lanes const width = thickness_of<Lanes>(i);
+      Lanes power = select(alive.scalar<Lanes>(i) > 0.0, stress_power(i, L) * width, Lanes(0.0)) + scratch.heat_at(g);
+      if (settings.viscosity == Viscosity::riemann) power = scratch.heat_at(g);
+      energy_rate.put(g, power);
+      energy.add(g, dt * power);
+      if (!settings.plane_stress) return;
+      thickness_rate.put(g, width * L(2, 2));
+      thickness.add(g, dt * width * L(2, 2));
+    });
+  }
+
+  /// V sigma : L, over the thickness.
+  template <class V>
+  PIOLA_FN V stress_power(Index i, Mat<3, V> const& L) const {
+    SymMat<3, V> const S = S_half.symmetric<V>(i);
+    V const p = pressure.scalar<V>(i);
+    V power = (S(0, 0) - p) * L(0, 0) + (S(1, 1) - p) * L(1, 1) + (S(2, 2) - p) * L(2, 2);
+    power += S(0, 1) * (L(0, 1) + L(1, 0)) + S(0, 2) * (L(0, 2) + L(2, 0)) + S(1, 2) * (L(1, 2) + L(2, 1));
+    return volume_half.scalar<V>(i) * power;
+  }
+
+  /// Of half time.
+  template <class V>
+  PIOLA_FN V thickness_of(Index i) const {
+    return thickness_half.scalar_or<V>(i, 1.0);
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE

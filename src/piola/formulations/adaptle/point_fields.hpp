@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/components.hpp"
+#include "piola/formulations/adaptle/state.hpp"
+#include "piola/materials/solids.hpp"
+
+/// What the law of a point asks of fields. V is `double`, for observers, or a pack of lanes.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+struct PointFields {
+  Components S, plastic_strain, temperature, damage, plastic_work, bulking, alive, released;
+  OwnFactors own;
+
+  PointFields(ParticleFields const& f, OwnFactors const& factors)
+      : S(read(f.S)),
+        plastic_strain(read(f.plastic_strain)),
+        temperature(read(f.temperature)),
+        damage(read(f.damage)),
+        plastic_work(read(f.plastic_work)),
+        bulking(read(f.bulking)),
+        alive(read(f.alive)),
+        released(read(f.released)),
+        own(factors) {}
+
+  /// With a deviator S [Pa].
+  template <class V>
+  PIOLA_FN SolidHistoryOf<V> history(Index i, SymMat<3, V> const& deviator) const {
+    return {deviator,
+            plastic_strain.scalar<V>(i),
+            temperature.scalar<V>(i),
+            damage.scalar<V>(i),
+            plastic_work.scalar<V>(i),
+            bulking.scalar<V>(i),
+            factor<V>(own.burnt, i),
+            factor<V>(own.toughness, i)};
+  }
+  /// Whether a particle bears a deviator at all.
+  template <class V>
+  PIOLA_FN auto bears(Index i) const {
+    return alive.scalar<V>(i) > 0.0 && released.scalar<V>(i) < 1.0;
+  }
+
+  /// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without the tension
+  /// that a failed particle has released, with what the case adds. e: specific energy [J/kg].
+  template <class V, class Law>
+  PIOLA_FN V pressure(Law const& law, Index i, V const& rho, V const& e) const {
+    V p = law.pressure(history<V>(i, {}), rho, e);
+    p = select(p < 0.0, p * (1.0 - released.scalar<V>(i)), p);
+    if (own.initial_pressure != nullptr) p = p - load<V>(own.initial_pressure + i);
+    return select(alive.scalar<V>(i) > 0.0, p, V(0.0));
+  }
+
+ private:
+  template <class V>
+  PIOLA_FN static V factor(double const* values, Index i) {
+    return values != nullptr ? load<V>(values + i) : V(1.0);
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE
