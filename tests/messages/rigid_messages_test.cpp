@@ -117,10 +117,12 @@ TEST(RigidMessages, FreeShapesNeedSurfacesAndPartners) {
   std::string const crate =
       "[[rigid]]\nname = \"crate\"\nmotion = \"free\"\nmass = 1\nbox = { min = [30, 0, 0], max = "
       "[31, 1, 1] }\n";
-  EXPECT_EQ(message_of(sample_case() + crate + wall + "box = { min = [40, 0, 0], max = [41, 1, 1] }\n"),
-            "case.toml:28:1: the rigid shapes \"crate\" and \"wall\" would go through each other (allowed where one of "
-            "them is free: a plane and any shape, a sphere and any shape) - make one of them a sphere or a plane, or a "
-            "stiff body of particles");
+  EXPECT_EQ(message_of(sample_case() + crate + wall + "box = { min = [40, 0, 0], max = [41, 1, 1] }\n"), "");
+  EXPECT_EQ(message_of(sample_case() + crate + wall + "box = { min = [31, 0, 0], max = [41, 1, 1] }\n"), "");
+  EXPECT_EQ(
+      message_of(sample_case() + crate + wall + "box = { min = [30.8, 0, 0], max = [41, 1, 1] }\n"),
+      "case.toml:28:1: the rigid shapes \"crate\" and \"wall\" start 200 mm inside each other (allowed: apart, or "
+      "touching) - move one of them");
 }
 
 }  // namespace

@@ -180,6 +180,45 @@ TEST(FreeRigidBodies, SlideThenRollOnARigidFloor) {
   }
 }
 
+/// Boxes and cylinders without gravity that meet off their middles and turn.
+TEST(FreeRigidBodies, BoxesAndCylindersBounceOffEachOther) {
+  for (auto const& [one, other] :
+       {std::pair{Kind::box, Kind::box}, {Kind::box, Kind::cylinder}, {Kind::cylinder, Kind::cylinder}})
+    for (double const friction : {0.0, 0.4}) {
+      SCOPED_TRACE(static_cast<int>(one) * 10 + static_cast<int>(other));
+      Assembly a = bouncing(one, friction, {"0.3", "0.2", "-3"}, 2);
+      RigidShape target = a.rigid_shapes[0];
+      a.rigid_shapes[1] = target;
+      a.rigid_shapes[1].name = "target";
+      a.rigid_shapes[1].kind = other;
+      a.rigid_shapes[1].centre = {30.1, 0.15, 1.2};
+      a.rigid_shapes[1].velocity = formulas({"0", "0", "1"});
+      a.rigid_shapes[1].angular_velocity = formulas({"0.5", "1", "-2"});
+      a.rigid_shapes[0].angular_velocity = formulas({"-1", "2", "0.7"});
+      for (RigidShape& s : a.rigid_shapes) s.gravity = formulas({"0", "0", "0"});
+      auto const f = make_formulation(a);
+      Diagnostics const before = f->diagnose();
+      double time = 0, pushed = 0;
+      while (time < 0.5) {
+        double const dt = f->stable_time_step();
+        f->step(time, dt);
+        time += dt;
+        pushed = std::max(pushed, std::fabs(f->diagnose().actions[1].force[2]));
+      }
+      Diagnostics const d = f->diagnose();
+      EXPECT_GT(pushed, 0);
+      EXPECT_LT(column(d, "contact_overlap"), 1);
+      double const size = 2 * 90 * 3;
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(d.linear_momentum[c], before.linear_momentum[c], 1e-12 * size);
+        EXPECT_NEAR(d.angular_momentum[c], before.angular_momentum[c], 1e-11 * size * 30);
+      }
+      EXPECT_NEAR((d.total_energy() + column(d, "friction_heat")) / before.total_energy(), 1, 4e-3)
+          << "the force of a corner jumps where another face is nearer";
+      EXPECT_GT(d.rigids[0].centre[2] - d.rigids[1].centre[2], 0.3) << "it has not gone through";
+    }
+}
+
 TEST(FreeRigidBodies, ThatMoveWithNoNumberStopTheRun) {
   Assembly a = bouncing(Kind::sphere, 0, {"0", "0", "0"}, 9);
   a.rigid_shapes[0].gravity = formulas({"0", "0", "1/(t < 1e-9)"});

@@ -39,17 +39,11 @@ void check_bodies(CaseSpec const& spec, RigidSpec const& rigid, Problems& proble
 
 void check_pair(RigidSpec const& a, RigidSpec const& b, int dimension, Problems& problems) {
   std::string const names = "the rigid shapes " + in_quotes(a.name) + " and " + in_quotes(b.name);
-  if (!contact::can_push(a.kind, b.kind)) {
-    problems.add(place_of(b.places, ""), names +
-                                             " would go through each other (allowed where one of them is free: a "
-                                             "plane and any shape, a sphere and any shape) - make one of them a "
-                                             "sphere or a plane, or a stiff body of particles");
-    return;
-  }
   std::vector<RigidShape> const both{a, b};
   contact::RigidPairs pair(both, dimension, {1, 1, {}});
   pair.start({contact::surface_of(a, dimension), contact::surface_of(b, dimension)});
-  double const allowed = 1e-9 * std::max(contact::surface_of(a, dimension).radius, 1e-6);
+  double const allowed = 1e-9 * std::min(contact::reach_of(contact::surface_of(a, dimension)),
+                                         contact::reach_of(contact::surface_of(b, dimension)));
   if (!(pair.totals().deepest > allowed)) return;
   problems.add(place_of(b.places, ""), names + " start " + quantity_text(pair.totals().deepest, "m", 3) +
                                            " inside each other (allowed: apart, or touching) - move one of them");

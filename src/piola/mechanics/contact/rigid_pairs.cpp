@@ -29,22 +29,32 @@ int points_of(Kind kind, int dimension) {
   return dimension == 3 ? 4 : 2;  // corners of a face
 }
 
+bool is_solid(RigidShape const& shape) { return shape.kind == Kind::box || shape.kind == Kind::cylinder; }
+
 }  // namespace
 
 RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Setting const& setting)
-    : setting_(setting), loads_(shapes.size()), frequency2_(shapes.size()) {
+    : setting_(setting), samples_(shapes.size()), loads_(shapes.size()), frequency2_(shapes.size()) {
   for (std::size_t a = 0; a < shapes.size(); ++a)
     for (std::size_t b = 0; b < shapes.size(); ++b) {
       RigidShape const &one = shapes[a], &other = shapes[b];
+      if (a == b || !(one.free || other.free)) continue;
+      if (is_solid(one) && is_solid(other)) {  // each in turn
+        if (samples_[a].empty()) samples_[a] = samples_of(one, dimension);
+        pairs_.push_back({a, b, 0.5 * setting.stiffness, 0.5, true});
+        continue;
+      }
       // The points are those of the sphere, else those that stand before the plane; of two spheres of the first.
       bool const points = one.kind == Kind::sphere || (other.kind == Kind::plane && one.kind != Kind::plane);
-      if (a == b || !(one.free || other.free) || !points || (other.kind == Kind::sphere && b < a)) continue;
+      if (!points || (other.kind == Kind::sphere && b < a)) continue;
       double const area = std::min(size_of(one, dimension), size_of(other, dimension)) / points_of(one.kind, dimension);
-      pairs_.push_back({a, b, setting.stiffness * area, area});
+      pairs_.push_back({a, b, setting.stiffness * area, area, false});
     }
 }
 
-std::vector<RigidPairs::Touch> RigidPairs::touches(RigidSurface const& a, RigidSurface const& b) {
+std::vector<RigidPairs::Touch> RigidPairs::touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const {
+  RigidSurface const &a = shapes[pair.a], &b = shapes[pair.b];
+  if (pair.sampled) return sampled_touches(samples_[pair.a], a, b);
   if (a.kind == Kind::sphere) {
     Distance const d = distance_from(b, a.centre);
     double const gap = d.value - a.radius;
@@ -72,6 +82,24 @@ std::vector<RigidPairs::Touch> RigidPairs::touches(RigidSurface const& a, RigidS
   return all;
 }
 
+/// Of a body that is far off, or of what is near enough for this step and the next.
+std::vector<RigidPairs::Touch> RigidPairs::sampled_touches(std::vector<SurfaceSample> const& samples,
+                                                           RigidSurface const& a, RigidSurface const& b) const {
+  Vec<3> const between = a.centre - b.centre;
+  double const apart = std::sqrt(square_of(between)), gap = apart - reach_of(a) - reach_of(b);
+  if (gap > setting_.spacing) {
+    Vec<3> const n = (1 / apart) * between;
+    return {{b.centre + reach_of(b) * n, n, gap, 0}};
+  }
+  std::vector<Touch> all;
+  for (SurfaceSample const& sample : samples) {
+    Vec<3> const y = a.centre + a.turn * sample.arm;
+    Distance const d = distance_from(b, y);
+    all.push_back({y, d.normal, d.value, sample.area});
+  }
+  return all;
+}
+
 void RigidPairs::add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force) {
   loads_[shape] = {loads_[shape].force + force, loads_[shape].moment + cross(arm, force)};
 }
@@ -81,13 +109,12 @@ Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, Touch const& touch, 
                        std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
-  auto const last = std::find_if(last_stuck_.begin(), last_stuck_.end(),
-                                 [&](Stuck const& s) { return s.pair == pair && s.point == point; });
-  bool const known = last != last_stuck_.end();
+  auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), Stuck{pair, point, {}, {}});
+  bool const known = last != last_stuck_.end() && last->pair == pair && last->point == point;
   Vec<3> const jump = moved_from(last_[p.a], a, touch.y) - moved_from(last_[p.b], b, touch.y);
   Spring const before = known ? Spring{b.turn * last->stretch, last->force} : Spring{};
-  Rubbing const now =
-      rubbing(known ? &before : nullptr, jump, touch.normal, p.stiffness, setting_.friction, normal_force, p.area, dt_);
+  Rubbing const now = rubbing(known ? &before : nullptr, jump, touch.normal, touch.weight * p.stiffness,
+                              setting_.friction, normal_force, touch.weight * p.area, dt_);
   totals_.friction_work += now.work;
   totals_.spring_energy += now.energy;
   stuck_.push_back({pair, point, transpose(b.turn) * now.spring.stretch, now.spring.force});
@@ -100,14 +127,15 @@ void RigidPairs::push(std::size_t pair, std::size_t point, Touch const& touch,
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
   double const length = 0.5 * setting_.spacing;
   if (!(touch.gap < near * setting_.spacing)) return;
-  double const over = std::min(touch.gap, 0.0) / length, stiffness = p.stiffness * (1 + 3 * over * over);
+  double const over = std::min(touch.gap, 0.0) / length;
+  double const stiffness = touch.weight * p.stiffness * (1 + 3 * over * over);
   for (std::size_t const shape : {p.a, p.b}) {
     RigidSurface const& s = shapes[shape];
     frequency2_[shape] +=
         stiffness * (setting_.friction.any() ? s.mobility(touch.y) : s.mobility(touch.y, touch.normal));
   }
   if (!(touch.gap < 0)) return;
-  Layer const psi = layer(touch.gap, p.stiffness, length);
+  Layer const psi = layer(touch.gap, touch.weight * p.stiffness, length);
   totals_.energy += psi.energy;
   totals_.deepest = std::max(totals_.deepest, -touch.gap / setting_.spacing);
   totals_.touched += 1;
@@ -135,7 +163,7 @@ void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes, double dt) {
   std::fill(loads_.begin(), loads_.end(), Load{});
   std::fill(frequency2_.begin(), frequency2_.end(), 0.0);
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-    std::vector<Touch> const all = touches(shapes[pairs_[pair].a], shapes[pairs_[pair].b]);
+    std::vector<Touch> const all = touches(pairs_[pair], shapes);
     for (std::size_t point = 0; point < all.size(); ++point) push(pair, point, all[point], shapes);
   }
   remember(shapes);
@@ -155,7 +183,7 @@ double RigidPairs::closing_step(std::vector<RigidSurface> const& shapes) const {
     if (double const omega2 = frequency2_[p.a] + frequency2_[p.b]; omega2 > 0)
       step = std::min(step, resolved / std::sqrt(omega2));
   for (Pair const& p : pairs_)
-    for (Touch const& touch : touches(shapes[p.a], shapes[p.b])) {
+    for (Touch const& touch : touches(p, shapes)) {
       double const speed = dot(shapes[p.b].velocity_at(touch.y) - shapes[p.a].velocity_at(touch.y), touch.normal);
       double const way = closing_share * setting_.spacing + 0.5 * std::max(touch.gap, 0.0);
       if (speed > 0) step = std::min(step, way / speed);

@@ -2,20 +2,16 @@
 #pragma once
 #include "piola/mechanics/contact/friction.hpp"
 #include "piola/mechanics/contact/rigid.hpp"
+#include "piola/mechanics/contact/rigid_samples.hpp"
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace piola::contact {
 
-/// Whether two rigid shapes can push each other, in any order: one of them is a sphere or a plane.
-inline bool can_push(RigidShape::Kind a, RigidShape::Kind b) {
-  using Kind = RigidShape::Kind;
-  return a == Kind::sphere || b == Kind::sphere || a == Kind::plane || b == Kind::plane;
-}
-
-/// Contact of free rigid shapes with other rigid shapes: a few points of one against the distance from the other, with
-/// the layer of a deformable body between them. Theory: docs/theory/contact.md, Rigid bodies.
+/// Contact of free rigid shapes with other rigid shapes: points of one against the distance from the other, with the
+/// layer of a deformable body between them. A few points where one of the two is a sphere or a plane; of boxes and
+/// cylinders points all over the surfaces of both in turn. Theory: docs/theory/contact.md, Rigid bodies.
 class RigidPairs {
  public:
   struct Setting {
@@ -56,21 +52,26 @@ class RigidPairs {
  private:
   struct Pair {
     std::size_t a, b;  ///< points of a against the distance from b
-    double stiffness;  ///< of one point [N/m]
-    double area;       ///< the same [m2]
+    double stiffness;  ///< of one point [N/m]; of sampled surfaces by area [Pa/m]
+    double area;       ///< of one point [m2]; of sampled surfaces the share of this pass
+    bool sampled;
   };
   /// Where a pair touches, or would.
   struct Touch {
-    Vec<3> y, normal;  ///< [m]; that of b
-    double gap;        ///< [m]
+    Vec<3> y, normal;   ///< [m]; that of b
+    double gap;         ///< [m]
+    double weight = 1;  ///< of sampled surfaces the area [m2]
   };
   /// The friction of one point of a pair.
   struct Stuck {
     std::size_t pair, point;
     Vec<3> stretch, force;  ///< [m] in the axes of b at the start; [N]
+    bool operator<(Stuck const& o) const { return pair != o.pair ? pair < o.pair : point < o.point; }
   };
 
-  static std::vector<Touch> touches(RigidSurface const& a, RigidSurface const& b);
+  std::vector<Touch> touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const;
+  std::vector<Touch> sampled_touches(std::vector<SurfaceSample> const& samples, RigidSurface const& a,
+                                     RigidSurface const& b) const;
   void push(std::size_t pair, std::size_t point, Touch const& touch, std::vector<RigidSurface> const& shapes);
   Vec<3> rub(std::size_t pair, std::size_t point, Touch const& touch, double normal_force,
              std::vector<RigidSurface> const& shapes);
@@ -79,6 +80,7 @@ class RigidPairs {
 
   Setting setting_;
   std::vector<Pair> pairs_;
+  std::vector<std::vector<SurfaceSample>> samples_;  ///< by shape, where a pair asks for them
   std::vector<Load> loads_;
   std::vector<double> frequency2_;
   std::vector<RigidPose> last_;
