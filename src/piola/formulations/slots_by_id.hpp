@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include "piola/exec/set_up_loop.hpp"
 #include "piola/math/lanes.hpp"
 #include "piola/parallel/ranks.hpp"
 #include "piola/particles/particle_set.hpp"
@@ -30,6 +31,14 @@ class SlotsById {
       f(k, static_cast<std::size_t>(body_[id]), slot_[id]);
     }
   }
+  /// The same on all threads: f writes what belongs to k alone.
+  template <class F>
+  void visit_side_by_side(std::span<std::int64_t const> ids, F const& f) const {
+    exec_host::for_each_in_set_up(static_cast<Index>(ids.size()), [&](Index k) {
+      auto const id = static_cast<std::size_t>(ids[static_cast<std::size_t>(k)]);
+      f(static_cast<std::size_t>(k), static_cast<std::size_t>(body_[id]), slot_[id]);
+    });
+  }
 
  private:
   std::vector<int> body_;
@@ -41,9 +50,10 @@ class SlotsById {
 template <class Bodies>
 void read_motion_of(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
                     std::span<std::array<double, 3>> x, std::span<std::array<double, 3>> v) {
-  slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
-    Range const own = bodies[body]->own();
-    bool const mine = slot >= own.first && slot < own.last;
+  std::vector<Range> own;
+  for (auto const& body : bodies) own.push_back(body->own());
+  slots.visit_side_by_side(ids, [&](std::size_t k, std::size_t body, Index slot) {
+    bool const mine = slot >= own[body].first && slot < own[body].last;
     x[k] = mine ? bodies[body]->x(slot) : std::array<double, 3>{};
     v[k] = mine ? bodies[body]->v(slot) : std::array<double, 3>{};
   });

@@ -57,7 +57,9 @@ class JstBody {
 
   /// State of the particle in a slot, three-dimensional (missing directions do not deform).
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
-  std::array<double, 3> x(Index slot) const { return point_at(state_.x, slot, D_, X(slot)); }
+  std::array<double, 3> x(Index slot) const {
+    return D_ < 3 ? point_at(state_.x, slot, D_, X(slot)) : point_at(state_.x, slot, 3);
+  }
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
   Mat<3> F(Index slot) const;
   Mat<3> H(Index slot) const;  ///< the unknown where there is one, else cof F

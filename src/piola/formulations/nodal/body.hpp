@@ -66,7 +66,9 @@ class NodalBody {
   double next_release(double time) const { return boundary_->next_release(time); }
 
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
-  std::array<double, 3> x(Index slot) const { return point_at(state_.x, slot, D_, X(slot)); }
+  std::array<double, 3> x(Index slot) const {
+    return D_ < 3 ? point_at(state_.x, slot, D_, X(slot)) : point_at(state_.x, slot, 3);
+  }
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
   Mat<3> F(Index slot) const;  ///< at the centroid of the cell; of missing directions the mean over its points
   MaterialRange const& material(Index slot) const;
