@@ -53,6 +53,23 @@ fix = "x"
 until = "40 us"
 """
 
+# The same with a plate glued under it that comes off, and a crate of rigid walls that meets a free one.
+GLUED = TOUCHING.replace('name = "floor"\nplane = { point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] }',
+                         'name = "floor"\nbox = { min = ["-5 mm", "-5 mm", "-4 mm"], max = ["15 mm", "21 mm", "0 mm"] }\n'
+                         'motion = "free"\nmass = "20 g"\nvelocity = ["5 m/s", "0 m/s", "-30 m/s"]') + """
+[[rigid]]
+name = "crate"
+box = { min = ["0 mm", "0 mm", "-9 mm"], max = ["9 mm", "9 mm", "-4.1 mm"] }
+motion = "free"
+mass = "10 g"
+velocity = ["0 m/s", "0 m/s", "20 m/s"]
+[[tie]]
+name = "glue"
+between = ["left", "floor"]
+strength = "0.2 MPa"
+toughness = "30 J/m^2"
+"""
+
 DISC = """title = "Disc of a jittered cloud that rolls"
 [run]
 end = "10 ms"
@@ -323,6 +340,7 @@ def of_taylor(setting, jitter=0):
 
 OWN_CASES = {name: text + OUTPUT for name, text in {
     "touching bodies": TOUCHING,
+    "glued to a plate": GLUED,
     "rolling disc": DISC,
     "mirrored copper": MIRRORED,
     "copper that comes to rest": MIRRORED.replace("[run]", "[run]\nrelax = true"),
