@@ -112,6 +112,7 @@ TEST_P(RippleOfBalls, IsSmall) {
 INSTANTIATE_TEST_SUITE_P(Rows, RippleOfBalls,
                          ::testing::Values(Row{"disc_6", 2, 6, 1, 0.3, 1, 1.1e-2, 1},
                                            Row{"disc_10", 2, 10, 1, 0.3, 1, 1.1e-2, 1},
+                                           Row{"disc_16", 2, 16, 1, 0.3, 1, 1.2e-3, 1},
                                            Row{"ball_8", 3, 8, 1, 0.3, 1, 9e-3, 5e-2}),
                          [](auto const& at) { return at.param.name; });
 
