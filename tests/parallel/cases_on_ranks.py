@@ -55,7 +55,8 @@ until = "40 us"
 
 # The same with a plate glued under it that comes off, and a crate of rigid walls that meets a free one.
 GLUED = TOUCHING.replace('name = "floor"\nplane = { point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] }',
-                         'name = "floor"\nbox = { min = ["-5 mm", "-5 mm", "-4 mm"], max = ["15 mm", "21 mm", "0 mm"] }\n'
+                         'name = "floor"\n'
+                         'box = { min = ["-5 mm", "-5 mm", "-4 mm"], max = ["15 mm", "21 mm", "0 mm"] }\n'
                          'motion = "free"\nmass = "20 g"\nvelocity = ["5 m/s", "0 m/s", "-30 m/s"]') + """
 [[rigid]]
 name = "crate"
