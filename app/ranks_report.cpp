@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
 #include "piola/simulation/build.hpp"
+#include "piola/simulation/estimate.hpp"
 #include "piola/simulation/ranks.hpp"
 #include "piola/simulation/scaling.hpp"
 #include "streams.hpp"
@@ -30,11 +31,12 @@ std::string size(double bytes) { return size_text(bytes); }
 void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks) {
   Assembly const assembly = assemble(spec, particles);
   refuse_on_ranks(assembly, ranks);
-  if (!runs_on_ranks(cost) || !assembly.surfaces.empty() || !assembly.rigid_shapes.empty())
+  bool const parts_that_meet = !assembly.surfaces.empty() && static_cast<std::int64_t>(particles.size()) >= large_case;
+  if (!runs_on_ranks(cost) || parts_that_meet)
     throw InputError(fmt::format(
-        "--ranks {}: what this case would send is not known before it runs (it is for bodies of jst_sph "
-        "and of nodal that meet nothing) - run some steps with mpirun, and look at \"ranks\" in summary.json",
-        ranks));
+        "--ranks {}: what this case would send is not known before it runs (exchange = \"estimates\", and contact of "
+        "more than {} particles, were not counted) - run some steps with mpirun, and look at \"ranks\" in summary.json",
+        ranks, large_case));
   Scaling const s = scale(particles, cost, ranks);
   say("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
       cost.threads == 1 ? "thread" : "threads");
@@ -49,6 +51,7 @@ void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cons
           s, [](RankShare const& r) { return r.bytes; }, size),
       between(
           s, [](RankShare const& r) { return r.memory; }, size));
+  if (s.to_all > 0) say("  all ranks are told {} in a step\n", size(s.to_all));
   StepTimes const& t = s.times;
   auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
   say("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n", time(t.total()),

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ranks: the messages, bytes and collectives that ranks send in a step, counted (summary.json), are those that
-`piola check --ranks` says, within a tenth: for each scheme, on lattices and clouds, on 2, 3 and 5 ranks.
+`piola check --ranks` says, within a tenth: for each formulation and scheme, on lattices and clouds, with contact, on
+2, 3 and 5 ranks.
 
 Needs a program with MPI and mpirun; is skipped otherwise. PIOLA_RANKS_TESTS=quick takes a part of it.
 """
 import json
 import re
+import sys
 import tempfile
 from pathlib import Path
 
+from cases_on_ranks import RUBBING, TORN, of_taylor
 from on_ranks import QUICK, expect, finish, piola, short_bar, skip_without_ranks
 
 WITHIN = 0.1
@@ -29,7 +32,27 @@ def said(case, ranks):
     expect(told.returncode == 0, f"check --ranks {ranks}: {told.stderr}")
     messages, size = re.search(r"it sends ([\d, to.]+) messages, ([\w, .]+?) in a step", told.stdout).groups()
     collectives = re.search(r"([\d,]+) collectives", told.stdout).group(1)
-    return {"messages": numbers(messages), "bytes": numbers(size), "collectives": numbers(collectives)}
+    everybody = re.search(r"all ranks are told ([\d.]+ \w+) in", told.stdout)
+    return {"messages": numbers(messages), "bytes": numbers(size), "collectives": numbers(collectives),
+            "bytes_to_all": numbers(everybody.group(1)) if everybody else (0, 0)}
+
+
+def ending(text, end):
+    """The case with another end and the two rows of the history that there must be."""
+    return re.sub(r'\nend = "[^"]+"', f'\nend = "{end}"', text) + f'\n[output.history]\nevery = "{end}"\n'
+
+
+def meeting():
+    """What acts between bodies, and formulations that tell all ranks. What converts tells more than the model knows."""
+    slow = TORN.replace("3100 m/s", "31 m/s").replace("200 m/s", "0 m/s").replace("500 m/s", "0 m/s")
+    lagrangian = slow.replace("convert_strain = 0.05", 'description = "total_lagrangian"').replace(
+        'convert_when = "plastic_strain > 0.05"', 'description = "total_lagrangian"')
+    alone = RUBBING[:RUBBING.index('[[body]]\nname = "block"')].replace("[contact]\nfriction = 0.3\nself = true\n", "")
+    flowing = alone.replace("total_lagrangian", "eulerian")
+    return {"rubbing": ending(RUBBING, "1.5 us"), "triangles": ending(of_taylor(""), "4 ms"),
+            "boxes": ending(of_taylor(', virtual_particles = "lattice_cells"'), "4 ms"),
+            "adaptle": ending(lagrangian, "0.4 us"), "adaptle, flowing": ending(flowing, "1.5 us"),
+            "adaptle, corrected": ending(flowing.replace('"eulerian"', '"eulerian", correction = "mixed"'), "1.5 us")}
 
 
 def compare(name, case, ranks, work):
@@ -64,8 +87,11 @@ with tempfile.TemporaryDirectory() as folder:
     cases["nodal"] = nodal
     cases["nodal, jittered"] = nodal.replace("particles = [9, 9, 17]", "particles = [9, 9, 17], jitter = 0.1")
     cases["displacement"] = cases["robust"].replace('scheme =', 'variables = "displacement", scheme =')
+    cases.update(meeting())
     for name, text in cases.items():
-        if QUICK and name not in ("default", "nodal"):
+        if len(sys.argv) > 1 and not any(word in name for word in sys.argv[1:]):
+            continue
+        if QUICK and name not in ("default", "nodal", "rubbing", "adaptle"):
             continue
         (work / "case.toml").write_text(text)
         for ranks in (3,) if QUICK else (2, 3, 5):

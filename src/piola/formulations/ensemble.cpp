@@ -159,6 +159,7 @@ class Ensemble : public Formulation {
         all.emplace_back(parts_[k].name + "_" + name, seconds);
     return all;
   }
+  std::optional<Talk> talk(std::size_t body) const override;
   std::size_t memory_bytes() const override {
     std::size_t sum = 0;
     for (auto const& formulation : formulations_) sum += formulation->memory_bytes();
@@ -196,6 +197,23 @@ class Ensemble : public Formulation {
   std::vector<double> counts_;        ///< particles by part
   std::size_t body_count_ = 0, support_count_ = 0, load_count_ = 0;
 };
+
+std::optional<Talk> Ensemble::talk(std::size_t body) const {
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    auto const here = parts_[k].body_in_part(body);
+    if (!here) continue;
+    auto talk = formulations_[k]->talk(*here);
+    // Once in a step, of all bodies of the part.
+    if (talk && meeting_ && *here == 0 && talk->reads > 0) {
+      constexpr double position_and_velocity = 6;
+      std::size_t const read = meeting_->read_of(k);
+      talk->collectives += read > 0 ? talk->reads : 0;
+      talk->to_all += position_and_velocity * static_cast<double>(read);
+    }
+    return talk;
+  }
+  return std::nullopt;
+}
 
 StepRule Ensemble::step_rule() const {
   StepRule rule;

@@ -73,7 +73,9 @@ struct StepRule {
 struct Talk {
   double reach = 0;         ///< m, as the particles stood at the start
   std::vector<int> values;  ///< numbers per particle, of each exchange of a right-hand side
-  double collectives = 0;   ///< per step: what all ranks add, or take the largest of
+  double collectives = 0;   ///< per step: what all ranks add, or take the largest of, or are told
+  double to_all = 0;        ///< per step: numbers that all ranks are told of the particles of the body
+  double reads = 0;         ///< what all ranks are told each time that read_motion() is called
   SlotOrder (*order)(ParticleSet const&, Body const&) = &pencil_order;  ///< of which each rank has a run
 };
 

@@ -41,6 +41,7 @@ std::string to_json(Summary const& s) {
                                  {"bytes", rank.bytes},
                                  {"collectives", rank.collectives},
                                  {"message_seconds", rank.message_seconds},
+                                 {"bytes_to_all", rank.bytes_to_all},
                                  {"collective_seconds", rank.collective_seconds},
                                  {"idle_seconds", rank.idle_seconds}});
   if (s.linear_drift && s.angular_drift)

@@ -34,6 +34,7 @@ struct GuardNumbers {
 struct RankTraffic {
   double messages = 0, bytes = 0, collectives = 0;
   double message_seconds = 0, collective_seconds = 0, idle_seconds = 0;
+  double bytes_to_all = 0;
 };
 
 /// What summary.json says about a run.

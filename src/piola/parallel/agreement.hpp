@@ -19,6 +19,7 @@ std::optional<Trouble> agree_within(double seconds, Trouble const& own);
 struct Spent {
   std::int64_t collectives = 0;
   double in_exchanges = 0, in_collectives = 0, for_orders = 0;
+  std::int64_t bytes_to_all = 0;  ///< that all ranks were told by merge() and complete()
 };
 Spent spent();
 

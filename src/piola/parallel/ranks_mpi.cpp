@@ -161,6 +161,7 @@ void merge(std::span<double> values) {
   static_assert(sizeof(double) == sizeof(std::uint64_t));
   Timer const timer(world.spent.in_collectives);
   world.spent.collectives += 1;
+  world.spent.bytes_to_all += static_cast<std::int64_t>(values.size_bytes());
   MPI_Request request;
   MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T, MPI_BOR, MPI_COMM_WORLD,
                  &request);
@@ -182,6 +183,7 @@ std::vector<double> gather(std::span<double const> values) {
 void complete(std::span<double> values, std::span<std::size_t const> starts) {
   if (!several()) return;
   world.spent.collectives += 1;
+  world.spent.bytes_to_all += static_cast<std::int64_t>(starts.back() * sizeof(double));
   Timer const timer(world.spent.in_collectives);
   std::vector<int> counts, first;
   for (std::size_t r = 0; r + 1 < starts.size(); ++r) {

@@ -258,6 +258,7 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     e.disk += disk_of(spec, *formulation, all, counter.values / some);
     e.state_bytes += 8 * counter.values * all / some;
     e.talk.push_back(formulation->talk(0));
+    if (e.talk.back()) e.talk.back()->to_all *= all / some;
   }
   e.steps = steps_of(e.rule, spec.run);
   count_work(spec, particles, stages, e);

@@ -46,7 +46,7 @@ void count_step() {
   counted.spent_before = ranks::spent();
 }
 
-constexpr std::size_t numbers_of_traffic = 6;
+constexpr std::size_t numbers_of_traffic = 7;
 
 std::vector<double> gather_traffic() {
   ranks::Traffic const said = ranks::traffic(), &before = counted.before;
@@ -57,7 +57,8 @@ std::vector<double> gather_traffic() {
                         static_cast<double>(spent.collectives - spent_before.collectives) / steps,
                         (spent.in_exchanges - spent_before.in_exchanges) / steps,
                         (spent.in_collectives - spent_before.in_collectives) / steps,
-                        (spent.for_orders - spent_before.for_orders) / steps};
+                        (spent.for_orders - spent_before.for_orders) / steps,
+                        static_cast<double>(spent.bytes_to_all - spent_before.bytes_to_all) / steps};
   static_assert(mine.size() == numbers_of_traffic);
   return ranks::gather(mine);
 }
@@ -241,7 +242,7 @@ std::vector<RankTraffic> traffic_on_ranks() {
   std::vector<double> const all = gather_traffic();
   std::vector<RankTraffic> each;
   for (std::size_t k = 0; k + numbers_of_traffic <= all.size(); k += numbers_of_traffic)
-    each.push_back({all[k], all[k + 1], all[k + 2], all[k + 3], all[k + 4], all[k + 5]});
+    each.push_back({all[k], all[k + 1], all[k + 2], all[k + 3], all[k + 4], all[k + 5], all[k + 6]});
   return each;
 }
 

@@ -56,6 +56,7 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
     Talk const& talk = *cost.talk[b];
     add_body(owned_of(particles, talk.order(particles, particles.bodies[b]), ranks), talk, cost.stages, s.shares);
     s.collectives += talk.collectives;
+    s.to_all += ranks > 1 ? 8 * talk.to_all : 0;
   }
   double const all = static_cast<double>(particles.size());
   StepTimes& t = s.times;
@@ -66,6 +67,7 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
     double const packing = 2 * network.packing * share.bytes / 8 / cost.threads;
     t.messages = std::max(t.messages, share.messages * network.latency + share.bytes / network.bandwidth + packing);
   }
+  t.messages += s.to_all / network.bandwidth + 2 * network.packing * s.to_all / 8 / cost.threads;
   t.sweeps = heaviest * cost.step_work / cost.threads;
   t.rows = cost.rows_per_step * cost.row_work / cost.threads;
   double const alone = cost.step_work / cost.threads + t.rows;

@@ -35,6 +35,7 @@ struct StepTimes {
 struct Scaling {
   std::vector<RankShare> shares;
   double collectives = 0;  ///< of a step
+  double to_all = 0;       ///< bytes of a step that all ranks are told
   StepTimes times;
   double efficiency = 1;  ///< time of one rank with the same threads, by the number of ranks and their time
 };

@@ -49,6 +49,14 @@ FieldRef of_body(FieldRef field, BodyConstants const& body) {
   return field;
 }
 
+/// Particles stand in the order of ids.
+SlotOrder id_order(ParticleSet const&, Body const& body) {
+  SlotOrder order;
+  for (std::int64_t id = body.first; id < body.last; ++id) order.id.push_back(id);
+  order.particles = static_cast<Index>(order.id.size());
+  return order;
+}
+
 std::vector<Range> ranges_of(System const& s) {
   std::vector<Range> bodies;
   for (int b = 0; b < s.bodies; ++b) bodies.push_back({s.body[b].first, s.body[b].last});
@@ -125,6 +133,32 @@ void Exchanges::wishes(System const& s) const {
   std::vector<double> wishes(s.wish, s.wish + s.particles);
   complete_slots(std::array{FieldPart{{.data = wishes.data()}, 0, 1}}, all_);
   std::transform(wishes.begin(), wishes.end(), s.wish, [](double wish) { return static_cast<std::int8_t>(wish); });
+}
+
+Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
+  BodyConstants const& b = s.body[body];
+  bool const touching = SpatialLists::touching(s), flows = s.eulerians > 0;
+  Talk talk;
+  talk.order = &id_order;
+  talk.reads = 1;
+  talk.reach = 2 * b.material_h;
+  if (s.material.used) {
+    auto const [motion, stress] = with_material(s.dimension, [&](auto r) {
+      using R = decltype(r);
+      return std::array{R::X, R::values(s.settings.published) - R::A};
+    });
+    talk.values = {motion, stress};
+    if ((b.hourglass > 0 || b.hourglass_stiffness > 0) && flows)
+      talk.values.insert(talk.values.end(), 2, 9);  // F and its rate
+  }
+  auto const [corrected, all] = parts_of(s);
+  for (Index i = b.first; i < b.last && SpatialLists::needed(s); ++i)
+    talk.to_all += 3 + (flows && lists.near(i) ? all : 0) + (touching && lists.meets(i) ? 4 : 0);
+  if (body > 0) return talk;
+  // Failures twice and what the step says; positions and who is near; impulses.
+  talk.collectives =
+      3 + (SpatialLists::needed(s) ? 1 : 0) + (touching ? 1 : 0) + (flows ? (s.settings.corrected ? 2 : 1) : 0);
+  return talk;
 }
 
 void Exchanges::gather(FieldRef const& field, int components) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/formulation.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/parallel/own_slots.hpp"
 #include <vector>
@@ -23,6 +24,9 @@ class Exchanges {
   void after_half_state(System const& system, SpatialLists const& lists);
   void after_correction(System const& system);
   void wishes(System const& system) const;
+
+  /// What a body would tell in a step from its state as it is, of a run on one rank.
+  static Talk talk(System const& system, SpatialLists const& lists, int body);
 
   /// Rank 0 has all of a field that each rank has right in its own slots.
   void gather(FieldRef const& field, int components) const;

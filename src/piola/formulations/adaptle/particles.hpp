@@ -93,6 +93,12 @@ class Particles {
   /// Motion of these particles, the same on all ranks [m], [m/s].
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
+  /// For estimates.
+  Talk talk(int body) const {
+    Talk talk = Exchanges::talk(system_, spatial_, body);
+    if (body == 0) talk.collectives += (supports_.size() + loads_.size() > 0 ? 1 : 0) + (shapes_.empty() ? 0 : 1);
+    return talk;
+  }
   /// Where ranks share the particles: rank 0 has all of them.
   void gather();
 

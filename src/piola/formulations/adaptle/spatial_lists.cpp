@@ -52,7 +52,7 @@ void SpatialLists::choose_targets(System const& s) {
   spatial_.target.clear();
   contact_.target.clear();
   cell_near_.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
-  meets_.assign(s.shared ? at(s.particles) : 0, 0);
+  meets_.assign(touching(s) ? at(s.particles) : 0, 0);
   Index last = -1;
   bool eulerian = false;
   std::int32_t low = 0, high = 0;
@@ -73,7 +73,7 @@ void SpatialLists::choose_targets(System const& s) {
     }
     Index const slot = grid_.slots()[k];
     bool const touches = s.contact.law > 0 && high > low;
-    if (touches && s.shared) meets_[at(slot)] = 1;
+    if (touches) meets_[at(slot)] = 1;
     if (!is_own(s, slot)) continue;
     if (eulerian) spatial_.target.push_back(k);
     if (touches) contact_.target.push_back(k);

@@ -143,6 +143,7 @@ class Solver final : public Formulation {
   std::optional<Talk> talk(std::size_t body) const override {
     Talk talk = bodies_[body]->talk();  // and impulses of supports and of loads
     talk.collectives += (actions_.supports.empty() ? 0 : 1) + (actions_.loads.empty() ? 0 : 1);
+    talk.reads = 2;  // positions, velocities
     return talk;
   }
   std::size_t memory_bytes() const override {

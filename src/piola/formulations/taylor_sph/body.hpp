@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/formulation.hpp"
 #include "piola/formulations/taylor_sph/boundary.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
@@ -97,6 +98,8 @@ class TaylorBody {
   std::optional<Lost> const& lost() const { return lost_; }
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
+  /// What all ranks are told of it in a step; nothing where that was not counted: the exchange of estimates.
+  std::optional<Talk> talk() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }
   double mean_sources() const { return to_virtual_.mean_count(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What others do to a body between its steps.
 #include "piola/formulations/taylor_sph/body.hpp"
+#include <algorithm>
 
 namespace piola::taylor_sph {
 
@@ -20,6 +21,23 @@ void TaylorBody::push(Index i, std::array<double, 3> const& change) {
     momentum_[c] += m * change[c];
     momentum_[3 + c] += m * (x[a] * change[b] - x[b] * change[a]);
   }
+}
+
+/// By the loops of step.hpp.
+std::optional<Talk> TaylorBody::talk() const {
+  if (!options_.adjoint) return std::nullopt;
+  int const flat = D() == 2 ? 1 : 0, at_rest = state_.k.moving ? 0 : D(), patterns = state_.memory.patterns;
+  int const stride = record_stride(D()), corners = cells_.corners;
+  Talk talk;
+  talk.order = &pencil_order;
+  talk.reach = *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D());
+  double const real = static_cast<double>(particles()), cells = static_cast<double>(cells_.count());
+  talk.to_all = real * (2 * stride + 2 * D() + flat + at_rest) +
+                cells * (D() * corners + stride + 1 + D() * D() + D() * patterns + (state_.k.moving ? stride : 0));
+  // Inside and surface are told one after the other, component by component; momentum, work, energy, failures; cells.
+  talk.collectives = 2 * (2 + 2 * D() + flat + at_rest) + (free_ ? 2 : 4) + 5 + 1 + 4 + (patterns > 0 ? 1 : 0) +
+                     (state_.k.moving ? 2 : 0);
+  return talk;
 }
 
 }  // namespace piola::taylor_sph

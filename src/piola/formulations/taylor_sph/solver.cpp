@@ -136,6 +136,7 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return 2; }
+  std::optional<Talk> talk(std::size_t body) const override { return bodies_[body]->talk(); }
   std::vector<std::pair<std::string, double>> costs() const override {
     SetupSeconds sum;
     for (auto const& body : bodies_) {
