@@ -79,7 +79,7 @@ class Solid {
   /// [J/kg].
   PIOLA_FN double pressure(double rho, double e) const { return pressure(SolidHistory{}, rho, e); }
   /// The same of a point with a history: with its bulking, and with the tension that it bears.
-  template <class V>
+  template <class V = double>
   PIOLA_FN V pressure(SolidHistoryOf<V> const& h, std::type_identity_t<V> const& rho,
                       std::type_identity_t<V> const& e) const {
     V const p = h.burnt * eos_.template pressure<V>(rho, e) + h.bulking;

@@ -35,7 +35,6 @@ PIOLA_FN double inverse_square_root(double a) { return 1.0 / std::sqrt(a); }
 PIOLA_FN bool any(bool condition) { return condition; }
 PIOLA_FN double power_minus_third_exact(double a) { return 1.0 / std::cbrt(a); }
 PIOLA_FN double logarithm_exact(double a) { return std::log(a); }
-PIOLA_FN double exponential_exact(double a) { return std::exp(a); }
 
 #if PIOLA_HAS_PACKS
 /// One value for each of several neighbouring particles, as wide as the processor likes it.
@@ -90,11 +89,6 @@ PIOLA_FN Lanes power_minus_third_exact(Lanes const& a) {
 PIOLA_FN Lanes logarithm_exact(Lanes const& a) {
   Lanes r = a;
   for (int l = 0; l < lane_count; ++l) r[l] = std::log(static_cast<double>(a[l]));
-  return r;
-}
-PIOLA_FN Lanes exponential_exact(Lanes const& a) {
-  Lanes r = a;
-  for (int l = 0; l < lane_count; ++l) r[l] = std::exp(static_cast<double>(a[l]));
   return r;
 }
 PIOLA_FN Lanes load(double const* p, Lanes) { return Lanes(p, std::experimental::element_aligned); }

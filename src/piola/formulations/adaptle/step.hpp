@@ -3,6 +3,7 @@
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/force_sweep.hpp"
+#include "piola/formulations/adaptle/half_state.hpp"
 #include "piola/formulations/adaptle/riemann_sweep.hpp"
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
 #include "piola/neighbours/moving_search.hpp"

@@ -3,6 +3,7 @@
 #include "piola/base/machine.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/math/lanes.hpp"
+#include <cmath>
 #include <type_traits>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -45,10 +46,17 @@ class JwlEos {
     V value, slope;
   };
 
+  template <class T>
+  PIOLA_FN static T exponential(T const& a) {
+    double r[width<T>];
+    for (int l = 0; l < width<T>; ++l) r[l] = std::exp(lane(a, l));
+    return load<T>(r);
+  }
+
   /// One exponential of the density, and its derivative.
   template <class T>
   PIOLA_FN Term<T> term(double factor, double r, T const& rho) const {
-    T const V = rho0_ / rho, fall = factor * exponential_exact(-r * V), part = omega_ / (r * V);
+    T const V = rho0_ / rho, fall = factor * exponential(-r * V), part = omega_ / (r * V);
     // dV/drho = -V/rho
     return {fall * (1.0 - part), fall * (r * V * (1.0 - part) - part) / rho};
   }

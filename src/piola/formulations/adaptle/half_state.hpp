@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/adaptle/point_passes.hpp"
+#include "piola/math/embedding.hpp"
+
+/// Stress of half time, and what neighbours read of it.
+namespace piola::adaptle::inline PIOLA_MACHINE {
+
+/// What neighbours read: of the stress of half time.
+template <int D, bool Corrected>
+struct WriteRecords {
+  BodyConstants body;
+  Settings settings;
+  HalfVolume half;
+  Components x, v_half, volume, viscosity, alive, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
+      gradient_mean;
+  SpatialTable spatial;    ///< records null: none are needed
+  MaterialTable material;  ///< records null: none are needed
+
+  WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
+      : body(of),
+        settings(s.settings),
+        half(s, of, table, dt),
+        x(read(s.field.x)),
+        v_half(read(s.field.v_half)),
+        volume(read(s.field.volume)),
+        viscosity(read(s.field.viscosity)),
+        alive(read(s.field.alive)),
+        S_half(read(s.field.S_half)),
+        pressure(read(s.field.pressure)),
+        rho_half(read(s.field.rho_half)),
+        volume_half(read(s.field.volume_half)),
+        F_rate(read(s.field.F_rate)),
+        gap(read(s.field.gap)),
+        K(read(s.field.K)),
+        N(read(s.field.N)),
+        gradient_mean(read(s.field.gradient_mean)),
+        spatial(s.spatial),
+        material(table) {}
+
+  PIOLA_FN void operator()(Range block) const {
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      Lanes const p = pressure.scalar<Lanes>(i);
+      SymMat<3, Lanes> const S = S_half.symmetric<Lanes>(i);
+      SymMat<D, Lanes> stress;
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b) stress(a, b) = a == b ? S(a, b) - p : S(a, b);
+      Here const here{half.phi.scalar<Lanes>(i),    alive.scalar<Lanes>(i), rho_half.scalar<Lanes>(i),
+                      volume_half.scalar<Lanes>(i), half.thickness_at(i),   stress};
+      if (spatial.record != nullptr) write_spatial(g, here);
+      if (!material.used) return;
+      if (settings.published)
+        write_published(g, here);
+      else
+        write_material(g, here);
+    });
+  }
+
+ private:
+  /// A group at half time.
+  struct Here {
+    Lanes phi, alive, rho, volume, thickness;
+    SymMat<D, Lanes> stress;
+  };
+  using R = MaterialRecord<D>;
+
+  /// The D dimensions of F.
+  PIOLA_FN Mat<D, Lanes> deformation(Index i) const { return restrict_to<D>(half.F.matrix<Lanes>(i)); }
+
+  /// The halves of damping and springs that A carries, per unit of dF/dt and of F - I: of total-Lagrangian particles.
+  PIOLA_FN void add_hourglass(Index i, Here const& here, Mat<D, Lanes> const& F, Lanes* A) const {
+    Lanes const share = select(here.phi > 0.0, Lanes(0.0), 0.5 * volume.scalar<Lanes>(i));
+    Lanes const damping = share * damping_of(body);
+    Mat<D, Lanes> const rate = restrict_to<D>(F_rate.matrix<Lanes>(i));
+    Lanes const stiffness = share * (settings.published ? 0 : stiffness_of(body));
+    for (int p = 0; p < D; ++p)
+      for (int q = 0; q < D; ++q)
+        A[p * D + q] = A[p * D + q] - (damping * rate(p, q) + stiffness * (F(p, q) - (p == q ? 1.0 : 0.0)));
+  }
+
+  /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from the density where that
+  /// is evolved.
+  PIOLA_FN void write_material(Group g, Here const& here) const {
+    Index const i = g.first;
+    Lanes A[D * D];
+    auto const bears = here.phi < 1.0 && here.alive > 0.0;
+    if (any(bears)) {
+      Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
+      Mat<D, Lanes> const F = restrict_to<D>(full);
+      SymMat<D, Lanes> correction;
+      for (int c = 0; c < SymMat<D>::size; ++c) correction.c[c] = K.scalar<Lanes>(i, c);
+      Lanes const weight = (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness,
+                                                     determinant(full) * volume.scalar<Lanes>(i));
+      Mat<D, Lanes> const FN = transpose(inverse(F)) * correction;
+      for (int p = 0; p < D; ++p)
+        for (int q = 0; q < D; ++q) {
+          Lanes sum(0.0);
+          for (int l = 0; l < D; ++l) sum += here.stress(p, l) * FN(l, q);
+          A[p * D + q] = weight * sum;
+        }
+      add_hourglass(i, here, F, A);
+    }
+    for (Lanes& value : A) value = select(bears, value, Lanes(0.0));
+    store_in_records<D>(material, false, g, R::A, A);
+  }
+
+  /// Of set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over that of the start.
+  PIOLA_FN void write_published(Group g, Here const& here) const {
+    Index const i = g.first;
+    constexpr int first = R::A;
+    Lanes r[R::inverse_J + 1 - first];
+    bool const printed = settings.interface_form == Interface::printed;
+    // Eulerian particles of the printed interface have a deformation gradient only near total-Lagrangian ones.
+    auto bears = here.phi < 1.0;
+    if (printed) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
+    bears = bears && here.alive > 0.0;
+    for (Lanes& value : r) value = Lanes(0.0);
+    if (any(bears)) {
+      Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
+      Mat<D, Lanes> const F = restrict_to<D>(full), FN = transpose(inverse(F)) * restrict_to<D>(N.matrix<Lanes>(i));
+      // V sigma = V0 P F^T: with the current volume, which follows from the density where that is evolved.
+      Lanes const at_rest = determinant(full) * volume.scalar<Lanes>(i);
+      Lanes const share =
+          printed ? at_rest : (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest);
+      for (int p = 0; p < D; ++p) {
+        Lanes a(0.0), n(0.0);
+        for (int q = 0; q < D; ++q) {
+          Lanes A(0.0);
+          for (int l = 0; l < D; ++l) A += here.stress(p, l) * FN(l, q);
+          Lanes const G = gradient_mean.scalar<Lanes>(i, q);
+          r[p * D + q] = share * A;
+          r[R::N - first + p * D + q] = FN(p, q);
+          a += share * A * G;
+          n += FN(p, q) * G;
+        }
+        r[R::a - first + p] = a;
+        r[R::n - first + p] = n;
+      }
+      r[R::inverse_J - first] = here.rho * here.thickness / body.rho0;
+      add_hourglass(i, here, F, r);
+    }
+    for (int c = 0; c < R::inverse_J - first; ++c) r[c] = select(bears, r[c], Lanes(0.0));
+    r[R::inverse_J - first] = select(bears, r[R::inverse_J - first], Lanes(1.0));
+    store_in_records<D>(material, true, g, first, r);
+  }
+
+  PIOLA_FN void write_spatial(Group g, Here const& here) const {
+    using Q = SpatialRecord<D, Corrected>;
+    Index const i = g.first;
+    double* to[lane_count];
+    bool wanted = false;
+    for (int l = 0; l < lane_count; ++l) {
+      bool const near = l < g.count && (spatial.near == nullptr || spatial.near[i + l] != 0);
+      to[l] = near ? spatial.record + static_cast<std::ptrdiff_t>(spatial.sorted[i + l]) * spatial.stride : nullptr;
+      wanted = wanted || near;
+    }
+    if (!wanted) return;
+    Lanes r[Q::M + SymMat<D>::size];
+    for (int c = 0; c < D; ++c) {
+      r[Q::x + c] = x.scalar<Lanes>(i, c);
+      r[Q::v + c] = v_half.scalar<Lanes>(i, c);
+    }
+    r[Q::volume] = here.volume;
+    r[Q::rho] = here.rho * here.thickness;
+    r[Q::c] = Lanes(body.c);
+    Lanes const factor = positive_factor(viscosity.scalar<Lanes>(i));
+    r[Q::viscosity] = select(here.phi > 0.0, factor, -factor);
+    Lanes const weight = settings.interface_form == Interface::printed ? Lanes(1.0) : here.phi;
+    for (int c = 0; c < SymMat<D>::size; ++c) r[Q::M + c] = weight * here.volume * here.thickness * here.stress.c[c];
+    store_records(to, 0, r);
+    if (settings.artificial_stress) {
+      SymMat<D, Lanes> stress = artificial_stress<D>(here.stress, here.rho, body.artificial_stress);
+      for (Lanes& c : stress.c) c = c / here.thickness;
+      store_records(to, Q::R, stress.c);
+    }
+    if constexpr (Corrected)
+      for (int l = 0; l < lane_count; ++l)
+        for (int c = Q::M + SymMat<D>::size; c < Q::R && to[l] != nullptr; ++c) to[l][c] = 0;
+  }
+};
+
+/// Density, pressure and volume of half time, and what neighbours read.
+template <int D, bool Corrected, class Law>
+struct HalfState {
+  Law law;
+  HalfVolume volume;
+  WriteRecords<D, Corrected> records;
+  PointFields point;
+  Components energy, energy_rate;
+  OwnComponents pressure, c, S_half;
+
+  HalfState(Law const& of_body, System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+      : law(of_body),
+        volume(s, body, table, dt),
+        records(s, body, table, dt),
+        point(s.field, s.own),
+        energy(read(s.field.energy)),
+        energy_rate(read(s.field.energy_rate)),
+        pressure(write(s.field.pressure)),
+        c(write(s.field.c)),
+        S_half(write(s.field.S_half)) {}
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    volume(block);
+    each_group(block, [&](Group g) {
+      Index const i = g.first;
+      Lanes const rho = records.rho_half.template scalar<Lanes>(i);
+      Lanes const e =
+          (energy.scalar<Lanes>(i) + volume.step * energy_rate.scalar<Lanes>(i)) / volume.mass.scalar<Lanes>(i);
+      Lanes const p = point.pressure<Lanes>(law, i, rho, e);
+      pressure.put(g, p);
+      c.put(g, law.template sound_speed<Lanes>(rho, e));
+      if constexpr (Law::pressed) {
+        SymMat<3, Lanes> const trial = S_half.seen().symmetric<Lanes>(i);
+        S_half.put_all(g, law.returned(point.history<Lanes>(i, trial), trial, volume.step, p, rho / law.rho0).c);
+      }
+    });
+    records(block);
+  }
+};
+
+}  // namespace piola::adaptle::inline PIOLA_MACHINE
