@@ -290,7 +290,8 @@ constexpr std::array boundary_keys{
             "1",
             {1, 100, false, false},
             "4",
-            "kernel, printed: exponent of the ratio of kernels",
+            "kernel, printed: exponent of the ratio of kernels; 8 holds half the energy, for impacts in which strength "
+            "counts (metals below 1 km/s)",
             {}},
 };
 

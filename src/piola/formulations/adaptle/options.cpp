@@ -71,8 +71,8 @@ constexpr std::array parameters{
         "damping of relative velocities of total-Lagrangian neighbours that their velocity gradients do not explain; "
         "0: none",
         Interval{0, 2, false, false}, no_default,
-        "0.7; with a hourglass_stiffness by default 0.1; with correction = \"none\", where gradients miss even linear "
-        "motion at free surfaces, 0"},
+        "0.7; 0.1 with a hourglass_stiffness by default, and where a total_lagrangian body yields; with correction = "
+        "\"none\", where gradients miss even linear motion at free surfaces, 0"},
     Parameter{"hourglass_stiffness", "1",
               "springs against displacements of total-Lagrangian neighbours that their deformation gradients do not "
               "explain, over the shear modulus; with viscosity_form = \"central\"",
@@ -148,8 +148,14 @@ bool yields(MaterialParameters const& material) {
   return can;
 }
 
-/// springs: material sums have a hourglass stiffness, and this material, which does not yield, wants it.
-BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs) {
+/// zeta by default. What may turn Eulerian is damped more: where it fails, noise would part it (record 0094).
+double default_hourglass(BodyOptions const& o, bool springs, bool yielding) {
+  return springs || (yielding && o.description == Description::total_lagrangian) ? 0.1 : 0.7;
+}
+
+/// springs: material sums have a hourglass stiffness, which materials that do not yield want.
+BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs, bool yielding) {
+  springs = springs && !yielding;
   BodyOptions o;
   o.description = choice_of<Description>(spec, choices, "description");
   o.smoothing_length = number_of(spec, "smoothing_length", dimension == 2 ? 1.4 : 1.2);
@@ -160,7 +166,7 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs) 
   o.beta = number(spec, "beta");
   o.bulk_speed = word(spec, "viscosity_speed") == "bulk";
   o.artificial_stress = number(spec, "artificial_stress");
-  o.hourglass = number_of(spec, "hourglass", plain ? 0 : (springs ? 0.1 : 0.7));
+  o.hourglass = number_of(spec, "hourglass", plain ? 0 : default_hourglass(o, springs, yielding));
   o.hourglass_stiffness = number_of(spec, "hourglass_stiffness", springs ? 1 : 0);
   o.convert_strain = number(spec, "convert_strain");
   o.convert_damage = number(spec, "convert_damage");
@@ -296,7 +302,7 @@ Options read_options(Assembly const& assembly) {
   o.settings.cfl = std::isnan(assembly.cfl) ? 0.3 : assembly.cfl;
   check_alike(assembly, problems);
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
-    o.bodies.push_back(read_body(assembly.formulations[b], dimension, springs && !yields(assembly.materials[b])));
+    o.bodies.push_back(read_body(assembly.formulations[b], dimension, springs, yields(assembly.materials[b])));
     check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
   }
   check_one_kernel(assembly, o.bodies, problems);
