@@ -164,17 +164,21 @@ TEST(AdaptleOptions, HaveTheDefaultsOfTheManual) {
   EXPECT_EQ(o.bodies[0].material_smoothing_length, 1.2);
 }
 
-TEST(AdaptleOptions, MaterialsThatDoNotYieldHaveSpringsAgainstHourglasses) {
+TEST(AdaptleOptions, HourglassesAreHeldBySpringsWhereNothingYieldsAndDampedElsewhere) {
   adaptle::Options const elastic = adaptle::read_options(adaptle_assembly(unit_box(2, 4)));
   EXPECT_FALSE(elastic.settings.published);
   EXPECT_EQ(elastic.bodies[0].hourglass_stiffness, 1);
   EXPECT_EQ(elastic.bodies[0].hourglass, 0.1);
-  auto const metal = adaptle_assembly(unit_box(2, 4), sample_metal("johnson_cook", "elastic"));
+  auto metal = adaptle_assembly(unit_box(2, 4), sample_metal("johnson_cook", "elastic"));
   adaptle::Options const yielding = adaptle::read_options(metal);
   EXPECT_TRUE(yielding.settings.published);
   EXPECT_EQ(yielding.bodies[0].hourglass_stiffness, 0);
   EXPECT_EQ(yielding.bodies[0].hourglass, 0.7);
   EXPECT_TRUE(yielding.bodies[0].releases);
+  choose(metal, "description", "total_lagrangian");
+  adaptle::Options const flowing = adaptle::read_options(metal);
+  EXPECT_EQ(flowing.bodies[0].hourglass_stiffness, 0);
+  EXPECT_EQ(flowing.bodies[0].hourglass, 0.1);
   Assembly plain = adaptle_assembly(unit_box(2, 4));
   choose(plain, "correction", "none");
   adaptle::Options const uncorrected = adaptle::read_options(plain);
