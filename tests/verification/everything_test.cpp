@@ -97,16 +97,7 @@ TEST(EverythingAtOnce, ResumesBitForBitOnAnyNumberOfThreads) {
       time += dt;
     }
   };
-  std::map<std::string, Values, std::less<>> first;
-  for (int const threads : thread_counts) {
-    Threads const shared(threads);
-    auto const whole = make_formulation(a);
-    double time = 0;
-    run(*whole, time, 60);
-    auto const found = saved(*whole).values;
-    if (first.empty()) first = found;
-    EXPECT_EQ(found, first) << threads;
-  }
+  expect_same_on_threads(a, [&](Formulation& f, double& t) { run(f, t, 60); });
   auto const whole = make_formulation(a);
   double time = 0;
   run(*whole, time, 100);

@@ -85,17 +85,10 @@ TEST_P(FreeRigidBody, SharesMomentaAndEnergyWithWhatItHits) {
 }
 
 TEST_P(FreeRigidBody, HasTheSameBitsWithAnyNumberOfThreads) {
-  std::map<std::string, Values, std::less<>> first;
-  for (int const threads : thread_counts) {
-    Threads const shared(threads);
-    auto const f = make_formulation(scene(0.3));
-    double time = 0;
-    run_to_touch(*f, time);
-    run(*f, time, 15);
-    auto const found = saved(*f).values;
-    if (first.empty()) first = found;
-    EXPECT_EQ(found, first) << threads;
-  }
+  expect_same_on_threads(scene(0.3), [](Formulation& f, double& t) {
+    run_to_touch(f, t);
+    run(f, t, 15);
+  });
 }
 
 TEST_P(FreeRigidBody, ResumesBitForBit) {

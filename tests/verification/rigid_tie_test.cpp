@@ -167,16 +167,7 @@ TEST_P(GluedToRigid, WhatFailedIsPushed) {
 TEST_P(GluedToRigid, SameBitsOnThreadsAndResumed) {
   Assembly a = scene(true, weak());
   a.rigid_shapes[0].velocity = formulas({"5", "-8", "0"});
-  std::map<std::string, Values, std::less<>> first;
-  for (int const threads : thread_counts) {
-    Threads const shared(threads);
-    auto const f = make_formulation(a);
-    double time = 0;
-    run(*f, time, 100);
-    auto const found = saved(*f).values;
-    if (first.empty()) first = found;
-    EXPECT_EQ(found, first) << threads;
-  }
+  expect_same_on_threads(a, [](Formulation& f, double& t) { run(f, t, 100); });
   auto const whole = make_formulation(a);
   double time = 0;
   for (int k = 0; k < 400 && !(column(whole->diagnose(), "tie_heat") > 0); ++k) run(*whole, time, 1);

@@ -39,6 +39,21 @@ inline double column(Diagnostics const& d, std::string_view name) {
   return 0;
 }
 
+/// What go(f, time) leaves of a formulation built anew is the same bit for bit on any number of threads.
+template <class Go>
+void expect_same_on_threads(Assembly const& a, Go const& go) {
+  std::map<std::string, Values, std::less<>> first;
+  for (int const threads : thread_counts) {
+    Threads const shared(threads);
+    auto const f = make_formulation(a);
+    double time = 0;
+    go(*f, time);
+    auto const found = saved(*f).values;
+    if (first.empty()) first = found;
+    EXPECT_EQ(found, first) << threads;
+  }
+}
+
 /// What a formulation does from now on, and what one does that is built anew and takes its state, are the same bit for
 /// bit. go(f, time) takes both on.
 template <class Go>
