@@ -6,13 +6,19 @@
 
 namespace piola {
 
-/// The exact sum of f(slot) over the slots of this rank, and over those of all ranks if they share the body: then all
-/// ranks call it.
+/// N exact sums of what f(slot, x) leaves in x[0] ... x[N - 1], which are 0 before, over the slots of this rank, and
+/// over those of all ranks if they share the body: then all ranks call it.
+template <int N, class F>
+exec::ExactSums<N> sums_over_slots(bool shared, Range own, F const& f) {
+  auto sums = exec_host::sums_of<N>(own.last - own.first, [&](Index k, double* x) { f(own.first + k, x); });
+  if (shared) ranks::add(sums);
+  return sums;
+}
+
+/// The same of f(slot).
 template <class F>
 double sum_over_slots(bool shared, Range own, F const& f) {
-  auto sum = exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) { *x = f(own.first + k); });
-  if (shared) ranks::add(sum);
-  return sum.value();
+  return sums_over_slots<1>(shared, own, [&](Index i, double* x) { *x = f(i); }).value();
 }
 
 }  // namespace piola

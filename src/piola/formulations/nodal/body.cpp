@@ -294,10 +294,12 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
 }
 
 double NodalBody::kinetic_energy() const {
-  return sum_over_slots(shared(), own(), [&](Index i) {
-    auto const v = this->v(i);
-    return 0.5 * mass(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  });
+  return sum_over_slots(shared(), own(), [&](Index i) { return kinetic_energy_of(i); });
+}
+
+double NodalBody::kinetic_energy_of(Index slot) const {
+  auto const v = this->v(slot);
+  return 0.5 * mass(slot) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 double NodalBody::strain_energy() const {

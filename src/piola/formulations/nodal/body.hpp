@@ -55,6 +55,7 @@ class NodalBody {
   /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
   void damp(double factor);
   double kinetic_energy() const;                          ///< of all ranks, which all ask for it [J]
+  double kinetic_energy_of(Index slot) const;             ///< [J]
   double strain_energy() const;                           ///< likewise, of what observers see [J]
   double damping_loss() const { return damping_loss_; }   ///< since the start [J]
   double viscous_loss() const;                            ///< since the start [J]

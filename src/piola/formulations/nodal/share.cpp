@@ -59,7 +59,7 @@ Talk NodalBody::talk() const {
   talk.values = reference_.lattice ? std::vector{D_, D_ * D_, rows} : std::vector{D_, rows};
   // The first failure, work, the largest change of a strain; and, in calm motion, sums of the unrest in every fourth
   // step and of what is measured in fewer.
-  talk.collectives = 5;
+  talk.collectives = 4.5;
   talk.order = &slot_order;
   return talk;
 }

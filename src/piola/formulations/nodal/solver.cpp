@@ -129,8 +129,8 @@ class Solver final : public Formulation {
     Talk talk = bodies_[body]->talk();  // and impulses of supports and of loads
     talk.collectives += (actions_.supports.empty() ? 0 : 1) + (actions_.loads.empty() ? 0 : 1);
     talk.reads = 2;  // positions, velocities
-    // What others, or contact, make shorter than it wants is looked at in every step: by three sums, not 3/4.
-    if (pushed_) talk.collectives += 2.25;
+    // What others, or contact, make shorter than it wants is looked at in every step.
+    if (pushed_) talk.collectives += 0.75;
     return talk;
   }
   std::vector<std::pair<std::string, double>> costs() const override;

@@ -203,21 +203,21 @@ bool StabilityMonitor::should_look(double dt) const {
 void StabilityMonitor::look_at_unrest(double dt) {
   auto const& s = body_.state();
   int const D = s.dimension;
-  double const stiff = sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
-    double sum = 0;
-    for (int c = 0; c < D; ++c)
-      sum += (value_at(s.x, i, c) - value_at(s.kept, i, c)) * (value_at(s.kept, i, 2 * D + c) - value_at(s.a, i, c));
-    return body_.mass(i) * sum;
+  auto const sums = sums_over_slots<3>(body_.shared(), body_.own(), [&](Index i, double* x) {
+    double stiff = 0, fast = 0;
+    for (int c = 0; c < D; ++c) {
+      double const a = value_at(s.a, i, c);
+      stiff += (value_at(s.x, i, c) - value_at(s.kept, i, c)) * (value_at(s.kept, i, 2 * D + c) - a);
+      fast += a * a;
+    }
+    x[0] = body_.mass(i) * stiff;
+    x[1] = body_.mass(i) * fast;
+    x[2] = body_.kinetic_energy_of(i);
   });
-  double const fast = sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
-    double sum = 0;
-    for (int c = 0; c < D; ++c) sum += value_at(s.a, i, c) * value_at(s.a, i, c);
-    return body_.mass(i) * sum;
-  });
-  double const now = 0.125 * (std::abs(stiff) / (dt * dt) + fast - body_.boundary().square_of_held(s));
+  double const now = 0.125 * (std::abs(sums.value(0)) / (dt * dt) + sums.value(1) - body_.boundary().square_of_held(s));
   unrest_ = std::max(unrest_, now);
   lately_ = std::max(lately_, now);
-  energy_ = std::max(energy_, body_.kinetic_energy());  // what was at rest at the last measurement may have been hit
+  energy_ = std::max(energy_, sums.value(2));  // what was at rest at the last measurement may have been hit
 }
 
 /// From the velocities alone: accelerations have yet to come. `size` [m]: of the trial displacement.
