@@ -12,4 +12,9 @@ void give_back_free_memory();
 /// memory of a run is then a tenth to a fifth larger. For programs, once at their start.
 void give_back_arrays_at_once();
 
+/// From now on large arrays (memory.hpp) take memory where somebody comes to them, page by page: for a process that
+/// works on one of so many parts of every array. Not while others make arrays. 1, as at the start: whole arrays at
+/// once.
+void fill_arrays_in_parts(int parts);
+
 }  // namespace piola::exec_host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/memory.hpp"
+#include "piola/exec/free_memory.hpp"
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -16,6 +17,8 @@ namespace {
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 constexpr std::size_t colours = 64;
+constexpr std::size_t many_huge_pages = 32;
+std::size_t parts_of_arrays = 1;
 constexpr std::size_t lines_per_colour = 33;  // odd, so that 64 colours visit all sets of a 4 KiB page
 
 std::size_t next_offset() {
@@ -24,6 +27,8 @@ std::size_t next_offset() {
 }
 
 }  // namespace
+
+void exec_host::fill_arrays_in_parts(int parts) { parts_of_arrays = static_cast<std::size_t>(std::max(1, parts)); }
 
 Memory::Memory(std::size_t doubles) {
   std::size_t const payload = doubles * sizeof(double);
@@ -38,9 +43,16 @@ Memory::Memory(std::size_t doubles) {
   base_ = std::aligned_alloc(alignment, size == 0 ? alignment : size);
   if (base_ == nullptr) throw std::bad_alloc{};
 #if defined(__linux__)
-  if (large) (void)madvise(base_, size, MADV_HUGEPAGE);
+  // Of a part that is not far larger than a huge page its edges would take too much.
+  bool const huge = parts_of_arrays == 1 || payload / parts_of_arrays >= many_huge_pages * huge_page;
+  if (large) (void)madvise(base_, size, huge ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
+  // Pages that the system takes back are zero when somebody comes to them again.
+  bool const zero = large && parts_of_arrays > 1 && madvise(base_, size, MADV_DONTNEED) == 0;
+#else
+  bool const zero = false;
 #endif
   data_ = reinterpret_cast<double*>(static_cast<char*>(base_) + offset);
+  if (zero) return;
   // Threads zero the parts that they will work on.
   constexpr std::size_t part = std::size_t{1} << 20;
   auto const parts = static_cast<std::ptrdiff_t>((payload + part - 1) / part);

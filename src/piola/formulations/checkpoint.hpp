@@ -3,6 +3,7 @@
 #include "piola/exec/field.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/formulation.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include <string>
 #include <vector>
 
@@ -30,6 +31,64 @@ void load_field(StateReader& reader, std::string const& name, Body const& body, 
   std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
   reader.get(name, values);
   each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { value_at(field, i, c) = values[at]; });
+}
+
+/// value(slot, c) of all particles in the order of ids; on ranks that share the body on rank 0 alone, elsewhere
+/// nothing.
+template <class Body, class F>
+std::vector<double> in_id_order(Body const& body, int components, F const& value) {
+  auto const n = static_cast<std::size_t>(components);
+  std::vector<double> all(ranks::own() == 0 ? static_cast<std::size_t>(body.particles()) * n : 0);
+  if (!ranks::several()) {
+    each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { all[at] = value(i, c); });
+    return all;
+  }
+  Range const own = body.own();
+  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      mine[static_cast<std::size_t>(k) * n + c] = value(own.first + k, static_cast<int>(c));
+  });
+  SharedSlots{body.slots(), body.particles()}.collect(n, std::move(mine), [&](Range part, std::span<double const> of) {
+    exec_host::for_each_in_set_up(part.last - part.first, [&](Index k) {
+      auto const id = static_cast<std::size_t>(body.id(part.first + k) - body.body().first);
+      for (std::size_t c = 0; c < n; ++c) all[id * n + c] = of[static_cast<std::size_t>(k) * n + c];
+    });
+  });
+  return all;
+}
+
+/// The way back: put(slot, c, value) of the particles of this rank. `all`: on ranks that of rank 0.
+template <class Body, class F>
+void from_id_order(Body const& body, int components, std::span<double const> all, F const& put) {
+  auto const n = static_cast<std::size_t>(components);
+  if (!ranks::several()) {
+    each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { put(i, c, all[at]); });
+    return;
+  }
+  Range const own = body.own();
+  auto const mine = SharedSlots{body.slots(), body.particles()}.deal(n, [&](Range part, std::span<double> of) {
+    exec_host::for_each_in_set_up(part.last - part.first, [&](Index k) {
+      auto const id = static_cast<std::size_t>(body.id(part.first + k) - body.body().first);
+      for (std::size_t c = 0; c < n; ++c) of[static_cast<std::size_t>(k) * n + c] = all[id * n + c];
+    });
+  });
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      put(own.first + k, static_cast<int>(c), mine[static_cast<std::size_t>(k) * n + c]);
+  });
+}
+
+/// save_field and load_field of a body whose ranks keep to their own particles.
+template <class Body>
+void save_own(StateWriter& writer, std::string const& name, Body const& body, FieldRef const& field, int components) {
+  writer.put(name, in_id_order(body, components, [&](Index i, int c) { return value_at(field, i, c); }));
+}
+template <class Body>
+void load_own(StateReader& reader, std::string const& name, Body const& body, FieldRef const& field, int components) {
+  std::vector<double> all(ranks::own() == 0 ? static_cast<std::size_t>(body.particles() * components) : 0);
+  reader.get_to_deal(name, all);
+  from_id_order(body, components, all, [&](Index i, int c, double value) { value_at(field, i, c) = value; });
 }
 
 /// Of what says its state in numbers, always as many, and takes it back.

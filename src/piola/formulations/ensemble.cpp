@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/formulations/meeting.hpp"
 #include "piola/mechanics/actions.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,6 +30,9 @@ class PartReader : public StateReader {
   PartReader(StateReader& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
   void get(std::string_view name, std::span<double> values) override {
     whole_.get(prefix_ + std::string(name), values);
+  }
+  void get_to_deal(std::string_view name, std::span<double> values) override {
+    whole_.get_to_deal(prefix_ + std::string(name), values);
   }
 
  private:
@@ -117,9 +121,6 @@ class Ensemble : public Formulation {
   void damp(double factor) override {
     for (auto const& formulation : formulations_) formulation->damp(factor);
     if (meeting_) meeting_->damp(factor);
-  }
-  void gather() override {
-    for (auto const& formulation : formulations_) formulation->gather();
   }
   double kinetic_energy() const override {
     double sum = 0;
@@ -317,14 +318,17 @@ std::vector<FieldInfo> Ensemble::fields_of(std::size_t body) const {
 }
 
 void Ensemble::sample(std::string_view field, std::span<double> values) const {
+  bool const wanted = ranks::own() == 0;  // others take part
   std::fill(values.begin(), values.end(), 0.0);
   if (meeting_ && meeting_->sample(field, values)) return;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const fields = formulations_[k]->fields();
     auto const info = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == field; });
     if (info == fields.end()) continue;
-    std::vector<double> own(static_cast<std::size_t>(counts_[k]) * static_cast<std::size_t>(info->components));
+    std::vector<double> own(wanted ? static_cast<std::size_t>(counts_[k]) * static_cast<std::size_t>(info->components)
+                                   : 0);
     formulations_[k]->sample(field, own);
+    if (!wanted) continue;
     for (auto const& block : parts_[k].blocks)
       std::copy_n(own.begin() + block.here * info->components, block.count * info->components,
                   values.begin() + block.there * info->components);

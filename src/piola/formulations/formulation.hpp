@@ -90,6 +90,8 @@ class StateReader {
   virtual ~StateReader() = default;
   /// Throws FileError if the name or the length does not fit.
   virtual void get(std::string_view name, std::span<double> values) = 0;
+  /// The same for what rank 0 alone has room for, because it deals it out then; other ranks give none.
+  virtual void get_to_deal(std::string_view name, std::span<double> values) { get(name, values); }
 };
 
 /// The narrow face of every formulation: called at most a few times per step, holds no data.
@@ -124,12 +126,14 @@ class Formulation {
   virtual std::vector<RigidState> rigids() const { return {}; }
 
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
+  /// Where ranks share the particles, all of them call this, sample(), save() and load(), and rank 0 has what comes
+  /// out.
   virtual Diagnostics diagnose() const = 0;
 
   virtual std::vector<FieldInfo> fields() const = 0;
   /// The fields that one body has, where several formulations run together; others show zero for it.
   virtual std::vector<FieldInfo> fields_of(std::size_t /*body*/) const { return fields(); }
-  /// Values of one field, particle by particle: values[id * components + c].
+  /// Values of one field, particle by particle: values[id * components + c]; ranks other than 0 give no room for them.
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
 
   virtual void save(StateWriter& writer) const = 0;
@@ -142,8 +146,8 @@ class Formulation {
 
   /// Of one body, if the formulation runs on ranks.
   virtual std::optional<Talk> talk(std::size_t /*body*/) const { return std::nullopt; }
-  /// Where ranks share the particles: brings what the others have to rank 0, which may then be asked for all of the
-  /// state until the next step. Every rank calls it.
+  /// Of formulations that do not say FormulationInfo::observed_by_share, where ranks share the particles: brings what
+  /// the others have to rank 0, which may then be asked for all of the state until the next step. Every rank calls it.
   virtual void gather() {}
 };
 

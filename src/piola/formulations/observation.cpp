@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/observation.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace piola {
 
@@ -70,10 +72,39 @@ void Observation::add_oscillation(ParticleSet const& set, Body const& body, std:
     for (Differences const& d : found)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!d.exists[axis]) continue;
-        second_difference_square_ += d.value[axis] * d.value[axis];
-        ++second_differences_;
+        add_second_difference(d.value[axis]);
       }
   }
+}
+
+void Observation::share() {
+  for (BodySums& body : bodies_) ranks::add(body.motion);
+  ranks::add(pressures_);
+  ranks::add(second_difference_square_);
+  struct Seen {
+    std::int64_t particles, differences;
+    double jacobian_min, jacobian_max, pressure_min, pressure_max;
+  };
+  Diagnostics& d = totals;
+  Seen seen{particles_, second_differences_, d.jacobian_min, d.jacobian_max, d.pressure_min, d.pressure_max};
+  ranks::combine(seen, [](void const* other, void* mine) {
+    auto const& a = *static_cast<Seen const*>(other);
+    auto& b = *static_cast<Seen*>(mine);
+    Seen both = b.particles == 0 ? a : b;
+    if (a.particles > 0 && b.particles > 0) {
+      both.jacobian_min = minimum(a.jacobian_min, b.jacobian_min);
+      both.jacobian_max = maximum(a.jacobian_max, b.jacobian_max);
+      both.pressure_min = minimum(a.pressure_min, b.pressure_min);
+      both.pressure_max = maximum(a.pressure_max, b.pressure_max);
+    }
+    both.particles = a.particles + b.particles;
+    both.differences = a.differences + b.differences;
+    b = both;
+  });
+  particles_ = seen.particles;
+  second_differences_ = seen.differences;
+  std::tie(d.jacobian_min, d.jacobian_max, d.pressure_min, d.pressure_max) =
+      std::tie(seen.jacobian_min, seen.jacobian_max, seen.pressure_min, seen.pressure_max);
 }
 
 Diagnostics Observation::finish() const {
@@ -92,6 +123,9 @@ Diagnostics Observation::finish() const {
     d.linear_momentum[static_cast<std::size_t>(c)] = motion.value(1 + c);
     d.angular_momentum[static_cast<std::size_t>(c)] = motion.value(4 + c);
   }
+  // Of zeros of both signs it is the order that decides which one comes out.
+  d.pressure_min += 0.0;
+  d.pressure_max += 0.0;
   double const level = std::sqrt(pressures_.value(1) / volume());
   if (level > 0 && second_differences_ > 0)
     d.pressure_oscillation =

@@ -22,6 +22,14 @@ struct Observation {
   /// Squares of second differences of p along the lattice lines of a body; `p` from the body's first particle on. Of
   /// discs of circles it is a rough measure, because the particles of neighbouring cells are not in line.
   void add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p);
+  /// One of these differences, divided by 4.
+  void add_second_difference(double difference) {
+    double const square = difference * difference;
+    second_difference_square_.add(&square);
+    ++second_differences_;
+  }
+  /// What all ranks have added is everybody's, but for strain energies and totals, which each has in full. Collective.
+  void share();
   /// The totals with the pressure oscillation: rms over all lattice lines of (p[i+1] - 2 p[i] + p[i-1]) / 4, divided by
   /// the volume-weighted rms of p.
   Diagnostics finish() const;
@@ -35,7 +43,7 @@ struct Observation {
   };
   std::vector<BodySums> bodies_;
   exec::ExactSums<2> pressures_;  ///< V, V p^2
-  exec::ExactSum second_difference_square_;
+  exec::ExactSums<1> second_difference_square_;
   std::int64_t particles_ = 0, second_differences_ = 0;
 };
 

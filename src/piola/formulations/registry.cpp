@@ -12,6 +12,7 @@
 #include "piola/formulations/make.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/solver.hpp"
+#include "piola/formulations/observed_by_first.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include <algorithm>
@@ -65,7 +66,7 @@ std::unique_ptr<Formulation> make_one(Assembly const& assembly) {
   for (auto const& entry : all) {
     if (entry.info.name != name) continue;
     check_abilities(entry.info, assembly);
-    return entry.make(assembly);
+    return entry.info.observed_by_share ? entry.make(assembly) : observed_by_first(entry.make(assembly));
   }
   throw InputError("no formulation is named '" + name + "'");
 }

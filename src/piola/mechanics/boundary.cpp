@@ -89,6 +89,25 @@ void BodyBoundary::add_load(std::size_t load, LoadedPlace const& place) {
   loads_[load].items.push_back(item);
 }
 
+void BodyBoundary::keep(Range own) {
+  share(own);
+  first_kept_ = own.first;
+  if (multiplied_) return;
+  std::erase_if(particles_, [&](Particle const& p) { return !is_own(own, p.of.slot); });
+  std::vector<std::size_t> place;
+  std::vector<LoadedParticle> kept;
+  for (LoadedParticle const& p : loaded_) {
+    place.push_back(kept.size());
+    if (is_own(own, p.slot)) kept.push_back(p);
+  }
+  for (LoadOnBody& load : loads_) {
+    std::erase_if(load.items, [&](LoadItem const& item) { return !is_own(own, loaded_[item.place].slot); });
+    for (LoadItem& item : load.items) item.place = place[item.place];
+  }
+  loaded_ = std::move(kept);
+  place_of_slot_ = {};
+}
+
 void BodyBoundary::start(FieldRef const& v) const {
   for (auto const& h : held_) {
     double const now = along(v, h, D_);
@@ -292,7 +311,7 @@ void BodyBoundary::hand_over(Actions& actions) {
 void BodyBoundary::damp(FieldRef const& v, Index last, double factor) const {
   std::vector<double> before;
   for (auto const& h : held_) before.push_back(along(v, h, D_));
-  for (Index i = 0; i < last; ++i)
+  for (Index i = first_kept_; i < last; ++i)
     for (int c = 0; c < D_; ++c) value_at(v, i, c) *= factor;
   for (std::size_t k = 0; k < held_.size(); ++k)
     for (int c = 0; c < D_; ++c) value_at(v, held_[k].slot, c) += (1 - factor) * before[k] * held_[k].direction[c];

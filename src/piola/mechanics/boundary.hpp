@@ -56,6 +56,9 @@ class BodyBoundary {
   /// Ranks share the body: this one answers for the particles in these slots. Work and impulses are then sums over all
   /// ranks, and end_step and hand_over collective.
   void share(Range own) { own_ = own; }
+  /// The same before a first begin_step: forgets what concerns others. Not where multipliers hold, for which ranks tell
+  /// each other all.
+  void keep(Range own);
 
   /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends. Whether the directions
   /// that are held are others than before.
@@ -132,6 +135,7 @@ class BodyBoundary {
   std::vector<ImpulseSum> of_supports_, of_loads_;
   double begun_ = 0, ended_ = 0;  ///< start and end of the step that `held_` and `loaded_` are for
   std::optional<Range> own_;      ///< nothing: all slots
+  Index first_kept_ = 0;          ///< slots before it do not concern this rank
   int released_ = -1;             ///< supports and loads that had ended when it began
 };
 

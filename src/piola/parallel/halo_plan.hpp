@@ -29,6 +29,13 @@ class HaloPlan {
   void exchange(FieldRef const& field);
 
   Index received() const;  ///< particles whose values come from others
+  /// f(slot) for each of them.
+  template <class F>
+  void each_received(F const& f) const {
+    for (Side const& side : receives_)
+      for (SlotRun const& run : side.runs)
+        for (Index i = run.first; i < run.first + run.count; ++i) f(i);
+  }
   std::size_t bytes() const;
 
  private:

@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/parallel/ranks.hpp"
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,11 @@ Range part_of(Range whole, int rank) {
 }
 
 Range own_part(Range whole) { return part_of(whole, ranks::own()); }
+
+Range SharedSlots::of(int rank) const {
+  Range const share = share_of(slots, rank, ranks::count());
+  return {std::min(share.first, particles), std::min(share.last, particles)};
+}
 
 void complete_slots(double* data, std::ptrdiff_t size, Range whole) {
   if (!ranks::several()) return;

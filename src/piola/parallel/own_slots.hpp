@@ -50,6 +50,39 @@ void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some);
 /// Of a field that each rank has right in its own slots, a share of them as share_of() has it: rank 0 has all of it.
 void gather_slots(FieldRef const& field, Range own, int components);
 
+/// A body of which each rank has a share of the slots, as share_of() has it; the first `particles` of all slots hold
+/// one.
+struct SharedSlots {
+  Index slots, particles;
+  /// Slots of particles that a rank has.
+  Range of(int rank) const;
+  Range own() const { return of(ranks::own()); }
+  /// `values`: of each slot of this rank `width` of them. take(range, values) on rank 0 for one rank after the other,
+  /// so that it never has more than a share of them besides its own.
+  template <class F>
+  void collect(std::size_t width, std::vector<double> values, F const& take) const {
+    for (int rank = 0; rank < ranks::count(); ++rank) {
+      Range const part = of(rank);
+      if (ranks::own() == 0 && rank > 0) values.resize(static_cast<std::size_t>(part.last - part.first) * width);
+      if (rank > 0) ranks::carry(rank, 0, values);
+      if (ranks::own() == 0) take(part, values);
+    }
+  }
+  /// The other way: give(range, values) on rank 0; each rank has those of its own slots.
+  template <class F>
+  std::vector<double> deal(std::size_t width, F const& give) const {
+    std::vector<double> mine;
+    for (int rank = ranks::count() - 1; rank >= 0; --rank) {
+      if (ranks::own() != 0 && ranks::own() != rank) continue;
+      Range const part = of(rank);
+      mine.resize(static_cast<std::size_t>(part.last - part.first) * width);
+      if (ranks::own() == 0) give(part, std::span<double>(mine));
+      if (rank > 0) ranks::carry(0, rank, mine);
+    }
+    return mine;
+  }
+};
+
 /// Of a field that each rank has right in its own slots: these slots, which all ranks name in the same order, are right
 /// on all of them. For few slots: all ranks have a message as long as the list.
 void merge_slots(FieldRef const& field, Range own, std::span<Index const> slots, int components);

@@ -70,6 +70,9 @@ struct Message {
 /// Sends and receives these at once; returns when all have arrived. Only the ranks that are named take part.
 void exchange(std::span<Message const> receives, std::span<Message const> sends);
 
+/// What one rank has goes to another one, which has room for as many values; all others do nothing.
+void carry(int from, int to, std::span<double> values);
+
 /// What this rank has sent by exchange().
 struct Traffic {
   std::int64_t messages = 0, bytes = 0;

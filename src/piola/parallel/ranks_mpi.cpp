@@ -108,7 +108,7 @@ Trouble trouble_of(int lowest, Trouble const& own) {
   return r;
 }
 
-constexpr int halo_tag = 1;
+constexpr int halo_tag = 1, carry_tag = 2;
 
 }  // namespace
 
@@ -240,6 +240,18 @@ void exchange(std::span<Message const> receives, std::span<Message const> sends)
     world.traffic.bytes += static_cast<std::int64_t>(m.count * sizeof(double));
   }
   wait_for(requests);
+}
+
+void carry(int from, int to, std::span<double> values) {
+  if (!several() || values.empty() || (world.own != from && world.own != to)) return;
+  Timer const timer(world.spent.in_exchanges);
+  int const size = static_cast<int>(values.size());
+  MPI_Request request;
+  if (world.own == from)
+    MPI_Isend(values.data(), size, MPI_DOUBLE, to, carry_tag, MPI_COMM_WORLD, &request);
+  else
+    MPI_Irecv(values.data(), size, MPI_DOUBLE, from, carry_tag, MPI_COMM_WORLD, &request);
+  wait_for(request);
 }
 
 Traffic traffic() { return world.traffic; }

@@ -280,6 +280,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   refuse_on_ranks(assembly);
   agree_to_go_on();
   compare_on_ranks(assembly);
+  exec_host::fill_arrays_in_parts(ranks::count());
   simulation.formulation = conducted(make_formulation(assembly));
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);

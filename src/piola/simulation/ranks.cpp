@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <exception>
 #include <fmt/format.h>
 #include <limits>
 #include <thread>
@@ -15,9 +16,10 @@ namespace {
 
 /// What rank 0 wants of the others.
 struct Order {
-  enum class What : std::int64_t { step, damp, kinetic_energy, gather, load, traffic, end } what;
+  enum class What : std::int64_t { step, damp, kinetic_energy, diagnose, sample, save, load, traffic, end } what;
   double first = 0, second = 0;  // time and dt, factor
   std::int64_t code = 0;
+  char field[64]{};  // of sample
 };
 
 /// How far the ranks of this run are.
@@ -32,13 +34,43 @@ Order send(Order order) {
 /// How long a rank with trouble waits for the others, which may be waiting for it [s].
 constexpr double patience = 5;
 
-/// Steps, and what this rank had said before the first one.
+/// What this rank has said so far.
+struct Said {
+  ranks::Traffic traffic = ranks::traffic();
+  ranks::Spent spent = ranks::spent();
+};
+
+/// Steps, and what this rank had said before the first one, with what it said to observers since.
 struct Count {
   std::int64_t steps = 0;
   ranks::Traffic before;
   ranks::Spent spent_before;
 };
 Count counted;
+
+/// What is said in its life time, to observers, is not said in steps.
+class Aside {
+ public:
+  Aside() = default;
+  Aside(Aside const&) = delete;
+  Aside& operator=(Aside const&) = delete;
+  ~Aside() {
+    if (!ends_) return;
+    Said const now;
+    auto const put_off = [](auto& before, auto const& from, auto const& to, auto... members) {
+      ((before.*members += to.*members - from.*members), ...);
+    };
+    using ranks::Spent, ranks::Traffic;
+    put_off(counted.before, start_.traffic, now.traffic, &Traffic::messages, &Traffic::bytes);
+    put_off(counted.spent_before, start_.spent, now.spent, &Spent::collectives, &Spent::in_exchanges,
+            &Spent::in_collectives, &Spent::for_orders, &Spent::bytes_to_all);
+  }
+  void forget() { ends_ = false; }
+
+ private:
+  Said start_;
+  bool ends_ = true;
+};
 
 void count_step() {
   if (counted.steps++ > 0) return;
@@ -73,6 +105,10 @@ class SharedReader final : public StateReader {
  public:
   explicit SharedReader(StateReader* of_first) : reader_(of_first) {}
   void get(std::string_view name, std::span<double> values) override {
+    get_to_deal(name, values);
+    ranks::broadcast_bytes(values.data(), values.size_bytes());
+  }
+  void get_to_deal(std::string_view name, std::span<double> values) override {
     int good = 1;
     if (reader_ == nullptr) {
       ranks::broadcast_bytes(&good, sizeof good);
@@ -87,18 +123,35 @@ class SharedReader final : public StateReader {
       }
       ranks::broadcast_bytes(&good, sizeof good);
     }
-    ranks::broadcast_bytes(values.data(), values.size_bytes());
+  }
+
+  StateReader* reader_;
+};
+
+/// Keeps the first thing that goes wrong until everything is said, because others wait to say it.
+class LastingWriter final : public StateWriter {
+ public:
+  explicit LastingWriter(StateWriter& writer) : writer_(writer) {}
+  void put(std::string_view name, std::span<double const> values) override {
+    if (!trouble_) try {
+        writer_.put(name, values);
+      } catch (...) {
+        trouble_ = std::current_exception();
+      }
+  }
+  void raise() const {
+    if (trouble_) std::rethrow_exception(trouble_);
   }
 
  private:
-  StateReader* reader_;
+  StateWriter& writer_;
+  std::exception_ptr trouble_;
 };
 
 /// The formulation of rank 0, whose calls the other ranks take part in.
 class Conductor final : public Formulation {
  public:
-  explicit Conductor(std::unique_ptr<Formulation> formulation)
-      : part_(std::make_unique<Part>(Part{std::move(formulation)})) {}
+  explicit Conductor(std::unique_ptr<Formulation> formulation) : own_(std::move(formulation)) {}
 
   double stable_time_step() const override { return own().stable_time_step(); }
   double settled_time_step() const override { return own().settled_time_step(); }
@@ -107,12 +160,10 @@ class Conductor final : public Formulation {
     send({Order::What::step, time, dt});
     count_step();
     own().step(time, dt);
-    part_->gathered = false;
   }
   void damp(double factor) override {
     send({Order::What::damp, factor});
     own().damp(factor);
-    part_->gathered = false;
   }
   double kinetic_energy() const override {
     send({Order::What::kinetic_energy});
@@ -120,38 +171,54 @@ class Conductor final : public Formulation {
   }
   std::vector<RigidState> rigids() const override { return own().rigids(); }
   std::optional<Failure> failure() const override { return own().failure(); }
-  Diagnostics diagnose() const override { return whole().diagnose(); }
+  Diagnostics diagnose() const override {
+    Aside const aside;
+    send({Order::What::diagnose});
+    return own().diagnose();
+  }
   std::vector<FieldInfo> fields() const override { return own().fields(); }
   std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().fields_of(body); }
-  void sample(std::string_view field, std::span<double> values) const override { whole().sample(field, values); }
-  void save(StateWriter& writer) const override { whole().save(writer); }
+  void sample(std::string_view field, std::span<double> values) const override {
+    Aside const aside;
+    Order order{Order::What::sample};
+    if (field.size() >= sizeof order.field) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
+    field.copy(order.field, field.size());
+    send(order);
+    own().sample(field, values);
+  }
+  void save(StateWriter& writer) const override {
+    Aside const aside;
+    send({Order::What::save});
+    LastingWriter lasting(writer);
+    own().save(lasting);
+    lasting.raise();
+  }
   void load(StateReader& reader) override {
+    Aside const aside;
     send({Order::What::load});
     SharedReader shared(&reader);
     own().load(shared);
-    part_->gathered = true;
   }
   int stages_per_step() const override { return own().stages_per_step(); }
   std::vector<std::pair<std::string, double>> costs() const override { return own().costs(); }
   std::size_t memory_bytes() const override { return own().memory_bytes(); }
 
  private:
-  struct Part {
-    std::unique_ptr<Formulation> formulation;
-    bool gathered = false;  ///< rank 0 has all particles as they are now
-  };
-  Formulation& own() const { return *part_->formulation; }
-  Formulation& whole() const {
-    if (!part_->gathered) {
-      send({Order::What::gather});
-      own().gather();
-      part_->gathered = true;
-    }
-    return own();
-  }
+  Formulation& own() const { return *own_; }
 
-  std::unique_ptr<Part> part_;
+  std::unique_ptr<Formulation> own_;
 };
+
+/// For ranks that take part in what rank 0 writes.
+class NoWriter final : public StateWriter {
+ public:
+  void put(std::string_view, std::span<double const>) override {}
+};
+
+bool is_for_observers(Order const& order) {
+  using enum Order::What;
+  return order.what == diagnose || order.what == sample || order.what == save || order.what == load;
+}
 
 void obey(Formulation& formulation, Order const& order) {
   switch (order.what) {
@@ -159,7 +226,12 @@ void obey(Formulation& formulation, Order const& order) {
     case Order::What::traffic: return void(gather_traffic());
     case Order::What::damp: return formulation.damp(order.first);
     case Order::What::kinetic_energy: return void(formulation.kinetic_energy());
-    case Order::What::gather: return formulation.gather();
+    case Order::What::diagnose: return void(formulation.diagnose());
+    case Order::What::sample: return formulation.sample(order.field, {});
+    case Order::What::save: {
+      NoWriter nobody;
+      return formulation.save(nobody);
+    }
     case Order::What::load: {
       SharedReader shared(nullptr);
       try {
@@ -226,7 +298,9 @@ std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation)
 
 int follow(Formulation& formulation) {
   for (;;) {
+    Aside aside;
     Order const order = send({Order::What::end});  // overwritten by what rank 0 sends
+    if (!is_for_observers(order)) aside.forget();
     if (order.what == Order::What::end) {
       ranks::agree({});
       phase = Phase::over;

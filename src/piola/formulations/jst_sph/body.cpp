@@ -5,6 +5,7 @@
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/materials/solids.hpp"
 #include "piola/parallel/ranks.hpp"
+#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -30,6 +31,8 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
                     "know of - switch volumetric_filter off or take another support",
                     body_.name));
   make_pairs(set, machine);
+  take_tables();
+  share(machine.lanes);
   set_constants(set, assembly.materials[body]);
   share_reference(machine.lanes);
   allocate();
@@ -66,10 +69,18 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
 }
 
-void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& material) {
-  auto& k = state_.constants;
+void JstBody::take_tables() {
   state_.dimension = D_;
   state_.slots = {0, order_.slots()};
+  state_.regular = pairs_->regular();
+  if (state_.regular)
+    state_.stencil = pairs_->stencil();
+  else
+    state_.list = pairs_->list();
+}
+
+void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& material) {
+  auto& k = state_.constants;
   state_.material = material;
   double mu = 0, kappa = 0;
   with_any_law(material, [&](auto const& law) {
@@ -98,7 +109,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   k.project = options_.project && !k.mirrored;
   k.without_rigid = options_.without_rigid() && !k.mirrored;
   if (options_.hourglass()) set_hourglass(mu);
-  auto const moments = exec_host::sums_of<4>(order_.particles, [&](Index i, double* sum) {
+  auto const moments = sums_over_slots<4>(shared(), own(), [&](Index i, double* sum) {
     auto const X = this->X(i);
     sum[3] = volume(i);
     for (std::size_t c = 0; c < 3; ++c) sum[c] = volume(i) * X[c];
@@ -110,11 +121,6 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   state_.partial = partial_.data();
   failure_.id = order_.id.data();
   state_.failure = &failure_;
-  state_.regular = pairs_->regular();
-  if (state_.regular)
-    state_.stencil = pairs_->stencil();
-  else
-    state_.list = pairs_->list();
 }
 
 void JstBody::set_hourglass(double mu) {
@@ -200,6 +206,13 @@ void JstBody::allocate() {
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
   s.weight = s.V;
   if (!images_.empty()) mark_images();
+  if (shared()) mark_halo();
+}
+
+template <class Visit>
+void JstBody::each_seen(Visit const& f) const {
+  exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) { f(own().first + k); });
+  if (shared()) halo_->each_received(f);
 }
 
 /// Tells how the images' values follow, for all that sweeps read at neighbours.
@@ -221,7 +234,7 @@ void JstBody::mark_images() {
   s.kernel_force.copies = images_.copies({Kind::vector});
   for (FieldRef& source : s.filter_source) source.copies = images_.copies({Kind::scalar});
   weight_.allocate(order_.slots(), 0);
-  for (Index i = 0; i < order_.particles; ++i) weight_.at(i) = volume(i);
+  for (Index i = own().first; i < own().last; ++i) weight_.at(i) = volume(i);
   s.weight = weight_.ref();
 }
 
@@ -240,7 +253,7 @@ JstBody::Gathered JstBody::gather(int values) const {
   g.particle = (std::ptrdiff_t{D_} + values + 7) / 8 * 8;
   g.start = D_;
   g.memory = Memory(static_cast<std::size_t>(n * g.particle + 8));
-  exec_host::for_each_in_set_up(order_.particles, [&](Index i) {
+  each_seen([&](Index i) {
     for (int c = 0; c < D_; ++c) g.memory.data()[i * g.particle + c] = X(i)[static_cast<std::size_t>(c)];
   });
   for (Index k = 0; k < images_.count(); ++k)
@@ -282,7 +295,8 @@ void JstBody::place_gathered() {
   if (smoothed_J) place(fields_.w_J, second_, D_);
   place(fields_.A, second_, before_A);
   auto const& corrections = pairs_->corrections();
-  exec_host::for_each_in_set_up(adjoint ? order_.particles : 0, [&](Index i) {
+  if (!adjoint) return;
+  each_seen([&](Index i) {
     double* const at = state_.second.data + i * second_.particle;
     for (int c = 0; c < D_; ++c)
       at[(smoothed + c) * second_.component] = corrections.alpha[corrections.at(i)][static_cast<std::size_t>(c)];
@@ -296,25 +310,29 @@ void JstBody::share_reference(int lanes) {
   if (!state_.regular) return;
   std::map<std::vector<double>, std::int32_t> known;
   std::vector<double> key, last;
-  for (Index first = 0; first < order_.slots(); first += lanes) {
+  group_.assign(static_cast<std::size_t>(order_.slots() / lanes), 0);
+  for (Index first = state_.slots.first; first < state_.slots.last; first += lanes) {
     Index const group = first / lanes;
+    std::int32_t& stored = group_[static_cast<std::size_t>(group)];
     key.assign(1, static_cast<double>(state_.stencil.pattern_of[group]));
     for (Index i = first; i < first + lanes; ++i) key.push_back(i < order_.particles ? volume(i) : 0);
     if (key == last) {  // as most groups
-      group_.push_back(group_.back());
+      stored = group_[static_cast<std::size_t>(group) - 1];
       continue;
     }
     last = key;
     auto const [at, is_new] = known.try_emplace(key, static_cast<std::int32_t>(group_first_.size()));
     if (is_new) group_first_.push_back(first);
-    group_.push_back(at->second);
+    stored = at->second;
   }
   stored_slots_ = static_cast<Index>(group_first_.size()) * lanes;
 }
 
 template <class Visit>
 void JstBody::each_stored(int lanes, Visit const& visit) const {
-  exec_host::for_each_in_set_up(stored_slots_, [&](Index to) {
+  Range const stored = state_.regular ? Range{0, stored_slots_} : state_.slots;
+  exec_host::for_each_in_set_up(stored.last - stored.first, [&](Index k) {
+    Index const to = stored.first + k;
     Index const i = state_.regular ? group_first_[static_cast<std::size_t>(to / lanes)] + to % lanes : to;
     if (i < order_.particles) visit(to, i);
   });
@@ -322,7 +340,8 @@ void JstBody::each_stored(int lanes, Visit const& visit) const {
 
 void JstBody::fill_reference(int lanes) {
   bool const stages = wanted(fields_.F_star);
-  exec_host::for_each_in_set_up(order_.slots(), [&](Index i) {
+  exec_host::for_each_in_set_up(state_.slots.last - state_.slots.first, [&](Index k) {
+    Index const i = state_.slots.first + k;
     for (int c = 0; c < D_; ++c) {
       fields_.F.at(i, c * D_ + c) = 1;
       if (stages) fields_.F_star.at(i, c * D_ + c) = 1;
@@ -359,7 +378,8 @@ void JstBody::fill_corrected_kernel(int lanes) {
 /// H and J of the start, where they are unknowns: those of F.
 void JstBody::fill_evolved_geometry() {
   bool const area = wanted(fields_.H), volume = wanted(fields_.J);
-  for (Index i = 0; i < order_.slots() && (area || volume || wanted(fields_.filtered_ratio)); ++i) {
+  if (!area && !volume && !wanted(fields_.filtered_ratio)) return;
+  for (Index i = state_.slots.first; i < state_.slots.last; ++i) {
     Mat<3> const F = i < order_.particles ? this->F(i) : identity<3>(), H = cofactor(F);
     for (int c = 0; area && c < 9; ++c) fields_.H.at(i, c) = H.c[c];
     if (volume)
@@ -373,7 +393,7 @@ void JstBody::fill_evolved_geometry() {
 /// Solids in rate form start free of stress where they are not deformed.
 void JstBody::fill_solid(Machine const& machine) {
   with_solid(state_.material, [&](auto const& law) {
-    for (Index i = 0; i < order_.slots(); ++i) {
+    for (Index i = state_.slots.first; i < state_.slots.last; ++i) {
       for (int c = 0; c < 9; ++c) fields_.last_F.at(i, c) = c % 4 == 0 ? 1 : 0;
       fields_.history.at(i, SolidFields::temperature) = law.initial_temperature();
     }
@@ -385,7 +405,7 @@ void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
   for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = continued_volume(i);
   auto const filter = pairs_->make_filter(volumes);
-  for (Index i = 0; i < order_.particles; ++i) {
+  for (Index i = own().first; i < own().last; ++i) {
     fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];
     fields_.filter_sum.at(i) = filter.sum[static_cast<std::size_t>(i)];
   }
@@ -394,7 +414,8 @@ void JstBody::fill_filter() {
 void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
   auto const& moved = assembly.initial_displacement;
   auto const& deformed = assembly.initial_deformation_gradient;
-  exec_host::for_each_in_set_up(order_.particles, [&](Index i) {
+  exec_host::for_each_in_set_up(own().last - own().first, [&](Index number) {
+    Index const i = own().first + number;
     auto const at = static_cast<std::size_t>(id(i));
     for (int c = 0; c < D_; ++c) {
       auto const k = static_cast<std::size_t>(c);
@@ -404,7 +425,7 @@ void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
   });
   bool const mixed = options_.variables != Variables::displacement;
   if (!deformed.empty() && mixed) {
-    for (Index i = 0; i < order_.particles; ++i)
+    for (Index i = own().first; i < own().last; ++i)
       for (int c = 0; c < D_ * D_; ++c)
         fields_.F.at(i, c) = deformed[static_cast<std::size_t>(id(i))][std::size_t{3} * (c / D_) + c % D_];
   } else if (!moved.empty() || !mixed) {
@@ -413,11 +434,12 @@ void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
 }
 
 void JstBody::deform_to_positions(Machine const& machine) {
-  std::vector<double> kept(static_cast<std::size_t>(order_.slots() * D_));
+  Range const mine = state_.slots;
+  std::vector<double> kept(static_cast<std::size_t>(mine.last - mine.first) * static_cast<std::size_t>(D_));
   bool const mixed = options_.variables != Variables::displacement;
   auto const each = [&](auto const& f) {
-    for (Index i = 0; i < order_.slots(); ++i)
-      for (int c = 0; c < D_; ++c) f(i, c, kept[static_cast<std::size_t>(i) * D_ + c]);
+    for (Index i = mine.first; i < mine.last; ++i)
+      for (int c = 0; c < D_; ++c) f(i, c, kept[static_cast<std::size_t>(i - mine.first) * D_ + c]);
   };
   each([&](Index i, int c, double& value) {
     value = JstBody::value(state_.u, i, c);
@@ -428,7 +450,7 @@ void JstBody::deform_to_positions(Machine const& machine) {
   machine.update_deformation(state_);
   state_.u.copies = copies;
   if (mixed) each([&](Index i, int c, double& value) { set(state_.u, i, c, value); });
-  for (Index i = order_.particles; i < order_.slots(); ++i)
+  for (Index i = own().last; i < mine.last; ++i)
     for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
 }
 
@@ -474,26 +496,22 @@ void JstBody::damp(double factor) {
 
 double JstBody::hourglass_energy() const {
   if (!options_.hourglass()) return 0;
-  return exec_host::sum_of(order_.particles, [&](Index i) { return volume(i) * value(state_.hourglass_energy, i); });
+  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.hourglass_energy, i); });
 }
 
 double JstBody::filtered_energy() const {
   if (state_.seen_ratio.data == nullptr) return 0;
-  return 0.5 * state_.constants.kappa_filtered * exec_host::sum_of(order_.particles, [&](Index i) {
+  return 0.5 * state_.constants.kappa_filtered * sum_over_slots(shared(), own(), [&](Index i) {
            double const change = value(state_.seen_ratio, i) - 1;
            return volume(i) * change * change;
          });
 }
 
 double JstBody::kinetic_energy() const {
-  Range const mine = own();
-  auto sum = exec_host::sums_of<1>(mine.last - mine.first, [&](Index k, double* at) {
-    Index const i = mine.first + k;
-    auto const v = this->v(i);
-    *at = volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  });
-  if (shared()) ranks::add(sum);
-  return 0.5 * state_.constants.rho0 * sum.value();
+  return 0.5 * state_.constants.rho0 * sum_over_slots(shared(), own(), [&](Index i) {
+           auto const v = this->v(i);
+           return volume(i) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+         });
 }
 
 Mat<3> JstBody::F(Index slot) const {

@@ -7,6 +7,7 @@
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/formulations/mirror_images.hpp"
+#include "piola/formulations/shared_lines.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
 #include "piola/parallel/halo_plan.hpp"
@@ -18,7 +19,7 @@ namespace piola::jst_sph {
 /// One body of a JST-SPH run: owns its memory, hands its state to the loops, answers in Id order.
 class JstBody {
  public:
-  /// `set` is kept by reference. Throws InputError (too few neighbours).
+  /// `set` is kept by reference. Throws InputError (too few neighbours). Collective on ranks.
   JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
           Machine const& machine);
   JstBody(JstBody const&) = delete;
@@ -34,22 +35,21 @@ class JstBody {
   ReferencePairs const& pairs() const { return *pairs_; }
   ParticleSet const& set() const { return *set_; }
   std::size_t bytes() const;
-  /// Of all ranks that share the particles this one takes a part: from now on it works on that. Collective.
-  void share(int lanes);
   bool shared() const { return halo_ != nullptr; }
   /// Slots of particles that this rank works on: all of them on one rank.
   Range own() const;
   /// What neighbours read of particles; a step has one or two right-hand sides.
   Talk talk() const;
-  /// Of a field that all ranks have in part, what the others have comes to rank 0. Collective.
-  void gather(FieldRef const& field, int components);
+  /// Where ranks share the body: its lattice lines as observers see them; else nullptr.
+  SharedLines* lines() const { return lines_.get(); }
   /// From `time` to time + dt, with supports and loads.
   void step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that nothing prescribes, and notes the energy.
   void damp(double factor);
   double kinetic_energy() const;    ///< of all ranks, which all ask for it [J]
-  double hourglass_energy() const;  ///< as observed last [J]
-  double filtered_energy() const;  ///< of the filtered volume ratio as observed last, where that has a viscous part [J]
+  double hourglass_energy() const;  ///< likewise, as observed last [J]
+  double filtered_energy()
+      const;  ///< likewise of the filtered volume ratio as observed last, where that has a viscous part [J]
   /// The next time at which a support or a load ends.
   double next_release(double time) const { return boundary_.next_release(time); }
   Boundary& boundary() { return boundary_; }
@@ -80,7 +80,12 @@ class JstBody {
   /// Of the body and of its mirror images.
   Index all_slots() const { return order_.slots() + images_.count(); }
   void mark_images();
+  /// Of all ranks that share the particles this one takes a part, and makes what follows for that. Collective.
+  void share(int lanes);
   void mark_halo();
+  /// f(slot) for the particles that this rank works on, and those that it reads of other ranks.
+  template <class Visit>
+  void each_seen(Visit const& f) const;
   /// What goes to other ranks: values [first, first + count) of a field, so many times in a right-hand side.
   struct Told {
     FieldRef field;
@@ -89,6 +94,7 @@ class JstBody {
   std::vector<Told> told() const;
   std::vector<Index> slots_read(int lanes) const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
+  void take_tables();
   void allocate();
   /// Memory that fields share because sweeps read them together at neighbours.
   struct Gathered {
@@ -140,6 +146,7 @@ class JstBody {
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles
+  std::unique_ptr<SharedLines> lines_;
 };
 
 }  // namespace piola::jst_sph

@@ -35,6 +35,22 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& 
     slot_of[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
   take_supports(assembly, connected(assembly.supports, mirrors), slot_of);
   take_loads(assembly, slot_of);
+  plain_of_all_ = plain_.size();
+  for (std::size_t k = 0; k < plain_of_all_; ++k) plain_owner_[k].number = k;
+}
+
+void Boundary::share(Range own) {
+  own_ = own;
+  driven_.keep(own);
+  std::vector<SupportComponent> mine;
+  std::vector<PlainOwner> owners;
+  for (std::size_t k = 0; k < plain_.size(); ++k) {
+    if (!is_own(own, plain_[k].slot)) continue;
+    mine.push_back(plain_[k]);
+    owners.push_back(plain_owner_[k]);
+  }
+  plain_ = std::move(mine);
+  plain_owner_ = std::move(owners);
 }
 
 double Boundary::mass_of(Assembly const& assembly, std::int64_t id) const {
@@ -124,7 +140,6 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
 void Boundary::end_step(BodyState& state) {
   for (std::size_t k = 0; k < plain_.size(); ++k) {
     SupportComponent const& s = plain_[k];
-    if (!is_own(own_, s.slot)) continue;
     std::array<double, 3> before{}, after{};
     before[static_cast<std::size_t>(s.component)] = plain_owner_[k].mass * s.at_start;
     after[static_cast<std::size_t>(s.component)] = plain_owner_[k].mass * s.at_end;
@@ -147,21 +162,15 @@ void Boundary::hand_over(Actions& actions) {
     actions.supports[k].add(multipliers_->impulses()[k]);
 }
 
-void Boundary::merge() {
-  std::vector<double> removed;
-  for (SupportComponent const& s : plain_) removed.push_back(is_own(own_, s.slot) ? s.removed : 0);
-  ranks::merge(removed);
-  restore(removed);
-}
-
 std::vector<double> Boundary::state() const {
-  std::vector<double> r;
-  for (SupportComponent const& s : plain_) r.push_back(s.removed);
-  return r;
+  std::vector<double> removed(plain_of_all_);
+  for (std::size_t k = 0; k < plain_.size(); ++k) removed[plain_owner_[k].number] = plain_[k].removed;
+  if (own_) ranks::merge(removed);
+  return removed;
 }
 
 void Boundary::restore(std::vector<double> const& state) {
-  for (std::size_t k = 0; k < plain_.size(); ++k) plain_[k].removed = state[k];
+  for (std::size_t k = 0; k < plain_.size(); ++k) plain_[k].removed = state[plain_owner_[k].number];
 }
 
 }  // namespace piola::jst_sph

@@ -28,16 +28,12 @@ class Boundary {
   void end_step(BodyState& state);
   /// Multiplies the velocities of the body by `factor`, but not along the directions that were held in the last step.
   void damp(BodyState& state, double factor) const { driven_.damp(state.v, state.slots.last, factor); }
-  /// Ranks share the body: this one answers for the particles in these slots.
-  void share(Range own) {
-    own_ = own;
-    driven_.share(own);
-  }
-  /// On ranks: brings what a checkpoint holds to all of them. Collective.
-  void merge();
+  /// Ranks share the body: this one answers for the particles in these slots. Before attach().
+  void share(Range own);
   /// Adds what supports and loads did in the last step; collective where ranks share the body.
   void hand_over(Actions& actions);
   /// What a checkpoint holds beside fields: accelerations that supports made up for at the end of the last step.
+  /// Collective where ranks share the body; all of them have it.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
@@ -49,6 +45,7 @@ class Boundary {
   struct PlainOwner {
     std::size_t support;
     double mass;
+    std::size_t number = 0;  ///< of the component among those of all ranks
   };
   void take_supports(Assembly const& assembly, std::vector<Support> const& supports, std::vector<Index> const& slot_of);
   void take_loads(Assembly const& assembly, std::vector<Index> const& slot_of);
@@ -61,7 +58,8 @@ class Boundary {
   double rho0_ = 0;
   std::optional<Cloud> cloud_;
   BodyBoundary driven_;
-  std::vector<SupportComponent> plain_;
+  std::vector<SupportComponent> plain_;  ///< of this rank
+  std::size_t plain_of_all_ = 0;         ///< ranks
   std::vector<PlainOwner> plain_owner_;
   std::vector<std::array<double, 3>> plain_start_;  ///< at the start of the step [m]
   std::optional<Multipliers> multipliers_;

@@ -2,6 +2,8 @@
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/observed.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/own_slots.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,40 +101,51 @@ double volume_mismatch(JstBody const& body, double J, Index i) {
 
 void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
-  std::vector<double> pressure(static_cast<std::size_t>(body.particles()));
+  SharedLines* const lines = body.lines();
+  std::vector<double> pressure(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
   bool const solid = is_solid(body.state().material);
-  exec::ExactSum strain;
+  exec::ExactSums<1> strain;
   o.open_body(body.body().name);
   with_observed_law(body.state().material, [&](auto const& law) {
-    for (Index i = 0; i < body.particles(); ++i) {
+    for (Index i = body.own().first; i < body.own().last; ++i) {
       Mat<3> const F = body.F(i);
-      double const V = body.volume(i), J = determinant(F), p = observed_pressure(body, law, F, i);
-      strain += V * stored_energy(body, law, F, i);
-      if (solid) o.plastic_work += V * history(body, i, SolidFields::plastic_work);
-      double const mismatch = volume_mismatch(body, J, i);
-      o.mismatch_square += V * mismatch * mismatch;
+      double const V = body.volume(i), J = determinant(F), p = observed_pressure(body, law, F, i),
+                   energy = V * stored_energy(body, law, F, i), mismatch = volume_mismatch(body, J, i);
+      double const more[]{V * mismatch * mismatch, solid ? V * history(body, i, SolidFields::plastic_work) : 0};
+      strain.add(&energy);
+      o.mismatch_square_and_plastic_work.add(more);
       o.mismatch_max = maximum(o.mismatch_max, std::abs(mismatch));
       o.add_state(J, p, V);
-      pressure[static_cast<std::size_t>(body.id(i) - body.body().first)] = p;
+      (lines != nullptr ? lines->pressure(i) : pressure[static_cast<std::size_t>(body.id(i) - body.body().first)]) = p;
       o.add_motion(body.x(i), body.v(i), V * law.rho0);
     }
   });
-  o.add_strain_energy(strain.value() + body.hourglass_energy());
-  o.hourglass_energy += body.hourglass_energy();
+  if (body.shared()) ranks::add(strain);
+  double const hourglass_energy = body.hourglass_energy();
+  o.add_strain_energy(strain.value() + hourglass_energy);
+  o.hourglass_energy += hourglass_energy;
   if (body.options().hourglass())
-    d.stabilisation_loss += body.state().totals.viscous_work - body.hourglass_energy() - body.filtered_energy();
+    d.stabilisation_loss += body.state().totals.viscous_work - hourglass_energy - body.filtered_energy();
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
   d.external_work += body.state().totals.external_work;
   d.damping_loss += body.state().totals.damping_loss;
-  o.add_oscillation(body.set(), body.body(), pressure);
+  if (lines != nullptr)
+    lines->add_oscillation(o);
+  else
+    o.add_oscillation(body.set(), body.body(), pressure);
 }
 
-Diagnostics finish(JstObservation const& o) {
+Diagnostics finish(JstObservation o) {
+  if (ranks::several()) {
+    o.share();
+    ranks::add(o.mismatch_square_and_plastic_work);
+    ranks::take_largest(o.mismatch_max);
+  }
   Diagnostics d = o.finish();
-  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square.value() / o.volume())},
+  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square_and_plastic_work.value(0) / o.volume())},
             {"volume_mismatch_max", o.mismatch_max},
-            {"plastic_work", o.plastic_work.value()},
+            {"plastic_work", o.mismatch_square_and_plastic_work.value(1)},
             {"internal_energy", d.strain_energy},
             {"hourglass_energy", o.hourglass_energy}};
   return d;
@@ -183,14 +196,18 @@ std::vector<FieldInfo> observed_fields(bool solids) {
   return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
 }
 
-void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
+namespace {
+
+/// f(slot, particle) of the particles of this rank.
+template <class F>
+void observe_each(JstBody const& body, int body_number, std::string_view field, F const& f) {
+  Range const own = body.own();
   if (field == "Displacement" || field == "Position" || field == "Velocity") {  // asked for often, and without stress
-    for (Index i = 0; i < body.particles(); ++i) put(found, motion_of(body, i), values);
+    for (Index i = own.first; i < own.last; ++i) f(i, motion_of(body, i));
     return;
   }
   with_observed_law(body.state().material, [&](auto const& law) {
-    for (Index i = 0; i < body.particles(); ++i) {
+    for (Index i = own.first; i < own.last; ++i) {
       ObservedParticle p = motion_of(body, i);
       p.body = body_number;
       p.neighbours = body.pairs().corrections().neighbours_of(i);
@@ -202,9 +219,29 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
       p.inertia = law.rho0;
       p.density = law.rho0 / p.J;
       if (is_solid(body.state().material)) add_history(body, i, p);
-      put(found, p, values);
+      f(i, p);
     }
   });
+}
+
+}  // namespace
+
+void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  ObservedField const& found = find_observed(field, offered);
+  if (!body.shared())
+    return observe_each(body, body_number, field, [&](Index, ObservedParticle const& p) { put(found, p, values); });
+  auto const width = static_cast<std::size_t>(found.components);
+  Range const own = body.own();
+  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * width);
+  observe_each(body, body_number, field, [&](Index i, ObservedParticle const& p) {
+    found.put(p, &mine[static_cast<std::size_t>(i - own.first) * width]);
+  });
+  SharedSlots{body.slots(), body.particles()}.collect(
+      width, std::move(mine), [&](Range part, std::span<double const> of) {
+        for (Index i = part.first; i < part.last; ++i)
+          std::copy_n(&of[static_cast<std::size_t>(i - part.first) * width], width,
+                      &values[static_cast<std::size_t>(body.id(i)) * width]);
+      });
 }
 
 }  // namespace piola::jst_sph

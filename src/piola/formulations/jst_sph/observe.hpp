@@ -8,22 +8,23 @@
 namespace piola::jst_sph {
 
 struct JstObservation : Observation {
-  exec::ExactSum mismatch_square;  ///< sum V (det F - volume ratio of the volumetric energy)^2
+  /// sum V (det F - volume ratio of the volumetric energy)^2; [J]
+  exec::ExactSums<2> mismatch_square_and_plastic_work;
   double mismatch_max = 0;
-  exec::ExactSum plastic_work;  ///< [J]
   double hourglass_energy = 0;  ///< [J]
 };
 
+/// Of the particles of this rank; collective where ranks share the body.
 void observe(JstBody const& body, JstObservation& observation);
 
-/// Energies, momenta, extrema and the volume mismatch over all bodies.
-Diagnostics finish(JstObservation const& observation);
+/// Energies, momenta, extrema and the volume mismatch over all bodies. Collective where ranks share them.
+Diagnostics finish(JstObservation observation);
 
 /// The fields that JST-SPH offers to frames and probes; `solids`: with those of solids in rate form.
 std::vector<FieldInfo> observed_fields(bool solids);
 
-/// values[id * components + c] of one field for the particles of one body. Throws std::invalid_argument for an unknown
-/// field.
+/// values[id * components + c] of one field for the particles of one body; on ranks that share it collective, and rank
+/// 0 has them. Throws std::invalid_argument for an unknown field.
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 
 }  // namespace piola::jst_sph

@@ -114,7 +114,7 @@ FormulationInfo info() {
       diagnostics};
   info.cell_volumes = true;
   info.pushable = true;
-  info.on_ranks = true;
+  info.on_ranks = info.observed_by_share = true;
   return info;
 }
 

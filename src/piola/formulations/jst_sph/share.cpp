@@ -17,20 +17,20 @@ void JstBody::share(int lanes) {
   state_.slots = share_of(order_.slots(), ranks::own(), ranks::count());
   halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read(lanes));
   state_.halo = halo_.get();
-  mark_halo();
+  lines_ = std::make_unique<SharedLines>(*set_, body_, order_, own());
   boundary_.share(state_.slots);
 }
 
-/// Where the particles of this rank find what they read of neighbours: those themselves, or those that images copy.
+/// Where the particles of this rank find what they read of others: those themselves, or those that images copy.
 std::vector<Index> JstBody::slots_read(int lanes) const {
-  std::vector<Index> read;
+  std::vector<bool> seen(static_cast<std::size_t>(order_.slots()));
+  auto const add = [&](Index slot) { seen[static_cast<std::size_t>(slot)] = true; };
   for (Index i = own().first; i < own().last; ++i) {
     if (!state_.regular) {
       auto const& list = state_.list;
       for (auto k = list.begin[i]; k < list.begin[i + 1]; ++k) {
         Index const b = list.neighbour[k];
-        read.push_back(b < order_.slots() ? b
-                                          : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
+        add(b < order_.slots() ? b : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
       }
       continue;
     }
@@ -39,9 +39,12 @@ std::vector<Index> JstBody::slots_read(int lanes) const {
     for (auto const* run : {pattern.inner, pattern.outer})
       for (std::int32_t k = run[0]; k < run[1]; ++k) {
         StencilEntry const& entry = table.entries[k];
-        if (entry.weights < 0 || table.weights[entry.weights + i % lanes] != 0) read.push_back(i + entry.delta);
+        if (entry.weights < 0 || table.weights[entry.weights + i % lanes] != 0) add(i + entry.delta);
       }
   }
+  std::vector<Index> read;
+  for (Index i = 0; i < order_.particles; ++i)
+    if (seen[static_cast<std::size_t>(i)] && (i < own().first || i >= own().last)) read.push_back(i);
   return read;
 }
 
@@ -91,7 +94,5 @@ Talk JstBody::talk() const {
   talk.collectives = (verlet() ? 2 : stages * (rigid_of_stages ? 2 : 1)) + 3;
   return talk;
 }
-
-void JstBody::gather(FieldRef const& field, int components) { gather_slots(field, own(), components); }
 
 }  // namespace piola::jst_sph

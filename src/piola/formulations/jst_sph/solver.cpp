@@ -36,7 +36,6 @@ class Solver final : public Formulation {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
-      bodies_.back()->share(machine_->lanes);
       alpha_.push_back(options.cfl);
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
     }
@@ -92,7 +91,6 @@ class Solver final : public Formulation {
       if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
     if (ranks::several()) share_failures();
   }
-  void gather() override;
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
@@ -165,17 +163,16 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) largest_speed_.push_back(machine_->largest_wave_speed(body->state()));
   }
   /// Brings what observers see up to date; nothing that steps read changes. Displacement variables keep F of the last
-  /// stage; observers want that of x.
+  /// stage; observers want that of x. Collective where ranks share the body.
   void refresh(JstBody const& body) const {
     BodyState seen = body.state();
-    seen.slots = {0, body.slots()};  // on ranks, after gather(), rank 0 looks at all particles by itself
-    seen.halo = nullptr;
     if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
     if (body.options().hourglass()) machine_->observe_energy(seen);
   }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
   void share_failures();
+  void tell_failures();
   void place_stages(JstBody& body) const;
   template <class F>
   void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
@@ -197,7 +194,7 @@ FailureSlot Solver::failure_of(JstBody const& body, double largest_speed) {
   FailureSlot const recorded = *body.state().failure;
   if (recorded.index < body.particles() || !std::isnan(largest_speed)) return recorded;
   FailureSlot found = recorded;
-  for (Index i = 0; i < body.particles(); ++i) {
+  for (Index i = body.own().first; i < body.own().last; ++i) {
     if (!std::isnan(JstBody::value(body.state().wave_speed, i)) || !found.is_after(i)) continue;
     found.index = i;
     found.code = no_wave_speed;
@@ -264,7 +261,7 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      save_field(writer, name, body, field, components);
+      save_own(writer, name, body, field, components);
     });
     auto const& totals = body.state().totals;
     std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work, totals.damping_loss,
@@ -281,19 +278,21 @@ void Solver::save(StateWriter& writer) const {
 /// The positions of a stage are, between steps, those of the particles.
 void Solver::place_stages(JstBody& body) const {
   if (body.options().variables != Variables::displacement) return;
-  for (Index i = 0; i < body.particles(); ++i)
+  for (Index i = body.own().first; i < body.own().last; ++i)
     for (int c = 0; c < set_.dimension; ++c) JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
 }
 
-/// What a checkpoint holds is all that observers see, too.
-void Solver::gather() {
-  for (std::size_t k = 0; ranks::several() && k < bodies_.size(); ++k) {
-    JstBody& body = *bodies_[k];
-    each_evolved(body, k,
-                 [&](std::string const&, FieldRef const& field, int components) { body.gather(field, components); });
-    if (ranks::own() == 0) place_stages(body);
-    body.boundary().merge();
-    if (monitors_[k]) monitors_[k]->merge();
+/// All ranks have what there is to say about the first particle that failed.
+void Solver::tell_failures() {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    JstBody const& body = *bodies_[k];
+    FailureSlot found = failure_of(body, largest_speed_[k]);
+    share_failure(found);
+    if (found.index >= body.particles()) continue;
+    *body.state().failure = found;
+    each_evolved(body, k, [&](std::string const&, FieldRef const& field, int components) {
+      merge_slots(field, body.own(), std::array{found.index}, components);
+    });
   }
 }
 
@@ -305,21 +304,24 @@ void Solver::share_failures() {
     share_failure(slot);
     failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
   }
-  if (failed) gather();
+  if (failed) tell_failures();
 }
 
 void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      load_field(reader, name, body, field, components);
+      load_own(reader, name, body, field, components);
     });
     place_stages(body);
     std::array<double, 5> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.state().totals = {books[0], books[1], books[2], books[3], books[4]};
     load_part(reader, fmt::format("body{}_supports", k), body.boundary());
-    if (monitors_[k]) load_part(reader, fmt::format("body{}_step_limit", k), *monitors_[k]);
+    if (!monitors_[k]) continue;
+    std::vector<double> monitor = monitors_[k]->state();
+    reader.get_to_deal(fmt::format("body{}_step_limit", k), monitor);
+    monitors_[k]->restore(monitor);
   }
   std::array<double, 2> clock{};
   reader.get("time", clock);

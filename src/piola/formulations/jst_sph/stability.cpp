@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/stability.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/checkpoint.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/modes.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,8 +29,8 @@ constexpr double trust = 0.65;
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
  public:
-  /// Of all slots: on ranks, trial steps also write what comes from others.
-  explicit Kept(JstBody const& body) : slots_(body.slots()) {
+  /// Of the slots of this rank: what trial steps write of others is brought up to date before anybody reads it.
+  explicit Kept(JstBody const& body) : slots_(body.state().slots) {
     BodyState const& state = body.state();
     int const D = state.dimension;
     for (auto const& [field, components] : {std::pair{state.x, D},
@@ -47,7 +49,7 @@ class Kept {
   void restore() const {
     for (auto const& part : parts_) put(part.field, part.components, part.values);
   }
-  /// What was kept of a field.
+  /// What was kept of a field, from the first slot of this rank on.
   double const* values_of(FieldRef const& field) const {
     auto const found =
         std::find_if(parts_.begin(), parts_.end(), [&](Part const& part) { return part.field.data == field.data; });
@@ -61,22 +63,52 @@ class Kept {
     std::vector<double> values;
   };
   std::vector<double> values_of(FieldRef const& field, int components) const {
-    std::vector<double> values(static_cast<std::size_t>(slots_) * static_cast<std::size_t>(components));
-    exec_host::for_each_in_set_up(slots_, [&](Index i) {
-      double* const to = &values[static_cast<std::size_t>(i) * static_cast<std::size_t>(components)];
-      for (int c = 0; c < components; ++c) to[c] = JstBody::value(field, i, c);
+    std::vector<double> values(static_cast<std::size_t>(slots_.last - slots_.first) *
+                               static_cast<std::size_t>(components));
+    exec_host::for_each_in_set_up(slots_.last - slots_.first, [&](Index k) {
+      double* const to = &values[static_cast<std::size_t>(k) * static_cast<std::size_t>(components)];
+      for (int c = 0; c < components; ++c) to[c] = JstBody::value(field, slots_.first + k, c);
     });
     return values;
   }
   void put(FieldRef const& field, int components, std::vector<double> const& values) const {
-    exec_host::for_each_in_set_up(slots_, [&](Index i) {
-      double const* const from = &values[static_cast<std::size_t>(i) * static_cast<std::size_t>(components)];
-      for (int c = 0; c < components; ++c) JstBody::set(field, i, c, from[c]);
+    exec_host::for_each_in_set_up(slots_.last - slots_.first, [&](Index k) {
+      double const* const from = &values[static_cast<std::size_t>(k) * static_cast<std::size_t>(components)];
+      for (int c = 0; c < components; ++c) JstBody::set(field, slots_.first + k, c, from[c]);
     });
   }
-  Index slots_;
+  Range slots_;
   std::vector<Part> parts_;
 };
+
+std::size_t size_of_mode(JstBody const& body) {
+  return static_cast<std::size_t>(body.own().last - body.own().first) *
+         static_cast<std::size_t>(body.state().dimension);
+}
+
+/// Modes have the particles of this rank, by slot.
+std::size_t mode_place(JstBody const& body, Index slot, int c) {
+  return static_cast<std::size_t>(slot - body.own().first) * static_cast<std::size_t>(body.state().dimension) +
+         static_cast<std::size_t>(c);
+}
+
+double largest_on_ranks(JstBody const& body, std::vector<double> const& u) {
+  double most = largest_of(u);
+  if (body.shared()) ranks::take_largest(most);
+  return most;
+}
+
+/// f(value, number) of the values of a mode; numbers go by id.
+template <class F>
+void each_of_mode(JstBody const& body, std::vector<double>& mode, F const& f) {
+  Range const own = body.own();
+  int const D = body.state().dimension;
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    auto const number =
+        static_cast<std::uint64_t>(body.id(own.first + k) - body.body().first) * static_cast<unsigned>(D);
+    for (int c = 0; c < D; ++c) f(mode[mode_place(body, own.first + k, c)], number + static_cast<unsigned>(c));
+  });
+}
 
 /// A linear operator of the body as trial steps see it: displacements to rates of velocity, about a state.
 class Operator {
@@ -88,7 +120,7 @@ class Operator {
       F_ = about->values_of(trial_.F);
       x_ = about->values_of(trial_.x);
     }
-    rest_.resize(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(D_));
+    rest_.resize(size_of_mode(body));
     rates_at(rest_, {});
   }
 
@@ -101,15 +133,13 @@ class Operator {
     k.hourglass.bulk_ahead = factor * own.hourglass.bulk_ahead;
   }
 
-  /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u; on ranks that of the
-  /// particles of this rank, and zeros.
+  /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u, of the particles of this
+  /// rank.
   double dominant(std::vector<double>& u, int rounds) {
-    forget_others(u);
     double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
     double ratio = 0;
     for (int round = 0; round < rounds; ++round) {
-      double most = largest_of(u);
-      if (body_.shared()) ranks::take_largest(most);
+      double const most = largest_on_ranks(body_, u);
       if (!(most > 0) || !std::isfinite(most)) return 0;
       each_particle([&](Index i) {
         for (int c = 0; c < D_; ++c) u[at(i, c)] *= size / most;
@@ -122,20 +152,12 @@ class Operator {
   }
 
  private:
-  /// Displacements and modes are in the order of ids, what is kept of fields in that of slots.
-  std::size_t at(Index i, int c) const {
-    return static_cast<std::size_t>(body_.id(i) - body_.body().first) * static_cast<std::size_t>(D_) + c;
-  }
-  std::size_t kept_at(Index i, int c) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(D_) + c; }
+  /// Of displacements, of modes, and of what is kept of fields.
+  std::size_t at(Index i, int c) const { return mode_place(body_, i, c); }
   template <class F>
   void each_particle(F const& f) const {
     Range const own = body_.own();
     exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) { f(own.first + k); });
-  }
-  void forget_others(std::vector<double>& u) const {
-    for (Index i = 0; i < body_.particles() && body_.shared(); ++i)
-      for (int c = 0; c < D_; ++c)
-        if (i < body_.own().first || i >= body_.own().last) u[at(i, c)] = 0;
   }
   double square(std::vector<double> const& u) const {
     Range const own = body_.own();
@@ -155,8 +177,8 @@ class Operator {
     each_particle([&](Index i) {
       auto const X = body_.X(i);
       for (int c = 0; c < D_; ++c) {
-        auto const k = kept_at(i, c);
-        JstBody::set(trial_.v, i, c, u[at(i, c)]);
+        auto const k = at(i, c);
+        JstBody::set(trial_.v, i, c, u[k]);
         JstBody::set(trial_.rate, i, c, 0);
         if (hourglass) JstBody::set(trial_.x, i, c, x_ != nullptr ? x_[k] : X[static_cast<std::size_t>(c)]);
         for (int d = 0; d < D_; ++d)
@@ -213,8 +235,8 @@ double damping_per_speed(JstBody& body, Machine const& machine) {
   trial.constants.kappa_filtered = 0;
   trial.constants.c_p0 = 1;
   Operator L_star_L(body, trial, machine, nullptr);
-  std::vector<double> mode(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(trial.dimension));
-  for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = pseudo_random(i);
+  std::vector<double> mode(size_of_mode(body));
+  each_of_mode(body, mode, [](double& value, std::uint64_t number) { value = pseudo_random(number); });
   double const sigma2 = L_star_L.dominant(mode, first_rounds) * k.h_min;  // times h^4
   return (k.eps4 * sigma2 + k.eps2 * std::sqrt(sigma2)) / k.h_min;
 }
@@ -230,7 +252,7 @@ double largest_step(double frequency, double damping) {
 double largest_step(double eigenvalue) { return largest_step(std::sqrt(eigenvalue), 0); }
 
 StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body_(body), machine_(machine) {
-  mode_.resize(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(body.state().dimension));
+  mode_.resize(size_of_mode(body));
   bool const hourglass = body.options().hourglass();
   {
     Kept const kept(body);
@@ -252,15 +274,26 @@ bool StabilityMonitor::is_large_lattice() const { return body_.body().regular &&
 
 bool StabilityMonitor::is_undeformed() const {
   auto const& s = body_.state();
-  for (Index i = 0; i < body_.particles(); ++i) {
+  double moved = 0;
+  for (Index i = body_.own().first; i < body_.own().last && moved == 0; ++i) {
     auto const X = body_.X(i);
     for (int c = 0; c < s.dimension; ++c) {
-      if (JstBody::value(s.x, i, c) != X[static_cast<std::size_t>(c)]) return false;
+      if (JstBody::value(s.x, i, c) != X[static_cast<std::size_t>(c)]) moved = 1;
       for (int d = 0; d < s.dimension; ++d)
-        if (JstBody::value(s.F, i, c * s.dimension + d) != (c == d ? 1 : 0)) return false;
+        if (JstBody::value(s.F, i, c * s.dimension + d) != (c == d ? 1 : 0)) moved = 1;
     }
   }
-  return true;
+  if (body_.shared()) ranks::take_largest(moved);
+  return moved == 0;
+}
+
+/// The mode of the last measurement, of size 1, with a random part, so that one that has grown elsewhere is found.
+void StabilityMonitor::refresh_mode() {
+  constexpr double fresh = 0.05;
+  double const most = largest_on_ranks(body_, mode_);
+  each_of_mode(body_, mode_, [&](double& value, std::uint64_t number) {
+    value = most > 0 ? value / most + fresh * pseudo_random(number) : pseudo_random(number);
+  });
 }
 
 double StabilityMonitor::setup_stages() const {
@@ -276,8 +309,7 @@ void StabilityMonitor::measure_at_rest() {
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
-  merge();
-  refresh_mode(mode_);
+  refresh_mode();
   Operator forces(body_, trial, machine_, nullptr);
   limit_at_rest_ = k.h_min / k.c_p0;
   speed_at_rest_ = k.c_p0;
@@ -292,8 +324,7 @@ void StabilityMonitor::measure_at_rest() {
 void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
   Kept const kept(body_);
   FailureSlot failure;
-  merge();
-  refresh_mode(mode_);
+  refresh_mode();
   Operator tangent(body_, trial_of(body_, failure), machine_, &kept);
   tangent.multiply_damping(2 / limit_);
   limit_ = largest_step(tangent.dominant(mode_, rounds));
@@ -306,8 +337,7 @@ void StabilityMonitor::measure(int rounds, double wave_speed) {
   if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
   Kept const kept(body_);
   wave_speed_ = wave_speed;
-  merge();
-  refresh_mode(mode_);
+  refresh_mode();
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
@@ -332,21 +362,23 @@ double StabilityMonitor::step(double wave_speed) const {
   return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
 }
 
-void StabilityMonitor::merge() {
-  if (body_.shared()) ranks::merge(mode_);
-}
-
 std::vector<double> StabilityMonitor::state() const {
   std::vector<double> s{body_.options().hourglass() ? limit_ : frequency_, wave_speed_, steps_};
-  s.insert(s.end(), mode_.begin(), mode_.end());
+  auto const mode =
+      in_id_order(body_, body_.state().dimension, [&](Index i, int c) { return mode_[mode_place(body_, i, c)]; });
+  s.insert(s.end(), mode.begin(), mode.end());
   return s;
 }
 
 void StabilityMonitor::restore(std::vector<double> const& state) {
-  (body_.options().hourglass() ? limit_ : frequency_) = state[0];
-  wave_speed_ = state[1];
-  steps_ = state[2];
-  std::copy(state.begin() + 3, state.end(), mode_.begin());
+  std::array<double, 3> numbers{};
+  std::copy_n(state.begin(), numbers.size(), numbers.begin());
+  if (body_.shared()) ranks::broadcast_bytes(numbers.data(), sizeof numbers);
+  (body_.options().hourglass() ? limit_ : frequency_) = numbers[0];
+  wave_speed_ = numbers[1];
+  steps_ = numbers[2];
+  from_id_order(body_, body_.state().dimension, std::span(state).subspan(numbers.size()),
+                [&](Index i, int c, double value) { mode_[mode_place(body_, i, c)] = value; });
 }
 
 }  // namespace piola::jst_sph

@@ -37,22 +37,22 @@ class StabilityMonitor {
 
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
-  /// On ranks: brings what state() tells to all of them. Collective.
-  void merge();
-  /// Everything that the next step limit depends on.
+  /// Everything that the next step limit depends on. On ranks that share the body both are collective, and rank 0 has,
+  /// or gives, what there is of particles.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 
  private:
   bool is_large_lattice() const;
   bool is_undeformed() const;
+  void refresh_mode();
   void measure(int rounds, double wave_speed);
   void measure_at_rest();
   void measure_all_forces(int rounds, double wave_speed);
 
   JstBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;        ///< in the order of ids
+  std::vector<double> mode_;        ///< of the particles of this rank, by slot
   double frequency_ = 0;            ///< 1/s, at the last measurement
   double frequency_per_speed_ = 0;  ///< 1/m, at the start
   double wave_speed_ = 0;           ///< m/s, largest one at the last measurement

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What each rank of a run takes of memory at most, and the slowest of several ranks its set-up: a cube of N^3 particles,
+a few steps, with frames, checkpoints and rows of the history.
+
+Usage: bench/ranks_memory.py PROGRAM [N [RANKS,RANKS... [FORMULATION [jitter]]]]        (default: 80, 1,2,4, jst_sph)
+PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks run one thread each, more than there are cores
+of need be.
+"""
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+CASE = """title = "Cube"
+[run]
+end = "{end} s"
+[output.frames]
+every = "{end} s"
+fields = ["Displacement", "CauchyStress"]
+[output.checkpoints]
+every = "{end} s"
+[output.history]
+every = "{end} s"
+[[body]]
+name = "cube"
+shape = {{ box = {{ min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "1 m"] }}, particles = [{n}, {n}, {n}]{more} }}
+material = {{ law = "neo_hookean", density = "7000 kg/m^3", youngs_modulus = "21 GPa", poissons_ratio = 0.3 }}
+formulation = {{ name = "{formulation}" }}
+initial_velocity = ["0 m/s", "10 m/s", "0 m/s"]
+[[support]]
+body = "cube"
+where = "Y < 1e-9"
+fix = "xyz"
+"""
+
+
+def run_as_rank(report, words):
+    """What mpirun starts once per rank: the program, whose largest memory is noted."""
+    status = subprocess.run(words, stdout=subprocess.DEVNULL).returncode
+    with open(report, "a") as file:
+        file.write(f"{resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss}\n")
+    sys.exit(status)
+
+
+def largest_of_ranks(program, ranks, case, folder):
+    """Bytes of each rank, largest first."""
+    report = folder / "memory"
+    report.write_text("")
+    words = [program, "run", case, "-o", folder / "run", "--force", "--threads", "1", "--no-pictures", "--quiet"]
+    start = [sys.executable, __file__, "--rank", report]
+    if ranks > 1:
+        start = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--mca", "plm", "isolated", "-n", str(ranks), *start]
+    subprocess.run([*start, *words], check=True)
+    return sorted((1024 * int(line) for line in report.read_text().split()), reverse=True)
+
+
+def main():
+    if sys.argv[1] == "--rank":
+        run_as_rank(sys.argv[2], sys.argv[3:])
+    words = sys.argv[1:] + ["80", "1,2,4", "jst_sph", ""][len(sys.argv) - 2:]
+    program, n, counts, formulation, more = words
+    with tempfile.TemporaryDirectory() as folder:
+        case = Path(folder) / "case.toml"
+        case.write_text(CASE.format(n=n, formulation=formulation, end=1e-4 / int(n),
+                                    more=", jitter = 0.2" if more else ""))
+        for ranks in map(int, counts.split(",")):
+            found = largest_of_ranks(program, ranks, case, Path(folder))
+            print(f"{n}^3 of {formulation} on {ranks}: " + ", ".join(f"{size / 1e6:.0f}" for size in found) + " MB",
+                  flush=True)
+
+
+if __name__ == "__main__":
+    main()
