@@ -82,9 +82,10 @@ TEST(BodyBoundary, AddsUpLoadsAtBothEndsAndTheirImpulses) {
   EXPECT_EQ(p.acting[0][1], 3 + 6);
   EXPECT_EQ(p.acting[1][1], 9 + 18);
   m.x.at(1, 0) = 2;
-  double work = 7;
+  SharedTotal work;
+  work.set(7);
   boundary.end_step(m.x.ref(), work);
-  EXPECT_EQ(work, 7) << "passes find the work";
+  EXPECT_EQ(work.value(), 7) << "passes find the work";
   Actions actions({}, {dead, named}, {});
   boundary.hand_over(actions);
   EXPECT_EQ(actions.loads[0].linear[0], 0) << "without a name nobody asks";

@@ -31,7 +31,7 @@ def said(case, ranks):
     told = piola(1, "check", case, "--ranks", ranks)
     expect(told.returncode == 0, f"check --ranks {ranks}: {told.stderr}")
     messages, size = re.search(r"it sends ([\d, to.]+) messages, ([\w, .]+?) in a step", told.stdout).groups()
-    collectives = re.search(r"([\d,]+) collectives", told.stdout).group(1)
+    collectives = re.search(r"([\d,.]+) collectives", told.stdout).group(1)
     everybody = re.search(r"all ranks are told ([\d.]+ \w+) in", told.stdout)
     return {"messages": numbers(messages), "bytes": numbers(size), "collectives": numbers(collectives),
             "bytes_to_all": numbers(everybody.group(1)) if everybody else (0, 0)}

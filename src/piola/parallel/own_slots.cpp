@@ -2,6 +2,7 @@
 #include "piola/parallel/own_slots.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/parallel/first_failure.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <cstdint>
@@ -80,20 +81,9 @@ void merge_slots(FieldRef const& field, Range own, std::span<Index const> slots,
 }
 
 void share_failure(FailureSlot& slot) {
-  struct Found {
-    std::uint64_t id;
-    Index index;
-    int code;
-  };
-  auto const id = slot.index == FailureSlot::none ? -1 : slot.id != nullptr ? slot.id[slot.index] : slot.index;
-  Found first{static_cast<std::uint64_t>(id), slot.index, slot.code};  // the largest number where there is none
-  ranks::combine(first, [](void const* other, void* mine) {
-    auto const& a = *static_cast<Found const*>(other);
-    auto& b = *static_cast<Found*>(mine);
-    if (a.id < b.id) b = a;
-  });
-  slot.index = first.index;
-  slot.code = first.code;
+  FirstFailure first(slot);
+  ranks::add(first);
+  first.put(slot);
 }
 
 }  // namespace piola

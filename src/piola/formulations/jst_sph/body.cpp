@@ -110,6 +110,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   state_.partial = partial_.data();
   failure_.id = order_.id.data();
   state_.failure = &failure_;
+  state_.external_work = &external_work_;
   state_.regular = pairs_->regular();
   if (state_.regular)
     state_.stencil = pairs_->stencil();

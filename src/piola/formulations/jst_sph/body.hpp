@@ -10,6 +10,7 @@
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
 #include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/shared_total.hpp"
 #include <memory>
 #include <vector>
 
@@ -47,6 +48,8 @@ class JstBody {
   void step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that nothing prescribes, and notes the energy.
   void damp(double factor);
+  SharedTotal& external_work() { return external_work_; }  ///< of loads and of driven supports since the start [J]
+  SharedTotal const& external_work() const { return external_work_; }
   double kinetic_energy() const;    ///< of all ranks, which all ask for it [J]
   double hourglass_energy() const;  ///< as observed last [J]
   double filtered_energy() const;  ///< of the filtered volume ratio as observed last, where that has a viscous part [J]
@@ -81,13 +84,14 @@ class JstBody {
   Index all_slots() const { return order_.slots() + images_.count(); }
   void mark_images();
   void mark_halo();
-  /// What goes to other ranks: values [first, first + count) of a field, so many times in a right-hand side.
+  /// What goes to other ranks: values [first, first + count) of a field, to near neighbours or also to far ones.
   struct Told {
     FieldRef field;
-    int first, count, times;
+    int first, count;
+    bool far;
   };
-  std::vector<Told> told() const;
-  std::vector<Index> slots_read(int lanes) const;
+  std::vector<std::vector<Told>> told() const;
+  std::vector<Index> slots_read(int lanes, bool far) const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void allocate();
   /// Memory that fields share because sweeps read them together at neighbours.
@@ -137,6 +141,7 @@ class JstBody {
   std::vector<Index> group_first_;  // per stored group: a slot where it begins
   Boundary boundary_;
   std::vector<double> partial_;
+  SharedTotal external_work_;
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles

@@ -37,6 +37,7 @@ class Boundary {
   void merge();
   /// Adds what supports and loads did in the last step; collective where ranks share the body.
   void hand_over(Actions& actions);
+  void forget_impulses() { driven_.forget_impulses(); }
   /// What a checkpoint holds beside fields: accelerations that supports made up for at the end of the last step.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);

@@ -80,14 +80,12 @@ class Solver final : public Formulation {
   }
 
   void step(double time, double dt) override {
-    actions_.begin(dt);
-    for (auto const& body : bodies_) {
-      body->step(*machine_, time, dt);
-      body->boundary().hand_over(actions_);
-    }
+    actions_.begin_step(bodies_, dt);
+    for (auto const& body : bodies_) body->step(*machine_, time, dt);
+    actions_.end_step(bodies_);
     time_ = time + dt;
     last_step_ = dt;
-    find_largest_speeds();
+    for (std::size_t k = 0; k < bodies_.size(); ++k) largest_speed_[k] = bodies_[k]->state().largest_wave_speed;
     for (std::size_t k = 0; k < monitors_.size(); ++k)
       if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
     if (ranks::several()) share_failures();
@@ -141,9 +139,8 @@ class Solver final : public Formulation {
 
   int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
   std::optional<Talk> talk(std::size_t body) const override {
-    Talk talk = bodies_[body]->talk();  // and impulses of supports and of loads
-    talk.collectives += (actions_.supports.empty() ? 0 : 1) + (actions_.loads.empty() ? 0 : 1);
-    talk.reads = 2;  // positions, velocities
+    Talk talk = bodies_[body]->talk();
+    if (monitors_[body]) talk.collectives += StabilityMonitor::collectives_per_step;
     return talk;
   }
   std::size_t memory_bytes() const override {
@@ -183,7 +180,7 @@ class Solver final : public Formulation {
   ParticleSet set_;
   SlotsById slots_;
   Machine const* machine_;
-  Actions actions_;
+  ActionsOnBodies actions_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
@@ -267,8 +264,8 @@ void Solver::save(StateWriter& writer) const {
       save_field(writer, name, body, field, components);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work, totals.damping_loss,
-                           totals.viscous_work};
+    std::array const books{totals.stabilisation_loss, totals.projection_loss, body.external_work().value(),
+                           totals.damping_loss, totals.viscous_work};
     writer.put(fmt::format("body{}_energy_books", k), books);
     writer.put(fmt::format("body{}_supports", k), body.boundary().state());
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
@@ -293,8 +290,10 @@ void Solver::gather() {
                  [&](std::string const&, FieldRef const& field, int components) { body.gather(field, components); });
     if (ranks::own() == 0) place_stages(body);
     body.boundary().merge();
+    body.external_work().settle();
     if (monitors_[k]) monitors_[k]->merge();
   }
+  if (ranks::several()) actions_.settle(bodies_);
 }
 
 /// Of the ranks' first failures the first; then rank 0 is told all that there is to say about it.
@@ -302,7 +301,7 @@ void Solver::share_failures() {
   bool failed = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     FailureSlot& slot = *bodies_[k]->state().failure;
-    share_failure(slot);
+    if (smooths_volume(bodies_[k]->state().constants)) share_failure(slot);  // others were shared with the forces
     failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
   }
   if (failed) gather();
@@ -317,7 +316,8 @@ void Solver::load(StateReader& reader) {
     place_stages(body);
     std::array<double, 5> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
-    body.state().totals = {books[0], books[1], books[2], books[3], books[4]};
+    body.state().totals = {books[0], books[1], books[3], books[4]};
+    body.external_work().set(books[2]);
     load_part(reader, fmt::format("body{}_supports", k), body.boundary());
     if (monitors_[k]) load_part(reader, fmt::format("body{}_step_limit", k), *monitors_[k]);
   }

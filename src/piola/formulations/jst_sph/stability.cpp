@@ -106,7 +106,7 @@ class Operator {
   double dominant(std::vector<double>& u, int rounds) {
     forget_others(u);
     double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
-    double ratio = 0;
+    Squares squares;
     for (int round = 0; round < rounds; ++round) {
       double most = largest_of(u);
       if (body_.shared()) ranks::take_largest(most);
@@ -114,11 +114,13 @@ class Operator {
       each_particle([&](Index i) {
         for (int c = 0; c < D_; ++c) u[at(i, c)] *= size / most;
       });
-      double const before = square(u);
+      bool const last = round == rounds - 1;
+      if (last) squares.before = square(u);
       rates_at(u, rest_);
-      ratio = std::sqrt(square(u) / before);
+      if (last) squares.after = square(u);
     }
-    return ratio;
+    if (body_.shared()) ranks::add(squares);
+    return std::sqrt(squares.after.value() / squares.before.value());
   }
 
  private:
@@ -137,16 +139,22 @@ class Operator {
       for (int c = 0; c < D_; ++c)
         if (i < body_.own().first || i >= body_.own().last) u[at(i, c)] = 0;
   }
-  double square(std::vector<double> const& u) const {
+  struct Squares {
+    exec::ExactSums<1> before, after;
+    void add(Squares const& other) {
+      before.add(other.before);
+      after.add(other.after);
+    }
+  };
+  /// Of the particles of this rank.
+  exec::ExactSums<1> square(std::vector<double> const& u) const {
     Range const own = body_.own();
-    auto sums = exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
+    return exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
       Index const i = own.first + k;
       double sum = 0;
       for (int c = 0; c < D_; ++c) sum += u[at(i, c)] * u[at(i, c)];
       *x = body_.volume(i) * sum;
     });
-    if (body_.shared()) ranks::add(sums);
-    return sums.value();
   }
   /// Makes of the displacement u its rates, minus those without displacement if there are any to take away. Hourglass
   /// forces see positions, too.
