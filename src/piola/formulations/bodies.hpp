@@ -27,9 +27,7 @@ class ActionsOnBodies : public Actions {
 
   template <class Bodies>
   void begin_step(Bodies const& bodies, double dt) {
-    for (auto const& body : bodies)
-      if (due_) body->boundary().forget_impulses();
-    due_ = false;
+    if (due_) forget(bodies);
     begin(dt);
   }
   template <class Bodies>
@@ -37,15 +35,30 @@ class ActionsOnBodies : public Actions {
     due_ = true;
     if (!ranks::several()) settle(bodies);
   }
+  /// With what all ranks have given. Collective.
+  template <class Bodies>
+  ActionsOnBodies over_ranks(Bodies const& bodies) const {
+    ActionsOnBodies all(*this);
+    all.due_ = false;
+    for (auto const& body : bodies)
+      if (due_) body->boundary().hand_over(all);
+    return all;
+  }
   /// Collective.
   template <class Bodies>
   void settle(Bodies const& bodies) {
     if (!due_) return;
-    due_ = false;
-    for (auto const& body : bodies) body->boundary().hand_over(*this);
+    *this = over_ranks(bodies);
+    forget(bodies);
   }
 
  private:
+  template <class Bodies>
+  void forget(Bodies const& bodies) {
+    for (auto const& body : bodies) body->boundary().forget_impulses();
+    due_ = false;
+  }
+
   bool due_ = false;
 };
 

@@ -277,14 +277,12 @@ void BodyBoundary::take_out_ended(FieldRef const& rate) const {
   }
 }
 
-void BodyBoundary::hand_over(Actions& actions) {
-  if (own_) {
-    ranks::add(std::span(of_supports_));
-    ranks::add(std::span(of_loads_));
-  }
-  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_supports_[k].value());
-  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(of_loads_[k].value());
-  forget_impulses();
+void BodyBoundary::hand_over(Actions& actions) const {
+  std::vector<ImpulseSum> all(of_supports_);
+  all.insert(all.end(), of_loads_.begin(), of_loads_.end());
+  if (own_) ranks::add(std::span(all));
+  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(all[k].value());
+  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(all[of_supports_.size() + k].value());
 }
 
 void BodyBoundary::forget_impulses() {

@@ -66,9 +66,8 @@ class BodyBoundary {
   void end_step(FieldRef const& x, SharedTotal& work);
   /// Verlet: takes loads that end now out of the acceleration with which the next step begins.
   void take_out_ended(FieldRef const& rate) const;
-  /// Adds what supports and loads gave since the last call.
-  void hand_over(Actions& actions);
-  /// Nobody has asked for that.
+  /// Adds what supports and loads gave since forget_impulses().
+  void hand_over(Actions& actions) const;
   void forget_impulses();
   /// Of one more support or particle that the body deals with itself [N s].
   void add_impulse(std::size_t support, Point const& x, Point const& impulse) { of_supports_[support].add(x, impulse); }

@@ -58,7 +58,7 @@ class SurfaceHold {
   /// sum m a^2 of the part of accelerations that reactions of places take away beside those of particles.
   double square_of_held(FieldRef const& rate) const;
   /// Adds what supports gave since the last call.
-  void hand_over(Actions& actions) { driven_.hand_over(actions); }
+  void hand_over(Actions& actions) const { driven_.hand_over(actions); }
   void forget_impulses() { driven_.forget_impulses(); }
   std::size_t bytes() const;
 

@@ -35,7 +35,8 @@ void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some) 
   if (!ranks::several() || some.slots.empty()) return;
   std::size_t width = 0;
   for (FieldPart const& part : parts) width += static_cast<std::size_t>(part.count);
-  std::vector<double> values(width * some.slots.size());
+  static std::vector<double> values;  // kept, because large ones come from the system, page by page, each time
+  values.resize(width * some.slots.size());
   // f(value in the message, value in its field) of the slots k in [first, last).
   auto const each = [&](std::size_t first, std::size_t last, auto const& f) {
     exec_host::for_each_in_set_up(static_cast<Index>(last - first), [&](Index k) {

@@ -28,12 +28,16 @@ class SharedTotal {
     open_.push_back({part});
     if (open_.size() == many) settle();
   }
-  /// Collective; value() is then what all ranks have added.
-  void settle() {
-    ranks::add(std::span(open_));
-    for (Part const& part : open_) total_ += part.sum.value();
-    open_.clear();
+  /// What all ranks have added. Collective.
+  double over_ranks() const {
+    std::vector<Part> parts(open_);
+    ranks::add(std::span(parts));
+    double total = total_;
+    for (Part const& part : parts) total += part.sum.value();
+    return total;
   }
+  /// Collective; value() is over_ranks() then.
+  void settle() { set(over_ranks()); }
   bool settled() const { return open_.empty(); }
   double value() const { return total_; }
   /// Forgets what there was.

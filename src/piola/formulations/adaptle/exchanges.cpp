@@ -152,9 +152,9 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   for (Index i = b.first; i < b.last && SpatialLists::needed(s); ++i)
     talk.to_all += 3 + (flows && lists.near(i) ? all : 0) + (touching && lists.meets(i) ? 4 : 0);
   if (body > 0) return talk;
-  // Failures twice and what the step says; positions and who is near; impulses.
+  // Failures, what the step says; positions and who is near.
   talk.collectives =
-      3 + (SpatialLists::needed(s) ? 1 : 0) + (touching ? 1 : 0) + (flows ? (s.settings.corrected ? 2 : 1) : 0);
+      2 + (SpatialLists::needed(s) ? 1 : 0) + (touching ? 1 : 0) + (flows ? (s.settings.corrected ? 2 : 1) : 0);
   return talk;
 }
 

@@ -381,7 +381,7 @@ void Particles::step(double time, double dt) {
   evaluate(dt);
   sum_actions(time, dt);
   factors_.end_of_step();
-  if (exchanges_) share_failures();
+  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) gather();  // for what there is to say about it
 }
 
 /// Forces act at half time and at the places of then, for the whole step: impulses of the supports, then of the loads,
@@ -416,22 +416,11 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
 
 void Particles::sum_actions(double time, double dt) {
   actions_.begin(dt);
-  std::vector<ImpulseSum> sums = impulses(time, dt);
-  std::vector<exec::ExactSums<6>> rigids(shapes_.size());
+  action_sums_.emplace(ActionSums{dt, impulses(time, dt), std::vector<exec::ExactSums<6>>(shapes_.size())});
   for (std::size_t block = 0; block < rigid_action_.size(); block += 6)
-    rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
-  if (exchanges_) {
-    ranks::add(std::span(sums));
-    ranks::add(std::span(rigids));
-  }
-  for (std::size_t s = 0; s < supports_.size(); ++s) actions_.supports[s].add(sums[s].value());
-  for (std::size_t l = 0; l < loads_.size(); ++l) actions_.loads[l].add(sums[supports_.size() + l].value());
-  for (std::size_t k = 0; k < shapes_.size(); ++k) {
-    exec::ExactSums<6> const& sum = rigids[k];
-    actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
-                            {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
-    std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
-  }
+    action_sums_->rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
+  for (std::size_t k = 0; k < shapes_.size(); ++k) std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
+  if (!exchanges_) settle_actions();
 }
 
 /// Sums over neighbours and what they need.

@@ -141,7 +141,7 @@ void Boundary::end_step(BodyState& state) {
   }
 }
 
-void Boundary::hand_over(Actions& actions) {
+void Boundary::hand_over(Actions& actions) const {
   driven_.hand_over(actions);
   for (std::size_t k = 0; multipliers_ && k < multipliers_->impulses().size() && k < actions.supports.size(); ++k)
     actions.supports[k].add(multipliers_->impulses()[k]);

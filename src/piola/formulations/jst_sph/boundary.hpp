@@ -36,7 +36,7 @@ class Boundary {
   /// On ranks: brings what a checkpoint holds to all of them. Collective.
   void merge();
   /// Adds what supports and loads did in the last step; collective where ranks share the body.
-  void hand_over(Actions& actions);
+  void hand_over(Actions& actions) const;
   void forget_impulses() { driven_.forget_impulses(); }
   /// What a checkpoint holds beside fields: accelerations that supports made up for at the end of the last step.
   std::vector<double> state() const;

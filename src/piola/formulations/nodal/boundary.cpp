@@ -95,7 +95,7 @@ void Boundary::end_step(BodyState& state) {
   driven_.take_out_ended(state.a);
 }
 
-void Boundary::hand_over(Actions& actions) {
+void Boundary::hand_over(Actions& actions) const {
   driven_.hand_over(actions);
   surface_.hand_over(actions);
 }

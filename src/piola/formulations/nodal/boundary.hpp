@@ -43,8 +43,8 @@ class Boundary {
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const { return driven_.next_release(time); }
 
-  /// Adds what supports and loads gave since the last call.
-  void hand_over(Actions& actions);
+  /// Adds what supports and loads gave since forget_impulses().
+  void hand_over(Actions& actions) const;
   void forget_impulses() {
     driven_.forget_impulses();
     surface_.forget_impulses();

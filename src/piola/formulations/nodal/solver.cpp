@@ -90,7 +90,9 @@ class Solver final : public Formulation {
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       if (moved[k] == 0) continue;
       bodies_[k]->boundary().withstand(bodies_[k]->state());
-      if (ends_step_) bodies_[k]->boundary().hand_over(actions_);
+      if (!ends_step_) continue;
+      bodies_[k]->boundary().hand_over(actions_);
+      bodies_[k]->boundary().forget_impulses();
     }
     ends_step_ = false;
   }
