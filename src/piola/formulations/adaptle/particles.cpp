@@ -475,6 +475,7 @@ void Particles::evaluate(double dt) {
   books_.contact_energy += dt * m.contact_power;
   books_.hourglass_energy += dt * m.hourglass_power;
   books_.viscous_loss += dt * m.viscous_power;
+  books_.artificial_work += dt * m.artificial_power;
   books_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
   books_.overlap = std::max(books_.overlap, m.overlap);
   books_.next_dt = m.dt;

@@ -25,6 +25,7 @@ struct Books {
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
   double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
+  double artificial_work = 0;  ///< that artificial stress takes from motion; may give back
 
   /// Of a checkpoint, and back.
   std::vector<double> state() const;
@@ -35,7 +36,7 @@ struct Books {
   static auto listed(Self& b) {
     return std::tie(b.contact_energy, b.viscous_loss, b.external_work, b.converted, b.by_guard, b.converted_mass,
                     b.energy_change, b.momentum_change, b.deleted, b.overlap, b.time, b.next_dt, b.damping_loss,
-                    b.hourglass_energy);
+                    b.hourglass_energy, b.artificial_work);
   }
 };
 

@@ -79,6 +79,7 @@ struct Step {
     m.held_power = sums.value(B::held);
     m.load_power = sums.value(B::load);
     m.viscous_power = sums.value(B::viscous);
+    m.artificial_power = sums.value(B::artificial);
     return m;
   }
 
