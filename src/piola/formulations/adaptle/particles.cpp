@@ -196,7 +196,6 @@ void Particles::set_contact(Assembly const& assembly) {
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
   leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
   system_.contact.pair = contact_pairs_.data();
-  system_.contact.exponent = assembly.contact.exponent;
   system_.contact.printed = assembly.contact.stiffness;
   system_.contact.scale = assembly.contact.scale;
   using Law = ContactRule::Law;

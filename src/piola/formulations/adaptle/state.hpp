@@ -110,6 +110,7 @@ struct BodyConstants {
 struct ContactPair {
   double eps = 0;  ///< [J]
   double h = 1, dp = 1;
+  double exponent = 4;  ///< n
 };
 
 /// A rigid shape at half time.
@@ -171,7 +172,7 @@ struct ContactTable {
   Index const* length = nullptr;      ///< per target
   ContactPair const* pair = nullptr;  ///< [body][body]
   int law = 0;
-  double exponent = 4, printed = 0;
+  double printed = 0;
   double scale = 1;  ///< of the stiffness of rigid shapes
 };
 
