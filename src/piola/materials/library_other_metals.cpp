@@ -42,8 +42,8 @@ constexpr std::array tungsten_alloy_numbers{LibraryNumber{"density", 17000, "joh
                                             LibraryNumber{"hardening_exponent", 0.12, "johnson_cook_1983", quoted},
                                             LibraryNumber{"rate_coefficient", 0.016, "johnson_cook_1983", quoted},
                                             LibraryNumber{"thermal_exponent", 1.00, "johnson_cook_1983", quoted},
-                                            LibraryNumber{"specific_heat", 134, "johnson_cook_1983", unread},
-                                            LibraryNumber{"melting_temperature", 1723, "johnson_cook_1983", unread},
+                                            LibraryNumber{"specific_heat", 134, "johnson_cook_1983", quoted},
+                                            LibraryNumber{"melting_temperature", 1723, "johnson_cook_1983", quoted},
                                             LibraryNumber{"reference_temperature", 293, "assumed", chosen},
                                             LibraryNumber{"bulk_sound_speed", 4030, "steinberg_1996", quoted},
                                             LibraryNumber{"hugoniot_s1", 1.237, "steinberg_1996", quoted},
@@ -120,9 +120,8 @@ constexpr std::array other_metals_sets{
     LibraryMaterial{
         "copper_ofhc", "oxygen-free copper, annealed, with shock and damage",
         "flow stress: torsion up to about 400 1/s and Hopkinson bars at raised temperature, checked with Taylor "
-        "cylinders; damage: notched tension bars and torsion; the same numbers are in use for tough-pitch (ETP) "
-        "copper, for "
-        "which no set of its own was found",
+        "cylinders; damage: notched tension bars and torsion; the same numbers, with 89.6 MPa for the yield stress, "
+        "are quoted for tough-pitch (ETP) copper",
         "", "johnson_cook", with_shock_and_damage, copper_ofhc_numbers},
     LibraryMaterial{
         "tungsten_alloy", "tungsten with 7 % nickel and 3 % iron, with shock and damage",
