@@ -24,6 +24,11 @@ std::string between(Scaling const& scaling, F const& f, std::string (*text)(doub
 }
 
 std::string count(double n) { return count_text(static_cast<std::int64_t>(std::llround(n))); }
+/// What steps do on average need not be whole.
+std::string mean(double n) {
+  std::string const text = fmt::format("{:.1f}", n);
+  return n < 1000 && !text.ends_with(".0") ? text : count(n);
+}
 std::string size(double bytes) { return size_text(bytes); }
 
 }  // namespace
@@ -46,7 +51,7 @@ void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cons
       between(
           s, [](RankShare const& r) { return static_cast<double>(r.halo); }, count),
       between(
-          s, [](RankShare const& r) { return r.messages; }, count),
+          s, [](RankShare const& r) { return r.messages; }, mean),
       between(
           s, [](RankShare const& r) { return r.bytes; }, size),
       between(
@@ -55,7 +60,7 @@ void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cons
   StepTimes const& t = s.times;
   auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
   say("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n", time(t.total()),
-      time(t.sweeps), time(t.messages), count(s.collectives), time(t.collectives), time(t.rows));
+      time(t.sweeps), time(t.messages), mean(s.collectives), time(t.collectives), time(t.rows));
   constexpr int most = 1024;
   int const paying = ranks_that_pay(particles, cost, most);
   say("  efficiency {:.0f} %; {}\n", 100 * s.efficiency,

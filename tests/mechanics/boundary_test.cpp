@@ -82,14 +82,16 @@ TEST(BodyBoundary, AddsUpLoadsAtBothEndsAndTheirImpulses) {
   EXPECT_EQ(p.acting[0][1], 3 + 6);
   EXPECT_EQ(p.acting[1][1], 9 + 18);
   m.x.at(1, 0) = 2;
-  double work = 7;
+  SharedTotal work;
+  work.set(7);
   boundary.end_step(m.x.ref(), work);
-  EXPECT_EQ(work, 7) << "passes find the work";
+  EXPECT_EQ(work.value(), 7) << "passes find the work";
   Actions actions({}, {dead, named}, {});
   boundary.hand_over(actions);
   EXPECT_EQ(actions.loads[0].linear[0], 0) << "without a name nobody asks";
   EXPECT_EQ(actions.loads[1].linear[1], 10 * (6 + 18));  // m dt/2 (a + a')
   EXPECT_EQ(actions.loads[1].angular[2], 10 * (1 * 6 + 2 * 18));
+  boundary.forget_impulses();
   boundary.hand_over(actions);
   EXPECT_EQ(actions.loads[1].linear[1], 10 * (6 + 18)) << "handed over once";
 }

@@ -69,7 +69,7 @@ TEST(MaterialMessages, FailureBySpallNeedsItsStress) {
 TEST(MaterialMessages, NamesOfTheLibraryAreKnown) {
   EXPECT_EQ(message_with("name = \"steel_4304\""),
             "case.toml:10:21: body.material.name is \"steel_4304\" (allowed: steel_4340, steel_1006, steel_mild, "
-            "pbx_9404, armox_500t, weldox_460_e, copper_ofhc, tantalum and 29 more) - did you mean \"steel_4340\"?");
+            "pbx_9404, armox_500t, weldox_460_e, copper_ofhc, tantalum and 30 more) - did you mean \"steel_4340\"?");
   EXPECT_EQ(
       message_with("name = \"aluminium_adaptle_3_2\""),
       "case.toml:10:21: body.material.name \"aluminium_adaptle_3_2\" is now \"aluminium_perfectly_plastic\" - write "

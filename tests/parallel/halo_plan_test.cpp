@@ -30,8 +30,9 @@ TEST(ShareOf, HasNothingForRanksBeyondTheBlocks) {
 }
 
 TEST(HaloPlan, OfOneRankReceivesNothing) {
-  HaloPlan const plan(640, {1, 5, 5, 639});
-  EXPECT_EQ(plan.received(), 0);
+  HaloPlan plan(640, {1, 5, 5, 639});
+  EXPECT_EQ(plan.add_reach({7}), 1);
+  EXPECT_TRUE(plan.received().empty());
 }
 
 TEST(HaloPlan, TellsFieldsOfWhichNothingChangesFromForgottenOnes) {

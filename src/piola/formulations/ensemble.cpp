@@ -205,10 +205,10 @@ std::optional<Talk> Ensemble::talk(std::size_t body) const {
     if (!here) continue;
     auto talk = formulations_[k]->talk(*here);
     // Once in a step, of all bodies of the part.
-    if (talk && meeting_ && *here == 0 && talk->reads > 0) {
+    if (talk && meeting_ && *here == 0) {
       constexpr double position_and_velocity = 6;
       std::size_t const read = meeting_->read_of(k);
-      talk->collectives += read > 0 ? talk->reads : 0;
+      talk->collectives += read > 0 ? 1 : 0;
       talk->to_all += position_and_velocity * static_cast<double>(read);
     }
     return talk;

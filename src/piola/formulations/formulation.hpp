@@ -71,11 +71,14 @@ struct StepRule {
 
 /// What particles of a body tell their neighbours, those of other ranks too: for estimates.
 struct Talk {
-  double reach = 0;         ///< m, as the particles stood at the start
-  std::vector<int> values;  ///< numbers per particle, of each exchange of a right-hand side
-  double collectives = 0;   ///< per step: what all ranks add, or take the largest of, or are told
-  double to_all = 0;        ///< per step: numbers that all ranks are told of the particles of the body
-  double reads = 0;         ///< what all ranks are told each time that read_motion() is called
+  /// So many numbers per particle, to those who read them.
+  struct Told {
+    double reach;  ///< m, as the particles stood at the start
+    int numbers;
+  };
+  std::vector<std::vector<Told>> messages;  ///< of a right-hand side, to each rank that reads any of it
+  double collectives = 0;                   ///< per step: what all ranks add, or take the largest of, or are told
+  double to_all = 0;                        ///< per step: numbers that all ranks are told of the particles of the body
   SlotOrder (*order)(ParticleSet const&, Body const&) = &pencil_order;  ///< of which each rank has a run
 };
 

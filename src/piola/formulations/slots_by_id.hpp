@@ -6,6 +6,7 @@
 #include "piola/math/lanes.hpp"
 #include "piola/parallel/ranks.hpp"
 #include "piola/particles/particle_set.hpp"
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -58,9 +59,13 @@ void read_motion_of(Bodies const& bodies, SlotsById const& slots, std::span<std:
     v[k] = mine ? bodies[body]->v(slot) : std::array<double, 3>{};
   });
   if (!ranks::several()) return;
-  static_assert(sizeof(x[0]) == 3 * sizeof(double));
-  for (auto const values : {x, v})
-    if (!values.empty()) ranks::merge({values.front().data(), 3 * values.size()});
+  std::vector<std::array<double, 3>> both(x.begin(), x.end());
+  both.insert(both.end(), v.begin(), v.end());
+  static_assert(sizeof(both[0]) == 3 * sizeof(double));
+  if (!both.empty()) ranks::merge({both.front().data(), 3 * both.size()});
+  auto const middle = both.begin() + static_cast<std::ptrdiff_t>(x.size());
+  std::copy(both.begin(), middle, x.begin());
+  std::copy(middle, both.end(), v.begin());
 }
 /// mass(body, slot) [kg]
 template <class Bodies, class F>

@@ -289,9 +289,8 @@ constexpr std::array boundary_keys{
             quantity,
             "1",
             {1, 100, false, false},
-            "4",
-            "kernel, printed: exponent of the ratio of kernels; 8 holds half the energy, for impacts in which strength "
-            "counts (metals below 1 km/s)",
+            "4; kernel: up to 8 where the strength of the weaker body counts",
+            "kernel, printed: exponent of the ratio of kernels; 8 holds half the energy of 4",
             {}},
 };
 

@@ -7,7 +7,8 @@ namespace {
 
 // rho0 c0^2
 constexpr double copper_bulk = 8930.0 * 3940 * 3940, aluminium_bulk = 2703.0 * 5240 * 5240,
-                 tungsten_bulk = 18167.0 * 4030 * 4030, hard_tantalum_bulk = 16690.0 * 3410 * 3410;
+                 aluminium_2024_bulk = 2785.0 * 5328 * 5328, tungsten_bulk = 18167.0 * 4030 * 4030,
+                 hard_tantalum_bulk = 16690.0 * 3410 * 3410;
 
 constexpr std::array copper_half_hard_numbers{
     LibraryNumber{"density", 8930, "steinberg_1996", quoted},
@@ -46,6 +47,25 @@ constexpr std::array aluminium_6061_numbers{LibraryNumber{"density", 2703, "stei
                                             LibraryNumber{"bulk_sound_speed", 5240, "steinberg_1996", quoted},
                                             LibraryNumber{"hugoniot_s1", 1.40, "steinberg_1996", quoted},
                                             LibraryNumber{"grueneisen_gamma", 1.97, "steinberg_1996", quoted},
+                                            LibraryNumber{"grueneisen_slope", 0.48, "steinberg_1996", quoted}};
+
+constexpr std::array aluminium_2024_numbers{LibraryNumber{"density", 2785, "steinberg_1996", quoted},
+                                            youngs_of(28.6e9, aluminium_2024_bulk, "steinberg_1996", quoted),
+                                            poissons_of(28.6e9, aluminium_2024_bulk, "steinberg_1996", quoted),
+                                            LibraryNumber{"yield_stress", 0.26e9, "steinberg_1996", quoted},
+                                            LibraryNumber{"strain_factor", 310, "steinberg_1996", quoted},
+                                            LibraryNumber{"hardening_exponent", 0.185, "steinberg_1996", quoted},
+                                            LibraryNumber{"largest_yield_stress", 0.76e9, "steinberg_1996", quoted},
+                                            LibraryNumber{"pressure_coefficient", 6.52e-11, "steinberg_1996", quoted},
+                                            LibraryNumber{"temperature_coefficient", 6.16e-4, "steinberg_1996", quoted},
+                                            LibraryNumber{"melting_at_rest", 1220, "steinberg_1996", quoted},
+                                            LibraryNumber{"melting_slope", 1.5, "steinberg_1996", quoted},
+                                            LibraryNumber{"melting_gamma", 2.00, "steinberg_1996", quoted},
+                                            LibraryNumber{"specific_heat", 863, "steinberg_1996", quoted},
+                                            LibraryNumber{"reference_temperature", 300, "steinberg_1996", unread},
+                                            LibraryNumber{"bulk_sound_speed", 5328, "steinberg_1996", quoted},
+                                            LibraryNumber{"hugoniot_s1", 1.338, "steinberg_1996", quoted},
+                                            LibraryNumber{"grueneisen_gamma", 2.00, "steinberg_1996", quoted},
                                             LibraryNumber{"grueneisen_slope", 0.48, "steinberg_1996", quoted}};
 
 constexpr std::array tungsten_95_numbers{LibraryNumber{"density", 18167, "steinberg_1996", quoted},
@@ -110,6 +130,8 @@ constexpr std::array high_rate_sets{
                     "steinberg_guinan", with_shock, copper_half_hard_numbers},
     LibraryMaterial{"aluminium_6061_t6_shock", "aluminium 6061-T6 in strong shocks", fast, never_fails,
                     "steinberg_guinan", with_shock, aluminium_6061_numbers},
+    LibraryMaterial{"aluminium_2024_t4_shock", "aluminium 2024-T4 in strong shocks", fast, never_fails,
+                    "steinberg_guinan", with_shock, aluminium_2024_numbers},
     LibraryMaterial{"tungsten_alloy_95", "tungsten with 3.5 % nickel and 1.5 % iron, with shock", fast, never_fails,
                     "steinberg_guinan", with_shock, tungsten_95_numbers},
     LibraryMaterial{"tantalum_hardening", "tantalum that hardens, with shock", fast, never_fails, "steinberg_guinan",

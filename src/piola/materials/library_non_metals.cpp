@@ -40,14 +40,14 @@ constexpr std::array natural_rubber_numbers{LibraryNumber{"density", 920, "handb
                                             youngs_of(0.39e6, rubber_bulk, "treloar_1944", unread),
                                             poissons_of(0.39e6, rubber_bulk, "wood_1964", unread)};
 
-constexpr std::array ballistic_gelatine_numbers{LibraryNumber{"density", 1030, "wen_2013", unread},
+constexpr std::array ballistic_gelatine_numbers{LibraryNumber{"density", 1030, "wen_2013", quoted},
                                                 LibraryNumber{"youngs_modulus", 850e3, "wen_2013", unread},
                                                 poissons_of_gelatine,
-                                                LibraryNumber{"yield_stress", 220e3, "wen_2013", unread},
+                                                LibraryNumber{"yield_stress", 220e3, "wen_2013", quoted},
                                                 LibraryNumber{"hardening_modulus", 10.12e3, "wen_2013", unread},
-                                                LibraryNumber{"c1", 2.38e9, "wen_2013", unread},
-                                                LibraryNumber{"c2", 7.14e9, "wen_2013", unread},
-                                                LibraryNumber{"c3", 11.9e9, "wen_2013", unread}};
+                                                LibraryNumber{"c1", 2.38e9, "wen_2013", quoted},
+                                                LibraryNumber{"c2", 7.14e9, "wen_2013", quoted},
+                                                LibraryNumber{"c3", 11.9e9, "wen_2013", quoted}};
 
 constexpr std::array non_metals_sets{
     LibraryMaterial{"pmma", "PMMA (Lucite), perfectly plastic, with shock",

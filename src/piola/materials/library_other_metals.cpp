@@ -7,11 +7,11 @@ namespace {
 // rho0 c0^2; of the shells of Verney: the Voigt mean of the single crystal (smith_1960).
 constexpr double tantalum_bulk = 16690.0 * 3410 * 3410, s200_bulk = 1850.0 * 8000 * 8000, verney_bulk = 114.5e9;
 
-constexpr std::array copper_linear_hardening_numbers{LibraryNumber{"density", 8930, "camacho_1997", unread},
-                                                     LibraryNumber{"youngs_modulus", 117e9, "camacho_1997", unread},
-                                                     LibraryNumber{"poissons_ratio", 0.35, "camacho_1997", unread},
-                                                     LibraryNumber{"yield_stress", 400e6, "camacho_1997", unread},
-                                                     LibraryNumber{"hardening_modulus", 100e6, "camacho_1997", unread}};
+constexpr std::array copper_linear_hardening_numbers{LibraryNumber{"density", 8930, "camacho_1997", quoted},
+                                                     LibraryNumber{"youngs_modulus", 117e9, "camacho_1997", quoted},
+                                                     LibraryNumber{"poissons_ratio", 0.35, "camacho_1997", quoted},
+                                                     LibraryNumber{"yield_stress", 400e6, "camacho_1997", quoted},
+                                                     LibraryNumber{"hardening_modulus", 100e6, "camacho_1997", quoted}};
 
 constexpr std::array copper_ofhc_numbers{LibraryNumber{"density", 8960, "johnson_cook_1983", quoted},
                                          LibraryNumber{"youngs_modulus", 124e9, "handbook", quoted},
@@ -42,8 +42,8 @@ constexpr std::array tungsten_alloy_numbers{LibraryNumber{"density", 17000, "joh
                                             LibraryNumber{"hardening_exponent", 0.12, "johnson_cook_1983", quoted},
                                             LibraryNumber{"rate_coefficient", 0.016, "johnson_cook_1983", quoted},
                                             LibraryNumber{"thermal_exponent", 1.00, "johnson_cook_1983", quoted},
-                                            LibraryNumber{"specific_heat", 134, "johnson_cook_1983", unread},
-                                            LibraryNumber{"melting_temperature", 1723, "johnson_cook_1983", unread},
+                                            LibraryNumber{"specific_heat", 134, "johnson_cook_1983", quoted},
+                                            LibraryNumber{"melting_temperature", 1723, "johnson_cook_1983", quoted},
                                             LibraryNumber{"reference_temperature", 293, "assumed", chosen},
                                             LibraryNumber{"bulk_sound_speed", 4030, "steinberg_1996", quoted},
                                             LibraryNumber{"hugoniot_s1", 1.237, "steinberg_1996", quoted},
@@ -97,13 +97,13 @@ constexpr std::array titanium_6al_4v_numbers{LibraryNumber{"density", 4430, "han
                                              LibraryNumber{"d5", 3.87, "johnson_1985", quoted}};
 
 constexpr std::array beryllium_numbers{
-    LibraryNumber{"density", 1845, "howell_2002", unread}, youngs_of(151e9, verney_bulk, "howell_2002", unread),
-    poissons_of(151e9, verney_bulk, "smith_1960", unread), LibraryNumber{"yield_stress", 330e6, "howell_2002", unread}};
+    LibraryNumber{"density", 1845, "howell_2002", quoted}, youngs_of(151e9, verney_bulk, "howell_2002", quoted),
+    poissons_of(151e9, verney_bulk, "smith_1960", unread), LibraryNumber{"yield_stress", 330e6, "howell_2002", quoted}};
 
 constexpr std::array beryllium_s200_numbers{LibraryNumber{"density", 1850, "steinberg_1996", quoted},
-                                            youngs_of(151e9, s200_bulk, "howell_2002", unread),
+                                            youngs_of(151e9, s200_bulk, "howell_2002", quoted),
                                             poissons_of(151e9, s200_bulk, "steinberg_1996", quoted),
-                                            LibraryNumber{"yield_stress", 330e6, "howell_2002", unread},
+                                            LibraryNumber{"yield_stress", 330e6, "howell_2002", quoted},
                                             LibraryNumber{"bulk_sound_speed", 8000, "steinberg_1996", quoted},
                                             LibraryNumber{"hugoniot_s1", 1.124, "steinberg_1996", quoted},
                                             LibraryNumber{"grueneisen_gamma", 1.11, "steinberg_1996", quoted},
@@ -120,9 +120,8 @@ constexpr std::array other_metals_sets{
     LibraryMaterial{
         "copper_ofhc", "oxygen-free copper, annealed, with shock and damage",
         "flow stress: torsion up to about 400 1/s and Hopkinson bars at raised temperature, checked with Taylor "
-        "cylinders; damage: notched tension bars and torsion; the same numbers are in use for tough-pitch (ETP) "
-        "copper, for "
-        "which no set of its own was found",
+        "cylinders; damage: notched tension bars and torsion; the same numbers, with 89.6 MPa for the yield stress, "
+        "are quoted for tough-pitch (ETP) copper",
         "", "johnson_cook", with_shock_and_damage, copper_ofhc_numbers},
     LibraryMaterial{
         "tungsten_alloy", "tungsten with 7 % nickel and 3 % iron, with shock and damage",

@@ -6,9 +6,10 @@ namespace {
 
 constexpr std::array sources{
     LibrarySource{"assumed", "chosen here, not measured: tests at room temperature"},
-    LibrarySource{"borvik_2001",
-                  "T. Borvik, O. S. Hopperstad, T. Berstad, M. Langseth, A computational model of viscoplasticity and "
-                  "ductile damage for impact and penetration, Eur. J. Mech. A/Solids 20 (2001) 685-712"},
+    LibrarySource{"borvik_2002",
+                  "T. Borvik, O. S. Hopperstad, T. Berstad, M. Langseth, Perforation of 12 mm thick steel plates by 20 "
+                  "mm diameter projectiles with flat, hemispherical and conical noses, Part II: Numerical simulations, "
+                  "Int. J. Impact Eng. 27 (2002) 37-64, table 2; model: Eur. J. Mech. A/Solids 20 (2001) 685-712"},
     LibrarySource{"brar_2009",
                   "N. S. Brar, V. S. Joshi, B. W. Harris, Constitutive model constants for Al7075-T651 and Al7075-T6, "
                   "AIP Conf. Proc. 1195 (2009) 945-948"},

@@ -247,17 +247,16 @@ void BodyBoundary::note_places(FieldRef const& x) {
   for (auto const& p : loaded_) loaded_start_.push_back(point_at(x, p.slot, D_));
 }
 
-void BodyBoundary::end_step(FieldRef const& x, double& work) {
+void BodyBoundary::end_step(FieldRef const& x, SharedTotal& work) {
   exec::ExactSum of_step;
   for (auto const& h : held_)
     if (is_own(own_, h.slot)) of_step += h.work;
   for (auto const& p : loaded_)
     if (is_own(own_, p.slot)) of_step += p.work;
   if (own_)
-    ranks::combine(of_step, [](void const* other, void* mine) {
-      *static_cast<exec::ExactSum*>(mine) += *static_cast<exec::ExactSum const*>(other);
-    });
-  work += of_step.value();
+    work.add_part(of_step);
+  else
+    work.add(of_step.value());
   for (std::size_t k = 0; k < held_.size(); ++k) {
     HeldDirection const& h = held_[k];
     if (!is_own(own_, h.slot)) continue;
@@ -297,13 +296,15 @@ void BodyBoundary::take_out_ended(FieldRef const& rate) const {
   }
 }
 
-void BodyBoundary::hand_over(Actions& actions) {
-  if (own_) {
-    ranks::add(std::span(of_supports_));
-    ranks::add(std::span(of_loads_));
-  }
-  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_supports_[k].value());
-  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(of_loads_[k].value());
+void BodyBoundary::hand_over(Actions& actions) const {
+  std::vector<ImpulseSum> all(of_supports_);
+  all.insert(all.end(), of_loads_.begin(), of_loads_.end());
+  if (own_) ranks::add(std::span(all));
+  for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(all[k].value());
+  for (std::size_t k = 0; k < of_loads_.size(); ++k) actions.loads[k].add(all[of_supports_.size() + k].value());
+}
+
+void BodyBoundary::forget_impulses() {
   of_supports_.assign(of_supports_.size(), {});
   of_loads_.assign(of_loads_.size(), {});
 }

@@ -5,6 +5,7 @@
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/held.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/shared_total.hpp"
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -54,7 +55,7 @@ class BodyBoundary {
   /// Gives the particles that supports hold the velocities of t = 0, after a first begin_step.
   void start(FieldRef const& v) const;
   /// Ranks share the body: this one answers for the particles in these slots. Work and impulses are then sums over all
-  /// ranks, and end_step and hand_over collective.
+  /// ranks, and end_step (see SharedTotal) and hand_over collective.
   void share(Range own) { own_ = own; }
   /// The same before a first begin_step: forgets what concerns others. Not where multipliers hold, for which ranks tell
   /// each other all.
@@ -63,13 +64,14 @@ class BodyBoundary {
   /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends. Whether the directions
   /// that are held are others than before.
   bool begin_step(FieldRef const& x, double time, double dt);
-  /// After it: adds the work to `work` [J], and the impulses, at the places of the start and of the end of the step, as
+  /// After it: adds the work [J], and the impulses, at the places of the start and of the end of the step, as
   /// the step itself divides them: the angular momentum then changes by just their moments.
-  void end_step(FieldRef const& x, double& work);
+  void end_step(FieldRef const& x, SharedTotal& work);
   /// Verlet: takes loads that end now out of the acceleration with which the next step begins.
   void take_out_ended(FieldRef const& rate) const;
-  /// Adds what supports and loads gave since the last call.
-  void hand_over(Actions& actions);
+  /// Adds what supports and loads gave since forget_impulses().
+  void hand_over(Actions& actions) const;
+  void forget_impulses();
   /// Of one more support or particle that the body deals with itself [N s].
   void add_impulse(std::size_t support, Point const& x, Point const& impulse) { of_supports_[support].add(x, impulse); }
   /// Multiplies the velocities in slots before `last` by `factor`, but not along the directions that were held in the

@@ -189,11 +189,11 @@ void SurfaceHold::kick_last(FieldRef const& v) {
   }
 }
 
-void SurfaceHold::end_step(FieldRef const& x, double& work) {
+void SurfaceHold::end_step(FieldRef const& x, SharedTotal& work) {
   if (!empty()) driven_.end_step(places_at(x), work);
 }
 
-void SurfaceHold::keep_velocity(FieldRef const& x, FieldRef const& v, double& work) {
+void SurfaceHold::keep_velocity(FieldRef const& x, FieldRef const& v, SharedTotal& work) {
   if (rows_.empty()) return;
   auto const lambda = solved(v, [](HeldDirection const& h) { return h.speed; });
   add(lambda, v);
@@ -207,7 +207,7 @@ void SurfaceHold::keep_velocity(FieldRef const& x, FieldRef const& v, double& wo
     driven_.add_impulse(support, rows_[r].of_place ? point_at(at, h.slot, D_) : point_at(x, h.slot, D_), impulse);
     of_rows += lambda[r] * h.speed;
   }
-  work += of_rows.value();
+  work.add(of_rows.value());
 }
 
 double SurfaceHold::square_of_held(FieldRef const& rate) const {

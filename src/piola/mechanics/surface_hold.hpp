@@ -52,13 +52,14 @@ class SurfaceHold {
   /// After the second kick: the velocities at the end of the step.
   void kick_last(FieldRef const& v);
   /// After the step: adds the work to `work` [J], and the impulses.
-  void end_step(FieldRef const& x, double& work);
+  void end_step(FieldRef const& x, SharedTotal& work);
   /// The velocities at the end of the step once more, after something has pushed particles.
-  void keep_velocity(FieldRef const& x, FieldRef const& v, double& work);
+  void keep_velocity(FieldRef const& x, FieldRef const& v, SharedTotal& work);
   /// sum m a^2 of the part of accelerations that reactions of places take away beside those of particles.
   double square_of_held(FieldRef const& rate) const;
   /// Adds what supports gave since the last call.
-  void hand_over(Actions& actions) { driven_.hand_over(actions); }
+  void hand_over(Actions& actions) const { driven_.hand_over(actions); }
+  void forget_impulses() { driven_.forget_impulses(); }
   std::size_t bytes() const;
 
  private:

@@ -15,10 +15,10 @@ double square_of_distance(std::array<double, 3> const& a, std::array<double, 3> 
 
 }  // namespace
 
-std::vector<std::map<int, std::int64_t>> count_halos(std::vector<std::array<double, 3>> const& X,
-                                                     std::span<int const> owner, int ranks, double reach) {
+HaloCounts count_halos(std::vector<std::array<double, 3>> const& X, std::span<int const> owner, int ranks,
+                       double reach) {
   PIOLA_EXPECTS(owner.size() == X.size() && ranks > 0 && reach > 0);
-  std::vector<std::map<int, std::int64_t>> reads(static_cast<std::size_t>(ranks));
+  HaloCounts reads(static_cast<std::size_t>(ranks));
   // Kernels vanish at the very edge, where lattices have neighbours: they read none there.
   constexpr double edge = 1 - 1e-9;
   double const square = reach * reach * edge * edge;

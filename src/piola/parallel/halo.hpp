@@ -2,10 +2,12 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include <array>
+#include <span>
 
 namespace piola {
 class HaloPlan;
-void exchange(HaloPlan& plan, FieldRef const& field);
+void exchange(HaloPlan& plan, std::span<FieldRef const> fields);
 }  // namespace piola
 
 namespace piola::inline PIOLA_MACHINE {
@@ -31,14 +33,15 @@ struct UpdateCopy {
 struct Halo {
   HaloPlan* plan = nullptr;  ///< nullptr: one rank
 
+  /// All of them in one message.
   template <class... Ref>
   void refresh(Ref const&... fields) const {
+    if (plan != nullptr) piola::exchange(*plan, std::array{fields...});
     (update(fields), ...);
   }
 
  private:
-  void update(FieldRef const& f) const {
-    if (plan != nullptr) exchange(*plan, f);
+  static void update(FieldRef const& f) {
     if (f.copies != nullptr) exec::for_each_item(f.copies->count, UpdateCopy{f, *f.copies});
     if (f.version != nullptr) f.version->halo = f.version->owner;
   }

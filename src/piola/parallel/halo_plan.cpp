@@ -63,77 +63,101 @@ Range share_of(Index slots, int rank, int ranks) {
   return {start(rank), start(rank + 1)};
 }
 
-HaloPlan::HaloPlan(Index slots, std::vector<Index> read) {
+HaloPlan::HaloPlan(Index slots, std::vector<Index> read) : slots_(slots) { add_reach(std::move(read)); }
+
+int HaloPlan::add_reach(std::vector<Index> read) {
   std::sort(read.begin(), read.end());
   read.erase(std::unique(read.begin(), read.end()), read.end());
   std::vector<std::vector<Index>> wanted(static_cast<std::size_t>(ranks::count()));
   for (int r = 0; r < ranks::count(); ++r) {
-    Range const owned = share_of(slots, r, ranks::count());
+    Range const owned = share_of(slots_, r, ranks::count());
     if (r != ranks::own())
       wanted[static_cast<std::size_t>(r)].assign(std::lower_bound(read.begin(), read.end(), owned.first),
                                                  std::lower_bound(read.begin(), read.end(), owned.last));
   }
   auto const asked = ranks::deal(wanted);
-  auto const side_of = [](int rank, std::vector<Index> const& some) {
-    return Side{rank, static_cast<Index>(some.size()), runs_of(some), {}};
-  };
+  std::vector<Index> received;
   for (int r = 0; r < ranks::count(); ++r) {
     auto const k = static_cast<std::size_t>(r);
     if (r == ranks::own()) continue;
-    if (!wanted[k].empty()) receives_.push_back(side_of(r, wanted[k]));
-    if (!asked[k].empty()) sends_.push_back(side_of(r, asked[k]));
+    add_side(receives_, r, reaches_, wanted[k]);
+    add_side(sends_, r, reaches_, asked[k]);
+    received.insert(received.end(), wanted[k].begin(), wanted[k].end());
   }
+  std::vector<Index> const before = std::move(received_);
+  received_.clear();
+  std::set_union(before.begin(), before.end(), received.begin(), received.end(), std::back_inserter(received_));
+  return reaches_++;
 }
 
-void HaloPlan::add(FieldRef const& field, int first, int count) {
-  if (field.data != nullptr) values_.push_back({field.data, first, count});
+void HaloPlan::add_side(std::vector<Side>& sides, int rank, int reach, std::vector<Index> const& slots) {
+  if (slots.empty()) return;
+  auto side = std::lower_bound(sides.begin(), sides.end(), rank, [](Side const& s, int r) { return s.rank < r; });
+  if (side == sides.end() || side->rank != rank) side = sides.insert(side, Side{rank, {}, {}});
+  side->reaches.resize(static_cast<std::size_t>(reach) + 1);
+  side->reaches.back() = {static_cast<Index>(slots.size()), runs_of(slots)};
 }
 
-void HaloPlan::exchange(FieldRef const& field) {
-  std::size_t per_particle = 0;
-  bool known = false;
-  for (Values const& v : values_) {
-    if (v.data != field.data) continue;
-    known = true;
-    per_particle += static_cast<std::size_t>(v.count);
-  }
-  PIOLA_EXPECTS(known);
-  if (per_particle == 0) return;
-  auto const each_run = [&](Side& side, auto const& copy) {
-    double* start = side.values.data();
-    for (Values const& v : values_) {
-      if (v.data != field.data) continue;
-      copy(Copied{field, v.first, v.count, side.runs, side.slots, start});
-      start += static_cast<std::ptrdiff_t>(side.slots) * v.count;
+void HaloPlan::add(FieldRef const& field, int first, int count, int reach) {
+  PIOLA_EXPECTS(reach < reaches_);
+  if (field.data != nullptr) values_.push_back({field.data, first, count, reach});
+}
+
+/// f(field, values) of what is told of them, in the order of a message.
+template <class F>
+void HaloPlan::each_of(std::span<FieldRef const> fields, F const& f) const {
+  for (FieldRef const& field : fields)
+    for (Values const& v : values_)
+      if (v.data == field.data && v.count > 0) f(field, v);
+}
+
+template <bool Out>
+void HaloPlan::copy(Side& side, std::span<FieldRef const> fields) const {
+  double* place = side.values.data();
+  each_of(fields, [&](FieldRef const& field, Values const& v) {
+    if (static_cast<std::size_t>(v.reach) >= side.reaches.size()) return;
+    Slots const& slots = side.reaches[static_cast<std::size_t>(v.reach)];
+    copy_values<Out>(Copied{field, v.first, v.count, slots.runs, slots.count, place});
+    place += static_cast<std::ptrdiff_t>(slots.count) * v.count;
+  });
+}
+
+void HaloPlan::exchange(std::span<FieldRef const> fields) {
+  PIOLA_EXPECTS(std::all_of(fields.begin(), fields.end(), [&](FieldRef const& field) {
+    return std::any_of(values_.begin(), values_.end(), [&](Values const& v) { return v.data == field.data; });
+  }));
+  auto const messages_of = [&](std::vector<Side>& sides, auto const& prepare) {
+    std::vector<ranks::Message> messages;
+    for (Side& side : sides) {
+      std::size_t size = 0;
+      each_of(fields, [&](FieldRef const&, Values const& v) {
+        auto const reach = static_cast<std::size_t>(v.reach);
+        if (reach < side.reaches.size())
+          size += static_cast<std::size_t>(side.reaches[reach].count) * static_cast<std::size_t>(v.count);
+      });
+      if (size == 0) continue;
+      side.values.resize(std::max(size, side.values.size()));
+      prepare(side);
+      messages.push_back({side.rank, side.values.data(), size});
     }
+    return messages;
   };
-  std::vector<ranks::Message> in, out;
-  auto const message_of = [&](Side& side) {
-    side.values.resize(static_cast<std::size_t>(side.slots) * per_particle);
-    return ranks::Message{side.rank, side.values.data(), side.values.size()};
-  };
-  for (Side& side : receives_) in.push_back(message_of(side));
-  for (Side& side : sends_) {
-    out.push_back(message_of(side));
-    each_run(side, copy_values<true>);
-  }
+  auto const in = messages_of(receives_, [](Side&) {});
+  auto const out = messages_of(sends_, [&](Side& side) { copy<true>(side, fields); });
   ranks::exchange(in, out);
-  for (Side& side : receives_) each_run(side, copy_values<false>);
-}
-
-Index HaloPlan::received() const {
-  Index n = 0;
-  for (Side const& side : receives_) n += side.slots;
-  return n;
+  for (Side& side : receives_) copy<false>(side, fields);
 }
 
 std::size_t HaloPlan::bytes() const {
-  std::size_t n = 0;
+  std::size_t n = received_.capacity() * sizeof(Index);
   for (auto const* sides : {&sends_, &receives_})
-    for (Side const& side : *sides) n += side.runs.size() * sizeof(SlotRun) + side.values.capacity() * sizeof(double);
+    for (Side const& side : *sides) {
+      n += side.values.capacity() * sizeof(double);
+      for (Slots const& slots : side.reaches) n += slots.runs.size() * sizeof(SlotRun);
+    }
   return n;
 }
 
-void exchange(HaloPlan& plan, FieldRef const& field) { plan.exchange(field); }
+void exchange(HaloPlan& plan, std::span<FieldRef const> fields) { plan.exchange(fields); }
 
 }  // namespace piola

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include <span>
 #include <vector>
 
 namespace piola {
@@ -16,44 +17,56 @@ struct SlotRun {
 };
 
 /// What the particles of this rank read of those that others own, and what others read of its own, for one body of
-/// which all ranks have all slots, in the same order.
+/// which all ranks have all slots, in the same order. Fields may be read by different sweeps, of which some reach
+/// further than others: each has a reach of the plan, by number, and is told to those who read it.
 class HaloPlan {
  public:
-  /// `read`: slots that the particles of this rank read, in any order, as often as they like. Collective.
+  /// `read`: slots that the particles of this rank read, in any order, as often as they like; reach 0. Collective.
   HaloPlan(Index slots, std::vector<Index> read);
+  /// Other slots that they read; the number of this reach. Collective.
+  int add_reach(std::vector<Index> read);
 
-  /// Values [first, first + count) of a field are what neighbours read of it. A field may have several such runs; one
-  /// of no values, where all that neighbours read of it never changes or comes with another field.
-  void add(FieldRef const& field, int first, int count);
-  /// Brings the values of a field that others own up to date. Only the ranks that read from each other take part.
-  void exchange(FieldRef const& field);
+  /// Values [first, first + count) of a field are what neighbours within a reach read of it. A field may have several
+  /// such runs; one of no values, where all that neighbours read of it never changes or comes with another field.
+  void add(FieldRef const& field, int first, int count, int reach = 0);
+  /// Brings the values of fields that others own up to date, in one message from each. Only the ranks that read from
+  /// each other take part.
+  void exchange(std::span<FieldRef const> fields);
+  void exchange(FieldRef const& field) { exchange(std::span(&field, 1)); }
 
-  Index received() const;  ///< particles whose values come from others
-  /// f(slot) for each of them.
-  template <class F>
-  void each_received(F const& f) const {
-    for (Side const& side : receives_)
-      for (SlotRun const& run : side.runs)
-        for (Index i = run.first; i < run.first + run.count; ++i) f(i);
-  }
+  /// Particles of which something comes from others, in ascending order.
+  std::vector<Index> const& received() const { return received_; }
   std::size_t bytes() const;
 
  private:
+  /// Within one reach.
+  struct Slots {
+    Index count = 0;
+    std::vector<SlotRun> runs;
+  };
   struct Side {
     int rank;
-    Index slots;  ///< how many
-    std::vector<SlotRun> runs;
+    std::vector<Slots> reaches;
     std::vector<double> values;  ///< of a message, kept between exchanges
   };
   struct Values {
     double const* data;
-    int first, count;
+    int first, count, reach;
   };
+  static void add_side(std::vector<Side>& sides, int rank, int reach, std::vector<Index> const& slots);
+  template <class F>
+  void each_of(std::span<FieldRef const> fields, F const& f) const;
+  template <bool Out>
+  void copy(Side& side, std::span<FieldRef const> fields) const;
+
+  Index slots_;
+  int reaches_ = 0;
   std::vector<Side> sends_, receives_;
   std::vector<Values> values_;
+  std::vector<Index> received_;
 };
 
-/// plan.exchange(field), for code that is compiled once per machine.
-void exchange(HaloPlan& plan, FieldRef const& field);
+/// plan.exchange(fields), for code that is compiled once per machine.
+void exchange(HaloPlan& plan, std::span<FieldRef const> fields);
 
 }  // namespace piola

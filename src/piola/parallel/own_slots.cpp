@@ -2,6 +2,7 @@
 #include "piola/parallel/own_slots.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/parallel/first_failure.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
@@ -40,7 +41,8 @@ void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some) 
   if (!ranks::several() || some.slots.empty()) return;
   std::size_t width = 0;
   for (FieldPart const& part : parts) width += static_cast<std::size_t>(part.count);
-  std::vector<double> values(width * some.slots.size());
+  static std::vector<double> values;  // kept, because large ones come from the system, page by page, each time
+  values.resize(width * some.slots.size());
   // f(value in the message, value in its field) of the slots k in [first, last).
   auto const each = [&](std::size_t first, std::size_t last, auto const& f) {
     exec_host::for_each_in_set_up(static_cast<Index>(last - first), [&](Index k) {
@@ -86,20 +88,9 @@ void merge_slots(FieldRef const& field, Range own, std::span<Index const> slots,
 }
 
 void share_failure(FailureSlot& slot) {
-  struct Found {
-    std::uint64_t id;
-    Index index;
-    int code;
-  };
-  auto const id = slot.index == FailureSlot::none ? -1 : slot.id != nullptr ? slot.id[slot.index] : slot.index;
-  Found first{static_cast<std::uint64_t>(id), slot.index, slot.code};  // the largest number where there is none
-  ranks::combine(first, [](void const* other, void* mine) {
-    auto const& a = *static_cast<Found const*>(other);
-    auto& b = *static_cast<Found*>(mine);
-    if (a.id < b.id) b = a;
-  });
-  slot.index = first.index;
-  slot.code = first.code;
+  FirstFailure first(slot);
+  ranks::add(first);
+  first.put(slot);
 }
 
 }  // namespace piola

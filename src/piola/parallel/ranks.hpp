@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/lanes.hpp"
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -47,7 +48,11 @@ template <class T>
 void add(T& sum) {
   add(std::span<T>(&sum, 1));
 }
-/// The largest; not a number if one is.
+/// The larger of both is mine; not a number if one is.
+inline void keep_larger(double other, double& mine) {
+  if (std::isnan(other) || other > mine) mine = other;
+}
+/// The largest of all; not a number if one is.
 void take_largest(double& value);
 
 /// Every rank has some of the values and zero (all bits) for the others: afterwards all ranks have all of them.

@@ -150,9 +150,7 @@ void combine_bytes(void* items, std::size_t count, std::size_t bytes, Combine co
 
 void take_largest(double& value) {
   combine(value, [](void const* other, void* mine) {
-    double const a = *static_cast<double const*>(other);
-    double& b = *static_cast<double*>(mine);
-    if (std::isnan(a) || a > b) b = a;
+    keep_larger(*static_cast<double const*>(other), *static_cast<double*>(mine));
   });
 }
 

@@ -5,6 +5,8 @@
 #include "piola/particles/ordering.hpp"
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace piola {
 namespace {
@@ -28,17 +30,26 @@ Owned owned_of(ParticleSet const& particles, SlotOrder const& order, int ranks) 
 }
 
 void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<RankShare>& shares) {
-  double numbers = 0;
-  for (int const values : talk.values) numbers += values;
-  auto const reads = count_halos(owned.X, owned.owner, static_cast<int>(shares.size()), talk.reach);
+  auto const ranks = static_cast<int>(shares.size());
   for (int const r : owned.owner) shares[static_cast<std::size_t>(r)].particles += 1;
-  for (std::size_t r = 0; r < reads.size(); ++r)
-    for (auto const& [s, count] : reads[r]) {
-      RankShare& sender = shares[static_cast<std::size_t>(s)];
-      shares[r].halo += count;
-      sender.messages += stages * static_cast<double>(talk.values.size());
-      sender.bytes += stages * numbers * 8 * static_cast<double>(count);
+  std::map<double, HaloCounts> halos;  // by reach
+  for (auto const& message : talk.messages)
+    for (auto const& told : message)
+      if (halos.find(told.reach) == halos.end())
+        halos[told.reach] = count_halos(owned.X, owned.owner, ranks, told.reach);
+  if (halos.empty()) return;
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    for (auto const& [s, count] : halos.rbegin()->second[r]) shares[r].halo += count;
+    for (auto const& message : talk.messages) {
+      std::set<int> senders;
+      for (auto const& told : message)
+        for (auto const& [s, count] : halos[told.reach][r]) {
+          shares[static_cast<std::size_t>(s)].bytes += stages * told.numbers * 8 * static_cast<double>(count);
+          senders.insert(s);
+        }
+      for (int const s : senders) shares[static_cast<std::size_t>(s)].messages += stages;
     }
+  }
 }
 
 }  // namespace

@@ -119,6 +119,32 @@ TEST_P(AdaptleBalance, ViscosityAndArtificialStressAreThere) {
     EXPECT_GT(change, 0.01 * largest(without.first));
 }
 
+/// Where artificial stress lets particles go that are pulled apart it gives back: the book of the viscosity must not
+/// see it.
+TEST_P(AdaptleBalance, ViscosityAndArtificialStressHaveBooksOfTheirOwn) {
+  double viscous[2], artificial[2], work = 0;
+  for (int const k : {0, 1}) {
+    Assembly a = cloud_assembly(GetParam());
+    choose(a, "artificial_stress", 0.3 * k);
+    Cloud cloud(a);
+    make_random(cloud, GetParam());
+    cloud.evaluate();
+    viscous[k] = 1e25 * cloud.particles->books().viscous_loss;  // a step takes 1e-25 s
+    artificial[k] = 1e25 * cloud.particles->books().artificial_work;
+    double heat = 0;
+    for (Index i = 0; i < cloud.size(); ++i) {
+      heat += cloud.sums(i).heat;
+      for (int c = 0; c < 3; ++c) work += (1 - 2 * k) * cloud.sums(i).force[c] * cloud.half(i).v[c];
+    }
+    EXPECT_NEAR(viscous[k] + artificial[k], heat, 1e-12 * viscous[k]);
+  }
+  EXPECT_GT(viscous[0], 0);
+  EXPECT_NEAR(viscous[1], viscous[0], 1e-12 * viscous[0]);
+  EXPECT_EQ(artificial[0], 0);
+  EXPECT_NEAR(artificial[1], work, 1e-10 * viscous[0]);  // a difference of all forces with and without it
+  EXPECT_EQ(artificial[1] != 0, GetParam().mixture != Mixture::lagrangian);
+}
+
 TEST_P(AdaptleBalance, StressForcesHaveNoTorqueWithTheCorrection) {
   Assembly a = cloud_assembly(GetParam());
   for (std::string const key : {"alpha", "beta", "artificial_stress", "hourglass"}) choose(a, key, 0.0);

@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include "formulations/adaptle/clouds.hpp"
+#include <limits>
 
 namespace piola {
 namespace {
@@ -14,21 +15,22 @@ using adaptle::RigidPlace;
 
 template <int D>
 void force_is_minus_the_slope_of_the_energy() {
-  ContactPair const p{3e2, 1.4e-3, 1.1e-3};
+  ContactPair p{3e2, 1.4e-3, 1.1e-3};
   adaptle::Kernel<D> const kernel(p.h);
   for (double const exponent : {1.0, 4.0, 6.0}) {
+    p.exponent = exponent;
     auto const energy = [&](double r) { return p.eps * std::pow(kernel(r) / kernel(p.dp), exponent); };
     for (double const r : {0.3e-3, 0.9e-3, 1.1e-3, 1.7e-3, 2.5e-3}) {
-      ContactForce const f = adaptle::kernel_contact<D>(p, exponent, r);
+      ContactForce const f = adaptle::kernel_contact<D>(p, r);
       double const step = 1e-8, slope = (energy(r + step) - energy(r - step)) / (2 * step);
       EXPECT_NEAR(f.force, -slope, 1e-7 * (f.force + energy(r) / p.dp)) << D << "D " << exponent << " " << r;
-      double const before = adaptle::kernel_contact<D>(p, exponent, r - step).force,
-                   after = adaptle::kernel_contact<D>(p, exponent, r + step).force;
+      double const before = adaptle::kernel_contact<D>(p, r - step).force,
+                   after = adaptle::kernel_contact<D>(p, r + step).force;
       EXPECT_GE(f.stiffness, (before - after) / (2 * step) * (1 - 1e-6));  // it bounds the step
       EXPECT_NEAR(f.overlap, 1 - r / p.dp, 1e-15);
     }
-    EXPECT_EQ(adaptle::kernel_contact<D>(p, exponent, 2 * p.h).force, 0);
-    EXPECT_EQ(adaptle::kernel_contact<D>(p, exponent, 3 * p.h).stiffness, 0);
+    EXPECT_EQ(adaptle::kernel_contact<D>(p, 2 * p.h).force, 0);
+    EXPECT_EQ(adaptle::kernel_contact<D>(p, 3 * p.h).stiffness, 0);
   }
 }
 
@@ -84,6 +86,56 @@ TEST(AdaptleContact, StiffnessFollowsFromTheImpedances) {
   rule.law = ContactRule::Law::linear;
   pairs = adaptle::contact_pairs(2, rule, {a, b}, {{0, 0, 0}, {0, 0, 0}});
   EXPECT_NEAR(pairs[1].eps, 0.5 * 4e9 * 2e-6, 1e-9);
+}
+
+BodyConstants metal(double rho0, double bulk_sound_speed, double yield_stress) {
+  BodyConstants b;
+  b.rho0 = rho0;
+  b.bulk_modulus = rho0 * bulk_sound_speed * bulk_sound_speed;
+  b.yield_stress = yield_stress;
+  return b;
+}
+
+TEST(AdaptleContact, ExponentRisesWhereStrengthPresses) {
+  BodyConstants const aluminium = metal(2800, 5000, 0.4e9), steel = metal(7800, 4500, 1e9);
+  auto const n = [](BodyConstants const& a, BodyConstants const& b, double v) {
+    double const here = adaptle::contact_exponent(a, b, v);
+    EXPECT_EQ(here, adaptle::contact_exponent(b, a, v)) << "a potential has one";
+    return here;
+  };
+  // p_s = 14e6 35.1e6 / 49.1e6 * 500 (1 + 500 / 9000) = 5.282 GPa, p_f = 1.2 + 0.35 = 1.55 GPa, s = 0.774
+  double const shock = 14e6 * 35.1e6 / 49.1e6 * 500 * (1 + 500.0 / 9000), s = 1.2 / 1.55, aside = 1 - 1.55e9 / shock;
+  EXPECT_NEAR(n(aluminium, steel, 500), 4 + 4 * s * s * (3 - 2 * s) * aside * aside, 1e-12);
+  EXPECT_GT(n(aluminium, steel, 500), 5.5);
+  EXPECT_LT(n(aluminium, aluminium, 6000), 4.001) << "inertia presses";
+  EXPECT_EQ(n(aluminium, steel, 50), 4) << "the shock is below what flows";
+  EXPECT_EQ(n(aluminium, steel, 0), 4);
+  EXPECT_EQ(n(metal(1000, 1500, 0), aluminium, 100), 4) << "a liquid has no strength";
+  double const never = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(n(metal(1000, 1500, never), metal(1000, 1500, never), 100), 4) << "rubber does not flow aside";
+  double last = 4;
+  for (double v = 60; v < 3000; v *= 1.01) {
+    double const here = n(aluminium, steel, v);
+    EXPECT_NEAR(here, last, 0.1) << v;
+    EXPECT_LT(here, 8);
+    last = here;
+  }
+}
+
+TEST(AdaptleContact, WhatTheCaseSaysOfTheExponentHolds) {
+  std::vector<BodyConstants> const bodies{metal(2800, 5000, 0.4e9), metal(7800, 4500, 1e9)};
+  ContactRule rule;
+  for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::printed}) {
+    rule.law = law;
+    rule.exponent = 6;
+    EXPECT_EQ(adaptle::contact_pairs(3, rule, bodies, {{500, 0, 0}, {0, 0, 0}})[1].exponent, 6);
+    rule.exponent = std::numeric_limits<double>::quiet_NaN();
+    double const found = adaptle::contact_pairs(3, rule, bodies, {{500, 0, 0}, {0, 0, 0}})[1].exponent;
+    EXPECT_EQ(found, law == ContactRule::Law::kernel ? adaptle::contact_exponent(bodies[0], bodies[1], 500) : 4);
+  }
+  rule.law = ContactRule::Law::kernel;
+  rule.closing_speed = 0;
+  EXPECT_EQ(adaptle::contact_pairs(3, rule, bodies, {{500, 0, 0}, {0, 0, 0}})[1].exponent, 4);
 }
 
 struct Seen {
@@ -198,21 +250,29 @@ TEST(AdaptleContact, TwoParticlesReboundWithTheirSpeed) {
       }
 }
 
-// No step brings bodies nearer to each other by more than 0.07 of a spacing, from the first one on, once they see each
+// No step brings bodies nearer to each other by more than 0.05 of a spacing, from the first one on, once they see each
 // other; while they part, or are far apart, it does not matter how fast they are.
 TEST(AdaptleContact, StepsKnowHowFastBodiesClose) {
-  auto const step = [](double distance, double speed) {
+  auto const step = [](double distance, double speed, double exponent,
+                       ContactRule::Law law = ContactRule::Law::kernel) {
     Assembly a = two_particles(2);
     double const spacing = a.particles.bodies[0].spacing[0];
     a.particles.X[1] = a.particles.X[0];
     a.particles.X[1][0] += distance * spacing;
     a.contact.closing_speed = 1e-3;
+    a.contact.exponent = exponent;
+    a.contact.law = law;
     a.initial_velocity = {{0.5 * speed, 0, 0}, {-0.5 * speed, 0, 0}};
     return make_formulation(a)->stable_time_step() * std::fabs(speed) / spacing;
   };
-  EXPECT_NEAR(step(2, 1e5), 0.07, 1e-12);
-  EXPECT_GT(step(2, -1e5), 0.2);
-  EXPECT_GT(step(4, 1e5), 0.2);
+  EXPECT_NEAR(step(2, 1e5, 4), 0.05, 1e-12);
+  EXPECT_GT(step(2, -1e5, 4), 0.2);
+  EXPECT_GT(step(4, 1e5, 4), 0.2);
+  // A steeper law rises as much in a shorter way; the linear one has no exponent, and 4 is the least that counts.
+  EXPECT_NEAR(step(2, 1e5, 8), 0.025, 1e-12);
+  EXPECT_NEAR(step(2, 1e5, 5.5), 0.05 * 4 / 5.5, 1e-12);
+  EXPECT_NEAR(step(2, 1e5, 2), 0.05, 1e-12);
+  EXPECT_NEAR(step(0.9, 1e5, 8, ContactRule::Law::linear), 0.05, 1e-12);
 }
 
 TEST(AdaptleRigid, StepsKnowHowFastAParticleComes) {
@@ -227,7 +287,7 @@ TEST(AdaptleRigid, StepsKnowHowFastAParticleComes) {
     a.initial_velocity = {{-speed, 0, 0}, {-speed, 0, 0}};
     return make_formulation(a)->stable_time_step() * std::fabs(speed) / spacing;
   };
-  EXPECT_NEAR(step(1.5, 1e5), 0.07, 1e-12);
+  EXPECT_NEAR(step(1.5, 1e5), 0.05, 1e-12);
   EXPECT_GT(step(1.5, -1e5), 0.2);
   EXPECT_GT(step(2.5, 1e5), 0.2);
 }

@@ -3,6 +3,7 @@
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace piola::adaptle {
 namespace {
@@ -33,7 +34,7 @@ double potential(System const& s, Index i, Index j, double r) {
   Kernel<D> const kernel(pair.h);
   double const eps =
       s.contact.law == 1 ? pair.eps : s.contact.printed * value_at(s.field.volume, i) * value_at(s.field.volume, j);
-  return eps * std::pow(kernel(r) / kernel(pair.dp), s.contact.exponent);
+  return eps * std::pow(kernel(r) / kernel(pair.dp), pair.exponent);
 }
 
 template <int D>
@@ -58,6 +59,13 @@ double energy_of_contacts(System const& s) {
   return energy.value();
 }
 
+/// The largest pressure of two half spaces that meet at the speed v [Pa].
+double shock_pressure(BodyConstants const& a, BodyConstants const& b, double v) {
+  double const c_a = std::sqrt(a.bulk_modulus / a.rho0), c_b = std::sqrt(b.bulk_modulus / b.rho0);
+  double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;
+  return Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
+}
+
 /// What a body bears before it flows away, 3 sy + rho v^2 / 2 [Pa].
 double flow_pressure(BodyConstants const& a, double v) { return 3 * a.yield_stress + 0.5 * a.rho0 * v * v; }
 
@@ -68,12 +76,20 @@ double contact_number(int dimension, double h, double dp, double exponent) {
 }
 
 double reference_pressure(BodyConstants const& a, BodyConstants const& b, double v) {
-  double const c_a = std::sqrt(a.bulk_modulus / a.rho0), c_b = std::sqrt(b.bulk_modulus / b.rho0);
-  double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;
-  double const shock = Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
+  double const shock = shock_pressure(a, b, v);
   double const flow = std::min(flow_pressure(a, v), flow_pressure(b, v));
   return std::max({std::clamp(flow, 0.25 * shock, shock), 0.01 * std::min(a.bulk_modulus, b.bulk_modulus),
                    a.burst_pressure, b.burst_pressure});
+}
+
+double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v) {
+  double const shock = shock_pressure(a, b, v);
+  // Of two that flow at the same pressure the softer one, whatever their order.
+  auto const [flow, yield] =
+      std::min(std::pair(flow_pressure(a, v), a.yield_stress), std::pair(flow_pressure(b, v), b.yield_stress));
+  if (!(shock > flow)) return 4;
+  double const strength = 3 * yield / flow, aside = 1 - flow / shock;
+  return 4 * (1 + strength * strength * (3 - 2 * strength) * aside * aside);
 }
 
 double contact_energy(System const& system) {
@@ -92,12 +108,15 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
       double square = 0;
       for (std::size_t c = 0; c < 3; ++c) square += std::pow(mean_velocity[a][c] - mean_velocity[b][c], 2);
       double const v = std::isnan(rule.closing_speed) ? std::sqrt(square) : rule.closing_speed;
+      p.exponent = rule.exponent;
+      if (std::isnan(p.exponent))
+        p.exponent = rule.law == ContactRule::Law::kernel ? contact_exponent(bodies[a], bodies[b], v) : 4;
       // dp_a^(d-1) dp_b^(d-1) / dp^(d-2)
       double const area =
           std::pow(bodies[a].spacing * bodies[b].spacing, dimension - 1) / std::pow(p.dp, dimension - 2);
       if (rule.law == ContactRule::Law::kernel)
         p.eps = rule.scale * reference_pressure(bodies[a], bodies[b], v) * area /
-                contact_number(dimension, p.h, p.dp, rule.exponent);
+                contact_number(dimension, p.h, p.dp, p.exponent);
       if (rule.law == ContactRule::Law::linear)
         p.eps = rule.scale * std::min(bodies[a].bulk_modulus, bodies[b].bulk_modulus) * area;
     }

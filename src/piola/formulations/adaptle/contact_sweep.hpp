@@ -15,12 +15,12 @@ struct ContactForce {
 
 /// F = -dU/dr, U = eps (W(r)/W(dp))^n: eqs. (15), (16) with constant coefficient.
 template <int D>
-PIOLA_FN ContactForce kernel_contact(ContactPair const& p, double exponent, double r) {
+PIOLA_FN ContactForce kernel_contact(ContactPair const& p, double r) {
   Kernel<D> const kernel(p.h);
   double s, W;
   kernel.evaluate(r * r, s, W);
   if (!(W > 0)) return {};
-  double const reference = kernel(p.dp), w = W / reference, slope = s * r / reference;
+  double const reference = kernel(p.dp), w = W / reference, slope = s * r / reference, exponent = p.exponent;
   double const power = std::pow(w, exponent - 2);
   double const bend = 3 * kernel.norm * kernel.inverse_h * kernel.inverse_h / reference;
   return {p.eps * exponent * power * w * slope, p.eps * exponent * power * ((exponent - 1) * slope * slope + w * bend),
@@ -50,14 +50,16 @@ struct ContactSweep {
  private:
   PIOLA_FN ContactForce force_of(ContactPair const& pair, Index i, Index j, double r) const {
     if (table.law == 2) return linear_contact(pair, r);
-    if (table.law == 1) return kernel_contact<D>(pair, table.exponent, r);
+    if (table.law == 1) return kernel_contact<D>(pair, r);
     ContactPair printed = pair;
     printed.eps = table.printed * volume_half.at(i) * volume_half.at(j);
-    return kernel_contact<D>(printed, table.exponent, r);
+    return kernel_contact<D>(printed, r);
   }
 
   /// By how much the law rises faster than that for which steps are set, n = 4.
-  PIOLA_FN double sharpness() const { return table.law != 2 && table.exponent > 4 ? table.exponent / 4 : 1; }
+  PIOLA_FN double sharpness(ContactPair const& pair) const {
+    return table.law != 2 && pair.exponent > 4 ? pair.exponent / 4 : 1;
+  }
 
   /// Speed at which two particles come nearer to each other at the distance r [m/s].
   PIOLA_FN double approach(Index i, Index j, double r) const {
@@ -80,7 +82,7 @@ struct ContactSweep {
       double const r = std::sqrt(square);
       ContactForce const f = force_of(pair, i, j, r);
       if (!(f.stiffness > 0)) continue;
-      raise(i, ContactSum::closing, approach(i, j, r) * sharpness() / pair.dp);
+      raise(i, ContactSum::closing, approach(i, j, r) * sharpness(pair) / pair.dp);
       double power = 0;
       for (int c = 0; c < D; ++c) {
         double const push = f.force * (x.at(i, c) - x.at(j, c)) / (r > 0 ? r : 1);

@@ -109,9 +109,9 @@ void Exchanges::after_lists(System const& s, SpatialLists const& lists) {
 void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
   for (ToNeighbours& told : to_neighbours_) {
     if (!s.material.used) break;
-    told.plan.exchange(told.stress);
-    for (FieldRef const& field : told.hourglass)
-      if (s.eulerians > 0) told.plan.exchange(field);
+    std::vector<FieldRef> fields{told.stress};
+    if (s.eulerians > 0) fields.insert(fields.end(), told.hourglass.begin(), told.hourglass.end());
+    told.plan.exchange(fields);
   }
   if (SpatialLists::touching(s))
     complete_slots(std::array{FieldPart{s.field.v_half, 0, 3}, FieldPart{s.field.volume_half, 0, 1}},
@@ -140,24 +140,21 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   bool const touching = SpatialLists::touching(s), flows = s.eulerians > 0;
   Talk talk;
   talk.order = &id_order;
-  talk.reads = 1;
-  talk.reach = 2 * b.material_h;
   if (s.material.used) {
     auto const [motion, stress] = with_material(s.dimension, [&](auto r) {
       using R = decltype(r);
       return std::array{R::X, R::values(s.settings.published) - R::A};
     });
-    talk.values = {motion, stress};
-    if ((b.hourglass > 0 || b.hourglass_stiffness > 0) && flows)
-      talk.values.insert(talk.values.end(), 2, 9);  // F and its rate
+    bool const with_F = flows && (b.hourglass > 0 || b.hourglass_stiffness > 0);
+    talk.messages = {{{2 * b.material_h, motion}}, {{2 * b.material_h, stress + (with_F ? 18 : 0)}}};
   }
   auto const [corrected, all] = parts_of(s);
   for (Index i = b.first; i < b.last && SpatialLists::needed(s); ++i)
     talk.to_all += 3 + (flows && lists.near(i) ? all : 0) + (touching && lists.meets(i) ? 4 : 0);
   if (body > 0) return talk;
-  // Failures twice and what the step says; positions and who is near; impulses.
+  // Failures, what the step says; positions and who is near.
   talk.collectives =
-      3 + (SpatialLists::needed(s) ? 1 : 0) + (touching ? 1 : 0) + (flows ? (s.settings.corrected ? 2 : 1) : 0);
+      2 + (SpatialLists::needed(s) ? 1 : 0) + (touching ? 1 : 0) + (flows ? (s.settings.corrected ? 2 : 1) : 0);
   return talk;
 }
 

@@ -77,7 +77,9 @@ struct StepEnd {
       auto const add = [&](int which, Lanes const& value) { sums[which] += select(real, value, Lanes(0.0)); };
       Mat<3, Lanes> const L = scratch.gradient(g);
       switch_viscosity(g, L);
-      add(BlockMeasures::viscous, scratch.heat_at(g));
+      Lanes const artificial = scratch.artificial_at(g);
+      add(BlockMeasures::viscous, scratch.heat_at(g) - artificial);
+      add(BlockMeasures::artificial, artificial);
       if (hourglass.data != nullptr) add(BlockMeasures::hourglass, hourglass.scalar<Lanes>(i));
       if (contact.data != nullptr) {
         add(BlockMeasures::contact, contact.scalar<Lanes>(i, ContactSum::power));

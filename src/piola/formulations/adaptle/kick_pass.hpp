@@ -7,15 +7,16 @@ namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// What the particles of a block say: sums and extrema, in the order of Measures.
 struct BlockMeasures {
-  static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, sums = 6, dt = 6,
-                       overlap = 7, wishes = 8, size = 9;
+  static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, artificial = 6, sums = 7,
+                       dt = 7, overlap = 8, wishes = 9, size = 10;
 };
 
 /// What the parts of the end of a step tell each other of the particles of a block.
 struct BlockScratch {
   Index first;
-  alignas(64) double L[9][exec::block_size];  ///< velocity gradient [1/s]
-  alignas(64) double heat[exec::block_size];  ///< of all sums [W]
+  alignas(64) double L[9][exec::block_size];        ///< velocity gradient [1/s]
+  alignas(64) double heat[exec::block_size];        ///< of all sums [W]
+  alignas(64) double artificial[exec::block_size];  ///< part of it: of artificial stress [W]
   alignas(64) double compression[exec::block_size];
 
   PIOLA_FN explicit BlockScratch(Index of) : first(of) {}
@@ -25,6 +26,7 @@ struct BlockScratch {
     return r;
   }
   PIOLA_FN Lanes heat_at(Group g) const { return load<Lanes>(heat + (g.first - first)); }
+  PIOLA_FN Lanes artificial_at(Group g) const { return load<Lanes>(artificial + (g.first - first)); }
   PIOLA_FN Lanes compression_at(Group g) const { return load<Lanes>(compression + (g.first - first)); }
 };
 
@@ -64,6 +66,7 @@ struct Kick {
       Index const at = g.first - block.first;
       bool const summed = heat.data != nullptr;
       store(summed ? spatial[R::heat] + heat.scalar<Lanes>(g.first) : spatial[R::heat], scratch.heat + at);
+      store(spatial[R::artificial], scratch.artificial + at);
       store(summed ? maximum(spatial[R::compression], compression.scalar<Lanes>(g.first)) : spatial[R::compression],
             scratch.compression + at);
     });

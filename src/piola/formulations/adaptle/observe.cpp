@@ -107,6 +107,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
             {"hourglass_energy", books.hourglass_energy},
             {"plastic_work", plastic.value()},
             {"viscous_loss", books.viscous_loss},
+            {"artificial_stress_work", books.artificial_work},
             {"eulerian_particles", eulerian},
             {"converted_particles", books.converted},
             {"guard_conversions", books.by_guard},

@@ -196,7 +196,6 @@ void Particles::set_contact(Assembly const& assembly) {
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
   leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
   system_.contact.pair = contact_pairs_.data();
-  system_.contact.exponent = assembly.contact.exponent;
   system_.contact.printed = assembly.contact.stiffness;
   system_.contact.scale = assembly.contact.scale;
   using Law = ContactRule::Law;
@@ -381,7 +380,7 @@ void Particles::step(double time, double dt) {
   evaluate(dt);
   sum_actions(time, dt);
   factors_.end_of_step();
-  if (exchanges_) share_failures();
+  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) gather();  // for what there is to say about it
 }
 
 /// Forces act at half time and at the places of then, for the whole step: impulses of the supports, then of the loads,
@@ -416,22 +415,11 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
 
 void Particles::sum_actions(double time, double dt) {
   actions_.begin(dt);
-  std::vector<ImpulseSum> sums = impulses(time, dt);
-  std::vector<exec::ExactSums<6>> rigids(shapes_.size());
+  action_sums_.emplace(ActionSums{dt, impulses(time, dt), std::vector<exec::ExactSums<6>>(shapes_.size())});
   for (std::size_t block = 0; block < rigid_action_.size(); block += 6)
-    rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
-  if (exchanges_) {
-    ranks::add(std::span(sums));
-    ranks::add(std::span(rigids));
-  }
-  for (std::size_t s = 0; s < supports_.size(); ++s) actions_.supports[s].add(sums[s].value());
-  for (std::size_t l = 0; l < loads_.size(); ++l) actions_.loads[l].add(sums[supports_.size() + l].value());
-  for (std::size_t k = 0; k < shapes_.size(); ++k) {
-    exec::ExactSums<6> const& sum = rigids[k];
-    actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
-                            {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
-    std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
-  }
+    action_sums_->rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
+  for (std::size_t k = 0; k < shapes_.size(); ++k) std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
+  if (!exchanges_) settle_actions();
 }
 
 /// Sums over neighbours and what they need.
@@ -475,6 +463,7 @@ void Particles::evaluate(double dt) {
   books_.contact_energy += dt * m.contact_power;
   books_.hourglass_energy += dt * m.hourglass_power;
   books_.viscous_loss += dt * m.viscous_power;
+  books_.artificial_work += dt * m.artificial_power;
   books_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
   books_.overlap = std::max(books_.overlap, m.overlap);
   books_.next_dt = m.dt;

@@ -12,6 +12,7 @@
 #include "piola/mechanics/prescribed.hpp"
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -25,6 +26,7 @@ struct Books {
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
   double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
+  double artificial_work = 0;  ///< that artificial stress takes from motion; may give back
 
   /// Of a checkpoint, and back.
   std::vector<double> state() const;
@@ -35,7 +37,7 @@ struct Books {
   static auto listed(Self& b) {
     return std::tie(b.contact_energy, b.viscous_loss, b.external_work, b.converted, b.by_guard, b.converted_mass,
                     b.energy_change, b.momentum_change, b.deleted, b.overlap, b.time, b.next_dt, b.damping_loss,
-                    b.hourglass_energy);
+                    b.hourglass_energy, b.artificial_work);
   }
 };
 
@@ -94,11 +96,7 @@ class Particles {
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
   /// For estimates.
-  Talk talk(int body) const {
-    Talk talk = Exchanges::talk(system_, spatial_, body);
-    if (body == 0) talk.collectives += (supports_.size() + loads_.size() > 0 ? 1 : 0) + (shapes_.empty() ? 0 : 1);
-    return talk;
-  }
+  Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
   /// Where ranks share the particles: rank 0 has all of them.
   void gather();
 
@@ -124,6 +122,8 @@ class Particles {
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
   void sum_actions(double time, double dt);
+  /// Collective on ranks, for which steps do not wait: when somebody asks.
+  void settle_actions();
   void start();
   void sweep(double dt);
   void evaluate(double dt);
@@ -136,7 +136,6 @@ class Particles {
     Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
     return slot >= own.first && slot < own.last;
   }
-  void share_failures();
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
   double energy_of(Index i) const;
@@ -174,6 +173,13 @@ class Particles {
   std::vector<std::size_t> holder_;  ///< per component: the support that holds it
   std::vector<double> held_velocity_, load_, reaction_, rigid_action_;
   Actions actions_;
+  /// Of the last step, of this rank; nothing once they are in `actions_`.
+  struct ActionSums {
+    double dt;
+    std::vector<ImpulseSum> impulses;        ///< of supports, then of loads
+    std::vector<exec::ExactSums<6>> rigids;  ///< force and moment of rigid shapes
+  };
+  std::optional<ActionSums> action_sums_;
   std::vector<RigidShape> shapes_;
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;

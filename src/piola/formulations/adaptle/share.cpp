@@ -27,12 +27,24 @@ void Particles::gather() {
   std::vector<double> neighbours(found.begin(), found.end());
   exchanges_->gather({.data = neighbours.data()}, 1);
   spatial_.set_neighbours({neighbours.begin(), neighbours.end()});
+  settle_actions();
 }
 
-/// Of the ranks' first failures the first; then rank 0 has all that there is to say about it.
-void Particles::share_failures() {
-  share_failure(failure_);
-  if (failure_.index != FailureSlot::none || crowded_) gather();
+void Particles::settle_actions() {
+  if (!action_sums_) return;
+  auto& [dt, impulses, rigids] = *action_sums_;
+  if (exchanges_) {
+    ranks::add(std::span(impulses));
+    ranks::add(std::span(rigids));
+  }
+  for (std::size_t s = 0; s < supports_.size(); ++s) actions_.supports[s].add(impulses[s].value());
+  for (std::size_t l = 0; l < loads_.size(); ++l) actions_.loads[l].add(impulses[supports_.size() + l].value());
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    exec::ExactSums<6> const& sum = rigids[k];
+    actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
+                            {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
+  }
+  action_sums_.reset();
 }
 
 void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,

@@ -43,7 +43,7 @@ struct SpatialSweep {
  private:
   struct Accumulated {
     static constexpr int G = 0, W = D, Q = D + 1, L = 2 * D + 1, LW = L + D * D, T = LW + D, heat = T + D,
-                         count = heat + 1;
+                         artificial = heat + 1, count = heat + (Stressed ? 2 : 1);
     Lanes a[count];
     Lanes mu;
   };
@@ -140,6 +140,7 @@ struct SpatialSweep {
     for (int i = 0; i < D; ++i) sum.a[Accumulated::Q + i] -= push * r[i];
     if constexpr (Stressed) {
       Lanes const pull = weight * stress_weight;
+      Lanes artificial = Lanes(0.0);
       for (int i = 0; i < D; ++i) {
         Lanes bracket = Lanes(0.0);
         for (int j = 0; j < D; ++j) {
@@ -148,8 +149,10 @@ struct SpatialSweep {
         }
         Lanes const extra = pull * bracket;
         sum.a[Accumulated::Q + i] += extra;
-        power += extra * w[i];
+        artificial += extra * w[i];
       }
+      power += artificial;
+      sum.a[Accumulated::artificial] += artificial;
     }
     sum.a[Accumulated::heat] += power;
   }
@@ -174,20 +177,23 @@ struct SpatialSweep {
       gt_ab[i] = s * here - own[R::n + i] * W;
       gt_ba[i] = -1.0 * (s * there + rest[n + i] * W);
     }
-    Lanes power = Lanes(0.0);
+    Lanes power = Lanes(0.0), artificial = Lanes(0.0);
     for (int i = 0; i < D; ++i) {
       Lanes extra = (0.5 * pressure) * (gt_ba[i] - gt_ab[i]);
       if constexpr (Stressed) {
         Lanes bracket = Lanes(0.0);
         for (int j = 0; j < D; ++j)
           bracket += rest[tensor + SymMat<D>::at(i, j)] * gt_ba[j] - own[R::R + SymMat<D>::at(i, j)] * gt_ab[j];
-        extra -= stress_weight * bracket;
+        bracket = stress_weight * bracket;
+        extra -= bracket;
+        artificial -= mass * bracket * w[i];
       }
       extra = mass * extra;
       sum.a[Accumulated::T + i] += extra;
       power += extra * w[i];
     }
     sum.a[Accumulated::heat] += power;
+    if constexpr (Stressed) sum.a[Accumulated::artificial] += artificial;
   }
 
   PIOLA_FN void store(SpatialTarget const& target, Accumulated const& sum) const {
@@ -214,7 +220,9 @@ struct SpatialSweep {
         out[SpatialResult::L + 3 * i + j] = L;
       }
     }
-    out[SpatialResult::heat] = 0.5 * (Corrected ? mass : own[R::volume]) * a[Accumulated::heat];
+    double const half = 0.5 * (Corrected ? mass : own[R::volume]);
+    out[SpatialResult::heat] = half * a[Accumulated::heat];
+    if constexpr (Stressed) out[SpatialResult::artificial] = half * a[Accumulated::artificial];
     out[SpatialResult::compression] = maximum(largest_of(-1.0 * sum.mu), 0.0);
   }
 };

@@ -71,7 +71,8 @@ struct SpatialResult {
       heat = 3,                    ///< of viscosity and artificial stress [W]
       L = 4,                       ///< spatial velocity gradient [1/s]
       compression = 13,            ///< largest |mu_ab| of the viscosity [m/s]
-      size = 14, stride = 16;
+      artificial = 14,             ///< part of the heat: of artificial stress, of either sign [W]
+      size = 15, stride = 16;
 };
 
 /// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
@@ -109,6 +110,7 @@ struct BodyConstants {
 struct ContactPair {
   double eps = 0;  ///< [J]
   double h = 1, dp = 1;
+  double exponent = 4;  ///< n
 };
 
 /// A rigid shape at half time.
@@ -170,7 +172,7 @@ struct ContactTable {
   Index const* length = nullptr;      ///< per target
   ContactPair const* pair = nullptr;  ///< [body][body]
   int law = 0;
-  double exponent = 4, printed = 0;
+  double printed = 0;
   double scale = 1;  ///< of the stiffness of rigid shapes
 };
 
@@ -190,8 +192,8 @@ struct Settings {
 /// What a step says about itself.
 struct Measures {
   double dt = 0;  ///< stable step from the new state [s]
-  double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0,
-         viscous_power = 0;  ///< [W]
+  double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0,
+         artificial_power = 0;  ///< [W]
   double overlap = 0;
   Index wishes = 0;      ///< particles that want to convert or to be deleted
   bool crowded = false;  ///< a particle has more neighbours than can be listed

@@ -7,6 +7,7 @@
 #include "piola/formulations/adaptle/riemann_sweep.hpp"
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
 #include "piola/neighbours/moving_search.hpp"
+#include "piola/parallel/first_failure.hpp"
 #include "piola/parallel/ranks.hpp"
 
 /// One step, part by part; the host sorts particles and updates tables between the parts.
@@ -79,6 +80,7 @@ struct Step {
     m.held_power = sums.value(B::held);
     m.load_power = sums.value(B::load);
     m.viscous_power = sums.value(B::viscous);
+    m.artificial_power = sums.value(B::artificial);
     return m;
   }
 
@@ -152,15 +154,17 @@ struct Step {
   }
 
   /// What the steps of all ranks say: the same on all of them.
-  static void combine_over_ranks(Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) {
+  void combine_over_ranks(Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {
     struct Said {
       Measures m;
       exec::ExactSums<BlockMeasures::sums> sums;
-    } said{m, sums};
+      FirstFailure first;
+    } said{m, sums, FirstFailure(*s.failure)};
     ranks::combine(said, [](void const* other, void* mine) {
       Said const& from = *static_cast<Said const*>(other);
       Said& to = *static_cast<Said*>(mine);
       to.sums.add(from.sums);
+      to.first.add(from.first);
       to.m.dt = from.m.dt < to.m.dt ? from.m.dt : to.m.dt;
       to.m.overlap = from.m.overlap > to.m.overlap ? from.m.overlap : to.m.overlap;
       to.m.wishes += from.m.wishes;
@@ -168,6 +172,7 @@ struct Step {
     });
     m = said.m;
     sums = said.sums;
+    said.first.put(*s.failure);
   }
 
   void add_blocks(Index blocks, Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {

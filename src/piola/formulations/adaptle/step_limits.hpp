@@ -7,7 +7,7 @@ namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// Share of a volume, or of a spacing between bodies, that a step may take: with 0.1 the error in time of an impact at
 /// several km/s shows in the fourth digit of its energy.
-inline constexpr double largest_change = 0.07;
+inline constexpr double largest_change = 0.05;
 
 /// What limits the step of a group of particles.
 struct StepLimit {

@@ -121,6 +121,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   state_.partial = partial_.data();
   failure_.id = order_.id.data();
   state_.failure = &failure_;
+  state_.external_work = &external_work_;
 }
 
 void JstBody::set_hourglass(double mu) {
@@ -212,7 +213,8 @@ void JstBody::allocate() {
 template <class Visit>
 void JstBody::each_seen(Visit const& f) const {
   exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) { f(own().first + k); });
-  if (shared()) halo_->each_received(f);
+  if (!shared()) return;
+  for (Index const i : halo_->received()) f(i);
 }
 
 /// Tells how the images' values follow, for all that sweeps read at neighbours.

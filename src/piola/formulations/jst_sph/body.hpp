@@ -11,6 +11,7 @@
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
 #include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/shared_total.hpp"
 #include <memory>
 #include <vector>
 
@@ -46,6 +47,8 @@ class JstBody {
   void step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that nothing prescribes, and notes the energy.
   void damp(double factor);
+  SharedTotal& external_work() { return external_work_; }  ///< of loads and of driven supports since the start [J]
+  SharedTotal const& external_work() const { return external_work_; }
   double kinetic_energy() const;    ///< of all ranks, which all ask for it [J]
   double hourglass_energy() const;  ///< likewise, as observed last [J]
   double filtered_energy()
@@ -86,13 +89,14 @@ class JstBody {
   /// f(slot) for the particles that this rank works on, and those that it reads of other ranks.
   template <class Visit>
   void each_seen(Visit const& f) const;
-  /// What goes to other ranks: values [first, first + count) of a field, so many times in a right-hand side.
+  /// What goes to other ranks: values [first, first + count) of a field, to near neighbours or also to far ones.
   struct Told {
     FieldRef field;
-    int first, count, times;
+    int first, count;
+    bool far;
   };
-  std::vector<Told> told() const;
-  std::vector<Index> slots_read(int lanes) const;
+  std::vector<std::vector<Told>> told() const;
+  std::vector<Index> slots_read(int lanes, bool far) const;
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void take_tables();
   void allocate();
@@ -143,6 +147,7 @@ class JstBody {
   std::vector<Index> group_first_;  // per stored group: a slot where it begins
   Boundary boundary_;
   std::vector<double> partial_;
+  SharedTotal external_work_;
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles

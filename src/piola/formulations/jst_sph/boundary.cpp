@@ -146,7 +146,7 @@ void Boundary::end_step(BodyState& state) {
     driven_.add_impulse(plain_owner_[k].support, plain_start_[k], before);
     driven_.add_impulse(plain_owner_[k].support, point_at(state.x, s.slot, D_), after);
   }
-  driven_.end_step(state.x, state.totals.external_work);
+  driven_.end_step(state.x, *state.external_work);
   if (state.constants.integrator != Integrator::verlet) return;
   driven_.take_out_ended(state.rate);
   for (SupportComponent& s : plain_) {
@@ -156,7 +156,7 @@ void Boundary::end_step(BodyState& state) {
   }
 }
 
-void Boundary::hand_over(Actions& actions) {
+void Boundary::hand_over(Actions& actions) const {
   driven_.hand_over(actions);
   for (std::size_t k = 0; multipliers_ && k < multipliers_->impulses().size() && k < actions.supports.size(); ++k)
     actions.supports[k].add(multipliers_->impulses()[k]);

@@ -31,7 +31,8 @@ class Boundary {
   /// Ranks share the body: this one answers for the particles in these slots. Before attach().
   void share(Range own);
   /// Adds what supports and loads did in the last step; collective where ranks share the body.
-  void hand_over(Actions& actions);
+  void hand_over(Actions& actions) const;
+  void forget_impulses() { driven_.forget_impulses(); }
   /// What a checkpoint holds beside fields: accelerations that supports made up for at the end of the last step.
   /// Collective where ranks share the body; all of them have it.
   std::vector<double> state() const;

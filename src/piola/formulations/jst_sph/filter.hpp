@@ -91,10 +91,11 @@ class Filter {
  public:
   Filter(BodyState& body, Loader const& loader) : b_(body), loader_(loader), halo_{body.halo} {}
 
-  /// g of the first pass, where no other pass has left it.
+  /// g of the first pass, where no other pass has left it, and tells neighbours.
   void prepare() const {
     exec::for_each(b_.slots, PrepareFilter{read_reference(b_.V), read(b_.volume_ratio), read(b_.filter_scale),
                                            write(b_.filter_source[0])});
+    halo_.refresh(b_.filter_source[0]);
   }
   /// Jf = B J of the volume ratios, and q.
   void smooth_ratio() const {
@@ -109,7 +110,7 @@ class Filter {
   }
 
  private:
-  /// The source of the first pass is buffer 0; every pass reads one buffer and writes the other.
+  /// The source of the first pass is buffer 0, which neighbours have; every pass reads one buffer and writes the other.
   void smooth_all(FieldRef const& input, Compression::Kind kind) const {
     int const n = b_.constants.filter_passes;
     FieldRef const& between = kind == Compression::Kind::ratio ? b_.filtered_ratio : b_.ratio_increment;
@@ -120,7 +121,7 @@ class Filter {
 
   void smooth(int pass_number, FieldRef const& from, FieldRef const& to, Compression::Kind kind) const {
     FieldRef const &source = b_.filter_source[pass_number % 2], &next = b_.filter_source[(pass_number + 1) % 2];
-    halo_.refresh(source);
+    if (pass_number > 0) halo_.refresh(source);
     Compression const compression{kind, b_.constants.kappa_filtered, read(b_.filtered_ratio), write(b_.filtered_ratio),
                                   write(b_.filtered_pressure)};
     exec::for_each(b_.slots, Smooth<Loader>{loader_,

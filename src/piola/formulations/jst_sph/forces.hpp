@@ -26,27 +26,43 @@ struct StageBalance {
   double J_rate = 0;  ///< mean of D(J), eq. (51) [1/s]
 };
 
+/// The largest of the body, or of a rank's part of it [m/s].
+inline double largest_wave_speed_of(BodyState const& b, FieldRef const& wave_speed) {
+  exec::for_each_block(b.slots, LargestWaveSpeed{read(wave_speed), b.partial});
+  double largest = 0;
+  for (Index k = 0; k < exec::block_count(b.slots); ++k) largest = maximum(largest, b.partial[k]);
+  return largest;
+}
+
 /// The second sweep of a stage: -T + D of every particle, and the rigid rate that removes their resultant and moment.
 template <int D, class Loader>
 class Forces {
  public:
   Forces(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
 
-  /// `time`: how long these forces act, for the books of energy [s].
-  StageBalance operator()(double time) { return smooths_volume(b_.constants) ? sum<D + 1>(time) : sum<D>(time); }
+  /// `time`: how long these forces act, for the books of energy [s]. In the last stage of a step the largest of the
+  /// field `ended`, the wave speed, and the first failure become those of all ranks.
+  StageBalance operator()(double time, FieldRef const* ended) {
+    Beside beside;
+    if (ended != nullptr && !b_.trial) {
+      b_.largest_wave_speed = largest_wave_speed_of(b_, *ended);
+      beside = {&b_.largest_wave_speed, b_.failure};
+    }
+    return smooths_volume(b_.constants) ? sum<D + 1>(time, beside) : sum<D>(time, beside);
+  }
 
  private:
   template <int Smoothed>
-  StageBalance sum(double time) {
+  StageBalance sum(double time, Beside const& beside) {
     switch (b_.constants.biharmonic) {
-      case Biharmonic::adjoint: return sweep<Biharmonic::adjoint, Smoothed>(time);
-      case Biharmonic::literal: return sweep<Biharmonic::literal, Smoothed>(time);
-      default: return sweep<Biharmonic::none, D>(time);
+      case Biharmonic::adjoint: return sweep<Biharmonic::adjoint, Smoothed>(time, beside);
+      case Biharmonic::literal: return sweep<Biharmonic::literal, Smoothed>(time, beside);
+      default: return sweep<Biharmonic::none, D>(time, beside);
     }
   }
 
   template <Biharmonic B, int Smoothed>
-  StageBalance sweep(double time) {
+  StageBalance sweep(double time, Beside const& beside) {
     SumForces<D, B, Smoothed, Loader> const pass{
         loader_,
         {read_neighbours(b_.second), read_reference(b_.alpha), read_reference(b_.beta)},
@@ -67,7 +83,9 @@ class Forces {
         read(b_.kernel_force_sum),
         read(b_.hourglass_force),
         read(b_.viscous_work)};
-    return project(reduce_over_ranks<At::size>(b_.halo != nullptr, b_.slots, pass, b_.partial), time);
+    // Of the sums of a trial step that projects nothing nobody asks for any.
+    bool const asked = !b_.trial || b_.constants.project || smooths_volume(b_.constants);
+    return project(reduce_over_ranks<At::size>(b_.halo != nullptr && asked, b_.slots, pass, b_.partial, beside), time);
   }
 
   /// Projections of T and D (47)-(49) and their powers.

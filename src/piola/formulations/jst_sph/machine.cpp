@@ -58,9 +58,7 @@ void update_wave_speed(BodyState& body) {
 }
 
 double largest_wave_speed(BodyState& body) {
-  exec::for_each_block(body.slots, LargestWaveSpeed{read(body.wave_speed), body.partial});
-  double largest = 0;
-  for (Index k = 0; k < exec::block_count(body.slots); ++k) largest = maximum(largest, body.partial[k]);
+  double largest = largest_wave_speed_of(body, body.wave_speed);
   if (body.halo != nullptr) ranks::take_largest(largest);
   return largest;
 }

@@ -5,6 +5,7 @@
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include "piola/parallel/own_slots.hpp"
+#include "piola/parallel/shared_total.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -232,7 +233,7 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   }
   if (call.when == MultiplierCall::When::start) return;
   for (std::size_t s = 0; s < impulses.size(); ++s) impulses_[s].add(impulses[s].value());
-  body.totals.external_work += share * body.constants.rho0 * work.value();
+  body.external_work->add(share * body.constants.rho0 * work.value());
 }
 
 std::size_t Multipliers::bytes() const {

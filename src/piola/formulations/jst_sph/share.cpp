@@ -5,6 +5,7 @@
 #include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
+#include <set>
 
 namespace piola::jst_sph {
 
@@ -15,20 +16,23 @@ Range JstBody::own() const {
 void JstBody::share(int lanes) {
   if (!ranks::several()) return;
   state_.slots = share_of(order_.slots(), ranks::own(), ranks::count());
-  halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read(lanes));
+  halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read(lanes, false));
+  halo_->add_reach(slots_read(lanes, true));
   state_.halo = halo_.get();
   lines_ = std::make_unique<SharedLines>(*set_, body_, order_, own());
   boundary_.share(state_.slots);
 }
 
-/// Where the particles of this rank find what they read of others: those themselves, or those that images copy.
-std::vector<Index> JstBody::slots_read(int lanes) const {
+/// Where the particles of this rank find what they read of others: those themselves, or those that images copy. Of the
+/// gradient's support, or `far`, of the Laplacian's, which holds it.
+std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
   std::vector<bool> seen(static_cast<std::size_t>(order_.slots()));
   auto const add = [&](Index slot) { seen[static_cast<std::size_t>(slot)] = true; };
   for (Index i = own().first; i < own().last; ++i) {
     if (!state_.regular) {
       auto const& list = state_.list;
-      for (auto k = list.begin[i]; k < list.begin[i + 1]; ++k) {
+      auto const last = far ? list.begin[i + 1] : list.begin[i] + list.inner[i];
+      for (auto k = list.begin[i]; k < last; ++k) {
         Index const b = list.neighbour[k];
         add(b < order_.slots() ? b : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
       }
@@ -37,7 +41,7 @@ std::vector<Index> JstBody::slots_read(int lanes) const {
     StencilTable const& table = state_.stencil;
     StencilPattern const& pattern = table.patterns[table.pattern_of[i / lanes]];
     for (auto const* run : {pattern.inner, pattern.outer})
-      for (std::int32_t k = run[0]; k < run[1]; ++k) {
+      for (std::int32_t k = run[0]; (far || run == pattern.inner) && k < run[1]; ++k) {
         StencilEntry const& entry = table.entries[k];
         if (entry.weights < 0 || table.weights[entry.weights + i % lanes] != 0) add(i + entry.delta);
       }
@@ -48,50 +52,55 @@ std::vector<Index> JstBody::slots_read(int lanes) const {
   return read;
 }
 
-/// What sweeps read at neighbours, field by field, as place_gathered() has laid it out; alpha and beta never change.
-std::vector<JstBody::Told> JstBody::told() const {
+/// What sweeps read at neighbours, field by field, as place_gathered() has laid it out, in messages; alpha and beta
+/// never change. Gradients read near neighbours alone; Laplacians, the filter and the corrected kernel read far ones,
+/// too.
+std::vector<std::vector<JstBody::Told>> JstBody::told() const {
   auto const& s = state_;
   bool const smoothed_J = options_.smoothed_volume(), stabilised = options_.biharmonic != Biharmonic::none;
   int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
   int const before_A = options_.biharmonic == Biharmonic::adjoint ? smoothed + D_ + 1 : smoothed;
-  std::vector<Told> const all{{s.u, 0,
-                               D_ + (gathers_position() ? D_
-                                     : smoothed_J       ? 1
-                                                        : 0),
-                               1},
-                              {s.second, 0, smoothed, 1},
-                              {s.second, before_A, D_ * D_, 1},
-                              {s.ahead, 0, D_ + D_ * D_ + 1, 1},
-                              {s.kernel_force, 0, D_, 1},
-                              // Passes of the filter and of its adjoint read one buffer and write the other.
-                              {s.filter_source[0], 0, 1, options_.filter_passes},
-                              {s.filter_source[1], 0, 1, options_.filter_passes}};
-  std::vector<Told> real;
-  for (Told const& t : all)
-    if (t.field.data != nullptr && t.count > 0) real.push_back(t);
-  return real;
+  int const beside_u = gathers_position() ? D_ : smoothed_J ? 1 : 0;
+  bool const far_u = stabilised || options_.corrected_kernel();
+  std::vector<std::vector<Told>> messages{
+      {{s.u, 0, D_ + beside_u, far_u}},
+      {{s.ahead, 0, D_ + D_ * D_ + 1, false}},
+      {{s.kernel_force, 0, D_, true}},
+      {{s.second, 0, smoothed, true}, {s.second, before_A, D_ * D_, false}},
+  };
+  // Passes of the filter and of its adjoint read one buffer and write the other; the first one goes with what is ahead.
+  for (int pass = 0; pass < 2 * options_.filter_passes; ++pass) {
+    Told const source{s.filter_source[pass % 2], 0, 1, true};
+    if (pass == 0 && s.ahead.data != nullptr)
+      messages[1].push_back(source);
+    else
+      messages.push_back({source});
+  }
+  for (auto& parts : messages)
+    std::erase_if(parts, [](Told const& t) { return t.field.data == nullptr || t.count == 0; });
+  std::erase_if(messages, [](auto const& parts) { return parts.empty(); });
+  return messages;
 }
 
 void JstBody::mark_halo() {
-  for (Told const& t : told()) halo_->add(t.field, t.first, t.count);
+  std::set<std::pair<double const*, int>> marked;
+  for (auto const& parts : told())
+    for (Told const& t : parts)
+      if (marked.emplace(t.field.data, t.first).second) halo_->add(t.field, t.first, t.count, t.far ? 1 : 0);
 }
 
 Talk JstBody::talk() const {
   Talk talk;
-  talk.reach = options_.kernel->support * spacing() *
-               std::max(options_.gradient_support, is_wide() ? options_.laplacian_support : 0);
-  double const* last = nullptr;
-  for (Told const& t : told()) {
-    if (t.field.data == last)
-      talk.values.back() += t.count;  // two runs of one message
-    else
-      talk.values.insert(talk.values.end(), static_cast<std::size_t>(t.times), t.count);
-    last = t.field.data;
+  double const near = options_.kernel->support * spacing() * options_.gradient_support,
+               far = std::max(near, options_.kernel->support * spacing() * options_.laplacian_support);
+  for (auto const& parts : told()) {
+    talk.messages.emplace_back();
+    for (Told const& t : parts) talk.messages.back().push_back({t.far ? far : near, t.count});
   }
   int const stages = verlet() ? 1 : 2;
   bool const rigid_of_stages = !verlet() && state_.constants.without_rigid;
-  // Sums of motion and of forces; work of supports and loads, wave speed, failures.
-  talk.collectives = (verlet() ? 2 : stages * (rigid_of_stages ? 2 : 1)) + 3;
+  // Sums of motion and of forces, with the largest wave speed and the first failure, unless volumes fail later.
+  talk.collectives = (verlet() ? 2 : stages * (rigid_of_stages ? 2 : 1)) + (options_.smoothed_volume() ? 1 : 0);
   return talk;
 }
 

@@ -31,7 +31,7 @@ class Solver final : public Formulation {
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
         machine_(&choose_machine(assembly.machine.c_str())),
-        actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
+        actions_(std::make_unique<ActionsOnBodies>(assembly.supports, assembly.loads, assembly.rigid_shapes)) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
@@ -79,14 +79,12 @@ class Solver final : public Formulation {
   }
 
   void step(double time, double dt) override {
-    actions_.begin(dt);
-    for (auto const& body : bodies_) {
-      body->step(*machine_, time, dt);
-      body->boundary().hand_over(actions_);
-    }
+    actions_->begin_step(bodies_, dt);
+    for (auto const& body : bodies_) body->step(*machine_, time, dt);
+    actions_->end_step(bodies_);
     time_ = time + dt;
     last_step_ = dt;
-    find_largest_speeds();
+    for (std::size_t k = 0; k < bodies_.size(); ++k) largest_speed_[k] = bodies_[k]->state().largest_wave_speed;
     for (std::size_t k = 0; k < monitors_.size(); ++k)
       if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
     if (ranks::several()) share_failures();
@@ -112,13 +110,14 @@ class Solver final : public Formulation {
 
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
+    settle();
     JstObservation all;
     for (auto const& body : bodies_) {
       refresh(*body);
       observe(*body, all);
     }
     Diagnostics d = finish(all);
-    d.actions = actions_.report();
+    d.actions = actions_->report();
     return d;
   }
 
@@ -139,9 +138,8 @@ class Solver final : public Formulation {
 
   int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
   std::optional<Talk> talk(std::size_t body) const override {
-    Talk talk = bodies_[body]->talk();  // and impulses of supports and of loads
-    talk.collectives += (actions_.supports.empty() ? 0 : 1) + (actions_.loads.empty() ? 0 : 1);
-    talk.reads = 2;  // positions, velocities
+    Talk talk = bodies_[body]->talk();
+    if (monitors_[body]) talk.collectives += StabilityMonitor::collectives_per_step;
     return talk;
   }
   std::size_t memory_bytes() const override {
@@ -169,6 +167,12 @@ class Solver final : public Formulation {
     if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
     if (body.options().hourglass()) machine_->observe_energy(seen);
   }
+  /// Adds up what steps have left to be told: the totals of all ranks, for observers. Collective on ranks.
+  void settle() const {
+    if (!ranks::several()) return;
+    for (auto const& body : bodies_) body->external_work().settle();
+    actions_->settle(bodies_);
+  }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
   void share_failures();
@@ -180,7 +184,7 @@ class Solver final : public Formulation {
   ParticleSet set_;
   SlotsById slots_;
   Machine const* machine_;
-  Actions actions_;
+  std::unique_ptr<ActionsOnBodies> actions_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
@@ -258,21 +262,22 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
 }
 
 void Solver::save(StateWriter& writer) const {
+  settle();
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
       save_own(writer, name, body, field, components);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss, totals.external_work, totals.damping_loss,
-                           totals.viscous_work};
+    std::array const books{totals.stabilisation_loss, totals.projection_loss, body.external_work().value(),
+                           totals.damping_loss, totals.viscous_work};
     writer.put(fmt::format("body{}_energy_books", k), books);
     writer.put(fmt::format("body{}_supports", k), body.boundary().state());
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
   }
   std::array const clock{time_, last_step_};
   writer.put("time", clock);
-  writer.put("actions", actions_.state());
+  writer.put("actions", actions_->state());
 }
 
 /// The positions of a stage are, between steps, those of the particles.
@@ -301,7 +306,7 @@ void Solver::share_failures() {
   bool failed = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     FailureSlot& slot = *bodies_[k]->state().failure;
-    share_failure(slot);
+    if (smooths_volume(bodies_[k]->state().constants)) share_failure(slot);  // others were shared with the forces
     failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
   }
   if (failed) tell_failures();
@@ -316,7 +321,8 @@ void Solver::load(StateReader& reader) {
     place_stages(body);
     std::array<double, 5> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
-    body.state().totals = {books[0], books[1], books[2], books[3], books[4]};
+    body.state().totals = {books[0], books[1], books[3], books[4]};
+    body.external_work().set(books[2]);
     load_part(reader, fmt::format("body{}_supports", k), body.boundary());
     if (!monitors_[k]) continue;
     std::vector<double> monitor = monitors_[k]->state();
@@ -325,7 +331,7 @@ void Solver::load(StateReader& reader) {
   }
   std::array<double, 2> clock{};
   reader.get("time", clock);
-  load_part(reader, "actions", actions_);
+  load_part(reader, "actions", *actions_);
   find_largest_speeds();
   time_ = clock[0];
   last_step_ = clock[1];

@@ -137,18 +137,20 @@ class Operator {
   /// rank.
   double dominant(std::vector<double>& u, int rounds) {
     double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
-    double ratio = 0;
+    Squares squares;
     for (int round = 0; round < rounds; ++round) {
       double const most = largest_on_ranks(body_, u);
       if (!(most > 0) || !std::isfinite(most)) return 0;
       each_particle([&](Index i) {
         for (int c = 0; c < D_; ++c) u[at(i, c)] *= size / most;
       });
-      double const before = square(u);
+      bool const last = round == rounds - 1;
+      if (last) squares.before = square(u);
       rates_at(u, rest_);
-      ratio = std::sqrt(square(u) / before);
+      if (last) squares.after = square(u);
     }
-    return ratio;
+    if (body_.shared()) ranks::add(squares);
+    return std::sqrt(squares.after.value() / squares.before.value());
   }
 
  private:
@@ -159,16 +161,22 @@ class Operator {
     Range const own = body_.own();
     exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) { f(own.first + k); });
   }
-  double square(std::vector<double> const& u) const {
+  struct Squares {
+    exec::ExactSums<1> before, after;
+    void add(Squares const& other) {
+      before.add(other.before);
+      after.add(other.after);
+    }
+  };
+  /// Of the particles of this rank.
+  exec::ExactSums<1> square(std::vector<double> const& u) const {
     Range const own = body_.own();
-    auto sums = exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
+    return exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
       Index const i = own.first + k;
       double sum = 0;
       for (int c = 0; c < D_; ++c) sum += u[at(i, c)] * u[at(i, c)];
       *x = body_.volume(i) * sum;
     });
-    if (body_.shared()) ranks::add(sums);
-    return sums.value();
   }
   /// Makes of the displacement u its rates, minus those without displacement if there are any to take away. Hourglass
   /// forces see positions, too.

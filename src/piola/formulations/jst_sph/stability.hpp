@@ -24,6 +24,8 @@ class StabilityMonitor {
  public:
   /// Right-hand sides that the later measurements cost per step.
   static constexpr double stages_per_step = 4.0 / 50;
+  /// And what all ranks say for them: the mode, motions of right-hand sides, three largest numbers, two sums.
+  static constexpr double collectives_per_step = 9.0 / 50;
   /// And the first ones in all, with what is around them.
   double setup_stages() const;
 

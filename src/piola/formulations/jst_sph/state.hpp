@@ -8,6 +8,7 @@
 
 namespace piola {
 class HaloPlan;
+class SharedTotal;
 }
 
 /// One body of a JST-SPH run as its loops see it: plain data that crosses between machines.
@@ -121,7 +122,6 @@ constexpr bool smooths_volume(Constants const& k) { return k.eps2_J > 0 || k.eps
 struct StepTotals {
   double stabilisation_loss = 0;  ///< J, energy removed by D(p)
   double projection_loss = 0;     ///< J, energy removed by the projection of T
-  double external_work = 0;       ///< J, of loads and of driven supports
   double damping_loss = 0;        ///< J, energy removed by damping
   double viscous_work = 0;        ///< J, done against forces with a viscous part, with their energy at the start
 };
@@ -176,8 +176,10 @@ struct BodyState {
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;
   StepTotals totals;
-  bool starting = false;  ///< the step makes the state of time 0 consistent
-  bool trial = false;     ///< a step that asks for the stiffness: solids do not yield and keep no state
+  SharedTotal* external_work = nullptr;  ///< of loads and of driven supports [J]
+  double largest_wave_speed = 0;         ///< at the end of the step that was taken last, of all ranks [m/s]
+  bool starting = false;                 ///< the step makes the state of time 0 consistent
+  bool trial = false;                    ///< a step that asks for the stiffness: solids do not yield and keep no state
 };
 
 /// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.

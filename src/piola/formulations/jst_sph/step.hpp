@@ -41,8 +41,9 @@ class Step {
     differentiate(stage);  // F_dot, H_dot, J_dot, L v, L J, P, A, D2       (33) (36) (12)
     if (b_.constants.force == GradientForm::corrected_kernel) sum_kernel_force();
     halo_.refresh(b_.second);
-    StageBalance const balance = forces_(0.5 * stage.dt);  // T, D4 and their projections   (29c) (37) (48) (51)
-    add_loads(stage);                                      // E                             (32)
+    FieldRef const* const ended = stage.second ? &b_.wave_speed_next : nullptr;
+    StageBalance const balance = forces_(0.5 * stage.dt, ended);  // T, D4 and their projections   (29c) (37) (48) (51)
+    add_loads(stage);                                             // E                             (32)
     if (smooths_volume(b_.constants)) advance_volume(stage, balance.J_rate);  // J                     (43) (38)
     advance(stage, balance.rigid);                                            // v, x                  (43) (47) (49)
     hold_supports(stage);                                                     // v_c = prescribed      step 8

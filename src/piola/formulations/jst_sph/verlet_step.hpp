@@ -31,15 +31,21 @@ class VerletStep {
       deform<true>(dt, without_rigid, filtered);  // F^(n+1), J, L v'
     bool const hourglass = b_.constants.hourglass.modulus > 0;
     if (b_.constants.exact_speed && !hourglass) compute_wave_speed<D>(b_);
+    if (hourglass && filtered)
+      halo_.refresh(b_.ahead, b_.filter_source[0]);
+    else if (hourglass)
+      halo_.refresh(b_.ahead);
+    else if (filtered)
+      halo_.refresh(b_.filter_source[0]);
     if (filtered) filter();  // q = B* kappa_f (B J - 1)
     if (hourglass)
       weight_stress_and_hourglass(dt, without_rigid);  // the same with the hourglass stress, and that force
     else if (filtered)
       weight_stress();  // P(F, kappa_l (J - 1) + q), A
     halo_.refresh(b_.second);
-    RigidRate const balance = forces_(dt).rigid;  // -T + D at n + 1
-    add_loads(dt);                                // E at n + 1
-    kick(dt, balance);                            // v^(n+1)
+    RigidRate const balance = forces_(dt, &b_.wave_speed).rigid;  // -T + D at n + 1
+    add_loads(dt);                                                // E at n + 1
+    kick(dt, balance);                                            // v^(n+1)
   }
 
   /// The hourglass energy of the state as it is, and its filtered volume ratio.
@@ -149,7 +155,6 @@ class VerletStep {
   }
 
   void weight_stress_and_hourglass(double dt, RigidRate const& without_rigid) {
-    halo_.refresh(b_.ahead);
     SumHourglass<D, Loader> const sweep{loader_, {read_neighbours(b_.ahead)}};
     with_stress_law(b_, dt, stress_at(dt), [&](auto const& law) {
       WeightStressAndHourglass<D, std::decay_t<decltype(law)>> const weigh{stress_pass(law),

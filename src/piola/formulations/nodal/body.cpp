@@ -7,7 +7,7 @@
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/materials/solids.hpp"
-#include "piola/parallel/own_slots.hpp"
+#include "piola/parallel/first_failure.hpp"
 #include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,16 @@
 
 namespace piola::nodal {
 namespace {
+
+/// What ranks tell each other of a step.
+struct SaidOfStep {
+  FirstFailure first;
+  double change;
+  void add(SaidOfStep const& other) {
+    first.add(other.first);
+    ranks::keep_larger(other.change, change);
+  }
+};
 
 /// A step is taken in at most two to this power parts.
 constexpr int most_halvings = 8;
@@ -282,7 +292,7 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
   boundary_->begin_step(state_, time, dt);
   state_.constants.least_share = halvings < most_halvings ? least_share : 0;
   machine.step(state_, dt);
-  if (shared()) share_failure(failure_);
+  agree_on_step(machine.largest_change(state_));
   if (!failed() || halvings == most_halvings) {
     boundary_->end_step(state_);
     return 0;
@@ -291,6 +301,16 @@ int NodalBody::step(Machine const& machine, double time, double dt, int halvings
   failure_.clear();
   int const first = step(machine, time, 0.5 * dt, halvings + 1);
   return 1 + first + (failed() ? 0 : step(machine, time + 0.5 * dt, 0.5 * dt, halvings + 1));
+}
+
+/// All ranks have the first failure and the largest change of a strain.
+void NodalBody::agree_on_step(double change) {
+  largest_change_ = change;
+  if (!shared()) return;
+  SaidOfStep said{FirstFailure(failure_), change};
+  ranks::add(said);
+  said.first.put(failure_);
+  largest_change_ = said.change;
 }
 
 double NodalBody::kinetic_energy() const {

@@ -54,6 +54,8 @@ class NodalBody {
   int step(Machine const& machine, double time, double dt);
   /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
   void damp(double factor);
+  /// Of a strain, in the step that was taken last, since the last measurement of the step limit.
+  double largest_change() const { return largest_change_; }
   double kinetic_energy() const;                          ///< of all ranks, which all ask for it [J]
   double kinetic_energy_of(Index slot) const;             ///< [J]
   double strain_energy() const;                           ///< likewise, of what observers see [J]
@@ -94,6 +96,7 @@ class NodalBody {
   void fill_reference();
   void fill_initial(Assembly const& assembly);
   void fill_histories();
+  void agree_on_step(double change);
   bool failed() const { return failure_.index < order_.particles; }
   std::vector<Index> slots_read() const;
 
@@ -111,7 +114,7 @@ class NodalBody {
   std::optional<Boundary> boundary_;
   std::vector<MaterialRange> materials_;  ///< of the body and of its parts
   std::vector<double> partial_;
-  double damping_loss_ = 0;
+  double damping_loss_ = 0, largest_change_ = 0;
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles

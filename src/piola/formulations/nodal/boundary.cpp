@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/boundary.hpp"
-#include "piola/parallel/ranks.hpp"
 
 namespace piola::nodal {
 namespace {
@@ -96,7 +95,7 @@ void Boundary::end_step(BodyState& state) {
   driven_.take_out_ended(state.a);
 }
 
-void Boundary::hand_over(Actions& actions) {
+void Boundary::hand_over(Actions& actions) const {
   driven_.hand_over(actions);
   surface_.hand_over(actions);
 }
@@ -106,19 +105,16 @@ void Boundary::damp(BodyState& state, double factor) const {
   surface_.set_velocity(state.v);
 }
 
-double Boundary::square_of_held(BodyState const& state) const {
-  double const of_surface = surface_.square_of_held(state.a);
-  exec::ExactSums<1> sum;
+exec::ExactSum Boundary::square_of_held(BodyState const& state) const {
+  exec::ExactSum sum;
   for (Index n = 0; n < state.held_count; ++n) {
     HeldDirection const& h = state.held[n];
     if (!is_own(own_, h.slot)) continue;
     double along = 0;
     for (int c = 0; c < D_; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];
-    double const of_particle = h.mass * along * along;
-    sum.add(&of_particle);
+    sum += h.mass * along * along;
   }
-  if (own_) ranks::add(sum);
-  return of_surface + sum.value();
+  return sum;
 }
 
 }  // namespace piola::nodal

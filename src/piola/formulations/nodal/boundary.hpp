@@ -43,20 +43,26 @@ class Boundary {
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const { return driven_.next_release(time); }
 
-  /// Adds what supports and loads gave since the last call.
-  void hand_over(Actions& actions);
+  /// Adds what supports and loads gave since forget_impulses().
+  void hand_over(Actions& actions) const;
+  void forget_impulses() {
+    driven_.forget_impulses();
+    surface_.forget_impulses();
+  }
   /// Multiplies the velocities that no support prescribes.
   void damp(BodyState& state, double factor) const;
   /// Whether a particle is within the reach of a part of the surface that supports hold.
   bool moves_surface(Index slot) const { return surface_.reaches(slot); }
   /// After something has pushed particles: supports give back what moves the surface that they hold.
   void withstand(BodyState& state) { surface_.keep_velocity(state.x, state.v, work_); }
-  /// sum m a^2 of the part of accelerations that supports take away [N m/s2].
-  double square_of_held(BodyState const& state) const;
+  /// sum m a^2 of the part of accelerations that supports take away [N m/s2]: by the surface, of all ranks, and along
+  /// directions of particles, of those of this rank.
+  double square_of_surface(BodyState const& state) const { return surface_.square_of_held(state.a); }
+  exec::ExactSum square_of_held(BodyState const& state) const;
   std::size_t bytes() const { return surface_.bytes(); }
 
-  double external_work() const { return work_; }  ///< of loads and driven supports since the start [J]
-  void set_external_work(double work) { work_ = work; }
+  SharedTotal& external_work() { return work_; }  ///< of loads and driven supports since the start [J]
+  SharedTotal const& external_work() const { return work_; }
 
  private:
   void take_loads(Assembly const& assembly, OfBody const& of_body, std::vector<Index> const& slot_of);
@@ -68,7 +74,7 @@ class Boundary {
   BodyBoundary driven_;
   SurfaceHold surface_;
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to these [m]
-  double work_ = 0;
+  SharedTotal work_;
   std::optional<Range> own_;  ///< nothing: all slots
 };
 

@@ -67,7 +67,7 @@ void observe(NodalBody const& body, NodalObservation& o) {
   }
   o.totals.damping_loss += body.damping_loss();
   o.totals.stabilisation_loss += body.viscous_loss();
-  o.totals.external_work += body.boundary().external_work();
+  o.totals.external_work += body.boundary().external_work().value();
   o.add_oscillation(body.set(), body.body(), by_id(body, smooth));
   o.of_cells.add_oscillation(body.set(), body.body(), by_id(body, of_cells));
 }

@@ -49,10 +49,20 @@ struct MultiplyByCorrections {
   View x, mu;
   WriteView products;
 
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_FN void operator()(Index i) const { multiply<Lanes>(i); }
+  template <class V>
+  PIOLA_FN void multiply(Index i) const {
     for (int c = 0; c < D; ++c)
-      for (int J = 0; J < D; ++J) products.scalar(i, Lanes(x.scalar<Lanes>(i, c) * mu.scalar<Lanes>(i, J)), c * D + J);
+      for (int J = 0; J < D; ++J) products.scalar(i, V(x.scalar<V>(i, c) * mu.scalar<V>(i, J)), c * D + J);
   }
+};
+
+/// The same of particles of other ranks, which need not say it themselves.
+template <int D>
+struct MultiplyOthers {
+  MultiplyByCorrections<D> pass;
+  Index const* slots;
+  PIOLA_FN void operator()(Index k) const { pass.template multiply<double>(slots[k]); }
 };
 
 /// m_a a_a = sum_b t_ab - sum_b t_ba,  t_ab = s (Y_a P(r_ab) + Z_a mu_b). The first sum, of the particle's own stress,

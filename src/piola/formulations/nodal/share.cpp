@@ -29,12 +29,13 @@ void NodalBody::share() {
   halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read());
   state_.halo = halo_.get();
   auto const [used, width] = row_of(D_);
+  state_.told = halo_->received().data();
+  state_.told_count = static_cast<Index>(halo_->received().size());
   halo_->add(state_.x, 0, D_);
+  halo_->add(state_.first, 0, 0);  // products of x, and of a record only x changes
   if (reference_.lattice) {
-    halo_->add(state_.first, 0, D_ * D_);
     halo_->add(state_.second, 0, D_ * used);
   } else {
-    halo_->add(state_.first, 0, 0);  // of a record only x changes
     for (int c = 0; c < D_; ++c) halo_->add(state_.second, c * width, used);
   }
   boundary_->share(state_.slots);
@@ -54,12 +55,11 @@ std::vector<Index> NodalBody::slots_read() const {
 
 Talk NodalBody::talk() const {
   Talk talk;
-  talk.reach = usual_reach * *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D_);
-  int const rows = D_ * row_of(D_)[0];
-  talk.values = reference_.lattice ? std::vector{D_, D_ * D_, rows} : std::vector{D_, rows};
-  // The first failure, work, the largest change of a strain; and, in calm motion, sums of the unrest in every fourth
-  // step and of what is measured in fewer.
-  talk.collectives = 4.5;
+  double const reach = usual_reach * *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D_);
+  talk.messages = {{{reach, D_}}, {{reach, D_ * row_of(D_)[0]}}};
+  // The first failure with the largest change of a strain; sums of the unrest in every fourth step of calm motion and
+  // in all before the first measurement; and what is measured.
+  talk.collectives = 1.9;
   talk.order = &slot_order;
   return talk;
 }

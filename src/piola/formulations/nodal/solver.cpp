@@ -57,13 +57,13 @@ class Solver final : public Formulation {
   }
 
   void step(double time, double dt) override {
-    actions_.begin(dt);
+    actions_.begin_step(bodies_, dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       int const halvings = bodies_[k]->step(machine_, time, dt);
       repeated_ += halvings;
-      bodies_[k]->boundary().hand_over(actions_);
       monitors_[k]->update(dt, halvings);
     }
+    actions_.end_step(bodies_);
     time_ = time + dt;
     ends_step_ = true;
     if (failed()) gather();  // rank 0 is told all that there is to say about it
@@ -86,10 +86,13 @@ class Solver final : public Formulation {
     slots_.visit(ids, [&](std::size_t, std::size_t body, Index slot) {
       if (bodies_[body]->boundary().moves_surface(slot)) moved[body] = 1;
     });
+    if (std::find(moved.begin(), moved.end(), 1) != moved.end()) actions_.settle(bodies_);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       if (moved[k] == 0) continue;
       bodies_[k]->boundary().withstand(bodies_[k]->state());
-      if (ends_step_) bodies_[k]->boundary().hand_over(actions_);
+      if (!ends_step_) continue;
+      bodies_[k]->boundary().hand_over(actions_);
+      bodies_[k]->boundary().forget_impulses();
     }
     ends_step_ = false;
   }
@@ -126,9 +129,7 @@ class Solver final : public Formulation {
 
   int stages_per_step() const override { return 1; }
   std::optional<Talk> talk(std::size_t body) const override {
-    Talk talk = bodies_[body]->talk();  // and impulses of supports and of loads
-    talk.collectives += (actions_.supports.empty() ? 0 : 1) + (actions_.loads.empty() ? 0 : 1);
-    talk.reads = 2;  // positions, velocities
+    Talk talk = bodies_[body]->talk();
     // What others, or contact, make shorter than it wants is looked at in every step.
     if (pushed_) talk.collectives += 0.75;
     return talk;
@@ -164,7 +165,7 @@ class Solver final : public Formulation {
   Machine const& machine_;
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
-  Actions actions_;
+  ActionsOnBodies actions_;
   bool pushed_ = false;     ///< by what acts between bodies
   bool ends_step_ = false;  ///< what pushes next does so for the step that was taken last, after that for the next one
   double time_ = 0;         ///< at the end of the last step [s]
@@ -239,7 +240,8 @@ void Solver::save(StateWriter& writer) const {
       save_field(writer, name, body, field, components);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
-    writer.put(fmt::format("body{}_energy_books", k), std::array{body.boundary().external_work(), body.damping_loss()});
+    writer.put(fmt::format("body{}_energy_books", k),
+               std::array{body.boundary().external_work().value(), body.damping_loss()});
   }
   writer.put("actions", actions_.state());
   writer.put("time", std::array{time_, repeated_});
@@ -248,11 +250,13 @@ void Solver::save(StateWriter& writer) const {
 /// What a checkpoint holds is all that observers see, too.
 void Solver::gather() {
   for (std::size_t k = 0; ranks::several() && k < bodies_.size(); ++k) {
-    NodalBody const& body = *bodies_[k];
+    NodalBody& body = *bodies_[k];
     each_evolved(body, k,
                  [&](std::string const&, FieldRef const& field, int components) { body.gather(field, components); });
+    body.boundary().external_work().settle();
     monitors_[k]->merge();
   }
+  if (ranks::several()) actions_.settle(bodies_);
 }
 
 void Solver::load(StateReader& reader) {
@@ -264,7 +268,7 @@ void Solver::load(StateReader& reader) {
     load_part(reader, fmt::format("body{}_step_limit", k), *monitors_[k]);
     std::array<double, 2> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
-    body.boundary().set_external_work(books[0]);
+    body.boundary().external_work().set(books[0]);
     body.set_damping_loss(books[1]);
   }
   load_part(reader, "actions", actions_);

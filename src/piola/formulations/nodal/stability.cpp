@@ -37,6 +37,24 @@ constexpr double lasting = 50, calmer = 0.7;
 /// shorter, down to a share, and steps that went well make them longer again.
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
 
+/// What ranks tell each other of a vector, and of the unrest.
+struct SaidOfExtent {
+  exec::ExactSums<1> square;
+  double most;
+  void add(SaidOfExtent const& other) {
+    square.add(other.square);
+    ranks::keep_larger(other.most, most);
+  }
+};
+struct SumsOfUnrest {
+  exec::ExactSums<3> of_particles;
+  exec::ExactSum held;
+  void add(SumsOfUnrest const& other) {
+    of_particles.add(other.of_particles);
+    held += other.held;
+  }
+};
+
 /// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on the signs of the pivots of T - theta; and the
 /// last component of its normalised eigenvector, with the vector.
 double largest_eigenvalue(std::vector<double> const& diagonal, std::vector<double> const& beside,
@@ -150,14 +168,26 @@ void StabilityMonitor::merge() {
   if (body_.shared()) ranks::merge(mode_);
 }
 
-/// sum m u.v
-double StabilityMonitor::product(Vector const& u, Vector const& v) const {
+/// sum m u.v, of the particles of this rank.
+exec::ExactSums<1> StabilityMonitor::own_product(Vector const& u, Vector const& v) const {
   int const D = body_.state().dimension;
-  return sum_over_slots(body_.shared(), body_.own(), [&](Index i) {
+  return sums_over_slots<1>(false, body_.own(), [&](Index i, double* x) {
     double sum = 0;
     for (int c = 0; c < D; ++c) sum += u[place(i, c)] * v[place(i, c)];
-    return body_.mass(i) * sum;
+    *x = body_.mass(i) * sum;
   });
+}
+
+double StabilityMonitor::product(Vector const& u, Vector const& v) const {
+  auto sum = own_product(u, v);
+  if (body_.shared()) ranks::add(sum);
+  return sum.value();
+}
+
+StabilityMonitor::Extent StabilityMonitor::extent(Vector const& u) const {
+  SaidOfExtent said{own_product(u, u), largest_of(u)};
+  if (body_.shared()) ranks::add(said);
+  return {said.square.value(), said.most};
 }
 
 /// One cycle of Lanczos' method for -da/dx, which is symmetric in the product above, from the mode, which becomes the
@@ -167,12 +197,13 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
   std::vector<double> diagonal, beside, y;
   Vector next = mode_;
   for (int k = 0; k < cycle; ++k) {
-    double const length = std::sqrt(product(next, next));
+    auto const [square, most] = extent(next);
+    double const length = std::sqrt(square);
     if (!(length > 0) || !std::isfinite(length)) break;
     if (k > 0) beside.push_back(length);
     each_number([&](std::size_t i) { next[i] /= length; });
     basis.push_back(next);
-    double const scale = size / largest_on_ranks(next);
+    double const scale = size / (most / length);
     put_moved(x, scale, next);
     next = accelerations();
     each_number([&](std::size_t i) { next[i] = (rest[i] - next[i]) / scale; });
@@ -203,7 +234,9 @@ bool StabilityMonitor::should_look(double dt) const {
 void StabilityMonitor::look_at_unrest(double dt) {
   auto const& s = body_.state();
   int const D = s.dimension;
-  auto const sums = sums_over_slots<3>(body_.shared(), body_.own(), [&](Index i, double* x) {
+  SumsOfUnrest sums;
+  sums.held = body_.boundary().square_of_held(s);
+  sums.of_particles = sums_over_slots<3>(false, body_.own(), [&](Index i, double* x) {
     double stiff = 0, fast = 0;
     for (int c = 0; c < D; ++c) {
       double const a = value_at(s.a, i, c);
@@ -214,10 +247,13 @@ void StabilityMonitor::look_at_unrest(double dt) {
     x[1] = body_.mass(i) * fast;
     x[2] = body_.kinetic_energy_of(i);
   });
-  double const now = 0.125 * (std::abs(sums.value(0)) / (dt * dt) + sums.value(1) - body_.boundary().square_of_held(s));
+  if (body_.shared()) ranks::add(sums);
+  auto const& of = sums.of_particles;
+  double const held = body_.boundary().square_of_surface(s) + sums.held.value();
+  double const now = 0.125 * (std::abs(of.value(0)) / (dt * dt) + of.value(1) - held);
   unrest_ = std::max(unrest_, now);
   lately_ = std::max(lately_, now);
-  energy_ = std::max(energy_, sums.value(2));  // what was at rest at the last measurement may have been hit
+  energy_ = std::max(energy_, of.value(2));  // what was at rest at the last measurement may have been hit
 }
 
 /// From the velocities alone: accelerations have yet to come. `size` [m]: of the trial displacement.
@@ -276,8 +312,7 @@ void StabilityMonitor::update(double dt, int halvings) {
     lately_ = lately_age_ = 0;
   }
   caution_ = halvings > 0 ? std::max(least_caution, halved * caution_) : std::min(1.0, recovery * caution_);
-  double most = machine_.largest_change(body_.state());
-  if (body_.shared()) ranks::take_largest(most);
+  double const most = body_.largest_change();
   bool const strained = most >= (steps_ < fewest ? much : change);
   double const waited = pace_ == 0 ? steps_ : waited_;
   if (waited < interval_ && !strained) return;

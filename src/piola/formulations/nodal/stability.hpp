@@ -60,6 +60,11 @@ class StabilityMonitor {
   template <class F>
   void each_number(F const& f) const;
   void keep_own(Vector& u) const;
+  /// sum m u.u and the largest |u_k|, of all ranks.
+  struct Extent {
+    double square, most;
+  };
+  Extent extent(Vector const& u) const;
   double largest_on_ranks(Vector const& u) const;
   void measure(int cycles, bool at_start);
   bool should_look(double dt) const;
@@ -70,6 +75,7 @@ class StabilityMonitor {
   Vector positions() const;
   void put_moved(Vector const& x, double scale, Vector const& mode);
   double product(Vector const& u, Vector const& v) const;
+  exec::ExactSums<1> own_product(Vector const& u, Vector const& v) const;
 
   NodalBody& body_;
   Machine const& machine_;

@@ -104,7 +104,9 @@ struct BodyState {
   bool marks = false;         ///< forces at x also leave F^T F there in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
-  HaloPlan* halo = nullptr;  ///< of several ranks; nullptr: one rank has all particles
+  HaloPlan* halo = nullptr;     ///< of several ranks; nullptr: one rank has all particles
+  Index const* told = nullptr;  ///< slots that other ranks tell this one of
+  Index told_count = 0;
 };
 
 /// What the system of the divergence theorem at set-up needs beside the state's volumes and sums: per particle the

@@ -123,7 +123,11 @@ class Step {
   template <bool Observed>
   void sweep(double dt) {
     halo_.refresh(b_.x);
-    if (on_lattice()) exec::for_each(b_.slots, MultiplyByCorrections<D>{read(b_.x), read(b_.mu), write(b_.first)});
+    if (on_lattice()) {
+      MultiplyByCorrections<D> const multiply{read(b_.x), read(b_.mu), write(b_.first)};
+      exec::for_each(b_.slots, multiply);
+      exec::for_each_item(b_.told_count, MultiplyOthers<D>{multiply, b_.told});
+    }
     halo_.refresh(b_.first);
     for (Index k = 0; k < b_.material_count; ++k) update_stress<Observed>(b_.materials[k], dt);
   }

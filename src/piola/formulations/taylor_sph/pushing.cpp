@@ -30,7 +30,6 @@ std::optional<Talk> TaylorBody::talk() const {
   int const stride = record_stride(D()), corners = cells_.corners;
   Talk talk;
   talk.order = &pencil_order;
-  talk.reach = *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D());
   double const real = static_cast<double>(particles()), cells = static_cast<double>(cells_.count());
   talk.to_all = real * (2 * stride + 2 * D() + flat + at_rest) +
                 cells * (D() * corners + stride + 1 + D() * D() + D() * patterns + (state_.k.moving ? stride : 0));
