@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each rank of a run takes of memory at most, and the slowest of several ranks its set-up: a cube of N^3 particles,
-a few steps, with frames, checkpoints and rows of the history.
+"""What each rank of a run takes of memory at most: a cube of N^3 particles, a step or a few, with frames, checkpoints and
+rows of the history.
 
 Usage: bench/ranks_memory.py PROGRAM [N [RANKS,RANKS... [FORMULATION [jitter]]]]        (default: 80, 1,2,4, jst_sph)
-PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks run one thread each, more than there are cores
-of need be.
+PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks have one thread each; there may be more of them
+than cores.
 """
 import resource
 import subprocess
@@ -35,6 +35,11 @@ fix = "xyz"
 """
 
 
+def write_case(file, n, formulation, jittered):
+    more = ", jitter = 0.2" if jittered else ""
+    file.write_text(CASE.format(n=n, formulation=formulation, end=1e-4 / int(n), more=more))
+
+
 def run_as_rank(report, words):
     """What mpirun starts once per rank: the program, whose largest memory is noted."""
     status = subprocess.run(words, stdout=subprocess.DEVNULL).returncode
@@ -62,8 +67,7 @@ def main():
     program, n, counts, formulation, more = words
     with tempfile.TemporaryDirectory() as folder:
         case = Path(folder) / "case.toml"
-        case.write_text(CASE.format(n=n, formulation=formulation, end=1e-4 / int(n),
-                                    more=", jitter = 0.2" if more else ""))
+        write_case(case, n, formulation, more)
         for ranks in map(int, counts.split(",")):
             found = largest_of_ranks(program, ranks, case, Path(folder))
             print(f"{n}^3 of {formulation} on {ranks}: " + ", ".join(f"{size / 1e6:.0f}" for size in found) + " MB",

@@ -25,6 +25,7 @@ ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrd
       kernel_volume_(set.kernel_volume[static_cast<std::size_t>(body.first)]),
       particles_(order.particles),
       slots_(order.slots()),
+      own_(options.own && !regular_ ? *options.own : Range{0, order.particles}),
       lattice_(body.lattice) {
   double const sigma = options.kernel->sigma(dimension_);
   s_scale_ = sigma / std::pow(options.h_gradient, dimension_ + 1);
@@ -228,7 +229,7 @@ void ReferencePairs::search(SlotOrder const& order) {
   points.insert(points.end(), options_.copies.X.begin(), options_.copies.X.end());
   Index const empty = slots_ - particles_;  // slots between particles and copies
   CellGrid const grid(points, radius);
-  found_begin_.assign(static_cast<std::size_t>(particles_) + 1, 0);
+  found_begin_.assign(static_cast<std::size_t>(own_.last - own_.first) + 1, 0);
   std::vector<std::vector<Index>> found(static_cast<std::size_t>(parts()));
   each_part([&](Index part, Index first, Index end) {
     auto& near = found[static_cast<std::size_t>(part)];
@@ -246,14 +247,14 @@ void ReferencePairs::search(SlotOrder const& order) {
       });
       std::sort(by_id.begin(), by_id.end());
       for (auto const& [id, b] : by_id) near.push_back(b);
-      found_begin_[static_cast<std::size_t>(a) + 1] = std::ssize(near) - before;
+      found_begin_[static_cast<std::size_t>(a - own_.first) + 1] = std::ssize(near) - before;
     }
   });
-  for (std::size_t a = 0; a < static_cast<std::size_t>(particles_); ++a) found_begin_[a + 1] += found_begin_[a];
+  for (std::size_t a = 0; a + 1 < found_begin_.size(); ++a) found_begin_[a + 1] += found_begin_[a];
   found_.resize(static_cast<std::size_t>(found_begin_.back()));
   each_part([&](Index part, Index first, Index) {
     auto const& near = found[static_cast<std::size_t>(part)];
-    std::copy(near.begin(), near.end(), found_.begin() + found_begin_[static_cast<std::size_t>(first)]);
+    std::copy(near.begin(), near.end(), found_.begin() + found_begin_[static_cast<std::size_t>(first - own_.first)]);
   });
 }
 
@@ -311,7 +312,8 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
     stands_for.assign(kinds_, absent);
     for (Index a = particles_; a-- > 0;) stands_for[c.at(a)] = a;
   }
-  auto const places = static_cast<std::size_t>(regular_ ? std::ssize(stands_for) : slots_);
+  if (!regular_) c.first = own_.first;
+  auto const places = static_cast<std::size_t>(regular_ ? std::ssize(stands_for) : own_.last - own_.first);
   c.C.assign(places, {});
   c.G.assign(places, {});
   c.alpha.assign(places, {});
@@ -329,12 +331,12 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
     auto const bad = std::find(good.begin(), good.end(), 0);
     return bad == good.end() ? absent : static_cast<Index>(bad - good.begin());
   };
-  Index const refused = regular_ ? first_refused(places, [&](std::size_t at) { return stands_for[at]; })
-                                 : first_refused(static_cast<std::size_t>(particles_),
-                                                 [&](std::size_t at) { return static_cast<Index>(at); });
+  Index const refused =
+      regular_ ? first_refused(places, [&](std::size_t at) { return stands_for[at]; })
+               : first_refused(places, [&](std::size_t at) { return own_.first + static_cast<Index>(at); });
   if (refused != absent) {
     auto const at = static_cast<std::size_t>(refused);
-    Index const a = regular_ ? stands_for[at] : refused;
+    Index const a = regular_ ? stands_for[at] : own_.first + refused;
     Refusal refusal;
     correct(a, at, moment[at], refusal);
     auto const id = order.id[static_cast<std::size_t>(a)];
@@ -345,11 +347,12 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
         body.name, id, X[0], X[1], X[2], refusal.found, refusal.operation, dimension_, dimension_ == 1 ? "" : "s"));
   }
   for (double const m : moment) c.largest_moment = std::max(c.largest_moment, m);
-  for (Index a = 0; a < particles_; ++a) pairs_ += c.neighbours_of(a);
+  for (Index a = own_.first; a < own_.last; ++a) pairs_ += c.neighbours_of(a);
   for (Index const d : distance_)
     if (d != absent) max_delta_ = std::max(max_delta_, std::abs(d));
-  for (Index a = 0; a < particles_ && !regular_; ++a)
-    for (auto k = found_begin_[static_cast<std::size_t>(a)]; k < found_begin_[static_cast<std::size_t>(a) + 1]; ++k)
+  for (Index a = own_.first; a < own_.last && !regular_; ++a)
+    for (auto k = found_begin_[static_cast<std::size_t>(a - own_.first)];
+         k < found_begin_[static_cast<std::size_t>(a - own_.first) + 1]; ++k)
       max_delta_ = std::max(max_delta_, std::abs(found_[static_cast<std::size_t>(k)] - a));
 }
 
@@ -411,33 +414,37 @@ ListTable ReferencePairs::list() const {
           list_kernel_.empty() ? nullptr : list_kernel_.data()};
 }
 
-ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& volume) const {
+ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& volume, FilterShare const* share) const {
   constexpr int most = 200;
   constexpr double close = 1e-8;
-  auto const n = static_cast<std::size_t>(particles_);
+  Range const own = share != nullptr ? share->own : Range{0, particles_};
+  auto const first = static_cast<std::size_t>(own.first), n = static_cast<std::size_t>(own.last - own.first);
   auto const slots = static_cast<std::size_t>(slots_);
   Filter filter{std::vector<double>(slots, 1.0), std::vector<double>(slots, 0.0)};
   auto& d = filter.scale;
   std::vector<double> neighbours(n);
   double const self = kernel_of(0);
   for (int sweep = 0;; ++sweep) {
-    exec_host::for_each_in_set_up(particles_, [&](Index a) {
+    exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
       double sum = 0;
-      visit(a, [&](Pair const& p) {
+      visit(own.first + k, [&](Pair const& p) {
         auto const b = static_cast<std::size_t>(source_of(p.b));
         double const W = !offset_kernel_.empty() ? offset_kernel_[static_cast<std::size_t>(p.offset)] : kernel_of(p.r2);
         sum += W * volume[b] * d[b];
       });
-      neighbours[static_cast<std::size_t>(a)] = sum;
+      neighbours[static_cast<std::size_t>(k)] = sum;
     });
     double worst = 0;
-    for (std::size_t a = 0; a < n; ++a) {
-      filter.sum[a] = d[a] * neighbours[a];
-      neighbours[a] += self * volume[a] * d[a];
-      worst = std::max(worst, std::abs(d[a] * neighbours[a] - 1));
+    for (std::size_t k = 0; k < n; ++k) {
+      std::size_t const a = first + k;
+      filter.sum[a] = d[a] * neighbours[k];
+      neighbours[k] += self * volume[a] * d[a];
+      worst = std::max(worst, std::abs(d[a] * neighbours[k] - 1));
     }
+    if (share != nullptr) share->take_largest(worst);
     if (worst < close || sweep == most) break;
-    for (std::size_t a = 0; a < n; ++a) d[a] = std::sqrt(d[a] / neighbours[a]);
+    for (std::size_t k = 0; k < n; ++k) d[first + k] = std::sqrt(d[first + k] / neighbours[k]);
+    if (share != nullptr) share->tell(d);
   }
   return filter;
 }

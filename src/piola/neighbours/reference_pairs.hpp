@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,20 +27,22 @@ struct CopiedParticles {
 /// Supports of one body's kernel sums.
 struct PairOptions {
   Kernel const* kernel = nullptr;
-  double h_gradient = 0;      ///< smoothing length of the gradient [m]
-  double h_laplacian = 0;     ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
-  int lanes = 1;              ///< lane count of the machine that will use the tables
-  bool stencils = true;       ///< use lattice patterns where the body is a regular lattice
-  bool kernel_table = false;  ///< tables hold the kernel of the Laplacian's support (filter)
-  CopiedParticles copies{};   ///< bodies without lattice patterns only
+  double h_gradient = 0;       ///< smoothing length of the gradient [m]
+  double h_laplacian = 0;      ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
+  int lanes = 1;               ///< lane count of the machine that will use the tables
+  bool stencils = true;        ///< use lattice patterns where the body is a regular lattice
+  bool kernel_table = false;   ///< tables hold the kernel of the Laplacian's support (filter)
+  CopiedParticles copies{};    ///< bodies without lattice patterns only
+  std::optional<Range> own{};  ///< bodies without lattice patterns: particles to make tables for; nothing: all
 };
 
 /// Per-particle corrections; SoA. Particles of a lattice with the same neighbours have the same ones, which are stored
 /// once. See tables.hpp for the operators.
 struct Corrections {
-  std::vector<std::int32_t> kind;  ///< regular bodies: per slot, where its corrections are; empty: at the slot itself
+  std::vector<std::int32_t> kind;  ///< regular bodies: per slot, where its corrections are; empty: slot by slot
+  Index first = 0;                 ///< then the slot of the first ones
   std::size_t at(Index slot) const {
-    return static_cast<std::size_t>(kind.empty() ? slot : kind[static_cast<std::size_t>(slot)]);
+    return static_cast<std::size_t>(kind.empty() ? slot - first : kind[static_cast<std::size_t>(slot)]);
   }
   std::vector<std::array<double, 6>> C;      ///< inverse of M_a = sum s r (x) r (eq. 21), symmetric: XX YY ZZ XY YZ XZ
   std::vector<std::array<double, 3>> G;      ///< sum s r
@@ -68,7 +72,13 @@ class ReferencePairs {
     std::vector<double> scale;  ///< d
     std::vector<double> sum;    ///< sum_{b != a} s_ab V_b
   };
-  Filter make_filter(std::vector<double> const& volume) const;
+  /// Of ranks, each of which scales its own particles.
+  struct FilterShare {
+    Range own;
+    std::function<void(std::vector<double>&)> tell;  ///< brings values of others up to date
+    std::function<void(double&)> take_largest;       ///< of all ranks
+  };
+  Filter make_filter(std::vector<double> const& volume, FilterShare const* share = nullptr) const;
   /// Corrected gradient of the corrected kernel (Lee et al. eq. 23), for tables with a kernel and one support:
   ///   GRAD f_a = sum_b (f_b - f_a) (x) (s r - V W gamma_a) C_a,  gamma_a = sum V grad W / sum V W, b = a included.
   struct CorrectedKernel {
@@ -95,8 +105,8 @@ class ReferencePairs {
   };
   /// Set-up shares slots among threads in parts of this many, so that what it finds does not depend on the threads.
   static constexpr Index part_size = 4096;
-  Index parts() const { return (slots_ + part_size - 1) / part_size; }
-  /// f(part, first slot, end) for all parts at once; of slots that hold a particle only.
+  Index parts() const { return (own_.last - own_.first + part_size - 1) / part_size; }
+  /// f(part, first slot, end) for all parts at once; of slots that hold a particle of this rank only.
   template <class F>
   void each_part(F const& f) const;
   void find_offsets(Body const& body);
@@ -130,6 +140,7 @@ class ReferencePairs {
   double kernel_volume_;
   double s_scale_ = 0, l_scale_ = 0, kernel_scale_ = 0;
   Index particles_, slots_;
+  Range own_;                             // particles that tables are made for
   std::vector<std::array<double, 3>> X_;  // irregular bodies: per slot, and of copies
   std::array<int, 3> lattice_;
   std::vector<std::array<int, 3>> lattice_offset_;
@@ -137,7 +148,7 @@ class ReferencePairs {
   std::vector<char> offset_inner_;
   std::size_t kinds_ = 0;                  // regular bodies: of slots, that of empty ones is the last
   std::vector<Index> distance_;            // regular bodies, [kind][offset]: to the neighbour in memory, or absent
-  std::vector<std::int64_t> found_begin_;  // irregular bodies
+  std::vector<std::int64_t> found_begin_;  // irregular bodies, from own_.first on
   std::vector<Index> found_;
   Corrections corrections_;
   Index max_delta_ = 0;
@@ -156,8 +167,9 @@ class ReferencePairs {
 
 template <class F>
 void ReferencePairs::each_part(F const& f) const {
-  exec_host::for_each_part_in_set_up(parts(), particles_, [&](Index part) {
-    f(part, part * part_size, std::min((part + 1) * part_size, particles_));
+  exec_host::for_each_part_in_set_up(parts(), own_.last - own_.first, [&](Index part) {
+    Index const first = own_.first + part * part_size;
+    f(part, first, std::min(first + part_size, own_.last));
   });
 }
 
@@ -176,9 +188,9 @@ void ReferencePairs::visit_kind(Index a, std::size_t kind, F const& f) const {
 template <class F>
 void ReferencePairs::visit(Index a, F const& f) const {
   if (regular_) return visit_kind(a, corrections_.at(a), f);
-  auto const slot = static_cast<std::size_t>(a);
+  auto const slot = static_cast<std::size_t>(a), row = static_cast<std::size_t>(a - own_.first);
   double const inner = options_.kernel->support * options_.h_gradient * edge;
-  for (std::int64_t k = found_begin_[slot]; k < found_begin_[slot + 1]; ++k) {
+  for (std::int64_t k = found_begin_[row]; k < found_begin_[row + 1]; ++k) {
     Index const b = found_[static_cast<std::size_t>(k)];
     auto const &Xa = X_[slot], &Xb = X_[static_cast<std::size_t>(b)];
     std::array const r{Xb[0] - Xa[0], Xb[1] - Xa[1], Xb[2] - Xa[2]};

@@ -3,9 +3,11 @@
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/formulations/doubts.hpp"
 #include "piola/formulations/make.hpp"
+#include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -20,6 +22,9 @@ struct Pace {
   std::array<double, 3> setup;      ///< s per particle besides right-hand sides: tables, lists, the first output
   std::array<double, 3> overhead;   ///< bytes per particle at the peak besides Formulation::memory_bytes
   std::array<double, 3> more_scattered = {};  ///< and these, if scattered
+  /// Where ranks observe their shares: bytes per particle of the body that every rank has, of which rank 0 needs some
+  /// more for output. Measured by bench/ranks_memory.py.
+  double everywhere = 0, of_first = 0;
 };
 
 /// Measured by the largest resident memory of runs with 64,000 to 512,000 particles: in it are what set-up and
@@ -39,12 +44,16 @@ Pace pace_of(std::string_view formulation) {
           {80 * ns, 250 * ns, 1000 * ns},
           {2 * us, 3 * us, 6 * us},
           nodal ? std::array{480.0, 480.0, 700.0} : std::array{270.0, 270.0, 300.0},
-          nodal ? std::array{0.0, 0.0, 500.0} : std::array{0.0, 0.0, 100.0}};
+          nodal ? std::array{0.0, 0.0, 500.0} : std::array{0.0, 0.0, 100.0},
+          73,
+          107};
 }
 
-constexpr double filter_factor = 2;     ///< of the volumetric filter of jst_sph
-constexpr double program_bytes = 31e6;  ///< the program with its libraries
-constexpr double row_stages = 2;        ///< right-hand sides that a row of history.csv is worth
+constexpr double filter_factor = 2;      ///< of the volumetric filter of jst_sph
+constexpr double program_bytes = 31e6;   ///< the program with its libraries
+constexpr double messages_bytes = 12e6;  ///< what MPI and messages take of a rank
+constexpr double output_bytes = 14e6;    ///< what files take of rank 0, however many particles there are
+constexpr double row_stages = 2;         ///< right-hand sides that a row of history.csv is worth
 constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
 constexpr double picture_seconds = 0.2;
 constexpr double compressed = 0.42;     ///< share that is left of the numbers of a frame
@@ -140,19 +149,28 @@ double disk_of(CaseSpec const& spec, Formulation const& formulation, double part
          kept_checkpoints * (checkpoint_file_bytes + 8 * state * particles) + plan.rows * columns * cell_bytes;
 }
 
-/// Fills in what follows from rule, memory and disk.
-void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, Estimate& e) {
-  auto const D = static_cast<std::size_t>(particles.dimension - 1);
-  double const slow = slowness(spec.run.machine), all = static_cast<double>(particles.size());
-  double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    Pace const pace = pace_of(spec.bodies[b].formulation.name);
-    auto const n = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
-    bool const regular = is_regular(spec, spec.bodies[b]);
-    side += n * slow * (regular ? pace.lattice : pace.scattered)[D] * (is_filtered(spec.bodies[b]) ? filter_factor : 1);
-    tables += n * pace.setup[D];
-    e.memory += n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
-  }
+bool observed_by_share(BodySpec const& body) {
+  auto const info = find_formulation(body.formulation.name);
+  return info && info->observed_by_share;
+}
+
+/// Numbers per particle that probes ask for in each row.
+double probed_numbers(CaseSpec const& spec, std::vector<FieldInfo> const& fields) {
+  std::set<std::string_view> asked;
+  for (ProbeSpec const& probe : spec.probes)
+    for (std::string const& word : probe.quantities)
+      if (auto const quantity = find_quantity(word)) asked.insert(quantity->field);
+  double numbers = 0;
+  for (FieldInfo const& field : fields)
+    if (asked.contains(field.name) || (field.name == "Displacement" && asked.contains("Position")))
+      numbers += field.components;
+  return numbers;
+}
+
+/// `side`: processor time of one right-hand side, `tables`: of what comes before [s].
+void count_times(CaseSpec const& spec, ParticleSet const& particles, double stages, double side, double tables,
+                 Estimate& e) {
+  double const all = static_cast<double>(particles.size());
   // Loops of few particles are shared by few threads.
   constexpr double least_share = 2048;
   double const threads = std::min<double>(e.threads, std::floor(all / least_share) + 1);
@@ -167,6 +185,38 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
   e.run_seconds = static_cast<double>(e.steps) * (stages + e.rule.more_stages) * side / threads +
                   rows * row_stages * side / threads + plan.frames * frame_seconds * all +
                   plan.pictures * picture_seconds + plan.checkpoints * checkpoint_seconds * all;
+}
+
+/// Fills in what follows from rule, memory and disk.
+void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, double probed, Estimate& e) {
+  auto const D = static_cast<std::size_t>(particles.dimension - 1);
+  double const slow = slowness(spec.run.machine), all = static_cast<double>(particles.size());
+  double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
+  double const of_formulation = e.memory, state = e.row_bytes;
+  e.memory_in_steps = e.memory + program_bytes;
+  e.memory_everywhere = program_bytes + messages_bytes;
+  e.row_bytes = 0;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    Pace const pace = pace_of(spec.bodies[b].formulation.name);
+    auto const n = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
+    bool const regular = is_regular(spec, spec.bodies[b]);
+    double const here =
+        n * slow * (regular ? pace.lattice : pace.scattered)[D] * (is_filtered(spec.bodies[b]) ? filter_factor : 1);
+    side += here;
+    tables += n * pace.setup[D];
+    double const for_a_while = n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
+    e.memory += for_a_while;
+    if (observed_by_share(spec.bodies[b])) {
+      e.row_bytes += 8 * n * probed;
+      e.memory_everywhere += n * pace.everywhere;
+      e.memory_of_first = std::max(e.memory_of_first, output_bytes) + n * pace.of_first;
+    } else {
+      e.row_work_of_first += row_stages * here;
+      e.row_bytes += state * n / all;
+      e.memory_everywhere += of_formulation * n / all + for_a_while;
+    }
+  }
+  count_times(spec, particles, stages, side, tables, e);
   e.memory += program_bytes;
 }
 
@@ -196,9 +246,9 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
   formulation.save(counter);
   e.memory = static_cast<double>(formulation.memory_bytes());
   e.disk = disk_of(spec, formulation, n, n > 0 ? counter.values / n : 0);
-  e.state_bytes = 8 * counter.values;
+  e.row_bytes = 8 * counter.values;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) e.talk.push_back(formulation.talk(b));
-  count_work(spec, particles, formulation.stages_per_step(), e);
+  count_work(spec, particles, formulation.stages_per_step(), probed_numbers(spec, formulation.fields()), e);
   return e;
 }
 
@@ -237,7 +287,7 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
   constexpr std::array part_size{4000, 100, 24};
   Estimate e;
   e.threads = threads;
-  double stages = 1;
+  double stages = 1, probed = 0;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Assembly a;
     a.cfl = spec.run.cfl;
@@ -256,12 +306,13 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     auto const some = static_cast<double>(a.particles.size());
     e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
     e.disk += disk_of(spec, *formulation, all, counter.values / some);
-    e.state_bytes += 8 * counter.values * all / some;
+    e.row_bytes += 8 * counter.values * all / some;
+    probed = std::max(probed, probed_numbers(spec, formulation->fields()));
     e.talk.push_back(formulation->talk(0));
     if (e.talk.back()) e.talk.back()->to_all *= all / some;
   }
   e.steps = steps_of(e.rule, spec.run);
-  count_work(spec, particles, stages, e);
+  count_work(spec, particles, stages, probed, e);
   return e;
 }
 

@@ -23,8 +23,12 @@ struct Estimate {
   double stages = 0;                      ///< right-hand sides of a step
   double step_work = 0;                   ///< processor time of a step [s]
   double row_work = 0;                    ///< of a row of the history [s]
+  double row_work_of_first = 0;           ///< of it what rank 0 does alone [s]
+  double row_bytes = 0;                   ///< that rank 0 gets of others for it
   double rows_per_step = 0;               ///< of the history
-  double state_bytes = 0;                 ///< of the state as a checkpoint holds it
+  double memory_everywhere = 0;           ///< of `memory` what every rank has in full [bytes]
+  double memory_in_steps = 0;             ///< `memory` without what set-up and output need for a while
+  double memory_of_first = 0;             ///< what rank 0 needs for output of all particles
   std::vector<std::optional<Talk>> talk;  ///< per body
 };
 

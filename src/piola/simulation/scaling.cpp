@@ -52,6 +52,15 @@ void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<R
   }
 }
 
+/// The most that a rank takes: in set-up, or, of rank 0, while it writes.
+double memory_of(RankShare const& share, Estimate const& cost, double all, int ranks, bool writes) {
+  if (ranks == 1) return cost.memory;
+  double const held = static_cast<double>(share.particles + share.halo) / all, everywhere = cost.memory_everywhere;
+  double const in_set_up = everywhere + held * (cost.memory - everywhere);
+  double const in_steps = everywhere + held * std::max(cost.memory_in_steps - everywhere, 0.0);
+  return writes ? std::max(in_set_up, in_steps + cost.memory_of_first) : in_set_up;
+}
+
 }  // namespace
 
 bool runs_on_ranks(Estimate const& cost) {
@@ -72,9 +81,8 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   double const all = static_cast<double>(particles.size());
   StepTimes& t = s.times;
   for (RankShare& share : s.shares) {
-    share.memory = cost.memory;
     double const part = static_cast<double>(share.particles) / all;
-    heaviest = std::max(heaviest, part);
+    share.memory = memory_of(share, cost, all, ranks, &share == s.shares.data());
     double const packing = 2 * network.packing * share.bytes / 8 / cost.threads;
     t.messages = std::max(t.messages, share.messages * network.latency + share.bytes / network.bandwidth + packing);
   }
@@ -83,8 +91,10 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   t.rows = cost.rows_per_step * cost.row_work / cost.threads;
   double const alone = cost.step_work / cost.threads + t.rows;
   if (ranks > 1) {
+    double const of_first = cost.row_work_of_first;
+    t.rows = cost.rows_per_step * (of_first + heaviest * (cost.row_work - of_first)) / cost.threads;
     t.collectives = s.collectives * 2 * std::ceil(std::log2(ranks)) * network.latency;
-    t.rows += cost.rows_per_step * cost.state_bytes / network.bandwidth;
+    t.rows += cost.rows_per_step * cost.row_bytes / network.bandwidth;
   } else {
     t.messages = 0;
   }

@@ -28,7 +28,7 @@ struct StepTimes {
   double sweeps = 0;       ///< right-hand sides of its particles
   double messages = 0;     ///< packing, sending, waiting: nothing is done meanwhile
   double collectives = 0;  ///< of all ranks
-  double rows = 0;         ///< a step's part of the rows of the history, for which rank 0 has all of the state
+  double rows = 0;         ///< a step's part of the rows of the history, for which rank 0 gets what it has to look at
   double total() const { return sweeps + messages + collectives + rows; }
 };
 

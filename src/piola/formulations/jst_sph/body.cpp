@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
@@ -36,6 +37,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   set_constants(set, assembly.materials[body]);
   share_reference(machine.lanes);
   allocate();
+  if (shared()) mark_halo();
   fill_reference(machine.lanes);
   if (options_.filter) fill_filter();
   if (options_.corrected_kernel()) fill_corrected_kernel(machine.lanes);
@@ -66,7 +68,19 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
   pair.stencils = machine.lanes > 1 && images_.empty();
   pair.copies = images_.particles();
-  pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
+  if (!ranks::several()) {
+    pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
+    return;
+  }
+  pair.own = SharedSlots{order_.slots(), order_.particles}.own();
+  ranks::Trouble trouble;  // each rank looks at its own particles
+  try {
+    pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
+  } catch (InputError const& error) {
+    trouble = {2, error.what()};
+  }
+  trouble = ranks::agree(trouble);
+  if (trouble.code != 0) throw ranks::Disagreement(trouble);
 }
 
 void JstBody::take_tables() {
@@ -127,7 +141,9 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
 void JstBody::set_hourglass(double mu) {
   auto& k = state_.constants;
   double const c = std::min(k.c_p0, std::sqrt((7.0 / 3.0) * mu / k.rho0));
-  k.hourglass.modulus = 0.25 * mu / pairs_->corrections().largest_moment;
+  double moment = pairs_->corrections().largest_moment;
+  if (shared()) ranks::take_largest(moment);
+  k.hourglass.modulus = 0.25 * mu / moment;
   k.hourglass.stiffness = options_.hourglass_stiffness;
   k.hourglass.stiffening = is_solid(state_.material) ? 0 : options_.hourglass_stiffening / mu;
   // Never quite zero: what is ahead also tells the rate of deformation to the books.
@@ -207,7 +223,6 @@ void JstBody::allocate() {
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
   s.weight = s.V;
   if (!images_.empty()) mark_images();
-  if (shared()) mark_halo();
 }
 
 template <class Visit>
@@ -296,14 +311,20 @@ void JstBody::place_gathered() {
   if (stabilised) place(fields_.w, second_, 0);
   if (smoothed_J) place(fields_.w_J, second_, D_);
   place(fields_.A, second_, before_A);
+  if (adjoint) fill_adjoint(smoothed);
+}
+
+/// What the adjoint of the Laplacian reads of neighbours: their alpha and beta, from a component of `second` on.
+void JstBody::fill_adjoint(int first) {
   auto const& corrections = pairs_->corrections();
-  if (!adjoint) return;
-  each_seen([&](Index i) {
+  exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) {
+    Index const i = own().first + k;
     double* const at = state_.second.data + i * second_.particle;
     for (int c = 0; c < D_; ++c)
-      at[(smoothed + c) * second_.component] = corrections.alpha[corrections.at(i)][static_cast<std::size_t>(c)];
-    at[(smoothed + D_) * second_.component] = corrections.beta[corrections.at(i)];
+      at[(first + c) * second_.component] = corrections.alpha[corrections.at(i)][static_cast<std::size_t>(c)];
+    at[(first + D_) * second_.component] = corrections.beta[corrections.at(i)];
   });
+  if (shared()) tell_once(state_.second, first, D_ + 1);
 }
 
 /// Finds the distinct groups of lanes: the same neighbours and the same volumes give the same reference data.
@@ -403,10 +424,21 @@ void JstBody::fill_solid(Machine const& machine) {
   });
 }
 
+/// What neighbours read of a field and what never changes.
+void JstBody::tell_once(FieldRef const& field, int first, int count) const {
+  HaloPlan once = *halo_;
+  FieldRef part = field;
+  part.data += first * field.component_stride;
+  once.add(part, 0, count);
+  once.exchange(part);
+}
+
 void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
   for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = continued_volume(i);
-  auto const filter = pairs_->make_filter(volumes);
+  ReferencePairs::FilterShare const share{
+      own(), [&](std::vector<double>& values) { tell_once({.data = values.data()}, 0, 1); }, ranks::take_largest};
+  auto const filter = pairs_->make_filter(volumes, shared() ? &share : nullptr);
   for (Index i = own().first; i < own().last; ++i) {
     fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];
     fields_.filter_sum.at(i) = filter.sum[static_cast<std::size_t>(i)];

@@ -86,6 +86,7 @@ class JstBody {
   /// Of all ranks that share the particles this one takes a part, and makes what follows for that. Collective.
   void share(int lanes);
   void mark_halo();
+  void tell_once(FieldRef const& field, int first, int count) const;
   /// f(slot) for the particles that this rank works on, and those that it reads of other ranks.
   template <class Visit>
   void each_seen(Visit const& f) const;
@@ -108,6 +109,7 @@ class JstBody {
   };
   Gathered gather(int values) const;
   void place_gathered();
+  void fill_adjoint(int first);
   bool wanted(Field const& f) const;
   void fill_filter();
   void fill_solid(Machine const& machine);

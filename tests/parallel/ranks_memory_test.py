@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ranks: what a rank takes of memory at most is what `piola check --ranks` says, within 15 %, and with
+jst_sph less than all of the body.
+
+Needs a program with MPI and mpirun; is skipped otherwise. PIOLA_RANKS_TESTS=quick takes a part of it.
+"""
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+from on_ranks import PROGRAM, QUICK, SOURCE, expect, finish, piola, skip_without_ranks
+
+sys.path.insert(0, str(SOURCE / "bench"))
+from ranks_memory import largest_of_ranks, write_case  # noqa: E402
+
+WITHIN = 0.15
+UNITS = {"kB": 1e3, "MB": 1e6, "GB": 1e9}
+
+
+def said(case, ranks):
+    """Smallest and largest of the ranks, in bytes."""
+    told = piola(1, "check", case, "--ranks", ranks, "--threads", "1").stdout
+    words = re.search(r"in a step; ([\d., kMGBto]+) of memory", told).group(1)
+    found = [float(number) * UNITS[unit] for number, unit in re.findall(r"([\d.]+) ([kMG]B)", words)]
+    return found[0], found[-1]
+
+
+def compare(name, n, formulation, more, ranks, work):
+    case = work / "case.toml"
+    write_case(case, n, formulation, more)
+    taken = largest_of_ranks(PROGRAM, ranks, case, work)
+    least, most = said(case, ranks)
+    print(f"{name} on {ranks} ranks: taken {taken[-1] / 1e6:.0f} to {taken[0] / 1e6:.0f} MB, "
+          f"said {least / 1e6:.0f} to {most / 1e6:.0f} MB", flush=True)
+    expect(abs(least / taken[-1] - 1) <= WITHIN and abs(most / taken[0] - 1) <= WITHIN, f"{name} on {ranks} ranks")
+    return taken
+
+
+skip_without_ranks()
+with tempfile.TemporaryDirectory() as folder:
+    for name, n, more, share in (("lattice", 48, False, 0.75), ("cloud", 28, True, 0.95)):
+        for ranks in (3,) if QUICK else (2, 3, 5):
+            taken = compare(name, n, "jst_sph", more, ranks, Path(folder))
+            alone = largest_of_ranks(PROGRAM, 1, Path(folder) / "case.toml", Path(folder))
+            expect(taken[-1] < share * alone[0], f"{name}: one of {ranks} ranks takes {taken[-1]} bytes of {alone[0]}")
+finish()
