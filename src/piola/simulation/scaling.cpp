@@ -81,7 +81,7 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   double const all = static_cast<double>(particles.size());
   StepTimes& t = s.times;
   for (RankShare& share : s.shares) {
-    double const part = static_cast<double>(share.particles) / all;
+    heaviest = std::max(heaviest, static_cast<double>(share.particles) / all);
     share.memory = memory_of(share, cost, all, ranks, &share == s.shares.data());
     double const packing = 2 * network.packing * share.bytes / 8 / cost.threads;
     t.messages = std::max(t.messages, share.messages * network.latency + share.bytes / network.bandwidth + packing);
