@@ -424,12 +424,12 @@ void JstBody::fill_solid(Machine const& machine) {
   });
 }
 
-/// What neighbours read of a field and what never changes.
+/// What far neighbours read, too, and what never changes.
 void JstBody::tell_once(FieldRef const& field, int first, int count) const {
   HaloPlan once = *halo_;
   FieldRef part = field;
   part.data += first * field.component_stride;
-  once.add(part, 0, count);
+  once.add(part, 0, count, 1);
   once.exchange(part);
 }
 

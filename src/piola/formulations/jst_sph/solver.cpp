@@ -177,6 +177,7 @@ class Solver final : public Formulation {
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
   void share_failures();
   void tell_failures();
+  static double neighbours_of(JstBody const& body, Index slot);
   void place_stages(JstBody& body) const;
   template <class F>
   void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
@@ -189,6 +190,7 @@ class Solver final : public Formulation {
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
   std::vector<double> largest_speed_;                        ///< wave speed of the state, per body [m/s]
+  std::vector<double> failed_neighbours_;                    ///< on ranks, per body: of the first particle that failed
   double last_step_ = 0;                                     ///< [s]
   double time_ = 0;                                          ///< at the end of the last step [s]
 };
@@ -225,7 +227,7 @@ std::optional<Failure> Solver::failure() const {
     auto const v = body->v(slot.index);
     f.values = {{"det F", J},
                 {"J", body->J(slot.index)},
-                {"neighbours", body->pairs().corrections().neighbours_of(slot.index)},
+                {"neighbours", failed_neighbours_.empty() ? neighbours_of(*body, slot.index) : failed_neighbours_[k]},
                 {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])},
                 {"wave speed [m/s]", JstBody::value(body->state().wave_speed, slot.index)}};
     return f;
@@ -289,6 +291,7 @@ void Solver::place_stages(JstBody& body) const {
 
 /// All ranks have what there is to say about the first particle that failed.
 void Solver::tell_failures() {
+  failed_neighbours_.assign(bodies_.size(), 0);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     FailureSlot found = failure_of(body, largest_speed_[k]);
@@ -298,7 +301,15 @@ void Solver::tell_failures() {
     each_evolved(body, k, [&](std::string const&, FieldRef const& field, int components) {
       merge_slots(field, body.own(), std::array{found.index}, components);
     });
+    failed_neighbours_[k] = neighbours_of(body, found.index);
   }
+  ranks::merge(failed_neighbours_);
+}
+
+/// Of a particle of another rank, which alone knows them: 0.
+double Solver::neighbours_of(JstBody const& body, Index slot) {
+  bool const own = slot >= body.own().first && slot < body.own().last;
+  return own ? body.pairs().corrections().neighbours_of(slot) : 0;
 }
 
 /// Of the ranks' first failures the first; then rank 0 is told all that there is to say about it.
