@@ -154,6 +154,21 @@ every = "0.2 us"
 """
 
 # Particles that are not to be placed any more, from the first step on.
+# A few particles in lists, which whirl until one is inverted.
+WHIRLED = """title = "A coarse ball that whirls"
+[run]
+end = "2 ms"
+[[body]]
+name = "ball"
+shape = { sphere = { centre = ["0 mm", "0 mm", "0 mm"], radius = "20 mm" }, spacing = "19 mm", jitter = 0.3 }
+material = { law = "neo_hookean", density = 1100, youngs_modulus = "5 MPa", poissons_ratio = 0.45 }
+formulation = { name = "jst_sph", scheme = "robust" }
+initial_velocity = ["40*Y", "-40*X", "0"]
+[[support]]
+body = "ball"
+where = "X < -0.014"
+fix = "xyz"
+"""
 ESCAPED = FAILING.replace('"nodal"', '"adaptle", description = "total_lagrangian"').replace(
     "-200000*(X + 30*X*X)", "X > 0.0142 ? 1e31 : 0")
 
