@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranks: every rank makes the whole body and then works on its share of the slots. What its particles read of others
+// Ranks: each works on its share of the slots and has memory for that and for what its particles read of others, which
 // comes by messages. The slots of a particle are the same on all ranks, so nothing else of the body changes.
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/parallel/own_slots.hpp"
