@@ -88,8 +88,8 @@ double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v
   auto const [flow, yield] =
       std::min(std::pair(flow_pressure(a, v), a.yield_stress), std::pair(flow_pressure(b, v), b.yield_stress));
   if (!(shock > flow)) return 4;
-  double const strength = 3 * yield / flow, aside = 1 - flow / shock;
-  return 4 * (1 + strength * strength * (3 - 2 * strength) * aside * aside);
+  double const x = std::clamp((3 * yield / flow - 0.4) / 0.5, 0.0, 1.0), aside = 1 - flow / shock;
+  return 4 * (1 + x * x * (3 - 2 * x) * aside * aside);
 }
 
 double contact_energy(System const& system) {

@@ -16,10 +16,10 @@ double contact_number(int dimension, double h, double dp, double exponent);
 /// the former and a hundredth of the smaller bulk modulus [Pa].
 double reference_pressure(BodyConstants const& a, BodyConstants const& b, double v);
 
-/// n of the kernel law between two bodies that meet at the speed v: 4 (1 + s^2 (3 - 2s) (1 - p_f / p_s)^2), and 4 where
+/// n of the kernel law between two bodies that meet at the speed v: 4 (1 + x^2 (3 - 2x) (1 - p_f / p_s)^2), and 4 where
 /// p_s is not above p_f. p_s is the pressure of their shock, p_f = 3 sy + rho v^2 / 2 that at which the weaker one
-/// flows aside, and s = 3 sy / p_f what its strength has of that. So n is 4 where waves or inertia press, and up to 8
-/// where strength does.
+/// flows aside, and x goes from 0 to 1 while the strength 3 sy makes from 0.4 to 0.9 of p_f. So n is 4 where waves or
+/// inertia press, and up to 8 where strength does.
 double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v);
 
 /// Stiffness and exponent of every pair of bodies, [body][body]. mean_velocity: of each body at the start [m/s].
