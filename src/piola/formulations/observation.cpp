@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/observation.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/lattice_lines.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
@@ -32,30 +33,18 @@ void Observation::add_state(double jacobian, double pressure, double tributary) 
 }
 
 void Observation::add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p) {
-  auto const index = [&](std::array<int, 3> const& at) {
-    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(body.lattice[1]) +
-            static_cast<std::size_t>(at[1])) *
-               static_cast<std::size_t>(body.lattice[0]) +
-           static_cast<std::size_t>(at[0]);
-  };
-  constexpr std::int32_t nobody = -1;
-  std::vector<std::int32_t> particle(index({0, 0, body.lattice[2]}) + 1, nobody);  // counted from the body's first
-  for (auto id = body.first; id < body.last; ++id)
-    particle[index(set.lattice_index[static_cast<std::size_t>(id)])] = static_cast<std::int32_t>(id - body.first);
+  LatticeLines lines({}, body.lattice);  // particles are counted from the body's first
+  auto const place = [&](std::int64_t k) { return set.lattice_index[static_cast<std::size_t>(body.first + k)]; };
+  for (std::int64_t k = 0; k < body.last - body.first; ++k) lines[place(k)] = static_cast<Index>(k);
   struct Differences {
     std::array<double, 3> value;
     std::array<bool, 3> exists;  ///< there are neighbours on both sides
   };
   auto const differences = [&](std::int64_t k) {
     Differences d{};
-    auto const& at = set.lattice_index[static_cast<std::size_t>(body.first + k)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (at[axis] == 0 || at[axis] + 1 >= body.lattice[axis]) continue;
-      auto before = at, after = at;
-      --before[axis];
-      ++after[axis];
-      auto const a = particle[index(before)], b = particle[index(after)];
-      if (a == nobody || b == nobody) continue;
+      auto const [a, b] = lines.neighbours(place(k), axis);
+      if (a == LatticeLines::nobody) continue;
       auto const value = [&](std::int64_t n) { return p[static_cast<std::size_t>(n)]; };
       d.value[axis] = (value(b) - 2 * value(k) + value(a)) / 4;
       d.exists[axis] = true;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/base/contracts.hpp"
+#include "piola/math/lanes.hpp"
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace piola {
+
+/// Who stands where in a box of a lattice, and who comes before and after on its lines.
+class LatticeLines {
+ public:
+  using At = std::array<int, 3>;
+  static constexpr Index nobody = -1;
+
+  LatticeLines() = default;
+  /// Of the places [first, first + size), where nobody stands yet.
+  LatticeLines(At const& first, At const& size) : first_(first), size_(size) {
+    std::size_t places = 1;
+    for (int const n : size) places *= static_cast<std::size_t>(n);
+    who_.assign(places, nobody);
+  }
+  bool holds(At const& at) const {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (at[c] < first_[c] || at[c] >= first_[c] + size_[c]) return false;
+    return true;
+  }
+  /// At a place that it holds.
+  Index& operator[](At const& at) {
+    PIOLA_EXPECTS(holds(at));
+    return who_[place(at)];
+  }
+  /// Before and after a place along an axis; `nobody` for both if one is missing.
+  std::array<Index, 2> neighbours(At const& at, std::size_t axis) const {
+    At before = at, after = at;
+    --before[axis];
+    ++after[axis];
+    if (!holds(before) || !holds(after)) return {nobody, nobody};
+    Index const a = who_[place(before)], b = who_[place(after)];
+    if (a == nobody || b == nobody) return {nobody, nobody};
+    return {a, b};
+  }
+  std::size_t bytes() const { return who_.size() * sizeof(Index); }
+
+ private:
+  std::size_t place(At const& at) const {
+    std::size_t k = 0;
+    for (std::size_t c = 3; c-- > 0;)
+      k = k * static_cast<std::size_t>(size_[c]) + static_cast<std::size_t>(at[c] - first_[c]);
+    return k;
+  }
+
+  At first_{}, size_{};
+  std::vector<Index> who_;
+};
+
+}  // namespace piola
