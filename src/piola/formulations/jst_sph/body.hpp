@@ -51,8 +51,7 @@ class JstBody {
   SharedTotal const& external_work() const { return external_work_; }
   double kinetic_energy() const;    ///< of all ranks, which all ask for it [J]
   double hourglass_energy() const;  ///< likewise, as observed last [J]
-  double filtered_energy()
-      const;  ///< likewise of the filtered volume ratio as observed last, where that has a viscous part [J]
+  double filtered_energy() const;   ///< likewise, of the filtered volume ratio where that has a viscous part [J]
   /// The next time at which a support or a load ends.
   double next_release(double time) const { return boundary_.next_release(time); }
   Boundary& boundary() { return boundary_; }

@@ -128,7 +128,7 @@ void observe(JstBody const& body, JstObservation& o) {
     d.stabilisation_loss += body.state().totals.viscous_work - hourglass_energy - body.filtered_energy();
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
-  d.external_work += body.external_work().value();
+  d.external_work += body.external_work().over_ranks();
   d.damping_loss += body.state().totals.damping_loss;
   if (lines != nullptr)
     lines->add_oscillation(o);

@@ -31,7 +31,7 @@ class Solver final : public Formulation {
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
         machine_(&choose_machine(assembly.machine.c_str())),
-        actions_(std::make_unique<ActionsOnBodies>(assembly.supports, assembly.loads, assembly.rigid_shapes)) {
+        actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
@@ -79,9 +79,9 @@ class Solver final : public Formulation {
   }
 
   void step(double time, double dt) override {
-    actions_->begin_step(bodies_, dt);
+    actions_.begin_step(bodies_, dt);
     for (auto const& body : bodies_) body->step(*machine_, time, dt);
-    actions_->end_step(bodies_);
+    actions_.end_step(bodies_);
     time_ = time + dt;
     last_step_ = dt;
     for (std::size_t k = 0; k < bodies_.size(); ++k) largest_speed_[k] = bodies_[k]->state().largest_wave_speed;
@@ -110,14 +110,13 @@ class Solver final : public Formulation {
 
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
-    settle();
     JstObservation all;
     for (auto const& body : bodies_) {
       refresh(*body);
       observe(*body, all);
     }
     Diagnostics d = finish(all);
-    d.actions = actions_->report();
+    d.actions = actions_.over_ranks(bodies_).report();
     return d;
   }
 
@@ -167,12 +166,6 @@ class Solver final : public Formulation {
     if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
     if (body.options().hourglass()) machine_->observe_energy(seen);
   }
-  /// Adds up what steps have left to be told: the totals of all ranks, for observers. Collective on ranks.
-  void settle() const {
-    if (!ranks::several()) return;
-    for (auto const& body : bodies_) body->external_work().settle();
-    actions_->settle(bodies_);
-  }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
   void share_failures();
@@ -185,7 +178,7 @@ class Solver final : public Formulation {
   ParticleSet set_;
   SlotsById slots_;
   Machine const* machine_;
-  std::unique_ptr<ActionsOnBodies> actions_;
+  ActionsOnBodies actions_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;  ///< per body, or nothing where the case gives alpha
@@ -264,14 +257,13 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
 }
 
 void Solver::save(StateWriter& writer) const {
-  settle();
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
       save_own(writer, name, body, field, components);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss, body.external_work().value(),
+    std::array const books{totals.stabilisation_loss, totals.projection_loss, body.external_work().over_ranks(),
                            totals.damping_loss, totals.viscous_work};
     writer.put(fmt::format("body{}_energy_books", k), books);
     writer.put(fmt::format("body{}_supports", k), body.boundary().state());
@@ -279,7 +271,7 @@ void Solver::save(StateWriter& writer) const {
   }
   std::array const clock{time_, last_step_};
   writer.put("time", clock);
-  writer.put("actions", actions_->state());
+  writer.put("actions", actions_.over_ranks(bodies_).state());
 }
 
 /// The positions of a stage are, between steps, those of the particles.
@@ -342,7 +334,7 @@ void Solver::load(StateReader& reader) {
   }
   std::array<double, 2> clock{};
   reader.get("time", clock);
-  load_part(reader, "actions", *actions_);
+  load_part(reader, "actions", actions_);
   find_largest_speeds();
   time_ = clock[0];
   last_step_ = clock[1];
