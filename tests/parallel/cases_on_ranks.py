@@ -153,7 +153,6 @@ initial_velocity = ["-200000*(X + 30*X*X)", "0", "0"]
 every = "0.2 us"
 """
 
-# Particles that are not to be placed any more, from the first step on.
 # A few particles in lists, which whirl until one is inverted.
 WHIRLED = """title = "A coarse ball that whirls"
 [run]
@@ -169,6 +168,7 @@ body = "ball"
 where = "X < -0.014"
 fix = "xyz"
 """
+# Particles that are not to be placed any more, from the first step on.
 ESCAPED = FAILING.replace('"nodal"', '"adaptle", description = "total_lagrangian"').replace(
     "-200000*(X + 30*X*X)", "X > 0.0142 ? 1e31 : 0")
 

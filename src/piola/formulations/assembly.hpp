@@ -39,7 +39,7 @@ struct ContactRule {
   double closing_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]; nan: from the initial velocities
   contact::FrictionLaw friction;  ///< between surfaces and on rigid shapes that surfaces meet
   bool self = false;              ///< whether surfaces meet themselves
-  double exponent = 4;            ///< n of eq. (15); nan: 4 to 8, by what two bodies bear
+  double exponent = std::numeric_limits<double>::quiet_NaN();  ///< n of eq. (15); nan: 4 to 8, by what bodies bear
 };
 
 /// What is different between two bodies, a body and a rigid shape, or a body and itself, where surfaces meet.

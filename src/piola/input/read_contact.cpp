@@ -3,7 +3,6 @@
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <array>
-#include <limits>
 
 namespace piola {
 namespace {
@@ -53,7 +52,6 @@ constexpr std::array friction_keys{"friction", "static_friction", "decay_speed",
 
 ContactSpec read_whole(Section const& section, int dimension) {
   ContactSpec contact;
-  contact.exponent = std::numeric_limits<double>::quiet_NaN();
   read_law(section, contact.law);
   Law const law = contact.law;
   std::string const all = "\"kernel\", \"linear\", \"printed\" or \"surface\"";

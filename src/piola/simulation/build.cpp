@@ -17,7 +17,6 @@
 #include "piola/simulation/ranks.hpp"
 #include "piola/simulation/warnings.hpp"
 #include <algorithm>
-#include <limits>
 #include <string_view>
 
 namespace piola {
@@ -262,7 +261,6 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   for (MirrorSpec const& mirror : spec.mirrors)
     a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
-  a.contact.exponent = std::numeric_limits<double>::quiet_NaN();  // as a [contact] has it that says nothing
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());
   a.ties.assign(spec.ties.begin(), spec.ties.end());
