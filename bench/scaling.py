@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The table of docs/theory/scaling.md: weak scaling of a cube by its formulas, for both cuts.
+"""The table of docs/theory/scaling.md: weak scaling of a cube by its formulas, for three cuts.
 
 Usage: bench/scaling.py [PARTICLES_PER_RANK ...]      default: 1e6 1e5 1e4
 """
@@ -14,12 +14,27 @@ NUMBERS = {1: 25, 2: 4}
 THREADS, WORK = 16, 560e-9  # cores of a rank; processor time of a particle and right-hand side [s]
 LATENCY, BANDWIDTH, PACKING = 2e-6, 6e9, 1.5e-9  # [s], [bytes/s], [s] of a number on each side
 PENCIL = 8  # rows across a pencil
+RAGGED = 14  # particles of a row by which the leaves of 16 at a cut across rows differ
 
 
 def bricks(n, ranks, layers):
     """Halo and neighbours of a cube of n particles cut out of many."""
     side = n ** (1 / 3)
     return (side + 2 * layers) ** 3 - n, 26
+
+
+def leaves(n, ranks, layers):
+    """The same of a part of whole leaves: as long along its rows as makes it read least."""
+    side = (n * ranks) ** (1 / 3)
+
+    def halo(length, layers):
+        across = n / length
+        ends = 2 * across * (layers + RAGGED) if length < side else 0
+        return (math.sqrt(across) + 2 * layers) ** 2 * length - n + ends
+
+    lengths = [side ** (k / 200) * n ** ((200 - k) / 600) for k in range(201)]
+    best = min(lengths, key=lambda length: halo(length, max(NUMBERS)))
+    return halo(best, layers), 26 if best < side else 8
 
 
 def runs(n, ranks, layers):
@@ -52,6 +67,6 @@ if __name__ == "__main__":
     print("| particles of a rank | cut | halo | messages | MB | sweeps, ms | messages, ms | collectives, ms | efficiency |")
     print("|---|---|---|---|---|---|---|---|---|")
     for n in [float(word) for word in sys.argv[1:]] or (1e6, 1e5, 1e4):
-        for cut in (bricks, runs):
+        for cut in (bricks, leaves, runs):
             print("| {:.0e} | {} | {:,.0f} | {:.0f} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.0f} % |".format(
                 *row(n, 10_000, cut)))

@@ -119,7 +119,7 @@ struct SumTwo {
 exec::Totals<2> total(std::vector<double> const& value, int threads) {
   Threads const keep(threads);
   Range const r{0, static_cast<Index>(value.size())};
-  std::vector<double> partial(static_cast<std::size_t>(exec::block_count(r)) * 2 + 2);
+  std::vector<double> partial(static_cast<std::size_t>(exec::leaf_count(r)) * 2);
   return exec::reduce<2>(r, SumTwo{value.data()}, partial.data());
 }
 
@@ -132,6 +132,22 @@ TEST(Reduce, IsExactForWholeNumbers) {
     EXPECT_EQ(t.v[0], N * (N + 1) / 2) << n;
     EXPECT_EQ(t.v[1], N * (N + 1) * (2 * N + 1) / 6) << n;
   }
+}
+
+TEST(Reduce, HasTheSameBitsWhereverLeavesStand) {
+  testing::Random random(3);
+  std::vector<std::array<double, 16>> leaves(311);
+  for (auto& leaf : leaves)
+    for (double& v : leaf) v = std::exp(random.in(-20, 20)) * random.in(-1, 1);
+  auto const sum = [&] {
+    std::vector<double> value;
+    for (auto const& leaf : leaves) value.insert(value.end(), leaf.begin(), leaf.end());
+    return total(value, 3);
+  };
+  exec::Totals<2> const before = sum();
+  std::reverse(leaves.begin() + 7, leaves.end());
+  exec::Totals<2> const after = sum();
+  EXPECT_EQ(std::memcmp(before.v, after.v, sizeof before.v), 0);
 }
 
 TEST(Reduce, HasTheSameBitsForAnyNumberOfThreads) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/halo_count.hpp"
+#include "piola/parallel/bisection.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/particles/ordering.hpp"
 #include "piola/setup/shapes.hpp"
@@ -96,46 +97,47 @@ Halo largest_halo(Points const& X, std::vector<int> const& owner, int ranks, dou
   return h;
 }
 
-/// The table of record 0097. Runs of pencils are planks along the longest side where bisection makes cubes: the more
-/// slender the body, the larger what they read.
+/// Who has which particle where each rank has its share of an order.
+std::vector<int> owners(ParticleSet const& set, SlotOrder const& order, int ranks) {
+  std::vector<int> owner(set.X.size());
+  for (int r = 0; r < ranks; ++r) {
+    Range const own = share_of(order.slots(), r, ranks);
+    for (Index slot = own.first; slot < std::min(own.last, order.particles); ++slot)
+      owner[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])] = r;
+  }
+  return owner;
+}
+
+/// The tables of records 0097 and 0110. Runs of pencils are planks along the longest side where bisection of particles
+/// makes cubes; bisection of blocks lies between them.
 TEST(HaloCount, OfRunsOfPencilsAndOfBisection) {
-  struct Shape {
-    char const* name;
-    std::array<int, 3> particles;
-    double most;  ///< of the ratio below, on two ranks
-  };
-  for (Shape const& shape : {Shape{"column", {26, 157, 26}, 8}, Shape{"cube", {48, 48, 48}, 1.5}}) {
+  for (auto const& particles : {std::array{26, 157, 26}, {48, 48, 48}, {120, 80, 24}}) {
     ShapeSpec box;
     box.kind = ShapeSpec::Kind::box;
     box.dimension = 3;
-    for (std::size_t c = 0; c < 3; ++c) {
-      box.particles[c] = shape.particles[c];
-      box.max[c] = shape.particles[c] - 1;
-    }
+    box.particles = particles;
+    for (std::size_t c = 0; c < 3; ++c) box.max[c] = particles[c] - 1;
     ParticleSet set;
-    fill(box, shape.name, set);
-    SlotOrder const order = pencil_order(set, set.bodies[0]);
-    Points X;
-    for (Index slot = 0; slot < order.particles; ++slot)
-      X.push_back(set.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])]);
+    fill(box, "box", set);
+    Body const& body = set.bodies[0];
+    SlotOrder const pencils = pencil_order(set, body);
+    Points const X(set.X.begin(), set.X.end());
     for (int const ranks : {2, 3, 4, 8, 16, 32}) {
-      std::vector<int> runs(X.size()), halved(X.size());
-      for (int r = 0; r < ranks; ++r) {
-        Range const own = share_of(order.slots(), r, ranks);
-        for (Index slot = own.first; slot < std::min(own.last, order.particles); ++slot)
-          runs[static_cast<std::size_t>(slot)] = r;
-      }
+      std::vector<int> halved(X.size());
       std::vector<std::size_t> all(X.size());
       std::iota(all.begin(), all.end(), std::size_t{0});
       bisect(X, all, 0, ranks, halved);
       constexpr double reach = 2.4;  // of the default filter of jst_sph, in spacings
-      Halo const a = largest_halo(X, runs, ranks, reach), b = largest_halo(X, halved, ranks, reach);
-      fmt::print("{} on {} ranks: {} particles of a rank, reads {} of {} ranks by runs, {} of {} by bisection\n",
-                 shape.name, ranks, X.size() / static_cast<std::size_t>(ranks), a.most, a.neighbours, b.most,
-                 b.neighbours);
-      EXPECT_GE(a.most, 0.9 * static_cast<double>(b.most));
-      if (ranks > 2) continue;
-      EXPECT_LE(static_cast<double>(a.most), shape.most * static_cast<double>(b.most));
+      Halo const runs = largest_halo(X, owners(set, pencils, ranks), ranks, reach),
+                 blocks = largest_halo(X, owners(set, bisected(set, body, pencils, ranks), ranks), ranks, reach),
+                 finest = largest_halo(X, halved, ranks, reach);
+      fmt::print(
+          "{} on {} ranks: {} particles each, {} of {} ranks read by runs, {} of {} by bisection of blocks, "
+          "{} of {} of particles\n",
+          fmt::join(particles, " x "), ranks, X.size() / static_cast<std::size_t>(ranks), runs.most, runs.neighbours,
+          blocks.most, blocks.neighbours, finest.most, finest.neighbours);
+      EXPECT_LE(blocks.most, runs.most);
+      EXPECT_GE(static_cast<double>(blocks.most), 0.9 * static_cast<double>(finest.most));
     }
   }
 }

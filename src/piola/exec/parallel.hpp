@@ -153,39 +153,67 @@ struct Totals {
   double v[N]{};
 };
 
-/// One block's share of a reduction: lanes are added first, then particles, in fixed order.
+/// Slots whose sums are added up before exact sums are: leaves of 16 may stand anywhere in the order of a body, so that
+/// ranks can share it out finely.
+inline constexpr Index leaf_size = 16;
+static_assert(block_size % leaf_size == 0 && leaf_size % lane_count == 0);
+
+inline Index leaf_count(Range r) { return (r.last - r.first + leaf_size - 1) / leaf_size; }
+
+/// One block's share of a reduction, leaf by leaf: lanes are added first, then particles, in fixed order.
 template <int N, class Pass>
-struct BlockSums {
+struct LeafSums {
   Pass pass;
-  double* partial;  ///< [block][N]
+  double* partial;  ///< [leaf][N]
   PIOLA_FN void operator()(Range b, Index k) const {
-    Lanes sums[N];
-    for (int c = 0; c < N; ++c) sums[c] = Lanes(0.0);
-    for (Index i = b.first; i < b.last; i += lane_count) pass(i, sums);
-    for (int c = 0; c < N; ++c) {
-      double total = 0;
-      for (int l = 0; l < lane_count; ++l) total += lane(sums[c], l);
-      partial[k * N + c] = total;
+    double* out = partial + static_cast<std::ptrdiff_t>(k) * (block_size / leaf_size * N);
+    for (Index first = b.first; first < b.last; first += leaf_size, out += N) {
+      Index const last = first + leaf_size < b.last ? first + leaf_size : b.last;
+      Lanes sums[N];
+      for (int c = 0; c < N; ++c) sums[c] = Lanes(0.0);
+      for (Index i = first; i < last; i += lane_count) pass(i, sums);
+      for (int c = 0; c < N; ++c) {
+        double total = 0;
+        for (int l = 0; l < lane_count; ++l) total += lane(sums[c], l);
+        out[c] = total;
+      }
     }
   }
 };
 
-/// Adds the partial sums of n blocks, exactly: the same bits for any number of threads, and wherever blocks stand.
+/// The exact sums of n partial ones: the same bits for any number of threads, and wherever they stand.
+template <int N>
+ExactSums<N> sum_of_partials(double const* partial, Index n) {
+  ExactSums<N> sums;
+#if defined(__CUDACC__)
+  for (Index k = 0; k < n; ++k) sums.add(partial + static_cast<std::ptrdiff_t>(k) * N);
+#else
+#pragma omp parallel num_threads(exec_host::team(n* leaf_size))
+  {
+    ExactSums<N> own;
+#pragma omp for schedule(static) nowait
+    for (Index k = 0; k < n; ++k) own.add(partial + static_cast<std::ptrdiff_t>(k) * N);
+#pragma omp critical(piola_sums)
+    sums.add(own);
+  }
+#endif
+  return sums;
+}
+
 template <int N>
 Totals<N> add_partials(double const* partial, Index n) {
-  ExactSums<N> sums;
-  for (Index k = 0; k < n; ++k) sums.add(partial + static_cast<std::ptrdiff_t>(k) * N);
+  ExactSums<N> const sums = sum_of_partials<N>(partial, n);
   Totals<N> r;
   for (int c = 0; c < N; ++c) r.v[c] = sums.value(c);
   return r;
 }
 
 /// pass(i, sums): does its work for the lanes at i and adds to N sums; returns the totals. `partial` holds
-/// N values per block.
+/// N values per leaf.
 template <int N, class Pass>
 Totals<N> reduce(Range r, Pass const& pass, double* partial) {
-  for_each_block(r, BlockSums<N, Pass>{pass, partial});
-  return add_partials<N>(partial, block_count(r));
+  for_each_block(r, LeafSums<N, Pass>{pass, partial});
+  return add_partials<N>(partial, leaf_count(r));
 }
 
 /// Records a failure at particle i; the lowest id wins, so the report does not depend on threads or places in memory.

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/rigid_state.hpp"
+#include "piola/parallel/bisection.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
 #include <cstdint>
@@ -79,7 +80,8 @@ struct Talk {
   std::vector<std::vector<Told>> messages;  ///< of a right-hand side, to each rank that reads any of it
   double collectives = 0;                   ///< per step: what all ranks add, or take the largest of, or are told
   double to_all = 0;                        ///< per step: numbers that all ranks are told of the particles of the body
-  SlotOrder (*order)(ParticleSet const&, Body const&) = &pencil_order;  ///< of which each rank has a run
+  /// Of which each of so many ranks has its share.
+  SlotOrder (*order)(ParticleSet const&, Body const&, int ranks) = &bisected_pencils;
 };
 
 /// Receives or returns the evolved state by name, in Id order; bit-exact doubles.

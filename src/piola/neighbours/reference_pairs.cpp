@@ -348,12 +348,6 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
   }
   for (double const m : moment) c.largest_moment = std::max(c.largest_moment, m);
   for (Index a = own_.first; a < own_.last; ++a) pairs_ += c.neighbours_of(a);
-  for (Index const d : distance_)
-    if (d != absent) max_delta_ = std::max(max_delta_, std::abs(d));
-  for (Index a = own_.first; a < own_.last && !regular_; ++a)
-    for (auto k = found_begin_[static_cast<std::size_t>(a - own_.first)];
-         k < found_begin_[static_cast<std::size_t>(a - own_.first) + 1]; ++k)
-      max_delta_ = std::max(max_delta_, std::abs(found_[static_cast<std::size_t>(k)] - a));
 }
 
 bool ReferencePairs::correct(Index a, std::size_t at, double& moment, Refusal& refusal) {

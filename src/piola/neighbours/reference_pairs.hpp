@@ -65,7 +65,6 @@ class ReferencePairs {
   StencilTable stencil() const;
   ListTable list() const;
   Corrections const& corrections() const { return corrections_; }
-  Index max_delta() const { return max_delta_; }  ///< largest distance in memory between neighbours
   /// Scaling d of the doubly stochastic filter s_ab = d_a W_ab d_b, per slot: sum_b s_ab V_b = 1 with b = a included,
   /// by d <- sqrt(d / sum_b W_ab V_b d_b). Row sums are then within 1e-8 of 1; the filter's diagonal makes them exact.
   struct Filter {
@@ -151,7 +150,6 @@ class ReferencePairs {
   std::vector<std::int64_t> found_begin_;  // irregular bodies, from own_.first on
   std::vector<Index> found_;
   Corrections corrections_;
-  Index max_delta_ = 0;
   std::int64_t pairs_ = 0;
   double fill_ = 0;
   std::vector<StencilEntry> entries_;

@@ -26,13 +26,13 @@ struct Beside {
   FailureSlot* failure = nullptr;  ///< likewise
 };
 
-/// exec::add_partials of the n blocks of this rank and of those of all others, if they share them: exact, so that all
-/// ranks have the bits of one.
+/// exec::add_partials of the n partial sums of this rank and of those of all others, if they share them: exact, so that
+/// all ranks have the bits of one.
 template <int N>
 exec::Totals<N> add_over_ranks(bool shared, double const* partial, Index n, Beside const& beside = {}) {
   if (!shared) return exec::add_partials<N>(partial, n);
   SaidByRanks<N> said;
-  for (Index k = 0; k < n; ++k) said.sums.add(partial + static_cast<std::ptrdiff_t>(k) * N);
+  said.sums = exec::sum_of_partials<N>(partial, n);
   if (beside.largest != nullptr) said.largest = *beside.largest;
   if (beside.failure != nullptr) said.first = FirstFailure(*beside.failure);
   ranks::add(said);
@@ -47,8 +47,8 @@ exec::Totals<N> add_over_ranks(bool shared, double const* partial, Index n, Besi
 template <int N, class Pass>
 exec::Totals<N> reduce_over_ranks(bool shared, Range r, Pass const& pass, double* partial, Beside const& beside = {}) {
   if (!shared) return exec::reduce<N>(r, pass, partial);
-  exec::for_each_block(r, exec::BlockSums<N, Pass>{pass, partial});
-  return add_over_ranks<N>(true, partial, exec::block_count(r), beside);
+  exec::for_each_block(r, exec::LeafSums<N, Pass>{pass, partial});
+  return add_over_ranks<N>(true, partial, exec::leaf_count(r), beside);
 }
 
 }  // namespace piola::inline PIOLA_MACHINE

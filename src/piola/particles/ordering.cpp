@@ -55,11 +55,12 @@ namespace {
 
 Shuffle shuffle_of_tests;
 
-constexpr std::size_t tile_size = exec::block_size;
+constexpr std::size_t tile_size = exec::block_size, leaf_size = exec::leaf_size;
 
 /// Who comes to each place of `count`: tiles change places with others of their kind, those of a negative kind stay,
 /// and so does what fills no tile.
-std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind) {
+std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind,
+                                      std::size_t tile) {
   struct Dealt {
     int kind;
     std::uint64_t owner, place;
@@ -81,20 +82,20 @@ std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle,
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     if (shuffle.moved != nullptr && tiles[k].tile != places[k]) ++*shuffle.moved;
-    auto const to = numbers.begin() + static_cast<std::ptrdiff_t>(places[k] * tile_size);
-    std::iota(to, to + static_cast<std::ptrdiff_t>(tile_size), tiles[k].tile * tile_size);
+    auto const to = numbers.begin() + static_cast<std::ptrdiff_t>(places[k] * tile);
+    std::iota(to, to + static_cast<std::ptrdiff_t>(tile), tiles[k].tile * tile);
   }
   return numbers;
 }
 
-SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle, std::vector<int> const& kind) {
+SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle, std::vector<int> const& kind, std::size_t tile) {
   SlotOrder dealt = order;
-  auto const numbers = dealt_places(static_cast<std::size_t>(order.particles), shuffle, kind);
+  auto const numbers = dealt_places(static_cast<std::size_t>(order.particles), shuffle, kind, tile);
   for (std::size_t k = 0; k < numbers.size(); ++k) dealt.id[k] = order.id[numbers[k]];
   return dealt;
 }
 
-std::vector<int> one_kind(std::size_t count) { return std::vector<int>(count / tile_size, 0); }
+std::vector<int> one_kind(std::size_t count, std::size_t tile) { return std::vector<int>(count / tile, 0); }
 
 }  // namespace
 
@@ -103,7 +104,7 @@ Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_te
 Shuffle const& shuffle_now() { return shuffle_of_tests; }
 
 std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle) {
-  return dealt_places(count, shuffle, shuffle.owners > 0 ? one_kind(count) : std::vector<int>{});
+  return dealt_places(count, shuffle, shuffle.owners > 0 ? one_kind(count, tile_size) : std::vector<int>{}, tile_size);
 }
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
@@ -123,12 +124,13 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
 SlotOrder dealt_order(ParticleSet const& set, Body const& body) {
   SlotOrder order = pencil_order(set, body);
   if (shuffle_of_tests.owners == 0) return order;
-  return dealt_out(order, shuffle_of_tests, one_kind(static_cast<std::size_t>(order.particles)));
+  auto const kinds = one_kind(static_cast<std::size_t>(order.particles), leaf_size);
+  return dealt_out(order, shuffle_of_tests, kinds, leaf_size);
 }
 
 SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order) {
   if (shuffle_of_tests.owners == 0) return order;
-  std::vector<int> kind = one_kind(static_cast<std::size_t>(order.particles));
+  std::vector<int> kind = one_kind(static_cast<std::size_t>(order.particles), tile_size);
   for (std::size_t k = 0; k < kind.size(); ++k) {
     auto const part = [&](std::size_t slot) {
       return static_cast<int>(part_of(set, static_cast<std::size_t>(order.id[slot])));
@@ -136,7 +138,7 @@ SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order) {
     int const first = part(k * tile_size);
     kind[k] = part((k + 1) * tile_size - 1) == first ? first : -1;
   }
-  return dealt_out(order, shuffle_of_tests, kind);
+  return dealt_out(order, shuffle_of_tests, kind, tile_size);
 }
 
 bool shuffle_takes_lists() { return shuffle_of_tests.owners > 0 || shuffle_of_tests.lists; }

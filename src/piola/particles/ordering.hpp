@@ -46,7 +46,8 @@ Shuffle const& shuffle_now();
 /// For all that dealt_order makes from now on; returns the one before. Not while others make orders.
 Shuffle set_shuffle(Shuffle const& shuffle);
 
-/// pencil_order, dealt out as the shuffle says: of formulations that promise not to depend on it.
+/// pencil_order, dealt out as the shuffle says, by leaves of 16 slots (exec::leaf_size): of formulations that promise
+/// not to depend on it.
 SlotOrder dealt_order(ParticleSet const& set, Body const& body);
 
 /// The same of any order in which the particles of a part stand together: tiles of one part change places with each

@@ -74,7 +74,8 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   double heaviest = 0;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
     Talk const& talk = *cost.talk[b];
-    add_body(owned_of(particles, talk.order(particles, particles.bodies[b]), ranks), talk, cost.stages, s.shares);
+    add_body(owned_of(particles, talk.order(particles, particles.bodies[b], ranks), ranks), talk, cost.stages,
+             s.shares);
     s.collectives += talk.collectives;
     s.to_all += ranks > 1 ? 8 * talk.to_all : 0;
   }

@@ -50,7 +50,7 @@ FieldRef of_body(FieldRef field, BodyConstants const& body) {
 }
 
 /// Particles stand in the order of ids.
-SlotOrder id_order(ParticleSet const&, Body const& body) {
+SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
   SlotOrder order;
   for (std::int64_t id = body.first; id < body.last; ++id) order.id.push_back(id);
   order.particles = static_cast<Index>(order.id.size());

@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/bisection.hpp"
 #include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include "piola/parallel/sum_over_slots.hpp"
@@ -21,7 +22,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(dealt_order(set, body_)),
+      order_(bisected(set, body_, dealt_order(set, body_), ranks::count())),
       set_(&set),
       images_(assembly, body, order_, {reach(), reach(), reach()}),
       fields_(D_),
@@ -131,7 +132,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   k.total_volume = moments.value(3);
   for (int c = 0; c < 3; ++c) k.centre[c] = moments.value(c) / k.total_volume;
   constexpr Index widest = ForceTotals<3>::size;
-  partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots) + 1) * widest);
+  partial_.resize(static_cast<std::size_t>(exec::leaf_count(state_.slots)) * widest);
   state_.partial = partial_.data();
   failure_.id = order_.id.data();
   state_.failure = &failure_;
@@ -184,7 +185,7 @@ bool JstBody::wanted(Field const& f) const {
 
 void JstBody::allocate() {
   place_gathered();
-  Index const guard = state_.regular ? pairs_->max_delta() + SlotOrder::alignment : 0;
+  Index const guard = state_.regular ? SlotOrder::alignment : 0;
   fields_.each([&](Field& f) {
     bool const per_slot = &f == &fields_.filter_scale || &f == &fields_.filter_sum;
     bool const shared = state_.regular && f.role() == Role::reference && !per_slot;
@@ -260,7 +261,8 @@ JstBody::Gathered JstBody::gather(int values) const {
   Gathered g;
   auto const n = static_cast<std::ptrdiff_t>(all_slots());
   if (state_.regular) {
-    g.start = (static_cast<std::ptrdiff_t>(pairs_->max_delta()) + SlotOrder::alignment + 7) / 8 * 8;
+    // Of the lanes of an entry one has the neighbour, so the others are at most lanes from a slot of the body.
+    g.start = SlotOrder::alignment;
     // The zeros after the last value of a component are those before the first of the next.
     g.component = 8 * (((n + 7) / 8 + g.start / 8) | 1);
     g.memory = Memory(static_cast<std::size_t>(g.component * values + 2 * g.start));

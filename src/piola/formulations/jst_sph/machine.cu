@@ -20,7 +20,7 @@ void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawL
 
 template <int D, Biharmonic B>
 void launch_forces(Range r, SumForces<D, B, D, ListLoader<D>> const& pass, double* partial) {
-  exec::for_each_block(r, exec::BlockSums<ForceTotals<D>::size, SumForces<D, B, D, ListLoader<D>>>{pass, partial});
+  exec::for_each_block(r, exec::LeafSums<ForceTotals<D>::size, SumForces<D, B, D, ListLoader<D>>>{pass, partial});
 }
 
 template <int D>

@@ -27,7 +27,7 @@ struct LatticeShape {
   Index slot(std::array<int, 3> const& at) const { return (at[2] * count[1] + at[1]) * count[0] + at[0]; }
 };
 
-/// Slots of a body: row after row where it fills a lattice, else in pencils.
+/// Slots of a body: row after row where it fills a lattice, plane after plane along its longest side; else in pencils.
 SlotOrder slot_order(ParticleSet const& set, Body const& body);
 
 /// The lattice that a body fills in this order, if it does.

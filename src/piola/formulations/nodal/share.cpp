@@ -60,7 +60,7 @@ Talk NodalBody::talk() const {
   // The first failure with the largest change of a strain; sums of the unrest in every fourth step of calm motion and
   // in all before the first measurement; and what is measured.
   talk.collectives = 1.9;
-  talk.order = &slot_order;
+  talk.order = [](ParticleSet const& set, Body const& body, int) { return slot_order(set, body); };
   return talk;
 }
 

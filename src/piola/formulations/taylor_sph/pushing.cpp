@@ -29,7 +29,7 @@ std::optional<Talk> TaylorBody::talk() const {
   int const flat = D() == 2 ? 1 : 0, at_rest = state_.k.moving ? 0 : D(), patterns = state_.memory.patterns;
   int const stride = record_stride(D()), corners = cells_.corners;
   Talk talk;
-  talk.order = &pencil_order;
+  talk.order = [](ParticleSet const& set, Body const& body, int) { return pencil_order(set, body); };
   double const real = static_cast<double>(particles()), cells = static_cast<double>(cells_.count());
   talk.to_all = real * (2 * stride + 2 * D() + flat + at_rest) +
                 cells * (D() * corners + stride + 1 + D() * D() + D() * patterns + (state_.k.moving ? stride : 0));
