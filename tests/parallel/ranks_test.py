@@ -19,8 +19,8 @@ from on_ranks import (QUICK, SOURCE, checkpoint, contents, differences, expect, 
                       skip_without_ranks)
 
 STEPS = 20
-QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "adjoint, boxes", "torn plate", "damped patch",
-              "deleted", "restarts", "words"]
+QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
+              "damped patch", "deleted", "restarts", "words"]
 SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",  # columns above zero at the end
          "deleted disc": "deleted_particles", "rubbing bar of AdapTLE": "friction_heat"}
 SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph|adaptle)"')  # the formulations of bodies that ranks share
