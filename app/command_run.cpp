@@ -26,7 +26,7 @@ int run(RunArguments const& options) {
   CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
   if (options.no_pictures) spec.output.pictures.every = 0;
   Simulation simulation = build(std::move(spec), std::move(particles));
-  if (ranks::own() != 0) return follow(*simulation.formulation);
+  if (ranks::own() != 0) return follow(simulation);
   RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
                          .resume = false,
                          .force = options.force,

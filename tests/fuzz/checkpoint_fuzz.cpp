@@ -11,14 +11,13 @@ using namespace piola;
 
 void write_odd_checkpoint(fuzz::Choices& choices, std::filesystem::path const& path) {
   fuzz::OddFile file(path, choices);
-  std::int64_t const layout = 3, whole = 1;
+  std::int64_t const layout = 4, whole = 1;
   double const number = 0.5;
   file.attribute("/", "piola_checkpoint", H5T_NATIVE_INT64, &layout);
   file.text("/", "version", "0.1.0");
   file.text("/", "machine", "v3 of a processor with v4");
   for (char const* name : {"step", "cut_to_end"}) file.attribute("/", name, H5T_NATIVE_INT64, &whole);
-  for (char const* name : {"time", "dt", "first_dt", "wall_seconds", "stepping_seconds"})
-    file.attribute("/", name, H5T_NATIVE_DOUBLE, &number);
+  for (char const* name : {"time", "dt", "first_dt"}) file.attribute("/", name, H5T_NATIVE_DOUBLE, &number);
   file.dataset("/case", H5T_NATIVE_CHAR, {5}, std::vector<char>{'a', '=', '1', '0', '\n'});
   for (char const* group : {"/state", "/observers"}) {
     if (choices.next(3) == 1) continue;

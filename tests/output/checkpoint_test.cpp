@@ -74,6 +74,37 @@ TEST(Checkpoint, TakesTheStateWhileItIsWritten) {
   EXPECT_EQ(read_text_file(folder / "a.h5"), read_text_file(folder / "b.h5"));
 }
 
+TEST(Checkpoint, ByteEqualWhateverTimeTheRunTook) {
+  testing::TemporaryFolder const folder;
+  Checkpoint slow = sample(5);
+  slow.wall_seconds = 1e4;
+  slow.stepping_seconds = 0.1;
+  keep_checkpoint(folder / "quick", sample(5));
+  keep_checkpoint(folder / "slow", slow);
+  EXPECT_EQ(testing::text_of(checkpoint_path(folder / "quick", 5)),
+            testing::text_of(checkpoint_path(folder / "slow", 5)));
+  auto const taken = [&](char const* name) {
+    std::array<double, 2> seconds{};
+    std::vector<std::string> warnings;
+    use_newest_checkpoint(folder / name, warnings, [&](Checkpoint const& c) {
+      seconds = {c.wall_seconds, c.stepping_seconds};
+      return true;
+    });
+    EXPECT_TRUE(warnings.empty());
+    return seconds;
+  };
+  EXPECT_EQ(taken("quick"), (std::array{7.0, 0.0}));
+  EXPECT_EQ(taken("slow"), (std::array{1e4, 0.1}));
+  // Nothing that a run computes depends on it.
+  auto const file = folder / "slow" / "checkpoints" / durations_name;
+  for (char const* text : {"", "step\n5 nan 1\n", "step\n5 17", "step\n6 17 18\n"}) {
+    write_text(file, text);
+    EXPECT_EQ(taken("slow"), (std::array{0.0, 0.0})) << text;
+  }
+  std::filesystem::remove(file);
+  EXPECT_EQ(taken("slow"), (std::array{0.0, 0.0}));
+}
+
 TEST(Checkpoint, KeepsTheLastTwo) {
   testing::TemporaryFolder const folder;
   for (std::int64_t step : {5, 90, 1000}) keep_checkpoint(folder.path(), sample(step));
@@ -81,6 +112,8 @@ TEST(Checkpoint, KeepsTheLastTwo) {
   ASSERT_EQ(list.size(), 2U);
   EXPECT_EQ(list[0].filename(), "000001000.h5");
   EXPECT_EQ(list[1].filename(), "000000090.h5");
+  std::string const times = testing::text_of(folder / "checkpoints" / durations_name);
+  EXPECT_EQ(times.substr(times.find('\n')), "\n90 7 0\n1000 7 0\n");
 }
 
 TEST(Checkpoint, NoFlippedBitPassesWhereverItIs) {

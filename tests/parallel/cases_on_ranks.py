@@ -71,6 +71,39 @@ strength = "0.2 MPa"
 toughness = "30 J/m^2"
 """
 
+
+
+def probe(name, body, kind, more=""):
+    return f'[[probe]]\nname = "{name}"\nbody = "{body}"\nkind = "{kind}"\n{more}\n'
+
+
+# Every kind of probe; of two bodies, one of which each rank has a part of, and of fields that one of them lacks.
+POINTS = 'quantities = ["velocity_x", "principal_stress_1", "contact_pressure", "FIELD", "cauchy_stress_xy"]'
+PROBED = TOUCHING + "".join(
+    probe(f"{kind}_{body}", body, kind, more.replace("FIELD", own))
+    for body, x, own in (("left", 9, "density"), ("right", 29, "cell_pressure")) for kind, more in (
+        ("point", f'at = ["{x} mm", "9 mm", "9 mm"]\n' + POINTS), ("average", POINTS), ("minimum", POINTS),
+        ("maximum", 'where = "X > 11e-3"\n' + POINTS), ("twist", ""), ("extent", 'axis = "x"'),
+        ("error", 'field = "Velocity"\nreference = ["20*cos(1e5*t)", "Y", "X"]'),
+        ("spacing", ""), ("fragment", "link = 1.2"),
+        ("rim", 'axis = "z"\nat = ["0 mm", "0 mm", "0 mm"]\nanchored_where = "Z < 0.004"\nwithin = "15 mm"\n'
+                'base = "1 mm"'))) + '[output.history]\nevery = "1e-12 s"\n'
+PROBED_PLATE = """title = "Plate of copper that is pulled, with probes of plates"
+[run]
+end = "1 ms"
+[[body]]
+name = "plate"
+shape = { box = { min = ["0 mm", "0 mm"], max = ["40 mm", "20 mm"] }, spacing = "1 mm" }
+material = { name = "copper_ofhc", damage = "none" }
+formulation = { name = "jst_sph" }
+initial_velocity = ["5000*X", "0"]
+""" + probe("ahead", "plate", "stress_intensity", 'at = ["10 mm", "10 mm"]\nfrom = "1 mm"\nto = "20 mm"') + probe(
+    "hole", "plate", "hole", 'axis = "x"\nat = ["0 mm", "10 mm"]\nslab_from = "5 mm"\nslab_to = "9 mm"') + probe(
+    "lowest", "plate", "minimum", 'where = "Y > 15e-3"\nquantities = ["pressure", "position_magnitude"]') + """
+[output.history]
+every = "1e-12 s"
+"""
+
 DISC = """title = "Disc of a jittered cloud that rolls"
 [run]
 end = "10 ms"
@@ -357,6 +390,8 @@ def of_taylor(setting, jitter=0):
 OWN_CASES = {name: text + OUTPUT for name, text in {
     "touching bodies": TOUCHING,
     "glued to a plate": GLUED,
+    "probed bodies": PROBED,
+    "probed plate": PROBED_PLATE,
     "rolling disc": DISC,
     "mirrored copper": MIRRORED,
     "copper that comes to rest": MIRRORED.replace("[run]", "[run]\nrelax = true"),

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What tests of ranks share: starting Piola on several, and comparing what runs have computed."""
 import hashlib
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -63,7 +65,7 @@ def piola(ranks, *words, threads=1):
 
 
 def checkpoint(file):
-    """Everything in it but how long the run took."""
+    """What is in it, by name."""
     found = {}
     with h5py.File(file) as h:
         h.visititems(lambda name, item: found.update({name: np.asarray(item).tobytes()})
@@ -71,17 +73,28 @@ def checkpoint(file):
     return {name: hashlib.sha256(data).hexdigest() for name, data in found.items()}
 
 
+def words_of(file):
+    """A log or a summary without what depends on how fast the run was, or on how many it was shared."""
+    text = file.read_text().replace(f"{file.parent}/", "")
+    if file.name == "log.txt":
+        return re.sub(r", [\d.]+ [^,]+ of wall time|\d+ thread", "", text)
+    summary = json.loads(text)
+    for name in ("wall_seconds", "stages_per_second", "seconds", "threads", "ranks"):
+        summary.pop(name, None)
+    return json.dumps(summary)
+
+
 def contents(folder):
-    """What a run has computed, by name."""
+    """What a run has left, by name: all bytes of history, frames, checkpoints, pictures; words without times."""
     found = {}
     for file in sorted(folder.rglob("*")):
         name = str(file.relative_to(folder))
-        if not file.is_file() or name in ("log.txt", "summary.json"):
+        if not file.is_file() or name == "checkpoints/wall_times.txt":
             continue
-        if file.suffix == ".h5":
+        data = words_of(file).encode() if name in ("log.txt", "summary.json") else file.read_bytes()
+        found[name] = hashlib.sha256(data).hexdigest()
+        if file.suffix == ".h5":  # says which data set differs
             found.update({f"{name} {key}": value for key, value in checkpoint(file).items()})
-        else:
-            found[name] = hashlib.sha256(file.read_bytes()).hexdigest()
     return found
 
 

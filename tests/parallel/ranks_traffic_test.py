@@ -53,6 +53,11 @@ def meeting():
     return {"rubbing": ending(RUBBING, "1.5 us"), "rubbing, jst_sph": ending(rubbing, "1.5 us"),
             "triangles": ending(of_taylor(""), "4 ms"),
             "boxes": ending(of_taylor(', virtual_particles = "lattice_cells"'), "4 ms"),
+            "fixed triangles": ending(of_taylor(', configuration = "fixed"'), "4 ms"),
+            "estimates, triangles": ending(
+                of_taylor(', exchange = "estimates", virtual_particles = "delaunay"', 0.15), "4 ms"),
+            "estimates, boxes": ending(
+                of_taylor(', exchange = "estimates", virtual_particles = "lattice_cells"'), "4 ms"),
             "adaptle": ending(lagrangian, "0.4 us"), "adaptle, flowing": ending(flowing, "1.5 us"),
             "adaptle, corrected": ending(flowing.replace('"eulerian"', '"eulerian", correction = "mixed"'), "1.5 us")}
 

@@ -62,6 +62,65 @@ TEST(Probe, TakesThePointNearestToAPlace) {
   EXPECT_DOUBLE_EQ(values[3], 2);
 }
 
+/// What a rank owns of a body.
+class Share : public testing::Springs {
+ public:
+  Share(ParticleSet const& set, std::vector<std::int64_t> ids) : Springs(set), ids_(std::move(ids)) {}
+  std::optional<std::vector<std::int64_t>> owned() const override { return ids_; }
+  void sample_owned(std::string_view field, std::span<double> values) const override {
+    auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
+    std::vector<double> all(width * 16);
+    sample(field, all);
+    for (std::size_t k = 0; k < ids_.size(); ++k)
+      std::copy_n(&all[static_cast<std::size_t>(ids_[k]) * width], width, &values[k * width]);
+  }
+
+ private:
+  std::vector<std::int64_t> ids_;
+};
+
+TEST(Probe, LooksAtItsShareAlone) {
+  ParticleSet const set = testing::make_plate(4);
+  Share const share(set, {9, 2, 14, 5});
+  auto const of_share = [&](ProbeSpec const& s) {
+    Probe probe(s, set);
+    EXPECT_TRUE(probe.adds_up());
+    probe.share(share.owned());
+    FieldCache cache(share, set, FieldCache::Of::owned);
+    return probe.evaluate(cache);
+  };
+  auto s = spec(ProbeSpec::Kind::maximum, {"position_x", "position_y", "velocity_magnitude"});
+  EXPECT_EQ(of_share(s), (std::vector{2.0, 3.0, std::hypot(0.1, 0.2)}));
+  s.kind = ProbeSpec::Kind::average;
+  s.where.emplace("X > 0.5");
+  EXPECT_DOUBLE_EQ(of_share(s)[0], (1 + 2 + 2 + 1) / 4.0);
+  s.where.emplace("X > 1.5");
+  EXPECT_DOUBLE_EQ(of_share(s)[1], (0 + 3) / 2.0);
+  s.kind = ProbeSpec::Kind::point;
+  s.where.reset();
+  s.at = {2.2, 2.9, 0};
+  EXPECT_EQ(of_share(s)[1], 3);
+  s.at = {0, 0, 0};
+  EXPECT_EQ(of_share(s)[1], 0);  // somebody else's
+}
+
+TEST(Probe, ExtremaDoNotDependOnTheOrder) {
+  ParticleSet const set = testing::make_plate(2);
+  class Odd : public testing::Springs {
+   public:
+    using Springs::Springs;
+    void sample(std::string_view, std::span<double> values) const override {
+      double const v[]{std::nan(""), 0.0, -0.0, -0.0};
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = v[i / 3];
+    }
+  };
+  for (auto const kind : {ProbeSpec::Kind::minimum, ProbeSpec::Kind::maximum}) {
+    double const value = evaluate(spec(kind, {"velocity_y"}), Odd(set), set)[0];
+    EXPECT_EQ(value, 0);
+    EXPECT_FALSE(std::signbit(value));
+  }
+}
+
 TEST(Probe, WeightsAnAverageByTributaryVolume) {
   ParticleSet set = testing::make_plate(2);
   set.volume = {1, 3, 0, 0};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace piola {
@@ -133,6 +134,8 @@ class Ensemble : public Formulation {
   std::vector<FieldInfo> fields() const override;
   std::vector<FieldInfo> fields_of(std::size_t body) const override;
   void sample(std::string_view field, std::span<double> values) const override;
+  std::optional<std::vector<std::int64_t>> owned() const override;
+  void sample_owned(std::string_view field, std::span<double> values) const override;
   void save(StateWriter& writer) const override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       PartWriter part(writer, parts_[k].name + ".");
@@ -188,6 +191,7 @@ class Ensemble : public Formulation {
     }
     return all > 0 ? sum / all : 0;
   }
+  std::vector<std::int64_t> owned_of(std::size_t part) const;
   std::vector<Action> actions_of(std::vector<Diagnostics> const& of_parts) const;
   std::vector<FieldInfo> with_contact(std::vector<FieldInfo> all) const;
 
@@ -333,6 +337,47 @@ void Ensemble::sample(std::string_view field, std::span<double> values) const {
       std::copy_n(own.begin() + block.here * info->components, block.count * info->components,
                   values.begin() + block.there * info->components);
   }
+}
+
+std::optional<std::vector<std::int64_t>> Ensemble::owned() const {
+  if (!ranks::several()) return std::nullopt;
+  std::vector<std::int64_t> all;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    for (std::int64_t const id : owned_of(k)) all.push_back(parts_[k].id_in_whole(id));
+  return all;
+}
+
+void Ensemble::sample_owned(std::string_view field, std::span<double> values) const {
+  if (!ranks::several()) return sample(field, values);
+  auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
+  auto const infos = Meeting::fields();
+  if (meeting_ && std::any_of(infos.begin(), infos.end(), [&](FieldInfo const& f) { return f.name == field; })) {
+    double particles = 0;
+    for (double const count : counts_) particles += count;
+    std::vector<double> all(static_cast<std::size_t>(particles) * width, 0);  // every rank has them
+    meeting_->sample(field, all);
+    auto const mine = *owned();
+    for (std::size_t k = 0; k < mine.size(); ++k)
+      std::copy_n(&all[static_cast<std::size_t>(mine[k]) * width], width, &values[k * width]);
+    return;
+  }
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    auto const here = values.first(owned_of(k).size() * width);
+    values = values.subspan(here.size());
+    auto const known = formulations_[k]->fields();
+    if (std::any_of(known.begin(), known.end(), [&](FieldInfo const& f) { return f.name == field; }))
+      formulations_[k]->sample_owned(field, here);
+    else
+      std::fill(here.begin(), here.end(), 0.0);
+  }
+}
+
+/// Of a part, in its own numbers.
+std::vector<std::int64_t> Ensemble::owned_of(std::size_t part) const {
+  if (auto ids = formulations_[part]->owned()) return *std::move(ids);
+  std::vector<std::int64_t> all(static_cast<std::size_t>(counts_[part]));
+  std::iota(all.begin(), all.end(), std::int64_t{0});
+  return all;
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ struct FieldInfo {
   int components;    ///< 1 scalar, 3 vector, 6 symmetric tensor (XX YY ZZ XY YZ XZ), 9 tensor (row by row)
 };
 
+/// That of this name. Throws std::invalid_argument if there is none.
+FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view name);
+
 /// What one body has of the quantities below.
 struct BodyShare {
   std::string name;
@@ -140,6 +143,11 @@ class Formulation {
   virtual std::vector<FieldInfo> fields_of(std::size_t /*body*/) const { return fields(); }
   /// Values of one field, particle by particle: values[id * components + c]; ranks other than 0 give no room for them.
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
+  /// The particles that this rank looks at for observers, of which all ranks together have each once; the same all
+  /// through a run. Nothing: all of them, in Id order.
+  virtual std::optional<std::vector<std::int64_t>> owned() const;
+  /// Values of one field of those: values[k * components + c] of the k-th. All ranks call it.
+  virtual void sample_owned(std::string_view field, std::span<double> values) const { sample(field, values); }
 
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;

@@ -4,13 +4,15 @@
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <new>
 
 namespace piola {
 namespace {
 
-constexpr std::int64_t layout_version = 3;
+constexpr std::int64_t layout_version = 4;
 
 /// Puts arrays into a group of a file.
 class GroupWriter : public StateWriter {
@@ -39,6 +41,46 @@ NamedState get_state(hdf5::Reader const& file, std::string const& group) {
     state.put(file.text(path, "name"), file.dataset<double>(path));
   }
   return state;
+}
+
+/// How long runs took: step, seconds of wall time, of these in steps.
+struct Duration {
+  std::int64_t step;
+  double wall, stepping;
+};
+
+std::filesystem::path durations_path(std::filesystem::path const& results) {
+  return results / "checkpoints" / durations_name;
+}
+
+/// Nothing of a file that is not there or not whole: no number of a run depends on it.
+std::vector<Duration> read_durations(std::filesystem::path const& results) {
+  std::ifstream file(durations_path(results));
+  std::string headline;
+  std::getline(file, headline);
+  std::vector<Duration> list;
+  for (Duration d{}; file >> d.step >> d.wall >> d.stepping && std::isfinite(d.wall + d.stepping);) list.push_back(d);
+  return list;
+}
+
+/// Adds a line for this checkpoint; those of checkpoints that are gone go, too.
+void keep_duration(std::filesystem::path const& results, Checkpoint const& checkpoint) {
+  std::string text = "step, wall time [s], of it in steps [s]; of each checkpoint\n";
+  auto const add = [&](Duration const& d) { text += fmt::format("{} {} {}\n", d.step, d.wall, d.stepping); };
+  for (Duration const& d : read_durations(results)) {
+    std::error_code not_known;
+    if (d.step != checkpoint.step && std::filesystem::exists(checkpoint_path(results, d.step), not_known)) add(d);
+  }
+  add({checkpoint.step, checkpoint.wall_seconds, checkpoint.stepping_seconds});
+  write_whole_file(durations_path(results), text);
+}
+
+void find_duration(std::filesystem::path const& results, Checkpoint& checkpoint) {
+  for (Duration const& d : read_durations(results)) {
+    if (d.step != checkpoint.step) continue;
+    checkpoint.wall_seconds = d.wall;
+    checkpoint.stepping_seconds = d.stepping;
+  }
 }
 
 }  // namespace
@@ -77,8 +119,6 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
   file.attribute("/", "dt", c.dt);
   file.attribute("/", "first_dt", c.first_dt);
   file.attribute("/", "cut_to_end", std::array<std::int64_t, 1>{c.cut_to_end ? 1 : 0});
-  file.attribute("/", "wall_seconds", c.wall_seconds);
-  file.attribute("/", "stepping_seconds", c.stepping_seconds);
   file.dataset<char>("/case", std::span<char const>(c.source));
   GroupWriter state(file, "/state");
   if (save)
@@ -104,8 +144,6 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
   c.dt = file.number("/", "dt");
   c.first_dt = file.number("/", "first_dt");
   c.cut_to_end = file.integer("/", "cut_to_end") != 0;
-  c.wall_seconds = file.number("/", "wall_seconds");
-  c.stepping_seconds = file.number("/", "stepping_seconds");
   auto const source = file.dataset<char>("/case");
   c.source.assign(source.begin(), source.end());
   c.state = get_state(file, "/state");
@@ -136,6 +174,7 @@ void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& che
   auto const all = list_checkpoints(results);
   std::error_code kept_all_the_same;
   for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k], kept_all_the_same);
+  keep_duration(results, checkpoint);
 }
 
 bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
@@ -144,6 +183,7 @@ bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std
   for (auto const& path : list_checkpoints(results)) {
     try {
       Checkpoint checkpoint = read_checkpoint(path);
+      find_duration(results, checkpoint);
       if (use(checkpoint)) return true;
       declined = true;
     } catch (InputError const&) {

@@ -31,7 +31,7 @@ struct Checkpoint {
   std::int64_t step = 0;
   double dt = 0;                                  ///< s, the last step
   double first_dt = 0;                            ///< s, the first stable step: the measure of a collapsed one
-  double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far
+  double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far; in a file of their own (durations_name)
   bool cut_to_end = false;                        ///< the last step has its length from the end of the run
   std::string version;                            ///< of the program that wrote it
   std::string machine;                            ///< instruction sets used and available when it was written
@@ -51,7 +51,11 @@ Checkpoint read_checkpoint(std::filesystem::path const& path);
 std::filesystem::path checkpoint_path(std::filesystem::path const& results, std::int64_t step);
 /// Checkpoint files of a results folder, newest first; that of a failed state is not among them.
 std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results);
-/// Writes the checkpoint of its step and removes all but the last two.
+/// Beside the checkpoints: how long the run took up to each of them, which is all that differs between two runs of the
+/// same case on the same machine, so that their checkpoints are equal byte by byte.
+inline constexpr char const* durations_name = "wall_times.txt";
+
+/// Writes the checkpoint of its step and how long the run took, and removes all but the last two.
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint,
                      std::function<void(StateWriter&)> const& save = {});
 /// Hands the newest checkpoint to `use`. One that is damaged, or that `use` throws at, is passed over for the one

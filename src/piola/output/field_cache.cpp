@@ -3,13 +3,12 @@
 #include "piola/formulations/quantity_names.hpp"
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <stdexcept>
 
 namespace piola {
 
-FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& particles)
-    : formulation_(formulation), particles_(particles), fields_(formulation.fields()) {
+FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of)
+    : formulation_(formulation), particles_(particles), fields_(formulation.fields()), of_(of) {
+  if (of == Of::owned) owned_ = formulation.owned();
   auto const add = [&](FieldInfo info) {
     if (!knows(info.name)) fields_.push_back(std::move(info));
   };
@@ -24,29 +23,27 @@ bool FieldCache::knows(std::string_view field) const {
   return std::any_of(fields_.begin(), fields_.end(), [&](FieldInfo const& f) { return f.name == field; });
 }
 
-FieldInfo const& FieldCache::info(std::string_view field) const {
-  auto const found = std::find_if(fields_.begin(), fields_.end(), [&](FieldInfo const& f) { return f.name == field; });
-  if (found == fields_.end()) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
-  return *found;
-}
+FieldInfo const& FieldCache::info(std::string_view field) const { return info_of(fields_, field); }
 
 std::vector<double> FieldCache::make(std::string_view field, std::size_t components) {
-  auto const count = static_cast<std::size_t>(particles_.size());
+  auto const count = owned_ ? owned_->size() : static_cast<std::size_t>(particles_.size());
+  auto const id_of = [&](std::size_t k) { return owned_ ? static_cast<std::size_t>((*owned_)[k]) : k; };
   std::vector<double> out(count * components);
   if (field == "Body") {
-    std::transform(particles_.body.begin(), particles_.body.end(), out.begin(),
-                   [](int body) { return static_cast<double>(body); });
+    for (std::size_t i = 0; i < count; ++i) out[i] = particles_.body[id_of(i)];
   } else if (field == "Id") {
-    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(i);
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(id_of(i));
   } else if (field == "Position") {
     auto const displacement = values("Displacement");
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = particles_.X[i / 3][i % 3] + displacement[i];
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = particles_.X[id_of(i / 3)][i % 3] + displacement[i];
   } else if (auto const derived = std::find_if(derived_fields().begin(), derived_fields().end(),
                                                [&](DerivedField const& d) { return d.name == field; });
              derived != derived_fields().end()) {
     auto const width = static_cast<std::size_t>(info(derived->from).components);
     auto const from = values(derived->from);
     for (std::size_t i = 0; i < count; ++i) derived->put(&from[i * width], &out[i * components]);
+  } else if (of_ == Of::owned) {
+    formulation_.sample_owned(field, out);
   } else {
     formulation_.sample(field, out);
   }

@@ -2,7 +2,9 @@
 #pragma once
 #include "piola/formulations/formulation.hpp"
 #include "piola/particles/particle_set.hpp"
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +15,10 @@ namespace piola {
 /// (X + Displacement [m]), "Body" and "Id". Valid until the next step.
 class FieldCache {
  public:
-  FieldCache(Formulation const& formulation, ParticleSet const& particles);
+  /// Values of all particles, or of those that this rank owns (Formulation::owned): then all ranks ask for the same
+  /// fields, in the same order, and `id` below is the place among those.
+  enum class Of { all, owned };
+  FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of = Of::all);
   bool knows(std::string_view field) const;
   /// Throws std::invalid_argument for a field that is not known.
   FieldInfo const& info(std::string_view field) const;
@@ -27,6 +32,8 @@ class FieldCache {
   Formulation const& formulation_;
   ParticleSet const& particles_;
   std::vector<FieldInfo> fields_;
+  Of of_;
+  std::optional<std::vector<std::int64_t>> owned_;  ///< nothing: all
   std::map<std::string, std::vector<double>, std::less<>> cache_;
 };
 

@@ -37,6 +37,41 @@ void complete_slots(FieldRef const& field, int components, Range whole) {
   for (int c = 0; c < components; ++c) complete_slots(field.data + c * field.component_stride, 1, whole);
 }
 
+std::vector<double> complete_slots(std::span<SlotArray const> arrays, std::span<double const> said) {
+  if (!ranks::several()) return {said.begin(), said.end()};
+  // f(values of this rank's slots of an array, how many), array after array.
+  auto const each = [&](int rank, auto const& f) {
+    for (SlotArray const& array : arrays) {
+      Range const part = part_of(array.whole, rank);
+      f(array.data + part.first * array.size, (part.last - part.first) * array.size);
+    }
+  };
+  std::vector<std::size_t> starts{0};
+  for (int rank = 0; rank < ranks::count(); ++rank) {
+    std::size_t count = said.size();
+    each(rank, [&](double const*, std::ptrdiff_t numbers) { count += static_cast<std::size_t>(numbers); });
+    starts.push_back(starts.back() + count);
+  }
+  static std::vector<double> values;  // kept, because large ones come from the system, page by page, each time
+  values.resize(starts.back());
+  auto const own = static_cast<std::size_t>(ranks::own());
+  auto to = std::copy(said.begin(), said.end(), values.begin() + static_cast<std::ptrdiff_t>(starts[own]));
+  each(ranks::own(), [&](double const* of, std::ptrdiff_t numbers) { to = std::copy_n(of, numbers, to); });
+  ranks::complete(values, starts);
+  std::vector<double> of_all;
+  for (int rank = 0; rank < ranks::count(); ++rank) {
+    auto from = values.cbegin() + static_cast<std::ptrdiff_t>(starts[static_cast<std::size_t>(rank)]);
+    of_all.insert(of_all.end(), from, from + static_cast<std::ptrdiff_t>(said.size()));
+    from += static_cast<std::ptrdiff_t>(said.size());
+    if (rank == ranks::own()) continue;
+    each(rank, [&](double* into, std::ptrdiff_t numbers) {
+      std::copy_n(from, numbers, into);
+      from += numbers;
+    });
+  }
+  return of_all;
+}
+
 void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some) {
   if (!ranks::several() || some.slots.empty()) return;
   std::size_t width = 0;

@@ -3,7 +3,11 @@
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
 #include "piola/parallel/ranks.hpp"
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 /// A body of which every rank has all slots, in the same order, and works on some of them: what the ranks have to tell
@@ -20,6 +24,33 @@ Range own_part(Range whole);
 void complete_slots(double* data, std::ptrdiff_t size, Range whole);
 /// Of a field that is not tiled.
 void complete_slots(FieldRef const& field, int components, Range whole);
+
+/// `size` values per slot, of slot i at data[i * size], of the slots of a range.
+struct SlotArray {
+  double* data;
+  std::ptrdiff_t size;
+  Range whole;
+};
+/// The same of several arrays, in one message; what each rank says besides goes with it, and comes back as that of rank
+/// 0, that of rank 1, and so on.
+std::vector<double> complete_slots(std::span<SlotArray const> arrays, std::span<double const> said = {});
+
+/// The same of what has `void add(T const&)`, exact sums for example: afterwards `sum` is that of all ranks.
+template <class T>
+void complete_slots_and_add(std::span<SlotArray const> arrays, T& sum) {
+  using Numbers = std::array<double, sizeof(T) / 8>;
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(Numbers) == sizeof(T), "it travels as numbers");
+  if (!ranks::several()) return;
+  Numbers said = std::bit_cast<Numbers>(sum);
+  std::vector<double> const all = complete_slots(arrays, said);
+  for (std::size_t first = 0; first < all.size(); first += said.size()) {
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), said.size(), said.begin());
+    if (first == 0)
+      sum = std::bit_cast<T>(said);
+    else
+      sum.add(std::bit_cast<T>(said));
+  }
+}
 
 /// Some of the slots of several bodies, which all ranks name alike: those of rank 0, then those of rank 1, and so on.
 struct SlotsOfRanks {

@@ -3,11 +3,10 @@
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/formulations/doubts.hpp"
 #include "piola/formulations/make.hpp"
-#include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/simulation/probes.hpp"
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -154,17 +153,13 @@ bool observed_by_share(BodySpec const& body) {
   return info && info->observed_by_share;
 }
 
-/// Numbers per particle that probes ask for in each row.
-double probed_numbers(CaseSpec const& spec, std::vector<FieldInfo> const& fields) {
-  std::set<std::string_view> asked;
-  for (ProbeSpec const& probe : spec.probes)
-    for (std::string const& word : probe.quantities)
-      if (auto const quantity = find_quantity(word)) asked.insert(quantity->field);
-  double numbers = 0;
-  for (FieldInfo const& field : fields)
-    if (asked.contains(field.name) || (field.name == "Displacement" && asked.contains("Position")))
-      numbers += field.components;
-  return numbers;
+/// Numbers per particle that rank 0 gets for a row: of probes that must see all particles, their displacements, and
+/// velocities of fragments. Of what adds up ranks tell a few sums.
+double probed_numbers(CaseSpec const& spec) {
+  auto const asked = [&](auto const& is) { return std::any_of(spec.probes.begin(), spec.probes.end(), is); };
+  bool const positions = asked([](ProbeSpec const& probe) { return !adds_up(probe.kind); });
+  bool const velocities = asked([](ProbeSpec const& probe) { return probe.kind == ProbeSpec::Kind::fragment; });
+  return (positions ? 3 : 0) + (velocities ? 3 : 0);
 }
 
 /// `side`: processor time of one right-hand side, `tables`: of what comes before [s].
@@ -248,7 +243,7 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
   e.disk = disk_of(spec, formulation, n, n > 0 ? counter.values / n : 0);
   e.row_bytes = 8 * counter.values;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) e.talk.push_back(formulation.talk(b));
-  count_work(spec, particles, formulation.stages_per_step(), probed_numbers(spec, formulation.fields()), e);
+  count_work(spec, particles, formulation.stages_per_step(), probed_numbers(spec), e);
   return e;
 }
 
@@ -287,7 +282,7 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
   constexpr std::array part_size{4000, 100, 24};
   Estimate e;
   e.threads = threads;
-  double stages = 1, probed = 0;
+  double stages = 1;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Assembly a;
     a.cfl = spec.run.cfl;
@@ -307,12 +302,11 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
     e.disk += disk_of(spec, *formulation, all, counter.values / some);
     e.row_bytes += 8 * counter.values * all / some;
-    probed = std::max(probed, probed_numbers(spec, formulation->fields()));
     e.talk.push_back(formulation->talk(0));
     if (e.talk.back()) e.talk.back()->to_all *= all / some;
   }
   e.steps = steps_of(e.rule, spec.run);
-  count_work(spec, particles, stages, probed, e);
+  count_work(spec, particles, stages, probed_numbers(spec), e);
   return e;
 }
 

@@ -28,9 +28,9 @@ void take_units(CaseSpec const& spec, std::vector<HistoryColumn>& columns) {
 }  // namespace
 
 HistoryObserver::HistoryObserver(Results results)
-    : results_(std::move(results)), schedule_(history_interval(results_.spec)) {
-  for (ProbeSpec const& probe : results_.spec.probes) probes_.emplace_back(probe, results_.particles);
-}
+    : results_(std::move(results)),
+      schedule_(history_interval(results_.spec)),
+      probes_(results_.spec, results_.particles) {}
 
 void HistoryObserver::open(Formulation const& formulation, std::optional<double> resume_time) {
   last_ = formulation.diagnose();
@@ -38,7 +38,7 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
   seen_at_start_ = !resume_time;
   auto columns = diagnostic_columns(*last_);
   take_units(results_.spec, columns);
-  for (Probe const& probe : probes_) {
+  for (Probe const& probe : probes_.probes()) {
     auto const more = probe.columns();
     columns.insert(columns.end(), more.begin(), more.end());
   }
@@ -55,11 +55,7 @@ void HistoryObserver::write_row(Formulation const& formulation, Moment const& mo
   if (!seen_at_start_ || moment.step > 0) last_ = formulation.diagnose();
   last_step_ = moment.step;
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
-  FieldCache cache(formulation, results_.particles);
-  for (Probe& probe : probes_) {
-    auto const more = probe.evaluate(cache, moment.time);
-    row.insert(row.end(), more.begin(), more.end());
-  }
+  for (auto const& more : probes_.evaluate(formulation, moment.time)) row.insert(row.end(), more.begin(), more.end());
   for (std::string const& column : file_->append(row)) {
     if (!warned_.insert(column).second) continue;
     results_.journal.warn(
@@ -80,7 +76,7 @@ void HistoryObserver::finish(Formulation const& formulation, Moment const& momen
 
 void HistoryObserver::save(StateWriter& writer) const {
   std::vector<double> angles;
-  for (Probe const& probe : probes_) angles.push_back(probe.state());
+  for (Probe const& probe : probes_.probes()) angles.push_back(probe.state());
   writer.put("probe_angles", angles);
   HistoryMark const mark = file_->mark();
   writer.put("history_file", std::array{static_cast<double>(mark.rows), static_cast<double>(mark.bytes),
@@ -89,9 +85,10 @@ void HistoryObserver::save(StateWriter& writer) const {
 
 void HistoryObserver::load(NamedState& reader, Moment const& moment) {
   schedule_.start_after(moment.time);
-  std::vector<double> angles(probes_.size());
+  std::vector<Probe>& probes = probes_.probes();
+  std::vector<double> angles(probes.size());
   reader.get("probe_angles", angles);
-  for (std::size_t k = 0; k < probes_.size(); ++k) probes_[k].restore(angles[k]);
+  for (std::size_t k = 0; k < probes.size(); ++k) probes[k].restore(angles[k]);
   std::array<double, 3> mark{};
   reader.get("history_file", mark);
   mark_ = {static_cast<std::uint64_t>(mark[0]), static_cast<std::uint64_t>(mark[1]),

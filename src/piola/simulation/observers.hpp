@@ -8,7 +8,7 @@
 #include "piola/simulation/journal.hpp"
 #include "piola/simulation/moment.hpp"
 #include "piola/simulation/objection.hpp"
-#include "piola/simulation/probes.hpp"
+#include "piola/simulation/probe_row.hpp"
 #include "piola/simulation/schedule.hpp"
 #include "piola/simulation/wall_limit.hpp"
 #include <atomic>
@@ -68,7 +68,7 @@ class HistoryObserver : public Observer {
   void write_row(Formulation const& formulation, Moment const& moment);
   Results results_;
   Schedule schedule_;
-  std::vector<Probe> probes_;
+  ProbeRow probes_;
   std::optional<HistoryFile> file_;
   HistoryMark mark_;              ///< of the checkpoint that the run was resumed from
   std::set<std::string> warned_;  ///< columns with cells that were not numbers

@@ -4,6 +4,7 @@
 #include "piola/exec/exact_sum.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/probe_quantities.hpp"
+#include "piola/parallel/ranks.hpp"
 #include "piola/simulation/fragments.hpp"
 #include "piola/simulation/hole.hpp"
 #include "piola/simulation/stress_intensity.hpp"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace piola {
 namespace {
@@ -70,15 +72,15 @@ std::vector<std::size_t> own_of(ProbeSpec const& spec) {
   return list;
 }
 
-Point centroid(std::vector<std::int64_t> const& ids, std::vector<double> const& weight, auto const& position) {
-  exec::ExactSums<4> sums;
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    double const w = weight[k];
-    double const of_particle[]{w, w * position(ids[k], 0), w * position(ids[k], 1), w * position(ids[k], 2)};
-    sums.add(of_particle);
+/// Smallest and largest of what was seen, in any order: values that are none do not count.
+struct Extrema {
+  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+  void see(double value) { add({value, value}); }
+  void add(Extrema const& other) {
+    low = std::fmin(low, other.low);
+    high = std::fmax(high, other.high);
   }
-  return {sums.value(1) / sums.value(0), sums.value(2) / sums.value(0), sums.value(3) / sums.value(0)};
-}
+};
 
 }  // namespace
 
@@ -101,6 +103,27 @@ Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
     Point const& X = particles.X[static_cast<std::size_t>(id)];
     distance_.push_back(std::hypot(X[0] - tip[0], X[1] - tip[1]));
   }
+}
+
+void Probe::share(std::optional<std::vector<std::int64_t>> const& owned) {
+  if (!owned) return;
+  std::vector<std::size_t> places(owned->size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return (*owned)[a] < (*owned)[b]; });
+  Probe const whole = *this;
+  ids_.clear();
+  weight_.clear();
+  for (std::size_t k = 0; k < whole.ids_.size(); ++k) {
+    auto const found = std::lower_bound(places.begin(), places.end(), whole.ids_[k],
+                                        [&](std::size_t at, std::int64_t id) { return (*owned)[at] < id; });
+    if (found == places.end() || (*owned)[*found] != whole.ids_[k]) continue;
+    ids_.push_back(whole.ids_[k]);
+    weight_.push_back(whole.weight_[k]);
+    place_.push_back(*found);
+    if (kind_ == ProbeSpec::Kind::stress_intensity) order_.push_back(k);
+  }
+  ids_.shrink_to_fit();
+  weight_.shrink_to_fit();
 }
 
 std::vector<HistoryColumn> Probe::columns() const {
@@ -141,44 +164,64 @@ std::vector<double> Probe::own_values(FieldCache& cache, double time) {
   }
 }
 
+/// Of value(k) of the particles of all ranks. Zeros have no sign, so that it does not matter which comes first.
+std::array<double, 2> Probe::extrema(auto const& value) const {
+  Extrema all;
+  for (std::size_t k = 0; k < ids_.size(); ++k) all.see(value(k));
+  ranks::add(all);
+  return {all.low + 0.0, all.high + 0.0};
+}
+
 double Probe::reduce(std::vector<double> const& values) const {
-  auto const value = [&](std::int64_t id) { return values[static_cast<std::size_t>(id)]; };
-  double const first = value(ids_.front());
-  double low = first, high = first;
+  auto const value = [&](std::size_t k) { return values[place(k)]; };
+  if (kind_ == ProbeSpec::Kind::point) {
+    double of_owner = ids_.empty() ? 0 : value(0);
+    ranks::merge({&of_owner, 1});
+    return of_owner;
+  }
+  if (kind_ == ProbeSpec::Kind::minimum) return extrema(value)[0];
+  if (kind_ == ProbeSpec::Kind::maximum) return extrema(value)[1];
   exec::ExactSums<2> sums;
   for (std::size_t k = 0; k < ids_.size(); ++k) {
-    double const v = value(ids_[k]);
-    low = std::min(low, v);
-    high = std::max(high, v);
-    double const of_particle[]{weight_[k] * v, weight_[k]};
+    double const of_particle[]{weight_[k] * value(k), weight_[k]};
     sums.add(of_particle);
   }
-  switch (kind_) {
-    case ProbeSpec::Kind::minimum: return low;
-    case ProbeSpec::Kind::maximum: return high;
-    case ProbeSpec::Kind::point: return first;
-    default: return sums.value(0) / sums.value(1);
-  }
+  ranks::add(sums);
+  return sums.value(0) / sums.value(1);
 }
 
 /// Angle that turns the reference positions best onto the current ones, seen along the axis, about the centroids:
 /// atan2(sum V X x x, sum V X . x) with both positions projected on the plane across the axis. Right-handed.
 double Probe::twist(FieldCache& cache) {
   auto const x = cache.values("Position");
-  auto const reference = [&](std::int64_t id, std::size_t c) {
-    return cache.particles().X[static_cast<std::size_t>(id)][c];
+  auto const reference = [&](std::size_t k, std::size_t c) {
+    return cache.particles().X[static_cast<std::size_t>(ids_[k])][c];
   };
-  auto const current = [&](std::int64_t id, std::size_t c) { return x[static_cast<std::size_t>(id) * 3 + c]; };
-  Point const X0 = centroid(ids_, weight_, reference), x0 = centroid(ids_, weight_, current);
+  auto const current = [&](std::size_t k, std::size_t c) { return x[place(k) * 3 + c]; };
+  exec::ExactSums<7> means;
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    double of_particle[7]{weight_[k]};
+    for (std::size_t c = 0; c < 3; ++c) {
+      of_particle[1 + c] = weight_[k] * reference(k, c);
+      of_particle[4 + c] = weight_[k] * current(k, c);
+    }
+    means.add(of_particle);
+  }
+  ranks::add(means);
+  Point X0, x0;
+  for (int c = 0; c < 3; ++c) {
+    X0[static_cast<std::size_t>(c)] = means.value(1 + c) / means.value(0);
+    x0[static_cast<std::size_t>(c)] = means.value(4 + c) / means.value(0);
+  }
   std::size_t const i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
   exec::ExactSums<2> products;  // cross and dot
   for (std::size_t k = 0; k < ids_.size(); ++k) {
-    std::int64_t const id = ids_[k];
-    double const Xi = reference(id, i) - X0[i], Xj = reference(id, j) - X0[j];
-    double const xi = current(id, i) - x0[i], xj = current(id, j) - x0[j];
+    double const Xi = reference(k, i) - X0[i], Xj = reference(k, j) - X0[j];
+    double const xi = current(k, i) - x0[i], xj = current(k, j) - x0[j];
     double const of_particle[]{weight_[k] * (Xi * xj - Xj * xi), weight_[k] * (Xi * xi + Xj * xj)};
     products.add(of_particle);
   }
+  ranks::add(products);
   constexpr double turn = 2 * std::numbers::pi;
   double const angle = std::atan2(products.value(0), products.value(1));
   double const unwrapped = angle + turn * std::round((last_angle_ - angle) / turn);
@@ -188,12 +231,7 @@ double Probe::twist(FieldCache& cache) {
 
 double Probe::extent(FieldCache& cache) const {
   auto const x = cache.values("Position");
-  auto const at = [&](std::int64_t id) { return x[static_cast<std::size_t>(id) * 3 + axis_]; };
-  double low = at(ids_.front()), high = low;
-  for (std::int64_t id : ids_) {
-    low = std::min(low, at(id));
-    high = std::max(high, at(id));
-  }
+  auto const [low, high] = extrema([&](std::size_t k) { return x[place(k) * 3 + axis_]; });
   return high - low;
 }
 
@@ -206,12 +244,13 @@ double Probe::relative_error(FieldCache& cache, double time) const {
   for (std::size_t k = 0; k < ids_.size(); ++k) {
     auto const id = static_cast<std::size_t>(ids_[k]);
     for (std::size_t c = 0; c < width; ++c) {
-      double const r = reference_[c](cache.particles().X[id], time), d = f[id * width + c] - r;
+      double const r = reference_[c](cache.particles().X[id], time), d = f[place(k) * width + c] - r;
       double const weight = width == 6 && c >= 3 ? 2 * weight_[k] : weight_[k];
       double const of_component[]{weight * d * d, weight * r * r};
       sums.add(of_component);
     }
   }
+  ranks::add(sums);
   return sums.value(0) == 0 ? 0 : std::sqrt(sums.value(0) / sums.value(1));
 }
 
@@ -220,11 +259,12 @@ double Probe::intensity(FieldCache& cache) const {
   if (!cache.knows("CauchyStress")) return std::numeric_limits<double>::quiet_NaN();
   auto const sigma = cache.values("CauchyStress");  // XX YY ZZ XY YZ XZ
   double const nx = -direction_[1], ny = direction_[0];
-  std::vector<double> stress;
-  for (std::int64_t const id : ids_) {
-    double const* const s = &sigma[static_cast<std::size_t>(id) * 6];
-    stress.push_back(s[0] * nx * nx + s[1] * ny * ny + 2 * s[3] * nx * ny);
+  std::vector<double> stress(distance_.size(), 0);
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    double const* const s = &sigma[place(k) * 6];
+    stress[order_.empty() ? k : order_[k]] = s[0] * nx * nx + s[1] * ny * ny + 2 * s[3] * nx * ny;
   }
+  ranks::merge(stress);
   return stress_intensity(distance_, stress);
 }
 

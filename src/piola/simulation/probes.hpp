@@ -12,6 +12,10 @@
 
 namespace piola {
 
+/// Whether values of this kind are sums and extrema over particles, so that ranks can each look at their own; else one
+/// must see all.
+inline bool adds_up(ProbeSpec::Kind kind) { return kind < ProbeSpec::Kind::spacing; }
+
 /// One [[probe]] of a case, with its particles chosen once from their reference positions.
 class Probe {
  public:
@@ -24,12 +28,19 @@ class Probe {
   std::vector<double> evaluate(FieldCache& cache, double time = 0);
   std::vector<std::int64_t> const& ids() const { return ids_; }
 
+  bool adds_up() const { return piola::adds_up(kind_); }
+  /// From here on it looks at those of its particles alone that this rank owns (Formulation::owned), and evaluate()
+  /// wants a cache of these: all ranks call it then, and all have the bits of one.
+  void share(std::optional<std::vector<std::int64_t>> const& owned);
+
   /// What a later call depends on: the last twist angle [rad].
   double state() const { return last_angle_; }
   void restore(double state) { last_angle_ = state; }
 
  private:
   double reduce(std::vector<double> const& values) const;
+  std::array<double, 2> extrema(auto const& value) const;
+  std::size_t place(std::size_t k) const { return place_.empty() ? static_cast<std::size_t>(ids_[k]) : place_[k]; }
   double twist(FieldCache& cache);
   double extent(FieldCache& cache) const;
   double relative_error(FieldCache& cache, double time) const;
@@ -40,6 +51,8 @@ class Probe {
   std::size_t axis_;
   std::vector<std::int64_t> ids_;
   std::vector<double> weight_;             ///< tributary volumes of ids_
+  std::vector<std::size_t> place_;         ///< of ids_ in a cache of what this rank owns; empty: their ids
+  std::vector<std::size_t> order_;         ///< stress_intensity: of ids_ among those of all ranks; empty: all
   std::vector<FieldQuantity> quantities_;  ///< empty for the kinds with numbers of their own
   std::vector<std::size_t> own_;           ///< which of their own numbers those give
   std::optional<Measured> measured_;       ///< spacing, fragment, rim, hole

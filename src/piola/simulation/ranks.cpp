@@ -2,6 +2,7 @@
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/parallel/agreement.hpp"
+#include "piola/simulation/probe_row.hpp"
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,8 +17,19 @@ namespace {
 
 /// What rank 0 wants of the others.
 struct Order {
-  enum class What : std::int64_t { step, damp, kinetic_energy, diagnose, sample, save, load, traffic, end } what;
-  double first = 0, second = 0;  // time and dt, factor
+  enum class What : std::int64_t {
+    step,
+    damp,
+    kinetic_energy,
+    diagnose,
+    sample,
+    probes,
+    save,
+    load,
+    traffic,
+    end
+  } what;
+  double first = 0, second = 0;  // time and dt, factor, time
   std::int64_t code = 0;
   char field[64]{};  // of sample
 };
@@ -186,6 +198,11 @@ class Conductor final : public Formulation {
     send(order);
     own().sample(field, values);
   }
+  // Of what the others have been told before: with_probes_of_all().
+  std::optional<std::vector<std::int64_t>> owned() const override { return own().owned(); }
+  void sample_owned(std::string_view field, std::span<double> values) const override {
+    own().sample_owned(field, values);
+  }
   void save(StateWriter& writer) const override {
     Aside const aside;
     send({Order::What::save});
@@ -217,7 +234,8 @@ class NoWriter final : public StateWriter {
 
 bool is_for_observers(Order const& order) {
   using enum Order::What;
-  return order.what == diagnose || order.what == sample || order.what == save || order.what == load;
+  return order.what == diagnose || order.what == sample || order.what == probes || order.what == save ||
+         order.what == load;
 }
 
 void obey(Formulation& formulation, Order const& order) {
@@ -296,7 +314,15 @@ std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation)
   return std::make_unique<Conductor>(std::move(formulation));
 }
 
-int follow(Formulation& formulation) {
+void with_probes_of_all(double time, std::function<void()> const& look) {
+  Aside const aside;
+  if (ranks::several() && ranks::own() == 0) send({Order::What::probes, time});
+  look();
+}
+
+int follow(Simulation& simulation) {
+  Formulation& formulation = *simulation.formulation;
+  std::optional<ProbeRow> probes;  // made when rank 0 has made them without complaint
   for (;;) {
     Aside aside;
     Order const order = send({Order::What::end});  // overwritten by what rank 0 sends
@@ -306,7 +332,12 @@ int follow(Formulation& formulation) {
       phase = Phase::over;
       return static_cast<int>(order.code);
     }
-    obey(formulation, order);
+    if (order.what == Order::What::probes) {
+      if (!probes) probes.emplace(simulation.spec, simulation.particles);
+      probes->take_part(formulation, order.first);
+    } else {
+      obey(formulation, order);
+    }
   }
 }
 

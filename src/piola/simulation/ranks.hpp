@@ -4,6 +4,8 @@
 #include "piola/formulations/formulation.hpp"
 #include "piola/output/summary.hpp"
 #include "piola/parallel/ranks.hpp"
+#include "piola/simulation/build.hpp"
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,8 +27,12 @@ void agree_to_go_on();
 /// On rank 0 of several: the formulation as the run sees it. Elsewhere, and on one rank, the formulation itself.
 std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation);
 
+/// On rank 0 of several: the others look at their shares of the probes (ProbeRow), too; then look(). Elsewhere look()
+/// alone. `time` [s].
+void with_probes_of_all(double time, std::function<void()> const& look);
+
 /// On the other ranks: does what rank 0 does until that says the end; returns the exit code that it says.
-int follow(Formulation& formulation);
+int follow(Simulation& simulation);
 
 /// On rank 0 of several that follow: what each of them said in a step since the first one. Elsewhere nothing.
 std::vector<RankTraffic> traffic_on_ranks();

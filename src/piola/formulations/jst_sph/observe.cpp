@@ -226,6 +226,13 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
 
 }  // namespace
 
+void sample_own(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  ObservedField const& found = find_observed(field, offered);
+  observe_each(body, body_number, field, [&](Index i, ObservedParticle const& p) {
+    found.put(p, &values[static_cast<std::size_t>(i - body.own().first) * static_cast<std::size_t>(found.components)]);
+  });
+}
+
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
   ObservedField const& found = find_observed(field, offered);
   if (!body.shared())
@@ -233,9 +240,7 @@ void sample(JstBody const& body, int body_number, std::string_view field, std::s
   auto const width = static_cast<std::size_t>(found.components);
   Range const own = body.own();
   std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * width);
-  observe_each(body, body_number, field, [&](Index i, ObservedParticle const& p) {
-    found.put(p, &mine[static_cast<std::size_t>(i - own.first) * width]);
-  });
+  sample_own(body, body_number, field, mine);
   SharedSlots{body.slots(), body.particles()}.collect(
       width, std::move(mine), [&](Range part, std::span<double const> of) {
         for (Index i = part.first; i < part.last; ++i)

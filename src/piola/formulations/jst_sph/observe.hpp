@@ -26,5 +26,7 @@ std::vector<FieldInfo> observed_fields(bool solids);
 /// values[id * components + c] of one field for the particles of one body; on ranks that share it collective, and rank
 /// 0 has them. Throws std::invalid_argument for an unknown field.
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
+/// The same of the particles of this rank, slot by slot.
+void sample_own(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 
 }  // namespace piola::jst_sph

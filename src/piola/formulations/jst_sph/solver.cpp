@@ -132,6 +132,25 @@ class Solver final : public Formulation {
     }
   }
 
+  std::optional<std::vector<std::int64_t>> owned() const override {
+    if (!ranks::several()) return std::nullopt;
+    std::vector<std::int64_t> ids;
+    for (auto const& body : bodies_)
+      for (Index i = body->own().first; i < body->own().last; ++i) ids.push_back(body->id(i));
+    return ids;
+  }
+  void sample_owned(std::string_view field, std::span<double> values) const override {
+    if (!ranks::several()) return sample(field, values);
+    auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
+    int number = 0;
+    for (auto const& body : bodies_) {
+      refresh(*body);
+      auto const numbers = static_cast<std::size_t>(body->own().last - body->own().first) * width;
+      sample_own(*body, number++, field, values.first(numbers));
+      values = values.subspan(numbers);
+    }
+  }
+
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
 

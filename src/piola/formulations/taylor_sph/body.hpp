@@ -99,7 +99,7 @@ class TaylorBody {
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
   /// What all ranks are told of it in a step; nothing where that was not counted: the exchange of estimates.
-  std::optional<Talk> talk() const;
+  Talk talk() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }
   double mean_sources() const { return to_virtual_.mean_count(); }
@@ -138,7 +138,6 @@ class TaylorBody {
   void prepare_boundary(double time, double dt, double ahead);
   std::array<double, 3> place_at(Index i, double ahead) const;
   void prepare_loads(double time);
-  CellMeasures place_cells();
   void follow_motion();
   void renew_lists();
   /// Half the impulse of a traction on a particle.

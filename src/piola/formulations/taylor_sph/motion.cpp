@@ -5,7 +5,6 @@
 #include "piola/math/solve.hpp"
 #include "piola/mechanics/rigid_rate.hpp"
 #include "piola/neighbours/cell_grid.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -277,21 +276,8 @@ Index TaylorBody::worst_corner() const {
   return cells_.of(worst).front();
 }
 
-CellMeasures TaylorBody::place_cells() {
-  CellMeasures measures = machine_->place(state_);
-  ranks::combine(measures, [](void const* other, void* mine) {
-    auto const& a = *static_cast<CellMeasures const*>(other);
-    auto& b = *static_cast<CellMeasures*>(mine);
-    b.strain = maximum(b.strain, a.strain);
-    b.quality = minimum(b.quality, a.quality);
-    b.spacing = minimum(b.spacing, a.spacing);
-    b.inverted = b.inverted || a.inverted;
-  });
-  return measures;
-}
-
 void TaylorBody::follow_motion() {
-  measures_ = place_cells();
+  measures_ = machine_->place(state_);
   // A cell that doubled since its lists were made, or was crushed to a fiftieth, is as lost as one turned inside out.
   constexpr double doubled = 3, crushed = 0.02;
   bool const lost_lists = !options_.adjoint && !(measures_.strain < doubled);
@@ -317,7 +303,7 @@ void TaylorBody::renew_lists() {
   make_lists(positions());
   ++list_updates_;
   ++hasty_updates_;
-  measures_ = place_cells();
+  measures_ = machine_->place(state_);
 }
 
 /// Delaunay's triangulation of where the particles are now, of it what lies in a cell of before: the cells of before
@@ -452,7 +438,7 @@ void TaylorBody::restore(Snapshot const& s) {
   damping_loss_ = s.books[15];
   if (options_.adjoint) restore_cells(s);
   make_lists(points_of(s.x_of_lists, D()));
-  measures_ = place_cells();
+  measures_ = machine_->place(state_);
   if (!(first_spacing_ > 0)) first_spacing_ = measures_.spacing;
 }
 

@@ -23,19 +23,30 @@ void TaylorBody::push(Index i, std::array<double, 3> const& change) {
   }
 }
 
-/// By the loops of step.hpp.
-std::optional<Talk> TaylorBody::talk() const {
-  if (!options_.adjoint) return std::nullopt;
-  int const flat = D() == 2 ? 1 : 0, at_rest = state_.k.moving ? 0 : D(), patterns = state_.memory.patterns;
-  int const stride = record_stride(D()), corners = cells_.corners;
+/// By the loops of step.hpp: each array that is told in full, and the messages that these and sums go in.
+Talk TaylorBody::talk() const {
+  bool const moving = state_.k.moving;
+  int const flat = D() == 2 ? 1 : 0, at_rest = moving ? 0 : D(), stride = record_stride(D());
+  double const real = static_cast<double>(particles()), cells = static_cast<double>(cells_.count());
+  int const of_particle = stride + D() + flat + at_rest;
+  // Where cells are; sums of motion at the start and, if something holds the body, at the end.
+  int const everywhere = (moving ? 1 : 0) + (free_ ? 1 : 2);
   Talk talk;
   talk.order = [](ParticleSet const& set, Body const& body, int) { return pencil_order(set, body); };
-  double const real = static_cast<double>(particles()), cells = static_cast<double>(cells_.count());
-  talk.to_all = real * (2 * stride + 2 * D() + flat + at_rest) +
-                cells * (D() * corners + stride + 1 + D() * D() + D() * patterns + (state_.k.moving ? stride : 0));
-  // Inside and surface are told one after the other, component by component; momentum, work, energy, failures; cells.
-  talk.collectives = 2 * (2 + 2 * D() + flat + at_rest) + (free_ ? 2 : 4) + 5 + 1 + 4 + (patterns > 0 ? 1 : 0) +
-                     (state_.k.moving ? 2 : 0);
+  talk.to_all = moving ? cells * stride : 0;
+  if (options_.adjoint) {
+    int const of_cell = D() * cells_.corners + stride + 1 + D() * D() + D() * state_.memory.patterns;
+    talk.to_all += real * (stride + of_particle) + cells * of_cell;
+    talk.collectives = everywhere + 4;  // forces, velocities, cells, stresses
+    return talk;
+  }
+  talk.to_all += real * of_particle + cells * stride;
+  talk.collectives = everywhere + 2 + (free_ && moving && options_.conserve ? 1 : 0);
+  if (options_.hourglass > 0 && boxes_.count() > 0 && D() > 1) {
+    int const patterns = D() == 2 ? 1 : 4, fields = D() + D() * (D() + 1) / 2;
+    talk.to_all += real * stride + static_cast<double>(boxes_.count()) * patterns * fields;
+    talk.collectives += 2;
+  }
   return talk;
 }
 

@@ -102,6 +102,14 @@ struct CellMeasures {
   double spacing = 0;     ///< smallest distance that a wave may cross in a step [m]
   double dilation = 1;    ///< largest volume of a real particle over that at the start
   bool inverted = false;  ///< a cell has turned inside out
+
+  /// What other cells say; the dilation is of particles.
+  void add(CellMeasures const& other) {
+    strain = maximum(strain, other.strain);
+    quality = minimum(quality, other.quality);
+    spacing = minimum(spacing, other.spacing);
+    inverted = inverted || other.inverted;
+  }
 };
 
 struct BodyState {

@@ -5,8 +5,9 @@
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/filter_passes.hpp"
 #include "piola/formulations/taylor_sph/momentum_passes.hpp"
+#include "piola/parallel/first_failure.hpp"
 #include "piola/parallel/own_slots.hpp"
-#include "piola/parallel/reduce.hpp"
+#include <vector>
 
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
@@ -33,8 +34,9 @@ class Step {
                    BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
                                                 write(b_.drift), write(b_.displacement), acceleration(), b_.items,
                                                 b_.boundary.first, b_.boundary_count, b_.failure, dt});
-    complete_particles();
-    share_failure(*b_.failure);
+    AtEnd end(*b_.failure);
+    complete_and_add(end, records(), of_particles(b_.drift, D), stresses_and_places());
+    end.first.put(*b_.failure);
   }
   /// Prescribed values at t^(n+1).
   void impose() { exec::for_each_item(b_.boundary_count, Impose<D>{b_.real, b_.items, b_.boundary.first}); }
@@ -44,15 +46,21 @@ class Step {
       Range const boxes{0, b_.hourglass.boxes};
       exec::for_each(own_part(boxes), MeasurePatterns<D>{b_.hourglass, b_.real});
       complete_slots(b_.hourglass.pattern, Patterns<D>::count * Record<D>::fields, boxes);
-      damp(b_.interior, b_.interior_count);
-      damp(b_.boundary, b_.boundary_count);
-      complete_records();
+      Sums<2> losses;
+      damp(b_.interior, b_.interior_count, losses.of[0]);
+      damp(b_.boundary, b_.boundary_count, losses.of[1]);
+      complete_and_add(losses, records());
+      for (auto const& loss : losses.of) b_.filter_loss += loss.value();
     }
   }
   /// Mass, momentum and inertia of the body.
   void motion(double* sums) {
-    sum_motion(b_.interior, b_.interior_count, sums);
-    sum_motion(b_.boundary, b_.boundary_count, sums);
+    Sums<2, exec::ExactSums<MotionSums::size>> parts;
+    sum_motion(b_.interior, b_.interior_count, parts.of[0]);
+    sum_motion(b_.boundary, b_.boundary_count, parts.of[1]);
+    ranks::add(parts);
+    for (auto const& part : parts.of)
+      for (int k = 0; k < MotionSums::size; ++k) sums[k] += part.value(k);
   }
   void add_rigid(double const* r) {
     AddRigidMotion<D> const pass{b_.real, {r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
@@ -63,20 +71,26 @@ class Step {
     Range const cells = own_part(b_.virtuals);
     exec::for_each(cells, CornerForces<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, b_.virtual_, dt});
     complete_slots(b_.memory.force, std::ptrdiff_t{D} * b_.cells.corners, b_.virtuals);
+    Sums<2> work;
+    advance_velocities(b_.interior, b_.interior_count, nullptr, dt, work.of[0]);
+    advance_velocities(b_.boundary, b_.boundary_count, b_.items, dt, work.of[1]);
+    complete_and_add(work, records(), of_particles(b_.drift, D));
     b_.work = 0;
-    advance_velocities(b_.interior, b_.interior_count, nullptr, dt);
-    advance_velocities(b_.boundary, b_.boundary_count, b_.items, dt);
-    complete_records();
-    complete_real(b_.drift, D);
+    for (auto const& part : work.of) b_.work += part.value();
     exec::for_each_block(cells, StrainCells<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, view(b_.drift),
                                                     b_.virtual_, b_.virtual_count, b_.partial, dt});
-    complete_cells();
-    double square = total(cells);
-    square -= advance_stresses(b_.interior, b_.interior_count, dt);
-    square -= advance_stresses(b_.boundary, b_.boundary_count, dt);
+    Sums<1> of_cells;
+    add_blocks(cells, of_cells.of[0]);
+    complete_and_add(of_cells, changed_cells());
+    AtEnd end(*b_.failure);
+    advance_stresses(b_.interior, b_.interior_count, dt, end.squares[0]);
+    advance_stresses(b_.boundary, b_.boundary_count, dt, end.squares[1]);
+    end.first = FirstFailure(*b_.failure);
+    complete_and_add(end, records(), stresses_and_places());
+    end.first.put(*b_.failure);
+    double square = of_cells.of[0].value();
+    for (auto const& part : end.squares) square -= part.value();
     b_.exchange_loss += 0.5 * (1 - b_.k.memory) * dt * dt * square;
-    complete_particles();
-    share_failure(*b_.failure);
   }
   /// Of all ranks, by each of them alone.
   CellEnergy cell_energy() {
@@ -86,12 +100,10 @@ class Step {
     auto const sum = exec::add_partials<Pass::results>(b_.partial, exec::block_count(b_.virtuals));
     return {sum.v[0], sum.v[1], sum.v[2]};
   }
-  /// Virtual particles into the middle of their cells. On several ranks the measures are those of the own cells, but
-  /// for the dilation.
+  /// Virtual particles into the middle of their cells.
   CellMeasures place() {
     Range const cells = own_part(b_.virtuals);
     exec::for_each_block(cells, PlaceVirtuals<D>{b_.cells, b_.real, b_.virtual_, b_.partial});
-    complete_slots(b_.virtual_, Record<D>::stride, b_.virtuals);
     CellMeasures m{0, 1e300, 1e300, 0};
     for (Index k = 0; k < exec::block_count(cells); ++k) {
       double const* const part = b_.partial + PlaceVirtuals<D>::results * k;
@@ -100,6 +112,7 @@ class Step {
       m.spacing = minimum(m.spacing, part[2]);
       if (!(part[3] > 0)) m.inverted = true;
     }
+    complete_and_add(m, Arrays{{b_.virtual_, Record<D>::stride, b_.virtuals}});
     if (b_.k.adjoint) {
       gather_volumes(b_.interior, b_.interior_count);
       gather_volumes(b_.boundary, b_.boundary_count);
@@ -114,59 +127,88 @@ class Step {
   View acceleration() const { return view(b_.acceleration); }
   static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   static WriteView write(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
+  using Arrays = std::vector<SlotArray>;
+  using Sum = exec::ExactSums<1>;
+  /// Of the loops over several ranges.
+  template <int N, class S = Sum>
+  struct Sums {
+    S of[N];
+    void add(Sums const& other) {
+      for (int k = 0; k < N; ++k) of[k].add(other.of[k]);
+    }
+  };
+  /// What is known at the end of a step.
+  struct AtEnd {
+    explicit AtEnd(FailureSlot const& failure) : first(failure) {}
+    Sum squares[2];
+    FirstFailure first;
+    void add(AtEnd const& other) {
+      for (int k = 0; k < 2; ++k) squares[k].add(other.squares[k]);
+      first.add(other.first);
+    }
+  };
+  /// All ranks have all of these arrays, and the sums of all ranks: in one message.
+  template <class T, class... More>
+  static void complete_and_add(T& sums, Arrays arrays, More const&... more) {
+    (arrays.insert(arrays.end(), more.begin(), more.end()), ...);
+    complete_slots_and_add(std::span<SlotArray const>(arrays), sums);
+  }
   /// Of real particles and of cells, what steps change.
-  void complete_records() { complete_ranges(b_.real, Record<D>::stride); }
-  void complete_real(FieldRef const& field, int components) {
-    for (int c = 0; c < components; ++c) complete_ranges(field.data + c * field.component_stride, 1);
+  Arrays records() const {
+    return {{b_.real, Record<D>::stride, b_.interior}, {b_.real, Record<D>::stride, b_.boundary}};
   }
-  void complete_ranges(double* data, std::ptrdiff_t size) {
-    complete_slots(data, size, b_.interior);
-    complete_slots(data, size, b_.boundary);
+  Arrays of_particles(FieldRef const& field, int components) const {
+    Arrays arrays;
+    for (int c = 0; c < components; ++c)
+      for (Range const range : {b_.interior, b_.boundary})
+        arrays.push_back({field.data + c * field.component_stride, 1, range});
+    return arrays;
   }
-  void complete_particles() {
-    complete_records();
-    complete_real(b_.drift, D);
-    if (D == 2) complete_real(b_.out_of_plane, 1);
-    if (!b_.k.moving) complete_real(b_.displacement, D);
+  Arrays stresses_and_places() const {
+    Arrays arrays = of_particles(b_.out_of_plane, D == 2 ? 1 : 0),
+           places = of_particles(b_.displacement, b_.k.moving ? 0 : D);
+    arrays.insert(arrays.end(), places.begin(), places.end());
+    return arrays;
   }
-  void complete_cells() {
-    complete_slots(b_.virtual_, Record<D>::stride, b_.virtuals);
-    complete_slots(b_.memory.across, 1, b_.virtuals);
-    complete_slots(b_.memory.gradient, std::ptrdiff_t{D} * D, b_.virtuals);
-    if (b_.memory.patterns > 0)
-      complete_slots(b_.memory.hourglass, std::ptrdiff_t{D} * b_.memory.patterns, b_.virtuals);
+  Arrays changed_cells() const {
+    return {{b_.virtual_, Record<D>::stride, b_.virtuals},
+            {b_.memory.across, 1, b_.virtuals},
+            {b_.memory.gradient, std::ptrdiff_t{D} * D, b_.virtuals},
+            {b_.memory.hourglass, std::ptrdiff_t{D} * b_.memory.patterns, b_.virtuals}};
   }
-  /// Of what a loop over these slots, and the loops of other ranks over theirs, have left in `partial`.
-  double total(Range own) const { return add_over_ranks<1>(true, b_.partial, exec::block_count(own)).v[0]; }
-  void advance_velocities(Range range, Index count, BoundaryItem const* items, double dt) {
+  /// Of what a loop over these slots has left in `partial`.
+  template <int N>
+  void add_blocks(Range own, exec::ExactSums<N>& sums) const {
+    for (Index k = 0; k < exec::block_count(own); ++k) sums.add(b_.partial + static_cast<std::ptrdiff_t>(k) * N);
+  }
+  void advance_velocities(Range range, Index count, BoundaryItem const* items, double dt, Sum& work) {
     Range const own = own_part(range);
     exec::for_each_block(
         own, AdvanceVelocities<D>{b_.k, b_.around, b_.memory, b_.real, view(b_.mass), acceleration(), write(b_.drift),
                                   items, range.first, range.first + count, b_.partial, dt});
-    b_.work += total(own);
+    add_blocks(own, work);
   }
-  double advance_stresses(Range range, Index count, double dt) {
+  void advance_stresses(Range range, Index count, double dt, Sum& square) {
     Range const own = own_part(range);
     exec::for_each_block(own, AdvanceStresses<D, Law>{law_, b_.k, b_.around, b_.memory, b_.cells.corners, b_.virtual_,
                                                       b_.real, write(b_.out_of_plane), write(b_.displacement),
                                                       view(b_.drift), range.first + count, b_.failure, b_.partial, dt});
-    return total(own);
+    add_blocks(own, square);
   }
   void gather_volumes(Range range, Index count) {
     exec::for_each_block(range, GatherVolumes<D>{b_.k, b_.around, b_.cells.corners, b_.virtual_, b_.real, view(b_.mass),
                                                  range.first + count});
   }
-  void sum_motion(Range range, Index count, double* sums) {
+  void sum_motion(Range range, Index count, exec::ExactSums<MotionSums::size>& sums) {
     Range const own = own_part(range);
     exec::for_each_block(own, SumMotion<D>{b_.real, view(b_.mass), range.first + count, b_.partial});
-    auto const part = add_over_ranks<MotionSums::size>(true, b_.partial, exec::block_count(own));
-    for (int k = 0; k < MotionSums::size; ++k) sums[k] += part.v[k];
+    add_blocks(own, sums);
   }
-  void damp(Range range, Index count) {
+  void damp(Range range, Index count, Sum& loss) {
     Range const own = own_part(range);
     exec::for_each_block(own, DampPatterns<D, Law>{law_, b_.k, b_.hourglass, b_.real, view(b_.mass),
                                                    view(b_.out_of_plane), range.first, count, b_.partial});
-    b_.filter_loss += total(own);
+    add_blocks(own, loss);
   }
   double largest_volume(Range range, Index count) {
     exec::for_each_block(range, LargestVolume<D>{b_.real, range.first + count, b_.partial});

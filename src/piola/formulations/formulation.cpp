@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/formulation.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace piola {
+
+FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view name) {
+  auto const found = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == name; });
+  if (found == fields.end()) throw std::invalid_argument(fmt::format("no field is called '{}'", name));
+  return *found;
+}
+
+/// Rank 0 has what comes out of sample(), and the others nothing.
+std::optional<std::vector<std::int64_t>> Formulation::owned() const {
+  return ranks::own() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
+}
+
+}  // namespace piola
