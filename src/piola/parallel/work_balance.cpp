@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/parallel/work_balance.hpp"
+#include "piola/exec/processor_time.hpp"
+#include "piola/exec/threads.hpp"
 #include "piola/parallel/agreement.hpp"
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <numeric>
 #include <random>
@@ -10,11 +11,9 @@
 namespace piola {
 namespace {
 
-/// Wall time that is not spent on others, from some instant on [s].
+/// Of a thread, on the mean, since the start of the program [s].
 double time_of_its_own() {
-  ranks::Spent const spent = ranks::spent();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count() -
-         spent.in_exchanges - spent.in_collectives;
+  return (exec_host::processor_time() - ranks::spent().processor) / exec_host::threads();
 }
 
 /// Seconds that a unit of the work of each rank has taken. Times of ranks that had next to nothing say little, so no

@@ -20,7 +20,8 @@ struct Recuts {
   double last = 0;                ///< when it was looked at for the last time
 };
 
-/// Adds the wall time of its life to a sum, without what this rank spent on messages and collectives meanwhile [s].
+/// Adds the processor time of its life to a sum, divided by threads and without that of messages and collectives [s]. It
+/// is as long as the wall time of a rank that has its cores for itself; of one that has not it still tells its work.
 class BusyWatch {
  public:
   explicit BusyWatch(double& sum);
@@ -47,7 +48,7 @@ class WorkBalance {
 
   explicit WorkBalance(Repartition when) : when_(when) {}
 
-  /// Wall time of what this rank alone does for its share, without waiting for others [s]: steps add to it.
+  /// Time of what this rank alone does for its share, without waiting for others [s]: steps add to it.
   double& busy() { return busy_; }
   /// Once before each step: whether there is a reason to cut anew, the same on all ranks. Collective once in a window,
   /// or before every forced cut.

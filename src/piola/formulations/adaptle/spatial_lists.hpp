@@ -10,7 +10,7 @@ namespace piola::adaptle {
 /// total-Lagrangian and far from Eulerian ones and from other bodies get none.
 class SpatialLists {
  public:
-  /// busy: grows by the wall time of what each rank does for its own particles alone [s].
+  /// busy: grows by the time of what each rank does for its own particles alone [s].
   void build(System const& system, Machine const& machine, double& busy);
   void put_into(System& system);
   std::size_t bytes() const;
