@@ -51,8 +51,8 @@ TEST(CaseDifference, CommentsAndLayoutDoNotCount) {
 }
 
 TEST(CaseDifference, OnlyWhatLeavesTheStateAsItIsMayChange) {
-  for (char const* key : {"run.end", "run.threads", "run.machine", "run.guards.energy", "output.frames.every",
-                          "output.pictures", "quantity", "quantity.q.take"})
+  for (char const* key : {"run.end", "run.threads", "run.machine", "run.guards.energy", "run.repartition",
+                          "output.frames.every", "output.pictures", "quantity", "quantity.q.take"})
     EXPECT_TRUE(may_change_on_resume(key)) << key;
   for (char const* key : {"run", "run.cfl", "run.max_step", "run.ending", "title", "constants.L", "body.b.name",
                           "outputs", "probe.tip.at", "support", "contact.scale"})

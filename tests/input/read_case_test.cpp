@@ -194,6 +194,19 @@ TEST(ReadCase, RunSettingsAreRead) {
   EXPECT_EQ(read(sample_with("end = \"0.5 s\"", "end = 0.5\nthreads = \"auto\"")).run.threads, 0);
 }
 
+TEST(ReadCase, RanksAreCutAnewAsOftenAsTheCaseSays) {
+  auto const with = [](std::string const& value) {
+    return sample_with("end = \"0.5 s\"", "end = 0.5\nrepartition = " + value);
+  };
+  EXPECT_EQ(read(with("300")).run.repartition.every, 300);
+  EXPECT_FALSE(read(with("300")).run.repartition.never);
+  EXPECT_TRUE(read(with("\"never\"")).run.repartition.never);
+  EXPECT_EQ(read(with("\"auto\"")).run.repartition.every, 0);
+  EXPECT_FALSE(read(with("\"auto\"")).run.repartition.never);
+  for (char const* const wrong : {"\"often\"", "0", "-3", "2.5"})
+    EXPECT_NE(message_of(with(wrong)).find("run.repartition"), std::string::npos) << wrong;
+}
+
 TEST(ReadCase, ABoxTakesTheNearestSpacingThatFits) {
   EXPECT_EQ(read(sample_with("particles = [5, 25, 5]", "spacing = \"25 cm\"")).bodies[0].shape.particles,
             (std::array<int, 3>{5, 25, 5}));

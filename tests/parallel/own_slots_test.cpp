@@ -28,7 +28,7 @@ TEST(OwnSlots, OfOneRankStayAsTheyAre) {
 }
 
 TEST(OwnSlots, OfSeveralBodiesAreNamedRankByRank) {
-  std::vector<Range> const bodies{{0, 100}, {100, 130}};
+  std::vector<Shares> const bodies{Shares({0, 100}), Shares({100, 130})};
   SlotsOfRanks const odd(bodies, [](Index slot) { return slot % 2 == 1; });
   EXPECT_EQ(odd.starts, (std::vector<std::size_t>{0, 65}));
   EXPECT_EQ(odd.slots.front(), 1);

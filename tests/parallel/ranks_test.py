@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ranks: every case that can, on 1, 2, 3 and 5 ranks, has the same bytes: history, frames, checkpoints, pictures, the
-log and the summary but for what times and counts of ranks they name. A run
-goes on with another number of ranks; what is refused is said once.
+log and the summary but for what times and counts of ranks they name. So it has if particles are shared out anew every
+three steps, by measured work or at random. A run goes on with another number of ranks; what is refused is said once.
 
-Needs a program with MPI and mpirun; is skipped otherwise. Words choose: cases, own, variants, mixed, restarts, words; a
-part of the name of a case, cases/contact for example, chooses among the cases of the first three.
+Needs a program with MPI and mpirun; is skipped otherwise. Words choose: cases, own, variants, recuts, mixed, restarts,
+words; a part of the name of a case, cases/contact for example, chooses among the cases of the first four.
 PIOLA_RANKS_TESTS=quick takes a part of them, on 2 and 3 ranks.
 """
+import json
 import re
 import shutil
 import subprocess
@@ -15,12 +16,13 @@ import tempfile
 from pathlib import Path
 
 from cases_on_ranks import ESCAPED, FAILING, MANY_TRIANGLES, OWN_CASES, VARIANTS, WHIRLED
-from on_ranks import (QUICK, SOURCE, checkpoint, contents, differences, expect, finish, piola, short_bar,
+from on_ranks import (ENVIRONMENT, QUICK, SOURCE, checkpoint, contents, differences, expect, finish, piola, short_bar,
                       skip_without_ranks)
 
 STEPS = 20
 QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
               "damped patch", "deleted", "restarts", "words"]
+OFTEN = "run.repartition=3"  # steps
 SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",  # columns above zero at the end
          "deleted disc": "deleted_particles", "rubbing bar of AdapTLE": "friction_heat"}
 SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph|adaptle)"')  # the formulations of bodies that ranks share
@@ -96,6 +98,13 @@ def last_of(folder, column):
     return float(lines[-1].split(",")[names.split(",").index(column)])
 
 
+def draw_cuts(seed):
+    """Of runs from now on; None: cuts follow measured work."""
+    ENVIRONMENT.pop("PIOLA_DRAWN_CUTS", None)
+    if seed is not None:
+        ENVIRONMENT["PIOLA_DRAWN_CUTS"] = str(seed)
+
+
 def compare_case(file, name, work, overrides=(), column=None):
     """column: what is above zero at the end, so that it is compared."""
     settings = [word for override in overrides for word in ("--set", override)]
@@ -110,11 +119,16 @@ def compare_case(file, name, work, overrides=(), column=None):
         expect(last_of(reference, column) > 0, f"{name}: nothing of what is to be compared, {column}")
     for ranks, threads in ((2, 1), (3, 1)) if QUICK else ((2, 2), (3, 1), (5, 1)):
         several = work / str(ranks)
+        drawn = OFTEN in overrides and ranks > 2
+        draw_cuts(ranks if drawn else None)
         run = piola(ranks, "run", file, "--out", several, *settings, threads=threads)
         expect(run.returncode == 0, f"{name} on {ranks} ranks: {run.stdout}{run.stderr}")
         expect(run.stdout.count("completed at") == 1, f"{name} on {ranks} ranks speaks with several voices")
         different = differences(expected, contents(several)) if several.is_dir() else ["everything"]
         expect(not different, f"{name} on {ranks} ranks with {threads} threads differs in {different[:8]}")
+        if drawn and expect((several / "summary.json").is_file(), f"{name}: no summary"):
+            cuts = json.loads((several / "summary.json").read_text())["repartition"]["count"]
+            expect(cuts >= STEPS // 3 - 2, f"{name} on {ranks} ranks was cut {cuts} times")
         shutil.rmtree(several, ignore_errors=True)
     print(f"{name}: {len(expected)} files and datasets compared", flush=True)
 
@@ -190,7 +204,8 @@ skip_without_ranks()
 with tempfile.TemporaryDirectory() as folder:
     work = Path(folder)
     bar = short_bar(work)
-    chosen = sys.argv[1:] or (QUICK_PART if QUICK else ["cases", "own", "variants", "mixed", "restarts", "words"])
+    everything = ["cases", "own", "variants", "recuts", "mixed", "restarts", "words"]
+    chosen = sys.argv[1:] or (QUICK_PART if QUICK else everything)
     cases = [(file, f"cases/{file.parent.relative_to(SOURCE / 'cases')}", "cases", (), None) for file in able_cases()]
     expect(len(cases) >= 65, f"only {len(cases)} cases run on ranks")
     for name, text in OWN_CASES.items():
@@ -199,6 +214,11 @@ with tempfile.TemporaryDirectory() as folder:
         cases.append((file, name, "own", (), SHOWN.get(name)))
     for name, (folder, column, overrides) in VARIANTS.items():
         cases.append((SOURCE / "cases/adaptle" / folder / "case.toml", name, "variants", overrides, column))
+        cases.append((SOURCE / "cases/adaptle" / folder / "case.toml", f"cut anew: {name}", "recuts",
+                      [*overrides, OFTEN], column))
+    for name in ("torn plate", "deleted disc", "rubbing bar of AdapTLE"):
+        cases.append((work / f"{name.lower().replace(' ', '_')}.toml", f"cut anew: {name}", "recuts", [OFTEN],
+                      SHOWN[name]))
     for file, name, kind, overrides, column in cases:
         if kind in chosen or any(word in name for word in chosen):
             own = work / file.stem / name.replace(" ", "_").replace("/", "_")
@@ -212,6 +232,11 @@ with tempfile.TemporaryDirectory() as folder:
         compare_restarts(bar, work)
         for name in ("touching bodies", "mirrored copper", "adjoint, triangles", "torn plate", "deleted disc"):
             compare_own_restart(name, OWN_CASES[name], work / f"restart_{name.replace(chr(32), chr(95))}")
+        draw_cuts(1)
+        for name in ("torn plate", "deleted disc"):
+            compare_own_restart(f"{name}, cut anew", OWN_CASES[name].replace("[run]", "[run]\nrepartition = 2"),
+                                work / f"recut_{name.replace(chr(32), chr(95))}")
+        draw_cuts(None)
     if "words" in chosen:
         check_words(bar, work)
 finish()

@@ -8,6 +8,7 @@
 #include "piola/mechanics/load.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
 #include "piola/mechanics/support.hpp"
+#include "piola/parallel/work_balance.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <limits>
@@ -79,6 +80,7 @@ struct Assembly {
   bool pushed = false;                                    ///< Formulation::push will be called
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
+  Repartition repartition;                                ///< on ranks
 };
 
 /// The materials of a body: its own, then those of its parts, as ParticleSet::part counts them.

@@ -164,6 +164,11 @@ class Ensemble : public Formulation {
     return all;
   }
   std::optional<Talk> talk(std::size_t body) const override;
+  std::optional<Recuts> recuts() const override {
+    for (auto const& formulation : formulations_)
+      if (auto of_part = formulation->recuts()) return of_part;  // of one part at most
+    return std::nullopt;
+  }
   std::size_t memory_bytes() const override {
     std::size_t sum = 0;
     for (auto const& formulation : formulations_) sum += formulation->memory_bytes();

@@ -126,6 +126,7 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
   a.pushed = !whole.surfaces.empty();
   a.cfl = whole.cfl;
   a.machine = whole.machine;
+  a.repartition = whole.repartition;
 }
 
 }  // namespace

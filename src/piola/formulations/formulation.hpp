@@ -3,6 +3,7 @@
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/rigid_state.hpp"
 #include "piola/parallel/bisection.hpp"
+#include "piola/parallel/work_balance.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
 #include <cstdint>
@@ -162,6 +163,8 @@ class Formulation {
   /// Of formulations that do not say FormulationInfo::observed_by_share, where ranks share the particles: brings what
   /// the others have to rank 0, which may then be asked for all of the state until the next step. Every rank calls it.
   virtual void gather() {}
+  /// How often ranks were cut anew, if the formulation can be.
+  virtual std::optional<Recuts> recuts() const { return std::nullopt; }
 };
 
 }  // namespace piola

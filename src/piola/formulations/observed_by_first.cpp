@@ -47,6 +47,7 @@ class ObservedByFirst final : public Formulation {
   std::vector<std::pair<std::string, double>> costs() const override { return part_.of().costs(); }
   std::size_t memory_bytes() const override { return part_.of().memory_bytes(); }
   std::optional<Talk> talk(std::size_t body) const override { return part_.of().talk(body); }
+  std::optional<Recuts> recuts() const override { return part_.of().recuts(); }
 
  private:
   /// Observers see a formulation as const, but its memory on rank 0 is not.

@@ -14,8 +14,8 @@ using Leaf = std::pair<std::string, std::string>;  // dotted path, value as TOML
 constexpr char const* nothing = "nothing";
 
 // Key, or section whose keys may all change.
-constexpr std::array<std::string_view, 7> changeable{"run.end",    "run.threads", "run.machine", "run.min_step",
-                                                     "run.guards", "output",      "quantity"};
+constexpr std::array<std::string_view, 8> changeable{"run.end",         "run.threads", "run.machine", "run.min_step",
+                                                     "run.repartition", "run.guards",  "output",      "quantity"};
 
 /// Names of the tables of a list; numbers if they have none, or share one.
 std::vector<std::string> steps_of(Node const& list) {

@@ -28,6 +28,7 @@ struct RunSpec {
   bool relax = false;            ///< dynamic relaxation: ends at rest
   double rest = 1e-3;            ///< relax: the residual force at rest, beside the largest of the run
   std::string machine = "auto";  ///< instruction set: auto, scalar, v3, v4
+  Repartition repartition;       ///< on ranks
   GuardLimits guards;
   Places places;
 };

@@ -22,6 +22,19 @@ void read_threads(Section const& section, RunSpec& run) {
   }
 }
 
+void read_repartition(Section const& section, RunSpec& run) {
+  auto const value = section.find("repartition");
+  if (!value || (value->node.is_text() && value->node.text == "auto")) return;
+  if (value->node.is_text() && value->node.text == "never") {
+    run.repartition.never = true;
+  } else if (value->node.is_text()) {
+    section.problems().add(value->node.place, "run.repartition is " + in_quotes(value->node.text) +
+                                                  " (allowed: \"auto\", \"never\" or a number of steps)");
+  } else if (auto const steps = section.whole("repartition")) {
+    run.repartition.every = static_cast<int>(*steps);
+  }
+}
+
 /// A limit, or "off".
 void read_limit(Section const& section, std::string_view key, double& limit, double off) {
   auto const value = section.find(key);
@@ -103,6 +116,7 @@ void read_run(Section const& section, RunSpec& run) {
   if (!run.relax) section.refuse("rest", "is used only with relax = true");
   section.read("rest", run.rest);
   read_threads(section, run);
+  read_repartition(section, run);
   read_guards(section, run.guards);
   if (run.min_step >= run.max_step) {
     section.problems().add(section.place_of("min_step"), "run.min_step is not below run.max_step (allowed: less than " +

@@ -16,6 +16,20 @@ nlohmann::ordered_json guards_json(Summary const& s) {
   return all;
 }
 
+void add_ranks(Summary const& s, nlohmann::ordered_json& document) {
+  for (RankTraffic const& rank : s.ranks)
+    document["ranks"].push_back({{"messages", rank.messages},
+                                 {"bytes", rank.bytes},
+                                 {"collectives", rank.collectives},
+                                 {"message_seconds", rank.message_seconds},
+                                 {"bytes_to_all", rank.bytes_to_all},
+                                 {"collective_seconds", rank.collective_seconds},
+                                 {"idle_seconds", rank.idle_seconds}});
+  if (s.recuts)
+    document["repartition"] = {
+        {"count", s.recuts->imbalance.size()}, {"imbalance", s.recuts->imbalance}, {"last", s.recuts->last}};
+}
+
 }  // namespace
 
 std::string to_json(Summary const& s) {
@@ -36,14 +50,7 @@ std::string to_json(Summary const& s) {
                                     {"final", s.energy_final},
                                     {"max_increase", s.energy_max_increase},
                                     {"max_decrease", s.energy_max_decrease}}}};
-  for (RankTraffic const& rank : s.ranks)
-    document["ranks"].push_back({{"messages", rank.messages},
-                                 {"bytes", rank.bytes},
-                                 {"collectives", rank.collectives},
-                                 {"message_seconds", rank.message_seconds},
-                                 {"bytes_to_all", rank.bytes_to_all},
-                                 {"collective_seconds", rank.collective_seconds},
-                                 {"idle_seconds", rank.idle_seconds}});
+  add_ranks(s, document);
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
   if (s.relaxation) {

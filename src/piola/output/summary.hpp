@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/parallel/work_balance.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -47,6 +48,7 @@ struct Summary {
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone
   int threads = 1;
   std::vector<RankTraffic> ranks;               ///< empty on one rank
+  std::optional<Recuts> recuts;                 ///< on several ranks, if the formulation can be cut anew
   double energy_initial = 0, energy_final = 0;  ///< J
   /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
   double energy_max_increase = 0;

@@ -20,6 +20,7 @@ struct Spent {
   std::int64_t collectives = 0;
   double in_exchanges = 0, in_collectives = 0, for_orders = 0;
   std::int64_t bytes_to_all = 0;  ///< that all ranks were told by merge() and complete()
+  double processor = 0;           ///< processor time of all these [s]
 };
 Spent spent();
 

@@ -55,22 +55,14 @@ void copy_values(Copied const& c) {
 
 }  // namespace
 
-Range share_of(Index slots, int rank, int ranks) {
-  std::int64_t const blocks = (std::int64_t{slots} + exec::block_size - 1) / exec::block_size;
-  auto const start = [&](int r) {
-    return static_cast<Index>(std::min<std::int64_t>(slots, blocks * r / ranks * exec::block_size));
-  };
-  return {start(rank), start(rank + 1)};
-}
-
-HaloPlan::HaloPlan(Index slots, std::vector<Index> read) : slots_(slots) { add_reach(std::move(read)); }
+HaloPlan::HaloPlan(Shares cut, std::vector<Index> read) : cut_(std::move(cut)) { add_reach(std::move(read)); }
 
 int HaloPlan::add_reach(std::vector<Index> read) {
   std::sort(read.begin(), read.end());
   read.erase(std::unique(read.begin(), read.end()), read.end());
   std::vector<std::vector<Index>> wanted(static_cast<std::size_t>(ranks::count()));
   for (int r = 0; r < ranks::count(); ++r) {
-    Range const owned = share_of(slots_, r, ranks::count());
+    Range const owned = cut_.of(r);
     if (r != ranks::own())
       wanted[static_cast<std::size_t>(r)].assign(std::lower_bound(read.begin(), read.end(), owned.first),
                                                  std::lower_bound(read.begin(), read.end(), owned.last));

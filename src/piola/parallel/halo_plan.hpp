@@ -2,14 +2,12 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
+#include "piola/parallel/shares.hpp"
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace piola {
-
-/// The slots of a body that one rank owns: a contiguous share of its blocks of 64 slots, which sums start with, so that
-/// they are the same blocks for any number of ranks.
-Range share_of(Index slots, int rank, int ranks);
 
 /// Slots first ... first + count - 1, of which the first has this place among the slots of a message.
 struct SlotRun {
@@ -21,8 +19,10 @@ struct SlotRun {
 /// further than others: each has a reach of the plan, by number, and is told to those who read it.
 class HaloPlan {
  public:
-  /// `read`: slots that the particles of this rank read, in any order, as often as they like; reach 0. Collective.
-  HaloPlan(Index slots, std::vector<Index> read);
+  /// cut: who owns which slots, from 0 on. `read`: slots that the particles of this rank read, in any order, as often
+  /// as they like; reach 0. Collective.
+  HaloPlan(Shares cut, std::vector<Index> read);
+  HaloPlan(Index slots, std::vector<Index> read) : HaloPlan(Shares({0, slots}), std::move(read)) {}
   /// Other slots that they read; the number of this reach. Collective.
   int add_reach(std::vector<Index> read);
 
@@ -59,7 +59,7 @@ class HaloPlan {
   template <bool Out>
   void copy(Side& side, std::span<FieldRef const> fields) const;
 
-  Index slots_;
+  Shares cut_;
   int reaches_ = 0;
   std::vector<Side> sends_, receives_;
   std::vector<Values> values_;

@@ -3,7 +3,6 @@
 #include "piola/base/contracts.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/parallel/first_failure.hpp"
-#include "piola/parallel/halo_plan.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cstdint>
@@ -11,30 +10,34 @@
 
 namespace piola {
 
-Range part_of(Range whole, int rank) {
-  Range const share = share_of(whole.last - whole.first, rank, ranks::count());
+Range own_part(Range whole) {
+  Range const share = share_of(whole.last - whole.first, ranks::own(), ranks::count());
   return {whole.first + share.first, whole.first + share.last};
 }
-
-Range own_part(Range whole) { return part_of(whole, ranks::own()); }
 
 Range SharedSlots::of(int rank) const {
   Range const share = share_of(slots, rank, ranks::count());
   return {std::min(share.first, particles), std::min(share.last, particles)};
 }
 
-void complete_slots(double* data, std::ptrdiff_t size, Range whole) {
+namespace {
+
+void complete(double* data, std::ptrdiff_t size, Shares const& body) {
   if (!ranks::several()) return;
+  Index const first = body.whole().first;
   std::vector<std::size_t> starts{0};
   for (int rank = 0; rank < ranks::count(); ++rank)
-    starts.push_back(static_cast<std::size_t>(part_of(whole, rank).last - whole.first) *
-                     static_cast<std::size_t>(size));
-  ranks::complete({data + whole.first * size, starts.back()}, starts);
+    starts.push_back(static_cast<std::size_t>(body.of(rank).last - first) * static_cast<std::size_t>(size));
+  ranks::complete({data + first * size, starts.back()}, starts);
 }
 
-void complete_slots(FieldRef const& field, int components, Range whole) {
+}  // namespace
+
+void complete_slots(double* data, std::ptrdiff_t size, Range whole) { complete(data, size, Shares(whole)); }
+
+void complete_slots(FieldRef const& field, int components, Shares const& body) {
   PIOLA_EXPECTS(field.particle_stride == 1 && field.tile_extra == 0);
-  for (int c = 0; c < components; ++c) complete_slots(field.data + c * field.component_stride, 1, whole);
+  for (int c = 0; c < components; ++c) complete(field.data + c * field.component_stride, 1, body);
 }
 
 std::vector<double> complete_slots(std::span<SlotArray const> arrays, std::span<double const> said) {

@@ -3,6 +3,7 @@
 #include "piola/exec/field.hpp"
 #include "piola/exec/parallel.hpp"
 #include "piola/parallel/ranks.hpp"
+#include "piola/parallel/shares.hpp"
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,16 +15,17 @@
 /// each other besides halos. Every function but own_part() is collective, and none does anything on one rank.
 namespace piola {
 
-/// The part of a range that a rank works on: of the whole range the same blocks of 64 for any number of ranks.
-Range part_of(Range whole, int rank);
-/// That of this rank.
+/// The part of a range that this rank works on where all have equal ones.
 Range own_part(Range whole);
 
 /// Of values per slot, `size` of slot i at data[i * size], that each rank has right in its own part of a range: all
 /// ranks have all of them.
 void complete_slots(double* data, std::ptrdiff_t size, Range whole);
 /// Of a field that is not tiled.
-void complete_slots(FieldRef const& field, int components, Range whole);
+void complete_slots(FieldRef const& field, int components, Shares const& body);
+inline void complete_slots(FieldRef const& field, int components, Range whole) {
+  complete_slots(field, components, Shares(whole));
+}
 
 /// `size` values per slot, of slot i at data[i * size], of the slots of a range.
 struct SlotArray {
@@ -56,12 +58,12 @@ void complete_slots_and_add(std::span<SlotArray const> arrays, T& sum) {
 struct SlotsOfRanks {
   std::vector<Index> slots;
   std::vector<std::size_t> starts{0};  ///< per rank, one more at the end
-  /// bodies: their ranges, of which each rank has its part. wanted(slot): whether it is one of them.
+  /// bodies: who has what of each. wanted(slot): whether it is one of them.
   template <class F>
-  SlotsOfRanks(std::span<Range const> bodies, F const& wanted) {
+  SlotsOfRanks(std::span<Shares const> bodies, F const& wanted) {
     for (int rank = 0; rank < ranks::count(); ++rank) {
-      for (Range const& body : bodies) {
-        Range const part = part_of(body, rank);
+      for (Shares const& body : bodies) {
+        Range const part = body.of(rank);
         for (Index i = part.first; i < part.last; ++i)
           if (wanted(i)) slots.push_back(i);
       }

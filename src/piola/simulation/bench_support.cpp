@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/bench_support.hpp"
+#include "piola/exec/processor_time.hpp"
 #include "piola/exec/threads.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -16,11 +16,7 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double cpu_seconds() { return exec_host::processor_time(); }
 
 std::vector<std::string> beside_scalar(std::string const& machine, char const* const* usable) {
   std::vector<std::string> r{machine};

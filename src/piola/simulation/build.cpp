@@ -249,6 +249,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   measure_volumes(spec, a.particles);
   a.cfl = spec.run.cfl;
   a.machine = spec.run.machine;
+  a.repartition = spec.run.repartition;
   a.initial_velocity.resize(a.particles.X.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     a.materials.push_back(spec.bodies[b].material);

@@ -219,6 +219,7 @@ class Conductor final : public Formulation {
   int stages_per_step() const override { return own().stages_per_step(); }
   std::vector<std::pair<std::string, double>> costs() const override { return own().costs(); }
   std::size_t memory_bytes() const override { return own().memory_bytes(); }
+  std::optional<Recuts> recuts() const override { return own().recuts(); }
 
  private:
   Formulation& own() const { return *own_; }

@@ -225,6 +225,15 @@ void report_rest(Simulation const& s, Relaxation const& relaxation, Ending endin
                     rest.stops, share));
 }
 
+/// How often particles were shared out among ranks anew.
+std::string recuts_text(Recuts const& recuts) {
+  auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
+  std::string text = fmt::format("particles were shared out among the ranks anew {} times", recuts.imbalance.size());
+  for (std::size_t k = 0; k < recuts.imbalance.size() && k < 5; ++k)
+    text += (k == 0 ? "; before, the busiest was above the mean by " : ", ") + percent(recuts.imbalance[k]);
+  return text + "; at the end by " + percent(recuts.last);
+}
+
 /// Makes sure that the folder may be used, and keeps others out of it.
 std::unique_ptr<FolderLock> take_folder(Simulation const& s, RunOptions const& options) {
   if (options.folder.empty()) return nullptr;
@@ -307,6 +316,8 @@ CaseOutcome CaseRun::finish() {
                       .index = {}};
   outcome.summary.guards = p.watch.guards.report();
   outcome.summary.ranks = traffic_on_ranks();
+  if (!outcome.summary.ranks.empty()) outcome.summary.recuts = s.formulation->recuts();
+  if (outcome.summary.recuts) p.journal.note(recuts_text(*outcome.summary.recuts));
   auto const& folder = p.options.folder;
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (p.watch.relaxation.active()) {

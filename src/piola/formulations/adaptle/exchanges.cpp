@@ -57,16 +57,10 @@ SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
   return order;
 }
 
-std::vector<Range> ranges_of(System const& s) {
-  std::vector<Range> bodies;
-  for (int b = 0; b < s.bodies; ++b) bodies.push_back({s.body[b].first, s.body[b].last});
-  return bodies;
-}
-
 }  // namespace
 
-Exchanges::Exchanges(System const& s, MaterialLists const& lists)
-    : bodies_(ranges_of(s)), all_(bodies_, [](Index) { return true; }), near_({}, [](Index) { return false; }) {
+Exchanges::Exchanges(System const& s, MaterialLists const& lists, std::vector<Shares> cuts)
+    : cuts_(std::move(cuts)), all_(cuts_, [](Index) { return true; }), near_({}, [](Index) { return false; }) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(to_neighbours(s, lists, b));
 }
 
@@ -76,7 +70,8 @@ Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists 
   BodyConstants const& b = s.body[body];
   std::vector<Index> read;
   lists.each_neighbour_of(s.part[body], [&](Index i) { read.push_back(i - b.first); });
-  ToNeighbours told{HaloPlan(b.last - b.first, std::move(read)), material_records(s, body), {}, {}};
+  ToNeighbours told{
+      HaloPlan(cuts_[static_cast<std::size_t>(body)].from_zero(), std::move(read)), material_records(s, body), {}, {}};
   auto const [motion, stress, values] = with_material(s.dimension, [&](auto r) {
     using R = decltype(r);
     return std::array{R::X, R::A, R::values(s.settings.published)};
@@ -102,7 +97,7 @@ void Exchanges::after_prediction(System const& s) {
 void Exchanges::after_lists(System const& s, SpatialLists const& lists) {
   for (Index i = 0; i < s.particles && SpatialLists::touching(s); ++i)
     for (int c = 0; c < 3 && lists.meets(i); ++c) value_at(s.field.x, i, c) = s.position[std::ptrdiff_t{3} * i + c];
-  near_ = SlotsOfRanks(bodies_, [&](Index i) { return s.spatial.record != nullptr && lists.near(i); });
+  near_ = SlotsOfRanks(cuts_, [&](Index i) { return s.spatial.record != nullptr && lists.near(i); });
   for (Index& slot : near_.slots) slot = s.spatial.sorted[slot];
 }
 
@@ -115,7 +110,7 @@ void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
   }
   if (SpatialLists::touching(s))
     complete_slots(std::array{FieldPart{s.field.v_half, 0, 3}, FieldPart{s.field.volume_half, 0, 1}},
-                   SlotsOfRanks(bodies_, [&](Index i) { return lists.meets(i); }));
+                   SlotsOfRanks(cuts_, [&](Index i) { return lists.meets(i); }));
   auto const [corrected, all] = parts_of(s);
   tell_records(s, 0, s.settings.corrected ? corrected : all);
 }
@@ -159,12 +154,17 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
 }
 
 void Exchanges::gather(FieldRef const& field, int components) const {
-  for (Range const& body : bodies_) {
+  for (Shares const& body : cuts_) {
+    Index const first = body.whole().first;
     FieldRef of_body = field;
-    of_body.data += body.first * field.particle_stride;
-    Range const own = own_part(body);
-    gather_slots(of_body, {own.first - body.first, own.last - body.first}, components);
+    of_body.data += first * field.particle_stride;
+    Range const own = body.own();
+    gather_slots(of_body, {own.first - first, own.last - first}, components);
   }
+}
+
+void Exchanges::complete(FieldRef const& field, int components) const {
+  for (Shares const& body : cuts_) complete_slots(field, components, body);
 }
 
 }  // namespace piola::adaptle

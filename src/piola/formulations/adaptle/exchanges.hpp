@@ -15,8 +15,8 @@ namespace piola::adaptle {
 /// somebody all ranks are told. What is told, and when, stands in exchanges.cpp alone; every function is collective.
 class Exchanges {
  public:
-  /// system: of a run that several ranks share, with its tables.
-  Exchanges(System const& system, MaterialLists const& lists);
+  /// system: of a run that several ranks share, with its tables. cuts: who has what of each body.
+  Exchanges(System const& system, MaterialLists const& lists, std::vector<Shares> cuts);
 
   /// Between the parts of a step (Machine), in this order.
   void after_prediction(System const& system);
@@ -30,6 +30,9 @@ class Exchanges {
 
   /// Rank 0 has all of a field that each rank has right in its own slots.
   void gather(FieldRef const& field, int components) const;
+  /// All ranks have all of it.
+  void complete(FieldRef const& field, int components) const;
+  std::vector<Shares> const& cuts() const { return cuts_; }
 
  private:
   /// What one body tells its reference neighbours.
@@ -41,8 +44,8 @@ class Exchanges {
   ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
   void tell_records(System const& system, int first, int last) const;
 
-  std::vector<Range> bodies_;  ///< all slots of each
-  SlotsOfRanks all_, near_;    ///< near_: places of records in the order of cells
+  std::vector<Shares> cuts_;
+  SlotsOfRanks all_, near_;  ///< near_: places of records in the order of cells
   std::vector<ToNeighbours> to_neighbours_;
 };
 

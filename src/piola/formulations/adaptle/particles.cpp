@@ -74,6 +74,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
       loads_(assembly.loads),
       actions_(assembly.supports, assembly.loads, assembly.rigid_shapes),
       shapes_(assembly.rigid_shapes),
+      balance_(assembly.repartition),
       X_(assembly.particles.X) {
   system_.dimension = assembly.particles.dimension;
   system_.settings = options_.settings;
@@ -101,7 +102,7 @@ void Particles::start() {
   prepare_supports(0);
   prepare_loads(0);
   prepare_rigid(0, 0);
-  spatial_.build(system_, *machine_);
+  spatial_.build(system_, *machine_, balance_.busy());
   spatial_.put_into(system_);
   books_.contact_energy = contact_energy(system_);
   // A pressure that acts for one step is an impulse of the step that waves allow.
@@ -111,6 +112,7 @@ void Particles::start() {
   sweep(0);
   books_.next_dt = std::min(books_.next_dt, machine_->finish(system_, 0).dt);
   seconds_ = {};
+  balance_.busy() = 0;
 }
 
 void Particles::set_bodies(Assembly const& assembly) {
@@ -372,6 +374,7 @@ double Particles::next_release() const {
 }
 
 void Particles::step(double time, double dt) {
+  if (exchanges_ && balance_.due()) cut_anew();
   prepare_supports(time + dt);
   prepare_loads(time + 0.5 * dt);
   prepare_rigid(time, dt);
@@ -425,6 +428,7 @@ void Particles::sum_actions(double time, double dt) {
 /// Sums over neighbours and what they need.
 void Particles::sweep(double dt) {
   Stopwatch const watch(seconds_.sweeps);
+  BusyWatch const work(balance_.busy());
   System& s = system_;
   if (lagrangian_) machine_->deform(s);
   machine_->half_state(s, dt);
@@ -441,6 +445,7 @@ void Particles::evaluate(double dt) {
   System& s = system_;
   {
     Stopwatch const watch(seconds_.points);
+    BusyWatch const work(balance_.busy());
     machine_->predict(s, dt);
   }
   if (exchanges_) {
@@ -450,7 +455,7 @@ void Particles::evaluate(double dt) {
   if (failure_.index != FailureSlot::none) return;
   {
     Stopwatch const watch(seconds_.lists);
-    spatial_.build(s, *machine_);
+    spatial_.build(s, *machine_, balance_.busy());
     spatial_.put_into(s);
     if (exchanges_) exchanges_->after_lists(s, spatial_);
   }
@@ -458,6 +463,7 @@ void Particles::evaluate(double dt) {
   Measures m;
   {
     Stopwatch const watch(seconds_.points);
+    BusyWatch const work(balance_.busy());
     m = machine_->finish(s, dt);
   }
   books_.contact_energy += dt * m.contact_power;

@@ -10,6 +10,7 @@
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/work_balance.hpp"
 #include <array>
 #include <memory>
 #include <optional>
@@ -99,6 +100,7 @@ class Particles {
   Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
   /// Where ranks share the particles: rank 0 has all of them.
   void gather();
+  std::optional<Recuts> recuts() const { return balance_.recuts(); }
 
  private:
   bool deleted() const;
@@ -132,6 +134,10 @@ class Particles {
   /// Mass, change of energy and of momentum of those that convert in a step.
   using ConversionSums = exec::ExactSums<3>;
   void share();
+  /// Shares the particles out among ranks by the work that they have been: the bits of all numbers stay.
+  void cut_anew();
+  void take(std::vector<Shares> cuts);
+  double work_of(Index slot) const;
   bool is_own(Index slot) const {
     Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
     return slot >= own.first && slot < own.last;
@@ -183,6 +189,7 @@ class Particles {
   std::vector<RigidShape> shapes_;
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;
+  WorkBalance balance_;
   SharedVector<std::array<double, 3>> const X_;  ///< reference positions, per id [m]
 };
 

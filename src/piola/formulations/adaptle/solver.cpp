@@ -100,6 +100,7 @@ class Solver final : public Formulation {
   }
   std::size_t memory_bytes() const override { return particles_.bytes(); }
   void gather() override { particles_.gather(); }
+  std::optional<Recuts> recuts() const override { return particles_.recuts(); }
   std::optional<Talk> talk(std::size_t body) const override { return particles_.talk(static_cast<int>(body)); }
 
  private:

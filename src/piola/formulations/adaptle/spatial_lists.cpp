@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/work_balance.hpp"
 #include <algorithm>
 
 namespace piola::adaptle {
@@ -82,7 +83,7 @@ void SpatialLists::choose_targets(System const& s) {
   for (Index k = 0; k < s.particles; ++k) near_[at(grid_.slots()[k])] = cell_near_[at(grid_.cells()[k])];
 }
 
-void SpatialLists::build(System const& s, Machine const& machine) {
+void SpatialLists::build(System const& s, Machine const& machine, double& busy) {
   eulerian_ = s.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
@@ -99,8 +100,11 @@ void SpatialLists::build(System const& s, Machine const& machine) {
     mark_cells(s);
     choose_targets(s);
   }
-  search(s, machine, spatial_, false);
-  if (touching(s)) search(s, machine, contact_, true);
+  {
+    BusyWatch const watch(busy);
+    search(s, machine, spatial_, false);
+    if (touching(s)) search(s, machine, contact_, true);
+  }
   if (!eulerian_) return;
   if (record_room_ < s.particles + 1) {
     record_room_ = s.particles + 1;

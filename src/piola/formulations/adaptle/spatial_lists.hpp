@@ -10,7 +10,8 @@ namespace piola::adaptle {
 /// total-Lagrangian and far from Eulerian ones and from other bodies get none.
 class SpatialLists {
  public:
-  void build(System const& system, Machine const& machine);
+  /// busy: grows by the time of what each rank does for its own particles alone [s].
+  void build(System const& system, Machine const& machine, double& busy);
   void put_into(System& system);
   std::size_t bytes() const;
   Index longest() const { return longest_; }
