@@ -100,17 +100,17 @@ void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& clo
   exec_host::for_each_in_set_up(fits.own().last - fits.own().first, [&](Index number) {
     Index const particle = fits.own().first + number;
     auto const a = static_cast<std::size_t>(particle);
-    double* const c = &closure.coefficients[a * values * D];
+    auto const c = [&](std::size_t k) -> double& { return closure.coefficients->at(particle, static_cast<int>(k)); };
     double left[D][values];
     for (std::size_t J = 0; J < D; ++J) {
       std::fill_n(left[J], values, 0.0);
-      left[J][0] = fits.own_weight(a) * (closure.mu[a * D + J] - c[J]);
+      left[J][0] = fits.own_weight(a) * (closure.mu[a * D + J] - c(J));
     }
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
       auto const p = fits.monomials_of(a, pairs.at(k));
       for (std::size_t J = 0; J < D; ++J) {
-        double rest = closure.mu[pairs.at(k) * D + J] - c[J];
-        for (std::size_t m = 1; m < values; ++m) rest -= c[m * D + J] * p[m - 1];
+        double rest = closure.mu[pairs.at(k) * D + J] - c(J);
+        for (std::size_t m = 1; m < values; ++m) rest -= c(m * D + J) * p[m - 1];
         rest *= pairs.weight[k];
         left[J][0] += rest;
         for (std::size_t m = 1; m < values; ++m) left[J][m] += rest * p[m - 1];
@@ -119,7 +119,7 @@ void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& clo
     for (std::size_t J = 0; J < D; ++J)
       for (std::size_t m = 0; m < values; ++m)
         for (std::size_t n = 0; n < values; ++n)
-          c[m * D + J] += matrix.inverse(particle, static_cast<int>(m), static_cast<int>(n)) * left[J][n];
+          c(m * D + J) += matrix.inverse(particle, static_cast<int>(m), static_cast<int>(n)) * left[J][n];
   });
 }
 
@@ -256,7 +256,7 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
   if (halo != nullptr)
     exchange_once(*halo, {.data = closure.mu.data(), .component_stride = 1, .particle_stride = D}, D);
   matrix.apply(closure.mu, image);
-  closure.coefficients = matrix.coefficients();
+  closure.coefficients = matrix.take_coefficients();
   refine<D>(fits_, matrix, closure);
   return closure;
 }

@@ -6,6 +6,7 @@
 #include "piola/neighbours/cell_moments.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include <functional>
+#include <memory>
 #include <vector>
 
 /// The divergence theorem for pair gradients. All lengths in spacings. Theory: docs/theory/nodal.md, section 3.3.
@@ -20,8 +21,8 @@ struct ScaledCell {
 
 /// Corrections of the gradients,  G_ab += s_ab (mu_b - p(r_ab).coefficients_a).
 struct Closure {
-  PartFilled<double> mu;            ///< D per particle; on ranks of own ones and their neighbours
-  PartFilled<double> coefficients;  ///< values x D per particle: the quadratic through mu about it; of own ones
+  PartFilled<double> mu;                ///< D per particle; on ranks of own ones and their neighbours
+  std::unique_ptr<Field> coefficients;  ///< values x D per particle: the quadratic through mu about it; of own ones
   int iterations = 0;
 };
 

@@ -10,9 +10,6 @@
 namespace piola::nodal {
 namespace {
 
-template <int D>
-constexpr int triangle = Quadratic<D>::values*(Quadratic<D>::values + 1) / 2;
-
 Index padded(std::size_t particles) {
   auto const n = static_cast<Index>(particles);
   return (n + SlotOrder::alignment - 1) / SlotOrder::alignment * SlotOrder::alignment;
@@ -27,9 +24,9 @@ ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCel
       particles_(static_cast<Index>(cells.size())),
       slots_(padded(cells.size())),
       own_(fits.own()),
-      inverse_("InverseOfNormalEquations", "1", triangle<D>, Role::reference),
+      inverse_("InverseOfNormalEquations", "1", triangle, Role::reference),
       weights_("OwnWeights", "1", 2, Role::reference),
-      coefficients_("LeastSquaresQuadratic", "1", values * D, Role::derived) {
+      coefficients_(std::make_unique<Field>("LeastSquaresQuadratic", "1", values * D, Role::derived)) {
   allocate(lattice);
   if (halo != nullptr) share(*halo);
   fill(fits, cells);
@@ -62,7 +59,7 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
     Gathered::place_lattice(f, slots_, lattice->guard());
   else
     gathered_.place_records(f, D, slots_);
-  for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &inverse_, &weights_, &coefficients_})
+  for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &weights_, coefficients_.get()})
     field->allocate_tiled(slots_);
   state_.dimension = D;
   state_.slots = {0, slots_};
@@ -84,14 +81,12 @@ template <int D>
 void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> const& cells) {
   PartFilled<double> explained(fits.pairs().neighbour.size());  // of the first one of each kind
   for (Index i = state_.slots.first; i < state_.slots.last; ++i) fields_.mass.at(i) = 1;
-  exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
-    std::size_t const a = fits.rows()[k];
-    if (fits.alike(a) == a) fill_sums(fits, a, explained);
-  });
+  fill_sums_and_inverses(fits, explained);
   exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
     std::size_t const a = fits.rows()[k];
     auto const i = static_cast<Index>(a);
-    if (fits.alike(a) != a) copy_sums(fits.alike(a), a);
+    for (int m = 0; m < values && fits.alike(a) != a; ++m)
+      fields_.own.at(i, m) = fields_.own.at(static_cast<Index>(fits.alike(a)), m);
     fields_.V.at(i) = cells[a].volume;
     weights_.at(i, 0) = cells[a].volume * fits.own_weight(a);
     if (state_.lattice.present != nullptr) return;
@@ -104,7 +99,7 @@ void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> cons
     auto const i = static_cast<Index>(a);
     double const own = fits.own_weight(a);
     bool const here = mine(a);
-    if (here) diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse_.at(i, 0));
+    if (here) diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse(i, 0, 0));
     double all = weights_.at(i, 0);
     double const* of_pair = explained.data() + pairs.first(fits.alike(a));
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k, ++of_pair) {
@@ -116,9 +111,35 @@ void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> cons
   });
 }
 
-/// The inverse of a particle's normal equations, its sums of weights and, per pair, p(X_b).inverse.p(X_b).
+/// Of each particle; of a lattice each kind once.
 template <int D>
-void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, PartFilled<double>& explained) {
+void ProjectionMatrix<D>::fill_sums_and_inverses(Fits<D> const& fits, PartFilled<double>& explained) {
+  bool const lattice = state_.lattice.present != nullptr;
+  if (lattice) groups_.emplace(fits, state_.slots, slots_, machine_.lanes);
+  inverse_.allocate_tiled(lattice ? groups_->slots() : slots_);
+  PartFilled<Inverse> of_kind(lattice ? fits.X().size() : 0);
+  auto const put = [this](Index place, Inverse const& inverse) {
+    for (int m = 0; m < triangle; ++m) inverse_.at(place, m) = inverse[static_cast<std::size_t>(m)];
+  };
+  exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
+    std::size_t const a = fits.rows()[k];
+    if (fits.alike(a) != a) return;
+    Inverse const inverse = fill_sums(fits, a, explained);
+    if (lattice)
+      of_kind[a] = inverse;
+    else
+      put(static_cast<Index>(a), inverse);
+  });
+  if (!lattice) return;
+  inverse_.share(groups_->stored.data());
+  groups_->each(fits.X().size(),
+                [&](std::size_t place, std::size_t a) { put(static_cast<Index>(place), of_kind[fits.alike(a)]); });
+}
+
+/// A particle's sums of weights and, per pair, p(X_b).inverse.p(X_b); returns the inverse of its normal equations.
+template <int D>
+typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a,
+                                                                     PartFilled<double>& explained) {
   auto const& pairs = fits.pairs();
   auto const i = static_cast<Index>(a);
   double A[values * values]{}, inverse[values * values], p[values]{1};
@@ -138,8 +159,10 @@ void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, PartFill
   for (int m = 0; m < values; ++m)
     for (int n = 0; n < m; ++n) A[m * values + n] = A[n * values + m];
   invert<values>(A, inverse);
-  for (int m = 0, at = 0; m < values; ++m)
-    for (int n = m; n < values; ++n) inverse_.at(i, at++) = inverse[m * values + n];
+  Inverse upper{};
+  std::size_t at = 0;
+  for (int m = 0; m < values; ++m)
+    for (int n = m; n < values; ++n) upper[at++] = inverse[m * values + n];
   for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
     monomials_of(k);
     explained[k] = 0;
@@ -149,13 +172,7 @@ void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, PartFill
       explained[k] += p[m] * row;
     }
   }
-}
-
-template <int D>
-void ProjectionMatrix<D>::copy_sums(std::size_t from, std::size_t a) {
-  auto const i = static_cast<Index>(a), source = static_cast<Index>(from);
-  for (int m = 0; m < values; ++m) fields_.own.at(i, m) = fields_.own.at(source, m);
-  for (int m = 0; m < triangle<D>; ++m) inverse_.at(i, m) = inverse_.at(source, m);
+  return upper;
 }
 
 template <int D>
@@ -163,22 +180,11 @@ void ProjectionMatrix<D>::apply(PartFilled<double> const& x, PartFilled<double>&
   each_own([&](Index i) {
     for (int c = 0; c < D; ++c) fields_.x.at(i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
   });
-  machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_.ref()});
+  machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
   each_own([&](Index i) {
     for (int c = 0; c < D; ++c)
       image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = fields_.a.at(i, c);
   });
-}
-
-template <int D>
-PartFilled<double> ProjectionMatrix<D>::coefficients() const {
-  constexpr auto size = std::size_t{values} * D;
-  PartFilled<double> c(static_cast<std::size_t>(particles_) * size);
-  each_own([&](Index i) {
-    for (std::size_t k = 0; k < size; ++k)
-      c[static_cast<std::size_t>(i) * size + k] = coefficients_.at(i, static_cast<int>(k));
-  });
-  return c;
 }
 
 template class ProjectionMatrix<1>;

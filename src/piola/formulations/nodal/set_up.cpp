@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/alike_groups.hpp"
 #include "piola/formulations/nodal/closure.hpp"
 #include "piola/formulations/nodal/face_parts.hpp"
 #include "piola/formulations/nodal/held_faces.hpp"
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <tuple>
 
 namespace piola::nodal {
@@ -196,7 +196,8 @@ class Tables {
     auto const& cell = scaled_.cells[a];
     for (std::size_t J = 0; J < dimension; ++J) {
       for (std::size_t m = 0; m < values; ++m)
-        g[m * dimension + J] = -closure.coefficients[(a * values + m) * dimension + J] / scaled_.h[J];
+        g[m * dimension + J] =
+            -closure.coefficients->at(static_cast<Index>(a), static_cast<int>(m * dimension + J)) / scaled_.h[J];
       for (int l = 0; l < Quadratic<D>::terms; ++l) {
         typename Fits<D>::Monomials column;
         for (int i = 0; i < Quadratic<D>::terms; ++i) column[static_cast<std::size_t>(i)] = fits_.inverse(a, i, l);
@@ -222,35 +223,16 @@ class Tables {
 
   /// Makes k: one for each particle, or of a lattice for each kind of group of lanes.
   void share_k() {
-    std::size_t const particles = scaled_.particles;
     if (!to_.lattice) {
       to_.k = PartFilled<double>(slots_ * terms * second);
       each_own([this](std::size_t a) { fill_second(a, &to_.k[a * terms * second]); });
       return;
     }
-    auto const lanes = static_cast<std::size_t>(from_.machine.lanes);
-    std::map<std::vector<std::size_t>, std::int32_t> known;
-    std::vector<std::size_t> kinds, last;
-    std::vector<double> distinct(lanes * terms * second, 0);  // of a rank without particles
-    to_.group_of_k = PartFilled<std::int32_t>(slots_ / lanes);
-    auto const end = static_cast<std::size_t>(from_.own_slots().last);
-    for (std::size_t first = first_; first < end; first += lanes) {
-      std::int32_t& group = to_.group_of_k[first / lanes];
-      kinds.clear();
-      for (std::size_t a = first; a < std::min(first + lanes, particles); ++a) kinds.push_back(fits_.alike(a));
-      if (kinds == last) {  // as most groups
-        group = to_.group_of_k[first / lanes - 1];
-        continue;
-      }
-      last = kinds;
-      auto const [at, is_new] = known.try_emplace(kinds, static_cast<std::int32_t>(known.size()));
-      group = at->second;
-      if (!is_new) continue;
-      distinct.resize(known.size() * lanes * terms * second, 0);
-      for (std::size_t l = 0; l < kinds.size(); ++l)
-        fill_second(first + l, &distinct[(static_cast<std::size_t>(at->second) * lanes + l) * terms * second]);
-    }
-    to_.k = PartFilled<double>(distinct.begin(), distinct.end());
+    AlikeGroups groups(fits_, from_.own_slots(), static_cast<Index>(slots_), from_.machine.lanes);
+    to_.k = PartFilled<double>(static_cast<std::size_t>(groups.slots()) * terms * second);
+    groups.each(scaled_.particles,
+                [&](std::size_t place, std::size_t a) { fill_second(a, &to_.k[place * terms * second]); });
+    to_.group_of_k = std::move(groups.stored);
   }
 
   void fill_own(std::size_t a) {
