@@ -19,20 +19,6 @@ void each_in_id_order(Body const& body, int components, F const& f) {
   });
 }
 
-template <class Body>
-void save_field(StateWriter& writer, std::string const& name, Body const& body, FieldRef const& field, int components) {
-  std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
-  each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { values[at] = value_at(field, i, c); });
-  writer.put(name, values);
-}
-
-template <class Body>
-void load_field(StateReader& reader, std::string const& name, Body const& body, FieldRef const& field, int components) {
-  std::vector<double> values(static_cast<std::size_t>(body.particles()) * static_cast<std::size_t>(components));
-  reader.get(name, values);
-  each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { value_at(field, i, c) = values[at]; });
-}
-
 /// value(slot, c) of all particles in the order of ids; on ranks that share the body on rank 0 alone, elsewhere
 /// nothing.
 template <class Body, class F>
@@ -79,7 +65,7 @@ void from_id_order(Body const& body, int components, std::span<double const> all
   });
 }
 
-/// save_field and load_field of a body whose ranks keep to their own particles.
+/// A field of a body, of which ranks that share it have their own particles. Collective.
 template <class Body>
 void save_own(StateWriter& writer, std::string const& name, Body const& body, FieldRef const& field, int components) {
   writer.put(name, in_id_order(body, components, [&](Index i, int c) { return value_at(field, i, c); }));

@@ -12,7 +12,7 @@ double pseudo_random(std::uint64_t k) {
   return static_cast<double>((k ^ (k >> 32)) & 0xffffff) / 0x1000000 - 0.5;
 }
 
-double largest_of(std::vector<double> const& u) {
+double largest_of(std::span<double const> u) {
   constexpr std::size_t part = 1 << 16;
   std::vector<double> most((u.size() + part - 1) / part, 0);
   exec_host::for_each_part_in_set_up(static_cast<Index>(most.size()), static_cast<Index>(u.size() / 3), [&](Index k) {
@@ -23,13 +23,9 @@ double largest_of(std::vector<double> const& u) {
   return most.empty() ? 0 : *std::max_element(most.begin(), most.end());
 }
 
-void refresh_mode(std::vector<double>& mode) {
+double refreshed(double value, double most, std::uint64_t k) {
   constexpr double fresh = 0.05;
-  double const most = largest_of(mode);
-  exec_host::for_each_in_set_up(static_cast<Index>(mode.size()), [&](Index at) {
-    auto const k = static_cast<std::size_t>(at);
-    mode[k] = most > 0 ? mode[k] / most + fresh * pseudo_random(k) : pseudo_random(k);
-  });
+  return most > 0 ? value / most + fresh * pseudo_random(k) : pseudo_random(k);
 }
 
 }  // namespace piola

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
-#include <vector>
+#include <span>
 
 /// Modes of motion that measurements of step limits iterate.
 namespace piola {
@@ -10,10 +10,10 @@ namespace piola {
 double pseudo_random(std::uint64_t k);
 
 /// The largest |u_k|.
-double largest_of(std::vector<double> const& u);
+double largest_of(std::span<double const> u);
 
-/// The mode of the last measurement, of size 1, with a random part, so that a mode that has grown elsewhere is found; a
-/// random one where there is none.
-void refresh_mode(std::vector<double>& mode);
+/// A number of the mode that the last measurement has found, with a random part, so that a mode that has grown
+/// elsewhere is found; a random one where there was none. `most`: the largest of all numbers. `k`: which one it is.
+double refreshed(double value, double most, std::uint64_t k);
 
 }  // namespace piola

@@ -25,7 +25,7 @@ std::size_t longest_extent(std::vector<HeldPlace> const& places) {
 }  // namespace
 
 SurfaceHold::SurfaceHold(int dimension, std::vector<Support> const& supports, std::vector<HeldPlace> const& places,
-                         std::vector<double> const& mass, std::vector<Point> const& X)
+                         std::span<double const> mass, std::vector<Point> const& X)
     : D_(dimension), driven_(dimension, supports, {}, false) {
   if (places.empty()) return;
   // Numbered as places name them, not as they stand: sums over them are taken in this order.

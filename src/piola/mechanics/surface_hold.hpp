@@ -33,7 +33,7 @@ class SurfaceHold {
 
   /// `supports`: those of the assembly; `mass` [kg] and `X` [m] per slot.
   SurfaceHold(int dimension, std::vector<Support> const& supports, std::vector<HeldPlace> const& places,
-              std::vector<double> const& mass, std::vector<Point> const& X);
+              std::span<double const> mass, std::vector<Point> const& X);
 
   bool empty() const { return places_.empty(); }
   /// Ranks share the body: this one has the particles in these slots right. What follows but hand_over() is then

@@ -140,6 +140,15 @@ void HaloPlan::exchange(std::span<FieldRef const> fields) {
   for (Side& side : receives_) copy<false>(side, fields);
 }
 
+HaloPlan HaloPlan::without_fields() const {
+  HaloPlan bare(slots_);
+  bare.reaches_ = reaches_;
+  bare.received_ = received_;
+  for (Side const& side : sends_) bare.sends_.push_back({side.rank, side.reaches, {}});
+  for (Side const& side : receives_) bare.receives_.push_back({side.rank, side.reaches, {}});
+  return bare;
+}
+
 std::size_t HaloPlan::bytes() const {
   std::size_t n = received_.capacity() * sizeof(Index);
   for (auto const* sides : {&sends_, &receives_})
@@ -151,5 +160,11 @@ std::size_t HaloPlan::bytes() const {
 }
 
 void exchange(HaloPlan& plan, std::span<FieldRef const> fields) { plan.exchange(fields); }
+
+void exchange_once(HaloPlan const& plan, FieldRef const& field, int components) {
+  HaloPlan once = plan.without_fields();
+  once.add(field, 0, components);
+  once.exchange(field);
+}
 
 }  // namespace piola

@@ -34,11 +34,15 @@ class HaloPlan {
   void exchange(std::span<FieldRef const> fields);
   void exchange(FieldRef const& field) { exchange(std::span(&field, 1)); }
 
+  /// The same slots, of no fields yet.
+  HaloPlan without_fields() const;
+
   /// Particles of which something comes from others, in ascending order.
   std::vector<Index> const& received() const { return received_; }
   std::size_t bytes() const;
 
  private:
+  explicit HaloPlan(Index slots) : slots_(slots) {}
   /// Within one reach.
   struct Slots {
     Index count = 0;
@@ -68,5 +72,7 @@ class HaloPlan {
 
 /// plan.exchange(fields), for code that is compiled once per machine.
 void exchange(HaloPlan& plan, std::span<FieldRef const> fields);
+/// Of a field that the plan need not know, what is within its first reach.
+void exchange_once(HaloPlan const& plan, FieldRef const& field, int components);
 
 }  // namespace piola

@@ -20,6 +20,12 @@ Range SharedSlots::of(int rank) const {
   return {std::min(share.first, particles), std::min(share.last, particles)};
 }
 
+void SharedSlots::complete(std::span<double> values, std::size_t width) const {
+  std::vector<std::size_t> starts{0};
+  for (int rank = 0; rank < ranks::count(); ++rank) starts.push_back(static_cast<std::size_t>(of(rank).last) * width);
+  ranks::complete(values.first(starts.back()), starts);
+}
+
 namespace {
 
 void complete(double* data, std::ptrdiff_t size, Shares const& body) {

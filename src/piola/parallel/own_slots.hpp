@@ -90,6 +90,9 @@ struct SharedSlots {
   /// Slots of particles that a rank has.
   Range of(int rank) const;
   Range own() const { return of(ranks::own()); }
+  /// Of values per slot, `width` of each, that each rank has right in its own part: all ranks have those of all
+  /// particles. Collective.
+  void complete(std::span<double> values, std::size_t width) const;
   /// `values`: of each slot of this rank `width` of them. take(range, values) on rank 0 for one rank after the other,
   /// so that it never has more than a share of them besides its own.
   template <class F>

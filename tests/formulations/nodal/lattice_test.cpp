@@ -107,9 +107,10 @@ TEST(NodalLattice, KnowsItsPairsWithoutASearch) {
     X.push_back(a.particles.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)])]);
     for (std::size_t c = 0; c < 3; ++c) X.back()[c] /= a.particles.bodies[0].spacing[c];
   }
+  nodal::Entries const all(order.particles);
   for (double const reach : {2.4, 3.0}) {
-    auto const known = nodal::lattice_pairs(*shape, reach),
-               found = nodal::find_pairs(X, std::vector<double>(X.size(), reach));
+    auto const known = nodal::lattice_pairs(*shape, reach, all),
+               found = nodal::find_pairs(X, std::vector<double>(X.size(), reach), all);
     EXPECT_EQ(known.begin, found.begin);
     EXPECT_EQ(known.neighbour, found.neighbour);
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/observed.hpp"
+#include "piola/formulations/sample_own.hpp"
 #include "piola/materials/solids.hpp"
-#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -227,26 +226,13 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
 }  // namespace
 
 void sample_own(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
-  observe_each(body, body_number, field, [&](Index i, ObservedParticle const& p) {
-    found.put(p, &values[static_cast<std::size_t>(i - body.own().first) * static_cast<std::size_t>(found.components)]);
-  });
+  piola::sample_own(body, find_observed(field, offered), values,
+                    [&](auto const& f) { observe_each(body, body_number, field, f); });
 }
 
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
-  if (!body.shared())
-    return observe_each(body, body_number, field, [&](Index, ObservedParticle const& p) { put(found, p, values); });
-  auto const width = static_cast<std::size_t>(found.components);
-  Range const own = body.own();
-  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * width);
-  sample_own(body, body_number, field, mine);
-  SharedSlots{body.slots(), body.particles()}.collect(
-      width, std::move(mine), [&](Range part, std::span<double const> of) {
-        for (Index i = part.first; i < part.last; ++i)
-          std::copy_n(&of[static_cast<std::size_t>(i - part.first) * width], width,
-                      &values[static_cast<std::size_t>(body.id(i)) * width]);
-      });
+  sample_for_first(body, find_observed(field, offered), values,
+                   [&](auto const& f) { observe_each(body, body_number, field, f); });
 }
 
 }  // namespace piola::jst_sph

@@ -6,6 +6,7 @@
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
+#include "piola/formulations/sample_own.hpp"
 #include "piola/formulations/slots_by_id.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
@@ -132,23 +133,12 @@ class Solver final : public Formulation {
     }
   }
 
-  std::optional<std::vector<std::int64_t>> owned() const override {
-    if (!ranks::several()) return std::nullopt;
-    std::vector<std::int64_t> ids;
-    for (auto const& body : bodies_)
-      for (Index i = body->own().first; i < body->own().last; ++i) ids.push_back(body->id(i));
-    return ids;
-  }
+  std::optional<std::vector<std::int64_t>> owned() const override { return ids_of_own(bodies_); }
   void sample_owned(std::string_view field, std::span<double> values) const override {
-    if (!ranks::several()) return sample(field, values);
-    auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
-    int number = 0;
-    for (auto const& body : bodies_) {
-      refresh(*body);
-      auto const numbers = static_cast<std::size_t>(body->own().last - body->own().first) * width;
-      sample_own(*body, number++, field, values.first(numbers));
-      values = values.subspan(numbers);
-    }
+    sample_of_own(*this, bodies_, field, values, [&](auto const& body, int number, std::span<double> own) {
+      refresh(body);
+      sample_own(body, number, field, own);
+    });
   }
 
   void save(StateWriter& writer) const override;

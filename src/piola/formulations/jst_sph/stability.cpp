@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/stability.hpp"
 #include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/checkpoint.hpp"
+#include "piola/formulations/own_mode.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/mechanics/modes.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace piola::jst_sph {
 namespace {
@@ -80,35 +79,6 @@ class Kept {
   Range slots_;
   std::vector<Part> parts_;
 };
-
-std::size_t size_of_mode(JstBody const& body) {
-  return static_cast<std::size_t>(body.own().last - body.own().first) *
-         static_cast<std::size_t>(body.state().dimension);
-}
-
-/// Modes have the particles of this rank, by slot.
-std::size_t mode_place(JstBody const& body, Index slot, int c) {
-  return static_cast<std::size_t>(slot - body.own().first) * static_cast<std::size_t>(body.state().dimension) +
-         static_cast<std::size_t>(c);
-}
-
-double largest_on_ranks(JstBody const& body, std::vector<double> const& u) {
-  double most = largest_of(u);
-  if (body.shared()) ranks::take_largest(most);
-  return most;
-}
-
-/// f(value, number) of the values of a mode; numbers go by id.
-template <class F>
-void each_of_mode(JstBody const& body, std::vector<double>& mode, F const& f) {
-  Range const own = body.own();
-  int const D = body.state().dimension;
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
-    auto const number =
-        static_cast<std::uint64_t>(body.id(own.first + k) - body.body().first) * static_cast<unsigned>(D);
-    for (int c = 0; c < D; ++c) f(mode[mode_place(body, own.first + k, c)], number + static_cast<unsigned>(c));
-  });
-}
 
 /// A linear operator of the body as trial steps see it: displacements to rates of velocity, about a state.
 class Operator {
@@ -295,15 +265,6 @@ bool StabilityMonitor::is_undeformed() const {
   return moved == 0;
 }
 
-/// The mode of the last measurement, of size 1, with a random part, so that one that has grown elsewhere is found.
-void StabilityMonitor::refresh_mode() {
-  constexpr double fresh = 0.05;
-  double const most = largest_on_ranks(body_, mode_);
-  each_of_mode(body_, mode_, [&](double& value, std::uint64_t number) {
-    value = most > 0 ? value / most + fresh * pseudo_random(number) : pseudo_random(number);
-  });
-}
-
 double StabilityMonitor::setup_stages() const {
   constexpr double around = 1;  // the state without displacement
   bool const hourglass = body_.options().hourglass();
@@ -317,7 +278,7 @@ void StabilityMonitor::measure_at_rest() {
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
-  refresh_mode();
+  refresh_mode(body_, mode_);
   Operator forces(body_, trial, machine_, nullptr);
   limit_at_rest_ = k.h_min / k.c_p0;
   speed_at_rest_ = k.c_p0;
@@ -332,7 +293,7 @@ void StabilityMonitor::measure_at_rest() {
 void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
   Kept const kept(body_);
   FailureSlot failure;
-  refresh_mode();
+  refresh_mode(body_, mode_);
   Operator tangent(body_, trial_of(body_, failure), machine_, &kept);
   tangent.multiply_damping(2 / limit_);
   limit_ = largest_step(tangent.dominant(mode_, rounds));
@@ -345,7 +306,7 @@ void StabilityMonitor::measure(int rounds, double wave_speed) {
   if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
   Kept const kept(body_);
   wave_speed_ = wave_speed;
-  refresh_mode();
+  refresh_mode(body_, mode_);
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
@@ -372,21 +333,14 @@ double StabilityMonitor::step(double wave_speed) const {
 
 std::vector<double> StabilityMonitor::state() const {
   std::vector<double> s{body_.options().hourglass() ? limit_ : frequency_, wave_speed_, steps_};
-  auto const mode =
-      in_id_order(body_, body_.state().dimension, [&](Index i, int c) { return mode_[mode_place(body_, i, c)]; });
-  s.insert(s.end(), mode.begin(), mode.end());
-  return s;
+  return with_mode(body_, std::move(s), mode_);
 }
 
 void StabilityMonitor::restore(std::vector<double> const& state) {
-  std::array<double, 3> numbers{};
-  std::copy_n(state.begin(), numbers.size(), numbers.begin());
-  if (body_.shared()) ranks::broadcast_bytes(numbers.data(), sizeof numbers);
+  auto const numbers = without_mode(body_, 3, state, mode_);
   (body_.options().hourglass() ? limit_ : frequency_) = numbers[0];
   wave_speed_ = numbers[1];
   steps_ = numbers[2];
-  from_id_order(body_, body_.state().dimension, std::span(state).subspan(numbers.size()),
-                [&](Index i, int c, double value) { mode_[mode_place(body_, i, c)] = value; });
 }
 
 }  // namespace piola::jst_sph

@@ -47,7 +47,6 @@ class StabilityMonitor {
  private:
   bool is_large_lattice() const;
   bool is_undeformed() const;
-  void refresh_mode();
   void measure(int rounds, double wave_speed);
   void measure_at_rest();
   void measure_all_forces(int rounds, double wave_speed);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <tuple>
+#include <utility>
 
 namespace piola::nodal {
 namespace {
@@ -31,14 +32,6 @@ struct SaidOfStep {
 constexpr int most_halvings = 8;
 /// A point of a cell that loses more than the rest of its volume in a step is crushed faster than the step can follow.
 constexpr double least_share = 0.5;
-
-/// f(integral_constant D)
-template <class F>
-void with_dimension(int D, F const& f) {
-  if (D == 1) f(std::integral_constant<int, 1>{});
-  if (D == 2) f(std::integral_constant<int, 2>{});
-  if (D == 3) f(std::integral_constant<int, 3>{});
-}
 
 }  // namespace
 
@@ -64,14 +57,14 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "hold = \"particles\") - change hold",
         body_.name));
   images_.keep(reference_.images);
+  share();
   allocate();
+  if (shared()) mark_halo();
   fill_reference();
   if (!images_.empty()) keep_own_side();
   fill_initial(assembly);
   fill_histories();
-  boundary_.emplace(assembly, body,
-                    Boundary::OfBody{order_, reference_.mass, reference_.parts, reference_.centroid, reference_.held});
-  boundary_->attach(state_);
+  make_boundary(assembly, body);
   machine.step(state_, 0);  // the accelerations of the start
 }
 
@@ -80,8 +73,9 @@ void NodalBody::set_up(Assembly const& assembly, std::size_t body, Machine const
   SlotOrder const order = slot_order(*set_, body_);
   MirrorImages const images = make_images(assembly, body, order);
   reference_ = make_reference({*set_, body_, order, assembly.loads, assembly.supports, densities(), options_.least_mass,
-                               machine, images.empty() ? nullptr : &images});
-  if (order.id != order_.id) reference_ = dealt_reference(reference_, order, order_);
+                               machine, images.empty() ? nullptr : &images, 1e-3,
+                               ranks::several() ? std::optional(state_.slots) : std::nullopt});
+  if (order.id != order_.id) reference_ = dealt_reference(std::move(reference_), order, order_);
 }
 
 /// Of the whole body: what is set up are its cells, fits and masses. Between two planes it has no end; what is eight
@@ -119,7 +113,7 @@ void NodalBody::attach_images() {
 
 /// What is on a plane: half of it is the body's own, and it does not leave the plane.
 void NodalBody::keep_own_side() {
-  for (Index i = 0; i < order_.particles; ++i) {
+  for (Index i = own().first; i < own().last; ++i) {
     int axes = 0;
     for (int axis = 0; axis < D_; ++axis)
       if (images_.on_plane(i, static_cast<std::size_t>(axis))) axes |= 1 << axis;
@@ -127,7 +121,7 @@ void NodalBody::keep_own_side() {
   }
   state_.mirrored = mirrored_.data();
   state_.mirrored_count = static_cast<Index>(mirrored_.size());
-  for (Index i = 0; i < order_.particles; ++i) {
+  for (Index i = own().first; i < own().last; ++i) {
     auto const slot = static_cast<std::size_t>(i);
     reference_.mass[slot] *= share(i);
     for (auto& part : reference_.parts)
@@ -137,7 +131,7 @@ void NodalBody::keep_own_side() {
 
 void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) {
   state_.dimension = D_;
-  state_.slots = {0, order_.slots()};
+  state_.slots = share_of(order_.slots(), ranks::own(), ranks::count());
   state_.all_slots = order_.slots();
   state_.particles = order_.particles;
   double const spacing = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
@@ -203,7 +197,7 @@ void NodalBody::allocate() {
     fields_.k.share(group.data());
   }
   fields_.each([&](Field& f) {
-    if (f.size() > 0 || (&f == &fields_.products && !reference_.lattice)) return;
+    if (f.size() > 0 || &f == (reference_.lattice ? &fields_.X : &fields_.products)) return;
     if (!fields_.with_viscosity && (&f == &fields_.viscous || &f == &fields_.viscous_kept)) return;
     if (!fields_.with_solids && (&f == &fields_.history || &f == &fields_.history_kept)) return;
     if (f.components() > 1)
@@ -229,38 +223,52 @@ void NodalBody::allocate() {
   if (reference_.lattice) s.lattice = reference_.lattice->table();
 }
 
+template <class Visit>
+void NodalBody::each_seen(Visit const& f) const {
+  exec_host::for_each_in_set_up(state_.slots.last - state_.slots.first, [&](Index k) { f(state_.slots.first + k); });
+  for (Index k = 0; k < images_.count(); ++k) f(order_.slots() + k);
+  if (!shared()) return;
+  for (Index const i : halo_->received()) f(i);
+}
+
 void NodalBody::fill_reference() {
-  auto const copy = [&](std::vector<double> const& from, Field& to) {
-    exec_host::for_each_in_set_up(to.size(), [&](Index i) {
-      for (int c = 0; c < to.components(); ++c)
-        to.at(i, c) =
-            from[static_cast<std::size_t>(i) * static_cast<std::size_t>(to.components()) + static_cast<std::size_t>(c)];
-    });
+  auto const copy_at = [](PartFilled<double> const& from, Field& to, Index i) {
+    auto const size = static_cast<std::size_t>(to.components());
+    for (std::size_t c = 0; c < size; ++c) to.at(i, static_cast<int>(c)) = from[static_cast<std::size_t>(i) * size + c];
   };
-  copy(reference_.V, fields_.V);
-  copy(reference_.mass, fields_.mass);
-  copy(reference_.L, fields_.L);
-  copy(reference_.g, fields_.g);
-  copy(reference_.k, fields_.k);
-  copy(reference_.own, fields_.own);
-  copy(reference_.mu, fields_.mu);
-  copy(reference_.X, fields_.X);
-  // Slots without a particle hold nothing that counts.
-  for (Index i = 0; i < order_.particles; ++i)
-    for (int c = 0; c < D_; ++c) fields_.C_measured.at(i, c) = 1;
+  auto& r = reference_;
+  auto& f = fields_;
+  exec_host::for_each_in_set_up(state_.slots.last - state_.slots.first, [&](Index k) {
+    Index const i = state_.slots.first + k;
+    copy_at(r.V, f.V, i);
+    copy_at(r.mass, f.mass, i);
+    copy_at(r.L, f.L, i);
+    copy_at(r.g, f.g, i);
+    copy_at(r.own, f.own, i);
+    if (r.group_of_k.empty()) copy_at(r.k, f.k, i);
+    // Slots without a particle hold nothing that counts.
+    for (int c = 0; c < D_ && i < order_.particles; ++c) f.C_measured.at(i, c) = 1;
+  });
+  for (Index i = 0; i < f.k.size() && !r.group_of_k.empty(); ++i) copy_at(r.k, f.k, i);
+  each_seen([&](Index i) {
+    copy_at(r.mu, f.mu, i);
+    if (r.lattice) return;
+    copy_at(r.X, f.X, i);
+    gathered_.complete_record(D_, i);
+  });
   // The fields have them now.
-  for (auto* array : {&reference_.L, &reference_.g, &reference_.k, &reference_.own, &reference_.mu})
-    std::vector<double>().swap(*array);
+  for (auto* array : {&r.L, &r.g, &r.k, &r.own, &r.mu}) PartFilled<double>().swap(*array);
 }
 
 void NodalBody::fill_initial(Assembly const& assembly) {
   auto const& moved = assembly.initial_displacement;
-  exec_host::for_each_in_set_up(order_.particles, [&](Index i) {
+  exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) {
+    Index const i = own().first + k;
     auto const at = static_cast<std::size_t>(id(i));
     for (int c = 0; c < D_; ++c) {
-      auto const k = static_cast<std::size_t>(c);
-      fields_.x.at(i, c) = set_->X[at][k] + (moved.empty() ? 0 : moved[at][k]);
-      if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][k];
+      auto const d = static_cast<std::size_t>(c);
+      fields_.x.at(i, c) = set_->X[at][d] + (moved.empty() ? 0 : moved[at][d]);
+      if (!assembly.initial_velocity.empty()) fields_.v.at(i, c) = assembly.initial_velocity[at][d];
     }
   });
   for (MirroredParticle const& p : mirrored_)
@@ -271,11 +279,24 @@ void NodalBody::fill_initial(Assembly const& assembly) {
     }
 }
 
+void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
+  auto& r = reference_;
+  // Of all particles on all ranks where these push them, or solve for what holds the surface.
+  if (shared() && (assembly.pushed || !r.held.empty())) SharedSlots{slots(), particles()}.complete(r.mass, 1);
+  std::optional<Range> own;
+  if (shared()) own = state_.slots;
+  boundary_.emplace(assembly, body, Boundary::OfBody{order_, r.mass, r.parts, r.centroid, r.held, own});
+  boundary_->attach(state_);
+  if (!assembly.pushed) PartFilled<double>().swap(r.mass);
+  PartFilled<double>().swap(r.centroid);
+  r.parts.clear();
+}
+
 /// Solids in rate form start free of stress where they are not deformed.
 void NodalBody::fill_histories() {
   for (MaterialRange const& range : materials_)
     with_solid(range.material, [&](auto const& law) {
-      for (Index i = range.first; i < range.last; ++i) {
+      for (Index i = std::max(range.first, own().first); i < std::min(range.last, own().last); ++i) {
         for (int q = 0; q < Fields::points(D_); ++q) {
           int const at = SolidPlaces::point(q, D_);
           fields_.history.at(i, at + SolidPlaces::temperature) = law.initial_temperature();
@@ -329,7 +350,7 @@ double NodalBody::strain_energy() const {
 double NodalBody::viscous_loss() const {
   if (!fields_.with_viscosity) return 0;
   int const loss = Fields::viscous_values(D_) - 1;
-  return exec_host::sum_of(order_.particles, [&](Index i) { return volume(i) * value(state_.viscous, i, loss); });
+  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.viscous, i, loss); });
 }
 
 double NodalBody::mean_of_points(Index slot, int number) const {
@@ -353,17 +374,16 @@ Mat<3> NodalBody::F(Index slot) const {
 }
 
 Smoothing const& NodalBody::smoothing() const {
-  if (!smoothing_) smoothing_.emplace(reference_, D_, order_.particles);
+  if (!smoothing_) smoothing_.emplace(reference_, D_, own(), halo_.get());
   return *smoothing_;
 }
 
 std::size_t NodalBody::bytes() const {
   auto const& r = reference_;
-  std::size_t total = gathered_.bytes() + order_.id.size() * 8 + r.begin.size() * 8 + r.neighbour.size() * 12 +
-                      r.group_of_k.size() * 4 +
-                      (r.V.size() + r.mass.size() + r.X.size() + r.centroid.size() + partial_.size()) * 8;
-  // The smoothing of observers, whose weights are one per pair.
-  if (smoothing_) total += r.neighbour.size() * 8 + r.V.size() * 8;
+  std::size_t total = gathered_.bytes() + order_.id.size() * 8 + r.begin.size() * 8 + r.neighbour.size() * 4 +
+                      r.weight.size() * 8 + r.group_of_k.size() * 4 +
+                      (r.V.size() + r.mass.size() + r.X.size() + partial_.size()) * 8;
+  if (smoothing_) total += smoothing_->bytes();
   return total + fields_.bytes() + boundary_->bytes();
 }
 

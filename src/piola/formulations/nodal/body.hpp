@@ -9,6 +9,7 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/smoothing.hpp"
 #include "piola/formulations/nodal/state.hpp"
+#include "piola/formulations/shared_lines.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include <memory>
@@ -20,7 +21,8 @@ namespace piola::nodal {
 /// One body of a nodal run: owns its memory, hands its state to the loops, answers in Id order.
 class NodalBody {
  public:
-  /// `set` is kept by reference. Throws InputError (too few particles across; a body without an outline).
+  /// `set` is kept by reference. Throws InputError (too few particles across; a body without an outline). Collective on
+  /// ranks: each has its own particles alone, and what these read of others.
   NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
             Machine const& machine);
   NodalBody(NodalBody const&) = delete;
@@ -34,18 +36,17 @@ class NodalBody {
   Boundary& boundary() { return *boundary_; }
   Boundary const& boundary() const { return *boundary_; }
   Index particles() const { return order_.particles; }
+  Index slots() const { return order_.slots(); }
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   Reference const& reference() const { return reference_; }
-  /// Of all ranks that share the particles this one takes a part: from now on it works on that. Collective.
-  void share();
   bool shared() const { return halo_ != nullptr; }
   /// What its particles tell those of other ranks, in calm motion.
   Talk talk() const;
   /// Slots of particles that this rank works on: all of them on one rank.
   Range own() const;
-  /// Of a field that all ranks have in part, what the others have comes to rank 0. Collective.
-  void gather(FieldRef const& field, int components) const;
-  /// Made when it is asked for the first time.
+  /// Where ranks share the body: its lattice lines as observers see them; else nullptr.
+  SharedLines* lines() const { return lines_.get(); }
+  /// Made when it is asked for the first time. Collective.
   Smoothing const& smoothing() const;
   std::size_t bytes() const;
 
@@ -60,7 +61,7 @@ class NodalBody {
   double kinetic_energy_of(Index slot) const;             ///< [J]
   double strain_energy() const;                           ///< likewise, of what observers see [J]
   double damping_loss() const { return damping_loss_; }   ///< since the start [J]
-  double viscous_loss() const;                            ///< since the start [J]
+  double viscous_loss() const;                            ///< likewise, since the start [J]
   bool remembers() const { return fields_.with_solids; }  ///< solids in rate form
   bool viscous() const { return fields_.with_viscosity; }
   /// Over the points of a cell, of one number of their histories (SolidPlaces); 0 for bodies without.
@@ -76,6 +77,8 @@ class NodalBody {
   Mat<3> F(Index slot) const;  ///< at the centroid of the cell; of missing directions the mean over its points
   MaterialRange const& material(Index slot) const;
   double mass(Index slot) const { return share(slot) * value(state_.mass, slot); }
+  /// Of any particle, on all ranks, of bodies that are pushed.
+  double known_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }
   double volume(Index slot) const { return share(slot) * value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
 
@@ -96,7 +99,13 @@ class NodalBody {
   void fill_reference();
   void fill_initial(Assembly const& assembly);
   void fill_histories();
+  void make_boundary(Assembly const& assembly, std::size_t body);
   void agree_on_step(double change);
+  void share();
+  void mark_halo();
+  /// f(slot) for the slots of this rank, for those that it reads of other ranks, and for images.
+  template <class Visit>
+  void each_seen(Visit const& f) const;
   bool failed() const { return failure_.index < order_.particles; }
   std::vector<Index> slots_read() const;
 
@@ -118,6 +127,7 @@ class NodalBody {
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles
+  std::unique_ptr<SharedLines> lines_;
 };
 
 }  // namespace piola::nodal

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/boundary.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <algorithm>
 
 namespace piola::nodal {
 namespace {
 
-std::vector<std::array<double, 3>> positions(Assembly const& assembly, SlotOrder const& order) {
+/// For those that hold the surface: nothing where nobody does.
+std::vector<std::array<double, 3>> positions(Assembly const& assembly, Boundary::OfBody const& of_body) {
+  if (of_body.held.empty()) return {};
+  SlotOrder const& order = of_body.order;
   std::vector<std::array<double, 3>> X(static_cast<std::size_t>(order.slots()));
   for (std::size_t i = 0; i < static_cast<std::size_t>(order.particles); ++i)
     X[i] = assembly.particles.X[static_cast<std::size_t>(order.id[i])];
@@ -17,7 +22,8 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_
     : body_(assembly.particles.bodies[body]),
       D_(assembly.particles.dimension),
       driven_(D_, assembly.supports, assembly.loads, false),
-      surface_(D_, assembly.supports, of_body.held, of_body.mass, positions(assembly, of_body.order)) {
+      surface_(D_, assembly.supports, of_body.held, of_body.mass, positions(assembly, of_body)),
+      own_(of_body.own) {
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < of_body.order.particles; ++i)
     slot_of[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
@@ -31,12 +37,23 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_
   take_loads(assembly, of_body, slot_of);
 }
 
+/// Those that hold the surface solve for all that is held near it, on every rank.
+void Boundary::share(Range own) {
+  if (surface_.empty())
+    driven_.keep(own);
+  else
+    driven_.share(own);
+  surface_.share(own);
+}
+
 /// Acceleration per unit of the load's value, per slot; zero where it does not act.
-std::vector<double> Boundary::factors(Load const& load, std::size_t number, OfBody const& of_body,
-                                      std::vector<Index> const& slot_of) const {
-  std::vector<double> factor(of_body.mass.size(), 0);
+PartFilled<double> Boundary::factors(Load const& load, std::size_t number, OfBody const& of_body,
+                                     std::vector<Index> const& slot_of) const {
+  PartFilled<double> factor(of_body.mass.size());
+  Range const own = of_body.slots();
   if (load.on_face()) {
-    for (std::size_t i = 0; i < of_body.parts[number].size(); ++i)
+    std::size_t const last = std::min(of_body.parts[number].size(), static_cast<std::size_t>(own.last));
+    for (auto i = static_cast<std::size_t>(own.first); i < last; ++i)
       factor[i] = of_body.parts[number][i].area / of_body.mass[i];
     return factor;
   }
@@ -52,13 +69,18 @@ void Boundary::take_loads(Assembly const& assembly, OfBody const& of_body, std::
   for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
     Load const& load = assembly.loads[number];
     auto const factor = factors(load, number, of_body, slot_of);
-    for (std::size_t slot = 0; slot < factor.size(); ++slot) {
+    for (auto slot = static_cast<std::size_t>(of_body.slots().first);
+         slot < static_cast<std::size_t>(of_body.slots().last); ++slot) {
       if (factor[slot] == 0) continue;
       driven_.add_load(number, {static_cast<Index>(slot), of_body.mass[slot], factor[slot],
                                 assembly.particles.X[static_cast<std::size_t>(of_body.order.id[slot])],
                                 load.pressure ? std::optional(of_body.parts[number][slot].normal) : std::nullopt});
     }
   }
+  if (own_) share(*own_);
+  double follows = driven_.follows() ? 1 : 0;  // ranks turn loads together
+  if (own_) ranks::take_largest(follows);
+  follows_ = follows > 0;
   for (auto const& p : driven_.loaded()) {
     auto const own = of_body.centroid.begin() + std::ptrdiff_t{p.slot} * D_;
     centroid_.insert(centroid_.end(), own, own + D_);
@@ -86,7 +108,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   state.loaded = driven_.loaded().data();
   state.loaded_count = static_cast<Index>(driven_.loaded().size());
   state.loaded_centroid = centroid_.data();
-  state.follows = driven_.follows();
+  state.follows = follows_;
 }
 
 void Boundary::end_step(BodyState& state) {

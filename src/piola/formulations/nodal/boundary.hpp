@@ -19,22 +19,18 @@ class Boundary {
   /// cells, and the places of the surface that supports hold.
   struct OfBody {
     SlotOrder const& order;
-    std::vector<double> const& mass;
-    std::vector<std::vector<FacePart>> const& parts;
-    std::vector<double> const& centroid;
+    PartFilled<double> const& mass;
+    std::vector<PartFilled<FacePart>> const& parts;
+    PartFilled<double> const& centroid;
     std::vector<HeldPlace> const& held;
+    std::optional<Range> own = std::nullopt;  ///< slots for which this rank answers; nothing: all
+    Range slots() const { return own.value_or(Range{0, order.slots()}); }
   };
+  /// Where ranks share the body every rank calls this, and what changes or measures the state.
   Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_body);
 
   /// Gives the particles that supports hold the velocities of t = 0, and the loads of that time.
   void attach(BodyState& state);
-  /// Ranks share the body: this one answers for the particles in these slots. Then every rank calls what changes or
-  /// measures the state.
-  void share(Range own) {
-    own_ = own;
-    driven_.share(own);
-    surface_.share(own);
-  }
   /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends.
   void begin_step(BodyState& state, double time, double dt);
   /// After it: adds the work and the impulses, and takes loads that end now out of the acceleration with which the next
@@ -66,8 +62,9 @@ class Boundary {
 
  private:
   void take_loads(Assembly const& assembly, OfBody const& of_body, std::vector<Index> const& slot_of);
-  std::vector<double> factors(Load const& load, std::size_t number, OfBody const& of_body,
-                              std::vector<Index> const& slot_of) const;
+  void share(Range own);
+  PartFilled<double> factors(Load const& load, std::size_t number, OfBody const& of_body,
+                             std::vector<Index> const& slot_of) const;
 
   Body body_;
   int D_;
@@ -76,6 +73,7 @@ class Boundary {
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to these [m]
   SharedTotal work_;
   std::optional<Range> own_;  ///< nothing: all slots
+  bool follows_ = false;      ///< whether some load turns with the deformed face, on any rank
 };
 
 }  // namespace piola::nodal

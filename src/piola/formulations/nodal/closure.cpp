@@ -5,6 +5,7 @@
 #include "piola/formulations/nodal/spline_levels.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/mechanics/modes.hpp"
+#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,8 +24,8 @@ template <int D>
 using Columns = std::array<double, static_cast<std::size_t>(D)>;
 
 template <int D>
-Columns<D> products(std::vector<double> const& u, std::vector<double> const& v) {
-  auto const sums = exec_host::sums_of<D>(static_cast<Index>(u.size() / D), [&](Index particle, double* sum) {
+Columns<D> products(Fits<D> const& fits, PartFilled<double> const& u, PartFilled<double> const& v) {
+  auto const sums = sums_over_slots<D>(fits.shared().has_value(), fits.own(), [&](Index particle, double* sum) {
     std::size_t const first = static_cast<std::size_t>(particle) * D;
     for (std::size_t J = 0; J < D; ++J) sum[J] = u[first + J] * v[first + J];
   });
@@ -33,39 +34,56 @@ Columns<D> products(std::vector<double> const& u, std::vector<double> const& v) 
   return result;
 }
 
+/// Monomials in the box around all points.
+template <int D>
+class BoxMonomials {
+ public:
+  static constexpr int values = Quadratic<D>::values;
+  explicit BoxMonomials(Points const& X) : X_(X) {
+    for (int c = 0; c < D; ++c) {
+      auto const at = static_cast<std::size_t>(c);
+      auto const [low, high] =
+          std::minmax_element(X.begin(), X.end(), [at](auto const& p, auto const& q) { return p[at] < q[at]; });
+      middle_[c] = 0.5 * ((*low)[at] + (*high)[at]);
+      scale_[c] = 2 / ((*high)[at] - (*low)[at]);
+    }
+  }
+  void operator()(std::size_t a, double (&p)[values]) const {
+    Vec<D> r;
+    for (int c = 0; c < D; ++c) r[c] = scale_[c] * (X_[a][static_cast<std::size_t>(c)] - middle_[c]);
+    monomials<D>(r, p);
+  }
+
+ private:
+  Points const& X_;
+  Vec<D> middle_, scale_;
+};
+
 /// Takes from every column the quadratic that fits it best. Quadratics change no gradient, but are large in solutions
 /// and would cost digits.
 template <int D>
-void remove_quadratic(Points const& X, std::vector<double>& u) {
-  constexpr int values = Quadratic<D>::values;
-  Vec<D> middle, scale;
-  for (int c = 0; c < D; ++c) {
-    auto const at = static_cast<std::size_t>(c);
-    auto const [low, high] =
-        std::minmax_element(X.begin(), X.end(), [at](auto const& p, auto const& q) { return p[at] < q[at]; });
-    middle[c] = 0.5 * ((*low)[at] + (*high)[at]);
-    scale[c] = 2 / ((*high)[at] - (*low)[at]);
-  }
-  auto const monomials_at = [&](std::size_t a, double(&p)[values]) {
-    Vec<D> r;
-    for (int c = 0; c < D; ++c) r[c] = scale[c] * (X[a][static_cast<std::size_t>(c)] - middle[c]);
-    monomials<D>(r, p);
-  };
-  double A[values * values]{}, b[D][values]{}, p[values];
-  for (std::size_t a = 0; a < X.size(); ++a) {
+void remove_quadratic(Fits<D> const& fits, PartFilled<double>& u) {
+  constexpr int values = Quadratic<D>::values, all = values * (values + D);
+  BoxMonomials<D> const monomials_at(fits.X());
+  // Products of the monomials, then those with each column.
+  auto const sums = sums_over_slots<all>(fits.shared().has_value(), fits.own(), [&](Index particle, double* sum) {
+    auto const a = static_cast<std::size_t>(particle);
+    double p[values];
     monomials_at(a, p);
     for (int m = 0; m < values; ++m) {
-      for (int n = 0; n < values; ++n) A[m * values + n] += p[m] * p[n];
-      for (std::size_t J = 0; J < D; ++J) b[J][m] += p[m] * u[a * D + J];
+      for (int n = 0; n < values; ++n) sum[m * values + n] = p[m] * p[n];
+      for (std::size_t J = 0; J < D; ++J) sum[(values + J) * values + m] = p[m] * u[a * D + J];
     }
+  });
+  double b[D][values];
+  for (int J = 0; J < D; ++J) {
+    double A[values * values];
+    for (int k = 0; k < values * values; ++k) A[k] = sums.value(k);
+    for (int m = 0; m < values; ++m) b[J][m] = sums.value((values + J) * values + m);
+    solve_in_place<values>(A, b[J]);
   }
-  for (auto& column : b) {
-    double copy[values * values];
-    std::copy(std::begin(A), std::end(A), copy);
-    solve_in_place<values>(copy, column);
-  }
-  exec_host::for_each_in_set_up(static_cast<Index>(X.size()), [&](Index particle) {
-    auto const a = static_cast<std::size_t>(particle);
+  exec_host::for_each_in_set_up(fits.own().last - fits.own().first, [&](Index k) {
+    auto const a = static_cast<std::size_t>(fits.own().first + k);
     double q[values];
     monomials_at(a, q);
     for (std::size_t J = 0; J < D; ++J)
@@ -79,19 +97,20 @@ template <int D>
 void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& closure) {
   constexpr auto values = static_cast<std::size_t>(Quadratic<D>::values);
   auto const& pairs = fits.pairs();
-  exec_host::for_each_in_set_up(static_cast<Index>(fits.X().size()), [&](Index particle) {
+  exec_host::for_each_in_set_up(fits.own().last - fits.own().first, [&](Index number) {
+    Index const particle = fits.own().first + number;
     auto const a = static_cast<std::size_t>(particle);
-    double* const c = &closure.coefficients[a * values * D];
+    auto const c = [&](std::size_t k) -> double& { return closure.coefficients->at(particle, static_cast<int>(k)); };
     double left[D][values];
     for (std::size_t J = 0; J < D; ++J) {
       std::fill_n(left[J], values, 0.0);
-      left[J][0] = fits.own_weight(a) * (closure.mu[a * D + J] - c[J]);
+      left[J][0] = fits.own_weight(a) * (closure.mu[a * D + J] - c(J));
     }
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
       auto const p = fits.monomials_of(a, pairs.at(k));
       for (std::size_t J = 0; J < D; ++J) {
-        double rest = closure.mu[pairs.at(k) * D + J] - c[J];
-        for (std::size_t m = 1; m < values; ++m) rest -= c[m * D + J] * p[m - 1];
+        double rest = closure.mu[pairs.at(k) * D + J] - c(J);
+        for (std::size_t m = 1; m < values; ++m) rest -= c(m * D + J) * p[m - 1];
         rest *= pairs.weight[k];
         left[J][0] += rest;
         for (std::size_t m = 1; m < values; ++m) left[J][m] += rest * p[m - 1];
@@ -100,21 +119,32 @@ void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& clo
     for (std::size_t J = 0; J < D; ++J)
       for (std::size_t m = 0; m < values; ++m)
         for (std::size_t n = 0; n < values; ++n)
-          c[m * D + J] += matrix.inverse(particle, static_cast<int>(m), static_cast<int>(n)) * left[J][n];
+          c(m * D + J) += matrix.inverse(particle, static_cast<int>(m), static_cast<int>(n)) * left[J][n];
   });
 }
 
 /// The stiffness that coarse levels divide by, from the matrix itself.
 template <int D>
-void set_levels(ProjectionMatrix<D>& matrix, std::vector<ScaledCell> const& cells, SplineLevels<D>& levels) {
+void set_levels(Fits<D> const& fits, ProjectionMatrix<D>& matrix, std::vector<ScaledCell> const& cells,
+                SplineLevels<D>& levels) {
   // Measured: splines overlap, of one level and of several. Three times their own energy takes the fewest iterations.
   constexpr double overlap = 3;
   auto const probe = levels.probe();
-  std::vector<double> image(probe.size());
+  PartFilled<double> image(probe.size());
   matrix.apply(probe, image);
-  double volume = 0;
-  for (auto const& cell : cells) volume += cell.volume;
-  levels.set_stiffness(overlap * products<D>(probe, image)[0] / (volume * SplineLevels<D>::probe_square));
+  double const volume = sum_over_slots(fits.shared().has_value(), fits.own(),
+                                       [&](Index i) { return cells[static_cast<std::size_t>(i)].volume; });
+  levels.set_stiffness(overlap * products(fits, probe, image)[0] / (volume * SplineLevels<D>::probe_square));
+}
+
+/// The largest component of the particles of all ranks.
+template <int D>
+double largest(Fits<D> const& fits, PartFilled<double> const& u) {
+  auto const [first, last] = fits.own();
+  double most =
+      largest_of(std::span(u).subspan(static_cast<std::size_t>(first) * D, static_cast<std::size_t>(last - first) * D));
+  if (fits.shared()) ranks::take_largest(most);
+  return most;
 }
 
 }  // namespace
@@ -125,9 +155,10 @@ Divergence<D>::Divergence(Fits<D> const& fits, std::vector<ScaledCell> const& ce
     : fits_(fits), cells_(cells), patches_(patches) {}
 
 template <int D>
-std::vector<double> Divergence<D>::shares(std::function<double(SurfacePatch const&)> const& weight) const {
-  std::vector<double> share(fits_.X().size(), 0);
+PartFilled<double> Divergence<D>::shares(std::function<double(SurfacePatch const&)> const& weight) const {
+  PartFilled<double> share(fits_.X().size());
   for (auto const& patch : patches_) {
+    if (!fits_.has(static_cast<std::size_t>(patch.particle))) continue;  // far from the particles of this rank
     double const counts = weight(patch);
     if (counts == 0) continue;
     each_share<D>(fits_, patch, [&](std::size_t b, double part) { share[b] += counts * part; });
@@ -136,22 +167,21 @@ std::vector<double> Divergence<D>::shares(std::function<double(SurfacePatch cons
 }
 
 template <int D>
-std::vector<double> Divergence<D>::surface_vectors() const {
-  std::vector<double> A(fits_.X().size() * D, 0);
+PartFilled<double> Divergence<D>::surface_vectors() const {
+  PartFilled<double> A(fits_.X().size() * D);
   for (int axis = 0; axis < D; ++axis)
     for (bool const upper : {false, true}) {
       auto const share = shares([&](SurfacePatch const& p) { return p.axis == axis && p.upper == upper ? 1.0 : 0.0; });
-      for (std::size_t b = 0; b < share.size(); ++b)
-        A[b * D + static_cast<std::size_t>(axis)] += upper ? share[b] : -share[b];
+      each_own([&](std::size_t b) { A[b * D + static_cast<std::size_t>(axis)] += upper ? share[b] : -share[b]; });
     }
   return A;
 }
 
 template <int D>
-std::vector<double> Divergence<D>::residual() const {
+PartFilled<double> Divergence<D>::residual() const {
   auto R = surface_vectors();
   auto const& pairs = fits_.pairs();
-  scatter_in_order(static_cast<Index>(cells_.size()), pairs.farthest(), [&](std::size_t a, auto const& mine) {
+  scatter_in_order(fits_.own(), fits_.rows(), pairs.farthest(), [&](std::size_t a, auto const& mine) {
     double to_gradient[D][terms];  // of sums s p (f_b - f_a)
     for (int l = 0; l < terms; ++l) {
       typename Fits<D>::Monomials column;
@@ -177,24 +207,25 @@ std::vector<double> Divergence<D>::residual() const {
 
 template <int D>
 Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLayout const* lattice,
-                             Fold<D> const* fold) const {
-  ProjectionMatrix<D> matrix(fits_, cells_, machine, lattice);
-  std::vector<double> r = residual(), z(r.size()), p(r.size(), 0), image(r.size());
-  Closure closure{std::vector<double>(r.size(), 0), {}};
+                             Whole const& whole) const {
+  auto const [fold, halo] = whole;
+  ProjectionMatrix<D> matrix(fits_, cells_, machine, lattice, halo);
+  PartFilled<double> r = residual(), z(r.size()), p(r.size()), image(r.size());
+  Closure closure{PartFilled<double>(r.size()), {}};
   std::optional<SplineLevels<D>> levels;
-  if (cells_.size() >= worth_levels) set_levels(matrix, cells_, levels.emplace(fits_.X()));
+  if (cells_.size() >= worth_levels) set_levels(fits_, matrix, cells_, levels.emplace(fits_.X(), fits_.shared()));
   // f(particle, number) for the D numbers of each particle.
   auto const each_particle = [&](auto const& f) {
-    exec_host::for_each_in_set_up(static_cast<Index>(cells_.size()), [&](Index particle) {
-      auto const a = static_cast<std::size_t>(particle);
+    exec_host::for_each_in_set_up(fits_.own().last - fits_.own().first, [&](Index k) {
+      auto const a = static_cast<std::size_t>(fits_.own().first + k);
       for (std::size_t J = 0; J < D; ++J) f(a, a * D + J);
     });
   };
-  auto const inner = [fold](std::vector<double> const& u, std::vector<double> const& v) {
-    return fold != nullptr ? fold->products(u, v) : products<D>(u, v);
+  auto const inner = [&](PartFilled<double> const& u, PartFilled<double> const& v) {
+    return whole.fold != nullptr ? whole.fold->products(u, v) : products(fits_, u, v);
   };
-  auto const extend = [fold](std::vector<double>& u) {
-    if (fold != nullptr) fold->extend(u);
+  auto const extend = [&](PartFilled<double>& u) {
+    if (whole.fold != nullptr) whole.fold->extend(u);
   };
   extend(r);
   auto const goal = inner(r, r);
@@ -203,7 +234,7 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
     auto const now = inner(r, r);
     bool done = true;
     for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
-    if (done && largest_of(r) <= most_left) break;
+    if (done && largest(fits_, r) <= most_left) break;
     each_particle([&](std::size_t a, std::size_t k) { z[k] = r[k] / matrix.diagonal()[a]; });
     if (levels) levels->add(r, z);
     if (fold != nullptr) fold->gather(z);
@@ -220,10 +251,12 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
       r[k] -= step * image[k];
     });
   }
-  if (fold == nullptr || !fold->endless()) remove_quadratic<D>(fits_.X(), closure.mu);
+  if (fold == nullptr || !fold->endless()) remove_quadratic<D>(fits_, closure.mu);
   extend(closure.mu);
+  if (halo != nullptr)
+    exchange_once(*halo, {.data = closure.mu.data(), .component_stride = 1, .particle_stride = D}, D);
   matrix.apply(closure.mu, image);
-  closure.coefficients = matrix.coefficients();
+  closure.coefficients = matrix.take_coefficients();
   refine<D>(fits_, matrix, closure);
   return closure;
 }

@@ -4,7 +4,9 @@
 #include "piola/formulations/nodal/fold.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/cell_moments.hpp"
+#include "piola/parallel/halo_plan.hpp"
 #include <functional>
+#include <memory>
 #include <vector>
 
 /// The divergence theorem for pair gradients. All lengths in spacings. Theory: docs/theory/nodal.md, section 3.3.
@@ -19,8 +21,8 @@ struct ScaledCell {
 
 /// Corrections of the gradients,  G_ab += s_ab (mu_b - p(r_ab).coefficients_a).
 struct Closure {
-  std::vector<double> mu;            ///< D per particle
-  std::vector<double> coefficients;  ///< values x D per particle: the quadratic through mu about it
+  PartFilled<double> mu;                ///< D per particle; on ranks of own ones and their neighbours
+  std::unique_ptr<Field> coefficients;  ///< values x D per particle: the quadratic through mu about it; of own ones
   int iterations = 0;
 };
 
@@ -30,6 +32,7 @@ constexpr std::size_t moment_of_second(int at) {
   return D == 2 && at == 2 ? 5 : static_cast<std::size_t>(at);
 }
 
+/// Of bodies that ranks share, each has the numbers of its own particles right, and zeros or parts of others'.
 template <int D>
 class Divergence {
  public:
@@ -40,16 +43,26 @@ class Divergence {
   /// Shares of the surface by which pressure and traction on the chosen patches are handed to particles, along the
   /// outward normals, consistent with quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches.
   /// Patches count by their weight: zero for those that are not loaded.
-  std::vector<double> shares(std::function<double(SurfacePatch const&)> const& weight) const;
+  PartFilled<double> shares(std::function<double(SurfacePatch const&)> const& weight) const;
   std::vector<SurfacePatch> const& patches() const { return patches_; }
+  std::size_t particles() const { return fits_.X().size(); }
+  /// f(b) for the particles of this rank.
+  template <class F>
+  void each_own(F const& f) const {
+    for (Index b = fits_.own().first; b < fits_.own().last; ++b) f(static_cast<std::size_t>(b));
+  }
   /// Surface vectors A_b, D per particle.
-  std::vector<double> surface_vectors() const;
+  PartFilled<double> surface_vectors() const;
   /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.
-  std::vector<double> residual() const;
+  PartFilled<double> residual() const;
+  /// Of a body with mirror planes; of one that ranks share.
+  struct Whole {
+    Fold<D> const* fold = nullptr;
+    HaloPlan const* halo = nullptr;  ///< of neighbours, without fields
+  };
   /// The smallest change of the gradients that brings the residual below `tolerance` times what it was; by the loops of
-  /// a machine, over lists or the lattice that the particles fill. fold: of a body with mirror planes.
-  Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice,
-                Fold<D> const* fold = nullptr) const;
+  /// a machine, over lists or the lattice that the particles fill. Collective on ranks that share the body.
+  Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice, Whole const& whole) const;
 
  private:
   Fits<D> const& fits_;

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace piola::nodal {
 namespace {
@@ -29,9 +30,9 @@ class Dealing {
   }
   /// As many values per slot as there are; what follows the slots stays.
   template <class T>
-  void deal(std::vector<T>& values, std::size_t size = 1) const {
+  void deal(PartFilled<T>& values, std::size_t size = 1) const {
     if (values.empty()) return;
-    std::vector<T> const before = values;
+    PartFilled<T> const before = values;
     for (std::size_t i = 0; i < std::min(slots(), values.size() / size); ++i)
       std::copy_n(before.begin() + static_cast<std::ptrdiff_t>(old_[i] * size), size,
                   values.begin() + static_cast<std::ptrdiff_t>(i * size));
@@ -41,36 +42,38 @@ class Dealing {
   std::vector<std::size_t> old_, new_;
 };
 
-void deal_lists(Reference const& r, Dealing const& dealing, Reference& to) {
-  to.neighbour.clear();
-  to.weight.clear();
-  to.begin.assign(1, 0);
+void deal_lists(Reference& r, Dealing const& dealing) {
+  std::vector<Index> neighbour;
+  std::vector<double> weight;
+  PartFilled<std::int64_t> begin(1);
   for (std::size_t i = 0; i < dealing.slots(); ++i) {
     std::size_t const a = dealing.old_slot(i);
     for (auto k = static_cast<std::size_t>(r.begin[a]); k < static_cast<std::size_t>(r.begin[a + 1]); ++k) {
-      to.neighbour.push_back(dealing.new_slot(r.neighbour[k]));
-      to.weight.push_back(r.weight[k]);
+      neighbour.push_back(dealing.new_slot(r.neighbour[k]));
+      weight.push_back(r.weight[k]);
     }
-    to.begin.push_back(std::ssize(to.neighbour));
+    begin.push_back(std::ssize(neighbour));
   }
+  r.neighbour = std::move(neighbour);
+  r.weight = std::move(weight);
+  r.begin = std::move(begin);
 }
 
 }  // namespace
 
-Reference dealt_reference(Reference const& r, SlotOrder const& from, SlotOrder const& to) {
+Reference dealt_reference(Reference r, SlotOrder const& from, SlotOrder const& to) {
   PIOLA_EXPECTS(!r.lattice && r.group_of_k.empty());
   Dealing const dealing(from, to);
-  Reference dealt = r;
-  for (auto* values : {&dealt.V, &dealt.mass, &dealt.L, &dealt.g, &dealt.k, &dealt.own, &dealt.centroid, &dealt.share})
+  for (auto* values : {&r.V, &r.mass, &r.L, &r.g, &r.k, &r.own, &r.centroid, &r.share})
     dealing.deal(*values, values->size() / dealing.slots());
   std::size_t const places = dealing.slots() + r.images.size();  // images have values of their own there
-  for (auto* values : {&dealt.mu, &dealt.X}) dealing.deal(*values, values->size() / places);
-  for (auto& parts : dealt.parts) dealing.deal(parts);
-  for (HeldPlace& place : dealt.held)
+  for (auto* values : {&r.mu, &r.X}) dealing.deal(*values, values->size() / places);
+  for (auto& parts : r.parts) dealing.deal(parts);
+  for (HeldPlace& place : r.held)
     for (auto& weight : place.weights) weight.slot = dealing.new_slot(weight.slot);
-  for (Index& source : dealt.source_of_image) source = dealing.new_slot(source);
-  deal_lists(r, dealing, dealt);
-  return dealt;
+  for (Index& source : r.source_of_image) source = dealing.new_slot(source);
+  deal_lists(r, dealing);
+  return r;
 }
 
 }  // namespace piola::nodal

@@ -9,14 +9,14 @@ namespace piola::nodal {
 /// own normal. A pressure on a curved face pushes on the vectors of the sampled body's surface, so that it has no
 /// resultant on a closed one; a traction there acts on the area of the exact surface. `h`: spacings [m].
 template <int D>
-std::vector<std::vector<FacePart>> face_parts(SetUp const& from, Fits<D> const& fits, Divergence<D> const& divergence,
-                                              std::array<double, 3> const& h);
+std::vector<PartFilled<FacePart>> face_parts(SetUp const& from, Fits<D> const& fits, Divergence<D> const& divergence,
+                                             std::array<double, 3> const& h);
 
-extern template std::vector<std::vector<FacePart>> face_parts<1>(SetUp const&, Fits<1> const&, Divergence<1> const&,
-                                                                 std::array<double, 3> const&);
-extern template std::vector<std::vector<FacePart>> face_parts<2>(SetUp const&, Fits<2> const&, Divergence<2> const&,
-                                                                 std::array<double, 3> const&);
-extern template std::vector<std::vector<FacePart>> face_parts<3>(SetUp const&, Fits<3> const&, Divergence<3> const&,
-                                                                 std::array<double, 3> const&);
+extern template std::vector<PartFilled<FacePart>> face_parts<1>(SetUp const&, Fits<1> const&, Divergence<1> const&,
+                                                                std::array<double, 3> const&);
+extern template std::vector<PartFilled<FacePart>> face_parts<2>(SetUp const&, Fits<2> const&, Divergence<2> const&,
+                                                                std::array<double, 3> const&);
+extern template std::vector<PartFilled<FacePart>> face_parts<3>(SetUp const&, Fits<3> const&, Divergence<3> const&,
+                                                                std::array<double, 3> const&);
 
 }  // namespace piola::nodal

@@ -3,8 +3,17 @@
 #include "piola/exec/field.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/formulations/nodal/state.hpp"
+#include <type_traits>
 
 namespace piola::nodal {
+
+/// f(integral_constant D)
+template <class F>
+auto with_dimension(int D, F const& f) {
+  if (D == 1) return f(std::integral_constant<int, 1>{});
+  if (D == 2) return f(std::integral_constant<int, 2>{});
+  return f(std::integral_constant<int, 3>{});
+}
 
 /// The one list of particle fields of the nodal formulation, for a body of dimension D; sizes as in quadratic.hpp.
 struct Fields : FieldSet {

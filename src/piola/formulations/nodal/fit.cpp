@@ -3,8 +3,10 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace piola::nodal {
 namespace {
@@ -27,6 +29,21 @@ double weight_of(double square, double reach) {
   return inside * inside / (square * std::sqrt(square));
 }
 
+/// What ranks tell each other of a round of fits.
+struct SaidOfFits {
+  bool complete = true;
+  Index hopeless = std::numeric_limits<Index>::max();
+  void add(SaidOfFits const& other) {
+    complete = complete && other.complete;
+    hopeless = std::min(hopeless, other.hopeless);
+  }
+};
+
+/// From the neighbours that each row has, which stand behind the entry: where rows begin.
+void add_up(std::vector<std::int64_t>& begin) {
+  for (std::size_t a = 0; a + 1 < begin.size(); ++a) begin[a + 1] += begin[a];
+}
+
 }  // namespace
 
 Index Pairs::farthest() const {
@@ -38,24 +55,39 @@ Index Pairs::farthest() const {
   return most;
 }
 
-Pairs find_pairs(Points const& X, std::vector<double> const& reach) {
+Entries with_neighbours(Pairs const& pairs, Range range, std::vector<bool> marked) {
+  for (auto a = static_cast<std::size_t>(range.first); a < static_cast<std::size_t>(range.last); ++a) {
+    marked[a] = true;
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) marked[pairs.at(k)] = true;
+  }
+  return Entries(marked);
+}
+
+std::vector<Index> read_of_others(Pairs const& pairs, Range own) {
+  Entries const seen = with_neighbours(pairs, own, std::vector<bool>(pairs.begin.size() - 1));
+  std::vector<Index> read;
+  for (Index k = 0; k < seen.size(); ++k)
+    if (auto const a = static_cast<Index>(seen[k]); a < own.first || a >= own.last) read.push_back(a);
+  return read;
+}
+
+Pairs find_pairs(Points const& X, std::span<double const> reach, Entries const& rows) {
   Pairs pairs;
   pairs.begin.push_back(0);
   if (X.empty()) return pairs;
   CellGrid const grid(X, *std::max_element(reach.begin(), reach.end()));
-  auto const particles = static_cast<Index>(X.size());
   constexpr Index part_size = 4096;
-  Index const parts = (particles + part_size - 1) / part_size;
+  Index const parts = (rows.size() + part_size - 1) / part_size;
   std::vector<std::vector<Index>> found(static_cast<std::size_t>(parts));
   pairs.begin.assign(X.size() + 1, 0);
   auto const each_part = [&](auto const& f) {
-    exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
-      f(found[static_cast<std::size_t>(part)], static_cast<std::size_t>(part) * part_size,
-        static_cast<std::size_t>(std::min((part + 1) * part_size, particles)));
+    exec_host::for_each_part_in_set_up(parts, rows.size(), [&](Index part) {
+      f(found[static_cast<std::size_t>(part)], part * part_size, std::min((part + 1) * part_size, rows.size()));
     });
   };
-  each_part([&](std::vector<Index>& near, std::size_t first, std::size_t end) {
-    for (std::size_t a = first; a < end; ++a) {
+  each_part([&](std::vector<Index>& near, Index first, Index end) {
+    for (Index row = first; row < end; ++row) {
+      std::size_t const a = rows[row];
       auto const before = std::ssize(near);
       grid.visit(X[a], [&](Index other) {
         auto const b = static_cast<std::size_t>(other);
@@ -66,15 +98,15 @@ Pairs find_pairs(Points const& X, std::vector<double> const& reach) {
       pairs.begin[a + 1] = std::ssize(near) - before;
     }
   });
-  for (std::size_t a = 0; a < X.size(); ++a) pairs.begin[a + 1] += pairs.begin[a];
+  add_up(pairs.begin);
   pairs.neighbour.resize(static_cast<std::size_t>(pairs.begin.back()));
-  each_part([&](std::vector<Index> const& near, std::size_t first, std::size_t) {
-    std::copy(near.begin(), near.end(), pairs.neighbour.begin() + pairs.begin[first]);
+  each_part([&](std::vector<Index> const& near, Index first, Index) {
+    std::copy(near.begin(), near.end(), pairs.neighbour.begin() + pairs.begin[rows[first]]);
   });
   return pairs;
 }
 
-Pairs lattice_pairs(LatticeShape const& shape, double reach) {
+Pairs lattice_pairs(LatticeShape const& shape, double reach, Entries const& rows) {
   std::vector<std::array<int, 3>> offsets;  // in the order of slots
   int const steps = static_cast<int>(reach);
   for (int k = -steps; k <= steps; ++k)
@@ -94,15 +126,26 @@ Pairs lattice_pairs(LatticeShape const& shape, double reach) {
     }
   };
   pairs.begin.assign(static_cast<std::size_t>(particles) + 1, 0);
-  exec_host::for_each_in_set_up(
-      particles, [&](Index a) { each_neighbour(a, [&](Index) { ++pairs.begin[static_cast<std::size_t>(a) + 1]; }); });
-  for (std::size_t a = 0; a < static_cast<std::size_t>(particles); ++a) pairs.begin[a + 1] += pairs.begin[a];
+  exec_host::for_each_in_set_up(rows.size(), [&](Index k) {
+    each_neighbour(static_cast<Index>(rows[k]), [&](Index) { ++pairs.begin[rows[k] + 1]; });
+  });
+  add_up(pairs.begin);
   pairs.neighbour.resize(static_cast<std::size_t>(pairs.begin.back()));
-  exec_host::for_each_in_set_up(particles, [&](Index a) {
-    auto to = pairs.neighbour.begin() + pairs.begin[static_cast<std::size_t>(a)];
-    each_neighbour(a, [&](Index b) { *to++ = b; });
+  exec_host::for_each_in_set_up(rows.size(), [&](Index k) {
+    auto to = pairs.neighbour.begin() + pairs.begin[rows[k]];
+    each_neighbour(static_cast<Index>(rows[k]), [&](Index b) { *to++ = b; });
   });
   return pairs;
+}
+
+Entries lattice_rows(LatticeShape const& shape, double reach, Range own, std::vector<std::size_t> const& first) {
+  auto const particles = static_cast<std::size_t>(shape.count[0] * shape.count[1] * shape.count[2]);
+  std::vector<bool> mine(particles);
+  std::fill(mine.begin() + own.first, mine.begin() + own.last, true);
+  Pairs const pairs = lattice_pairs(shape, reach, Entries(mine));
+  std::vector<bool> marked(particles);
+  for (std::size_t const a : first) marked[a] = true;
+  return with_neighbours(pairs, own, std::move(marked));
 }
 
 std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond) {
@@ -122,7 +165,8 @@ std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond) {
 }
 
 template <int D>
-Fits<D>::Fits(Points const& X, std::optional<LatticeShape> const& lattice) : X_(X), reach_(X.size(), usual_reach) {
+Fits<D>::Fits(Points const& X, std::optional<LatticeShape> const& lattice, std::optional<SharedSlots> const& shared)
+    : X_(X), shared_(shared), rows_(static_cast<Index>(X.size())), reach_(X.size(), usual_reach) {
   if (lattice) fit_lattice(*lattice);
   if (!lattice || !usual_) fit_cloud();
 }
@@ -130,17 +174,6 @@ Fits<D>::Fits(Points const& X, std::optional<LatticeShape> const& lattice) : X_(
 /// Particles as far from all faces, or out of their reach, have the same neighbours.
 template <int D>
 void Fits<D>::fit_lattice(LatticeShape const& shape) {
-  pairs_ = lattice_pairs(shape, usual_reach);
-  pairs_.weight.resize(pairs_.neighbour.size());
-  exec_host::for_each_in_set_up(static_cast<Index>(X_.size()), [&](Index particle) {
-    auto const from = shape.place(particle);
-    for (std::size_t k = pairs_.first(static_cast<std::size_t>(particle));
-         k < pairs_.end(static_cast<std::size_t>(particle)); ++k) {
-      auto const to = shape.place(pairs_.neighbour[k]);
-      int const i = to[0] - from[0], j = to[1] - from[1], l = to[2] - from[2];
-      pairs_.weight[k] = weight_of(i * i + j * j + l * l, usual_reach);
-    }
-  });
   alike_ = alike_in_lattice(shape, static_cast<int>(usual_reach) + 1);
   kind_.resize(X_.size());
   std::vector<std::size_t> first;  // of each kind
@@ -152,8 +185,50 @@ void Fits<D>::fit_lattice(LatticeShape const& shape) {
       kind_[a] = kind_[alike(a)];
     }
   }
-  inverse_.resize(first.size() * static_cast<std::size_t>(terms * terms));
+  if (shared_) rows_ = lattice_rows(shape, usual_reach, own(), first);
+  pairs_ = lattice_pairs(shape, usual_reach, rows_);
+  pairs_.weight.resize(pairs_.neighbour.size());
+  exec_host::for_each_in_set_up(rows_.size(), [&](Index row) {
+    std::size_t const a = rows_[row];
+    auto const from = shape.place(static_cast<Index>(a));
+    for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) {
+      auto const to = shape.place(pairs_.neighbour[k]);
+      int const i = to[0] - from[0], j = to[1] - from[1], l = to[2] - from[2];
+      pairs_.weight[k] = weight_of(i * i + j * j + l * l, usual_reach);
+    }
+  });
+  inverse_ = PartFilled<double>(first.size() * static_cast<std::size_t>(terms * terms));
   for (std::size_t kind = 0; kind < first.size() && usual_; ++kind) usual_ = fit(first[kind], kind);
+}
+
+/// The pairs of a rank's own points and of their neighbours.
+template <int D>
+void Fits<D>::find_cloud() {
+  if (shared_) {
+    std::vector<bool> mine(X_.size());
+    std::fill(mine.begin() + own().first, mine.begin() + own().last, true);
+    rows_ = with_neighbours(find_pairs(X_, reach_, Entries(mine)), own(), std::vector<bool>(X_.size()));
+  }
+  pairs_ = find_pairs(X_, reach_, rows_);
+  pairs_.weight.resize(pairs_.neighbour.size());
+}
+
+template <int D>
+bool Fits<D>::lengthen(std::vector<char> const& fits) {
+  SaidOfFits said;
+  for (Index i = own().first; i < own().last && said.hopeless > i; ++i) {
+    auto const a = static_cast<std::size_t>(i);
+    if (fits[a] != 0) continue;
+    said.complete = false;
+    reach_[a] *= growth;
+    if (reach_[a] > longest_reach) said.hopeless = i;
+  }
+  if (shared_) {
+    ranks::add(said);
+    if (!said.complete) shared_->complete(reach_, 1);
+  }
+  if (said.hopeless < static_cast<Index>(X_.size())) hopeless_ = said.hopeless;
+  return said.complete;
 }
 
 template <int D>
@@ -161,26 +236,20 @@ void Fits<D>::fit_cloud() {
   usual_ = true;
   alike_.clear();
   kind_.clear();
-  inverse_.assign(X_.size() * static_cast<std::size_t>(terms * terms), 0);
-  auto const particles = static_cast<Index>(X_.size());
+  rows_ = Entries(static_cast<Index>(X_.size()));
+  inverse_ = PartFilled<double>(X_.size() * static_cast<std::size_t>(terms * terms));
   std::vector<char> fits(X_.size(), 0);
   for (bool complete = false; !complete && hopeless_ < 0;) {
-    complete = true;
-    pairs_ = find_pairs(X_, reach_);
-    pairs_.weight.resize(pairs_.neighbour.size());
-    exec_host::for_each_in_set_up(particles, [&](Index particle) {
-      auto const a = static_cast<std::size_t>(particle);
+    find_cloud();
+    exec_host::for_each_in_set_up(rows_.size(), [&](Index row) {
+      std::size_t const a = rows_[row];
       for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k)
         pairs_.weight[k] =
             weight_of(square_of_distance(X_, a, pairs_.at(k)), std::max(reach_[a], reach_[pairs_.at(k)]));
       fits[a] = fit(a, a) ? 1 : 0;
     });
-    for (std::size_t a = 0; a < X_.size() && hopeless_ < 0; ++a) {
-      if (fits[a] != 0) continue;
-      complete = usual_ = false;
-      reach_[a] *= growth;
-      if (reach_[a] > longest_reach) hopeless_ = static_cast<Index>(a);
-    }
+    complete = lengthen(fits);
+    usual_ = usual_ && complete;
   }
 }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/part_filled.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/entries.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/math/lanes.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,9 +20,9 @@ namespace piola::nodal {
 
 using Points = std::vector<std::array<double, 3>>;
 
-/// Neighbours of every particle, both directions of each pair, in increasing order.
+/// Neighbours of every particle, or of some, both directions of each pair, in increasing order.
 struct Pairs {
-  std::vector<std::int64_t> begin;  ///< per particle, one more at the end
+  std::vector<std::int64_t> begin;  ///< per particle, one more at the end; of others nothing is between two
   std::vector<Index> neighbour;
   std::vector<double> weight;  ///< the same in both directions
 
@@ -31,30 +36,41 @@ struct Pairs {
 /// Per particle of a lattice the first one that is as far from every face, or at least `beyond` spacings as well.
 std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond);
 
-/// All pairs of a lattice nearer than `reach`, those at it not among them, without weights. The neighbours of a lattice
-/// need no search.
-Pairs lattice_pairs(LatticeShape const& shape, double reach);
+/// The pairs of some particles of a lattice nearer than `reach`, those at it not among them, without weights. The
+/// neighbours of a lattice need no search.
+Pairs lattice_pairs(LatticeShape const& shape, double reach, Entries const& rows);
 
-/// f(a, mine) for the particles a = 0 ... n - 1 in order, which adds to numbers of a itself and of others at most
-/// `reach` places away, but to those b alone for which mine(b): threads have parts of the numbers for their own and see
-/// all particles that may add to them, so that each number gets its summands in the order of a for any number of
-/// threads.
+/// Of a lattice that ranks share: the particles of one of them, their neighbours, and the first of each kind.
+Entries lattice_rows(LatticeShape const& shape, double reach, Range own, std::vector<std::size_t> const& first);
+
+/// f(a, mine) for the particles a of `rows` in order, which adds to numbers of a itself and of others at most `reach`
+/// places away, but to those b of a range alone for which mine(b): threads have parts of the range for their own and
+/// see all particles that may add to them, so that each number gets its summands in the order of a for any number of
+/// threads and ranks.
 template <class F>
-void scatter_in_order(Index n, Index reach, F const& f) {
-  Index const parts = exec_host::team(n);
+void scatter_in_order(Range range, Entries const& rows, Index reach, F const& f) {
+  Index const n = range.last - range.first, parts = exec_host::team(n);
   exec_host::for_each_part_in_set_up(parts, n, [&](Index part) {
-    auto const border = [&](Index k) { return static_cast<Index>(static_cast<std::int64_t>(n) * k / parts); };
-    Index const first = border(part), end = border(part + 1);
+    auto const border = [&](Index k) {
+      return range.first + static_cast<Index>(static_cast<std::int64_t>(n) * k / parts);
+    };
+    std::int64_t const first = border(part), end = border(part + 1);
     auto const mine = [&](std::size_t b) {
       return b >= static_cast<std::size_t>(first) && b < static_cast<std::size_t>(end);
     };
-    Index const from = first > reach ? first - reach : 0, to = n - end > reach ? end + reach : n;
-    for (Index a = from; a < to; ++a) f(static_cast<std::size_t>(a), mine);
+    for (Index k = 0; k < rows.size(); ++k)
+      if (auto const a = static_cast<std::int64_t>(rows[k]); a >= first - reach && a < end + reach)
+        f(static_cast<std::size_t>(a), mine);
   });
 }
 
-/// All pairs nearer than the larger of their two reaches.
-Pairs find_pairs(Points const& X, std::vector<double> const& reach);
+/// The pairs of some particles nearer than the larger of their two reaches.
+Pairs find_pairs(Points const& X, std::span<double const> reach, Entries const& rows);
+
+/// A particle's neighbours and itself, for the particles of a range, and others that are marked already.
+Entries with_neighbours(Pairs const& pairs, Range range, std::vector<bool> marked);
+/// Of the particles of a rank the neighbours that it does not have.
+std::vector<Index> read_of_others(Pairs const& pairs, Range own);
 
 /// The fits of a cloud:  e_ab = s_ab A_a^-1 p(r_ab),  A_a = sum_b s_ab p p^T,  p without the constant,
 /// s = (1 - (r/R)^2)^2 / r^3 with R = 2.4, or more where neighbours do not determine a quadratic well.
@@ -65,7 +81,16 @@ class Fits {
   using Monomials = std::array<double, static_cast<std::size_t>(terms)>;
 
   /// lattice: the one that the points fill, if they do; a neighbourhood is fitted once then, however often it occurs.
-  explicit Fits(Points const& X, std::optional<LatticeShape> const& lattice = std::nullopt);
+  /// shared: ranks share the points, and each fits its own and their neighbours. Collective then.
+  explicit Fits(Points const& X, std::optional<LatticeShape> const& lattice = std::nullopt,
+                std::optional<SharedSlots> const& shared = std::nullopt);
+
+  /// What this rank has to find something for: its own points, or all.
+  Range own() const { return shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())}; }
+  std::optional<SharedSlots> const& shared() const { return shared_; }
+  /// Those whose fits and pairs are here: own ones and their neighbours.
+  Entries const& rows() const { return rows_; }
+  bool has(std::size_t a) const { return pairs_.end(a) > pairs_.first(a); }
 
   /// Whether all reaches are the usual one, and the neighbours of a lattice those of its loops.
   bool usual() const { return usual_; }
@@ -93,13 +118,18 @@ class Fits {
  private:
   void fit_lattice(LatticeShape const& shape);
   void fit_cloud();
+  void find_cloud();
+  /// Whether all reaches are long enough; those that are not have become longer.
+  bool lengthen(std::vector<char> const& fits);
   /// Finds the inverse stored at `at`.
   bool fit(std::size_t a, std::size_t at);
 
-  Points X_;
+  Points const& X_;
+  std::optional<SharedSlots> shared_;
+  Entries rows_;
   std::vector<double> reach_;
   Pairs pairs_;
-  std::vector<double> inverse_;
+  PartFilled<double> inverse_;
   std::vector<Index> alike_;
   std::vector<std::int32_t> kind_;  ///< of a lattice: where the inverse of a particle is
   Index hopeless_ = -1;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/mirror_images.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
-#include <vector>
+#include <array>
 
 namespace piola::nodal {
 
@@ -13,7 +14,7 @@ class Fold {
   Fold(MirrorImages const& images, std::size_t particles) : images_(images), particles_(particles) {}
 
   /// Gives images what their sources have, and particles on a plane nothing across it.
-  void extend(std::vector<double>& u) const {
+  void extend(PartFilled<double>& u) const {
     for (std::size_t a = 0; a < particles_; ++a)
       for (std::size_t c = 0; c < D; ++c)
         if (images_.on_plane(static_cast<Index>(a), c)) u[a * D + c] = 0;
@@ -23,7 +24,7 @@ class Fold {
   }
   /// The transpose, in the product of products(), and then extend: makes a preconditioner of the whole body one of
   /// symmetric fields.
-  void gather(std::vector<double>& z) const {
+  void gather(PartFilled<double>& z) const {
     each_image([&](std::size_t image, std::size_t source, std::size_t c, double sign) {
       z[source * D + c] += sign * z[image * D + c];
     });
@@ -32,8 +33,8 @@ class Fold {
     extend(z);
   }
   /// Sums over the body itself, one per column.
-  std::array<double, static_cast<std::size_t>(D)> products(std::vector<double> const& u,
-                                                           std::vector<double> const& v) const {
+  std::array<double, static_cast<std::size_t>(D)> products(PartFilled<double> const& u,
+                                                           PartFilled<double> const& v) const {
     std::array<double, static_cast<std::size_t>(D)> sum{};
     for (std::size_t a = 0; a < particles_; ++a)
       for (std::size_t c = 0; c < D; ++c)

@@ -25,7 +25,11 @@ void Gathered::place_records(Fields& fields, int D, Index slots) {
   fields.x.place(first_.data(), 1, size.motion, D, slots, &first_version_);
   fields.mu.place(first_.data(), 1, size.motion, std::ptrdiff_t{2} * D, slots, &first_version_);
   fields.stress.place(second_.data(), 1, size.stress, 0, slots, &second_version_);
-  for (Index i = 0; i < slots; ++i) first_.data()[i * size.motion + size.one] = 1;
+}
+
+void Gathered::complete_record(int D, Index slot) {
+  RecordSizes const size = record_sizes(D);
+  first_.data()[slot * size.motion + size.one] = 1;
 }
 
 void Gathered::place_lattice(Fields& fields, Index slots, Index guard) {

@@ -12,8 +12,10 @@ class Gathered {
   Gathered(Gathered const&) = delete;
   Gathered& operator=(Gathered const&) = delete;
 
-  /// guard: slots that loops over a lattice may read beside the first and the last one.
+  /// Of records complete_record() is due for all that are read.
   void place_records(Fields& fields, int D, Index slots);
+  void complete_record(int D, Index slot);
+  /// guard: slots that loops over a lattice may read beside the first and the last one.
   static void place_lattice(Fields& fields, Index slots, Index guard);
   std::size_t bytes() const { return first_.bytes() + second_.bytes(); }
 

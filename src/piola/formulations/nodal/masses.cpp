@@ -2,8 +2,12 @@
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/math/solve.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace piola::nodal {
 namespace {
@@ -15,6 +19,7 @@ constexpr int most_rounds = 400;
 
 template <int D>
 struct Exchange {
+  Entries rows;  ///< whose pairs are here
   Pairs pairs;
   std::vector<double> handed;  ///< V_a phi_ab, per pair of a
 };
@@ -64,37 +69,76 @@ void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exch
   }
 }
 
-/// What all cells hand over; of a lattice each kind of cell once.
+/// The pairs of the particles of this rank and of their neighbours.
 template <int D>
-Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells,
-                      std::optional<LatticeShape> const& lattice) {
-  Exchange<D> x{lattice ? lattice_pairs(*lattice, reach) : find_pairs(X, std::vector<double>(X.size(), reach)), {}};
+Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, MassesOf const& of) {
+  Exchange<D> x{Entries(static_cast<Index>(X.size())), {}, {}};
+  if (of.lattice) {
+    std::vector<std::size_t> first;
+    for (std::size_t a = 0; a < alike.size(); ++a)
+      if (alike[a] == static_cast<Index>(a)) first.push_back(a);
+    if (of.shared) x.rows = lattice_rows(*of.lattice, reach, of.shared->own(), first);
+    x.pairs = lattice_pairs(*of.lattice, reach, x.rows);
+    return x;
+  }
+  std::vector<double> const same(X.size(), reach);
+  if (of.shared) {
+    Range const own = of.shared->own();
+    std::vector<bool> mine(X.size());
+    std::fill(mine.begin() + own.first, mine.begin() + own.last, true);
+    x.rows = with_neighbours(find_pairs(X, same, Entries(mine)), own, std::vector<bool>(X.size()));
+  }
+  x.pairs = find_pairs(X, same, x.rows);
+  return x;
+}
+
+/// What cells hand over; of a lattice each kind of cell once.
+template <int D>
+Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells, MassesOf const& of) {
+  std::vector<Index> const alike = of.lattice ? alike_in_lattice(*of.lattice, static_cast<int>(reach))
+                                              : std::vector<Index>();  // at `reach` there is none
+  Exchange<D> x = pairs_in_reach<D>(X, alike, of);
   x.handed.assign(x.pairs.neighbour.size(), 0);
-  std::vector<Index> const alike =
-      lattice ? alike_in_lattice(*lattice, static_cast<int>(reach)) : std::vector<Index>();  // at `reach` there is none
-  auto const is_first = [&](Index a) { return !lattice || alike[static_cast<std::size_t>(a)] == a; };
-  auto const particles = static_cast<Index>(X.size());
-  exec_host::for_each_in_set_up(particles, [&](Index a) {
-    auto const k = static_cast<std::size_t>(a);
-    if (is_first(a)) hand_over_cell<D>(X, cells[k], k, x);
+  auto const is_first = [&](std::size_t a) { return !of.lattice || alike[a] == static_cast<Index>(a); };
+  exec_host::for_each_in_set_up(x.rows.size(), [&](Index row) {
+    std::size_t const a = x.rows[row];
+    if (is_first(a)) hand_over_cell<D>(X, cells[a], a, x);
   });
-  exec_host::for_each_in_set_up(particles, [&](Index a) {
+  exec_host::for_each_in_set_up(x.rows.size(), [&](Index row) {
+    std::size_t const a = x.rows[row];
     if (is_first(a)) return;
-    auto const from = static_cast<std::size_t>(alike[static_cast<std::size_t>(a)]);
+    auto const from = static_cast<std::size_t>(alike[a]);
     std::copy(x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(from)),
               x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.end(from)),
-              x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(static_cast<std::size_t>(a))));
+              x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(a)));
   });
   return x;
 }
 
 /// Masses from what cells hand over, and the cells that are restrained until none of them makes a particle too light.
+/// Ranks tell each other in each round who is light and who is restrained.
 class Restraint {
  public:
-  Restraint(Pairs const& pairs, std::vector<double> const& handed, std::vector<ScaledCell> const& cells, double least)
-      : pairs_(pairs), handed_(handed), cells_(cells), least_(least), theta_(cells.size(), 1), mass_(cells.size()) {
-    for (std::size_t a = 0; a < mass_.size(); ++a) mass_[a] = cells[a].volume;
-    scatter_in_order(static_cast<Index>(mass_.size()), pairs.farthest(), [&](std::size_t a, auto const& mine) {
+  template <int D>
+  Restraint(Exchange<D> const& x, std::vector<ScaledCell> const& cells, MassesOf const& of)
+      : pairs_(x.pairs),
+        handed_(x.handed),
+        cells_(cells),
+        least_(of.least),
+        own_(of.shared ? of.shared->own() : Range{0, static_cast<Index>(cells.size())}),
+        theta_(cells.size()),
+        marked_(cells.size()),
+        mass_(cells.size()) {
+    if (of.shared) {
+      halo_.emplace(of.shared->slots, read_of_others(pairs_, own_));
+      halo_->add(field_of(theta_), 0, 1);
+      halo_->add(field_of(marked_), 0, 1);
+    }
+    for (Index row = 0; row < x.rows.size(); ++row) theta_[x.rows[row]] = 1;
+    auto const& [pairs, handed] = std::tie(pairs_, handed_);
+    for (auto a = own_.first; a < own_.last; ++a)
+      mass_[static_cast<std::size_t>(a)] = cells[static_cast<std::size_t>(a)].volume;
+    scatter_in_order(own_, x.rows, pairs.farthest(), [&](std::size_t a, auto const& mine) {
       bool const own = mine(a);
       for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
         if (mine(pairs.at(k))) mass_[pairs.at(k)] += handed[k];
@@ -103,11 +147,11 @@ class Restraint {
     });
   }
 
-  std::vector<double> operator()() {
+  PartFilled<double> operator()() {
     std::vector<std::size_t> light, next;
-    for (std::size_t b = 0; b < mass_.size(); ++b)
+    for (auto b = static_cast<std::size_t>(own_.first); b < static_cast<std::size_t>(own_.last); ++b)
       if (is_light(b)) light.push_back(b);
-    for (int round = 0; round < most_rounds && !light.empty(); ++round) {
+    for (int round = 0; round < most_rounds && any_on_ranks(light); ++round) {
       std::vector<std::size_t> changed = restrain(light);
       next.clear();
       for (std::size_t const b : changed) add(b);
@@ -119,6 +163,25 @@ class Restraint {
   }
 
  private:
+  static FieldRef field_of(PartFilled<double>& values) { return {.data = values.data()}; }
+  bool is_own(std::size_t a) const {
+    return a >= static_cast<std::size_t>(own_.first) && a < static_cast<std::size_t>(own_.last);
+  }
+  bool any_on_ranks(std::vector<std::size_t> const& some) const {
+    double any = some.empty() ? 0 : 1;
+    if (halo_) ranks::take_largest(any);
+    return any > 0;
+  }
+  /// Of particles of this rank: with those that others name, of which some particle of this rank is a neighbour.
+  std::vector<std::size_t> with_those_of_others(std::vector<std::size_t> all) {
+    if (!halo_) return all;
+    for (std::size_t const a : all) marked_[a] = 1;
+    halo_->exchange(std::array{field_of(theta_), field_of(marked_)});
+    for (std::size_t const a : all) marked_[a] = 0;
+    for (Index const a : halo_->received())
+      if (marked_[static_cast<std::size_t>(a)] != 0) all.push_back(static_cast<std::size_t>(a));
+    return all;
+  }
   bool is_light(std::size_t b) const { return mass_[b] < least_ * cells_[b].volume; }
 
   /// m_b anew.
@@ -139,15 +202,15 @@ class Restraint {
   /// that changes, in increasing order.
   std::vector<std::size_t> restrain(std::vector<std::size_t> const& light) {
     std::vector<std::size_t> cells = light;
-    for (std::size_t const b : light)
+    for (std::size_t const b : with_those_of_others(light))
       for (std::size_t k = pairs_.first(b); k < pairs_.end(b); ++k)
-        if (handed_[opposite(b, k)] < 0) cells.push_back(pairs_.at(k));
+        if (is_own(pairs_.at(k)) && handed_[opposite(b, k)] < 0) cells.push_back(pairs_.at(k));
     make_unique(cells);
+    for (std::size_t const a : cells) theta_[a] *= restraint;
     std::vector<std::size_t> changed = cells;
-    for (std::size_t const a : cells) {
-      theta_[a] *= restraint;
-      for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) changed.push_back(pairs_.at(k));
-    }
+    for (std::size_t const a : with_those_of_others(cells))
+      for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k)
+        if (is_own(pairs_.at(k))) changed.push_back(pairs_.at(k));
     make_unique(changed);
     return changed;
   }
@@ -160,7 +223,11 @@ class Restraint {
   std::vector<double> const& handed_;  ///< V_a phi_ab, per pair of a
   std::vector<ScaledCell> const& cells_;
   double least_;
-  std::vector<double> theta_, mass_;
+  Range own_;
+  PartFilled<double> theta_;   ///< the share that a cell still hands out
+  PartFilled<double> marked_;  ///< 1 while ranks tell each other who is light, or whose cell was restrained
+  PartFilled<double> mass_;
+  std::optional<HaloPlan> halo_;
 };
 
 /// 1, x, xx of a place in units of the body, and their means over a cell.
@@ -202,46 +269,54 @@ class BodyMonomials {
 /// than a fifth. Not for lattices: there the moments are off by less, and a stiffness that is too large by as much goes
 /// with them.
 template <int D>
-void match_moments(Points const& X, std::vector<ScaledCell> const& cells, std::vector<double>& mass) {
+void match_moments(Points const& X, std::vector<ScaledCell> const& cells, Range own, bool shared,
+                   PartFilled<double>& mass) {
   constexpr int n = BodyMonomials<D>::count;
   constexpr double most = 0.2;
   BodyMonomials<D> const monomials(X);
-  double A[n * n]{}, c[n]{}, p[n];
-  for (std::size_t b = 0; b < mass.size(); ++b) {
+  // The matrix, then the right-hand side of cells, then that of masses.
+  auto const sums = sums_over_slots<n*(n + 2)>(shared, own, [&](Index particle, double* sum) {
+    auto const b = static_cast<std::size_t>(particle);
+    double p[n];
     monomials.over(X[b], cells[b], p);
-    for (int i = 0; i < n; ++i) c[i] += cells[b].volume * p[i];
+    for (int i = 0; i < n; ++i) sum[n * n + i] = cells[b].volume * p[i];
     monomials.over(X[b], {}, p);
     for (int i = 0; i < n; ++i) {
-      c[i] -= mass[b] * p[i];
-      for (int j = 0; j < n; ++j) A[i * n + j] += mass[b] * p[i] * p[j];
+      sum[n * n + n + i] = mass[b] * p[i];
+      for (int j = 0; j < n; ++j) sum[i * n + j] = mass[b] * p[i] * p[j];
     }
-  }
+  });
+  double A[n * n], c[n];
+  for (int k = 0; k < n * n; ++k) A[k] = sums.value(k);
+  for (int i = 0; i < n; ++i) c[i] = sums.value(n * n + i) - sums.value(n * n + n + i);
   if (!(solve_in_place<n>(A, c) > smallest_pivot)) return;
-  std::vector<double> factor(mass.size(), 1);
-  for (std::size_t b = 0; b < mass.size(); ++b) {
+  auto const factor = [&](std::size_t b) {
+    double p[n], sum = 1;
     monomials.over(X[b], {}, p);
-    for (int i = 0; i < n; ++i) factor[b] += c[i] * p[i];
-    if (!(std::fabs(factor[b] - 1) < most)) return;
-  }
-  for (std::size_t b = 0; b < mass.size(); ++b) mass[b] *= factor[b];
+    for (int i = 0; i < n; ++i) sum += c[i] * p[i];
+    return sum;
+  };
+  auto const first = static_cast<std::size_t>(own.first), last = static_cast<std::size_t>(own.last);
+  double change = 0;
+  for (std::size_t b = first; b < last; ++b) ranks::keep_larger(std::fabs(factor(b) - 1), change);
+  if (shared) ranks::take_largest(change);
+  if (!(change < most)) return;
+  for (std::size_t b = first; b < last; ++b) mass[b] *= factor(b);
 }
 
 }  // namespace
 
 template <int D>
-std::vector<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, double least,
-                                 std::optional<LatticeShape> const& lattice, bool match) {
-  auto const x = hand_over<D>(X, cells, lattice);
-  std::vector<double> mass = Restraint(x.pairs, x.handed, cells, least)();
-  if (match) match_moments<D>(X, cells, mass);
+PartFilled<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, MassesOf const& of) {
+  auto const x = hand_over<D>(X, cells, of);
+  PartFilled<double> mass = Restraint(x, cells, of)();
+  Range const own = of.shared ? of.shared->own() : Range{0, static_cast<Index>(X.size())};
+  if (of.match) match_moments<D>(X, cells, own, of.shared.has_value(), mass);
   return mass;
 }
 
-template std::vector<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, double,
-                                             std::optional<LatticeShape> const&, bool);
-template std::vector<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, double,
-                                             std::optional<LatticeShape> const&, bool);
-template std::vector<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, double,
-                                             std::optional<LatticeShape> const&, bool);
+template PartFilled<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
+template PartFilled<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
+template PartFilled<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
 
 }  // namespace piola::nodal

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/observed.hpp"
+#include "piola/formulations/sample_own.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
 
@@ -36,48 +38,64 @@ double cell_pressure(NodalBody const& body, Index i) {
   return p;
 }
 
-std::vector<double> cell_pressures(NodalBody const& body) {
-  std::vector<double> p(static_cast<std::size_t>(body.particles()));
-  for (Index i = 0; i < body.particles(); ++i) p[static_cast<std::size_t>(i)] = cell_pressure(body, i);
+/// Per slot, of the particles of this rank.
+PartFilled<double> cell_pressures(NodalBody const& body) {
+  PartFilled<double> p(static_cast<std::size_t>(body.slots()));
+  for (Index i = body.own().first; i < body.own().last; ++i) p[static_cast<std::size_t>(i)] = cell_pressure(body, i);
   return p;
 }
 
-/// From slots to ids, counted from the body's first.
-std::vector<double> by_id(NodalBody const& body, std::vector<double> const& by_slot) {
-  std::vector<double> values(by_slot.size());
-  for (Index i = 0; i < body.particles(); ++i)
-    values[static_cast<std::size_t>(body.id(i) - body.body().first)] = by_slot[static_cast<std::size_t>(i)];
-  return values;
+void add_oscillation(NodalBody const& body, PartFilled<double> const& by_slot, Observation& o) {
+  SharedLines* const lines = body.lines();
+  std::vector<double> by_id(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
+  for (Index i = body.own().first; i < body.own().last; ++i)
+    (lines != nullptr ? lines->pressure(i) : by_id[static_cast<std::size_t>(body.id(i) - body.body().first)]) =
+        by_slot[static_cast<std::size_t>(i)];
+  if (lines != nullptr)
+    lines->add_oscillation(o);
+  else
+    o.add_oscillation(body.set(), body.body(), by_id);
 }
 
 }  // namespace
 
 void observe(NodalBody const& body, NodalObservation& o) {
-  bool const first = !(o.volume() > 0);
   o.open_body(body.body().name);
   auto const of_cells = cell_pressures(body), smooth = body.smoothing()(of_cells);
-  for (Index i = 0; i < body.particles(); ++i) {
-    double const V = body.volume(i), p = smooth[static_cast<std::size_t>(i)], least = cell(body, i, least_J);
-    o.add_strain_energy(V * cell(body, i, energy));
-    o.plastic_work += V * body.mean_of_points(i, SolidPlaces::plastic_work);
-    o.least_jacobian = first && i == 0 ? least : std::min(o.least_jacobian, least);
+  exec::ExactSums<1> strain;
+  for (Index i = body.own().first; i < body.own().last; ++i) {
+    double const V = body.volume(i), p = smooth[static_cast<std::size_t>(i)], least = cell(body, i, least_J),
+                 of_cell = V * cell(body, i, energy), plastic = V * body.mean_of_points(i, SolidPlaces::plastic_work);
+    strain.add(&of_cell);
+    o.plastic_work.add(&plastic);
+    o.least_jacobian = std::min(o.least_jacobian, least);
     o.add_state(cell(body, i, mean_J), p, V);
     o.add_motion(body.x(i), body.v(i), body.mass(i));
     o.of_cells.add_state(cell(body, i, mean_J), of_cells[static_cast<std::size_t>(i)], V);
   }
+  if (body.shared()) ranks::add(strain);
+  o.add_strain_energy(strain.value());
   o.totals.damping_loss += body.damping_loss();
   o.totals.stabilisation_loss += body.viscous_loss();
-  o.totals.external_work += body.boundary().external_work().value();
-  o.add_oscillation(body.set(), body.body(), by_id(body, smooth));
-  o.of_cells.add_oscillation(body.set(), body.body(), by_id(body, of_cells));
+  o.totals.external_work += body.boundary().external_work().over_ranks();
+  add_oscillation(body, smooth, o);
+  add_oscillation(body, of_cells, o.of_cells);
 }
 
-Diagnostics finish(NodalObservation const& o) {
+Diagnostics finish(NodalObservation o) {
+  if (ranks::several()) {
+    o.share();
+    o.of_cells.share();
+    ranks::add(o.plastic_work);
+    double below = -o.least_jacobian;
+    ranks::take_largest(below);
+    o.least_jacobian = -below;
+  }
   Diagnostics d = o.finish();
   d.more = {{"least_jacobian", o.least_jacobian},
             {"repeated_steps", o.repeated_steps},
             {"cell_pressure_oscillation", o.of_cells.finish().pressure_oscillation},
-            {"plastic_work", o.plastic_work.value()},
+            {"plastic_work", o.plastic_work.value(0)},
             {"internal_energy", d.strain_energy}};
   return d;
 }
@@ -119,11 +137,12 @@ std::vector<FieldInfo> observed_fields(bool solids) {
   return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
 }
 
-void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
-  std::vector<double> smooth(static_cast<std::size_t>(body.particles()), 0);
-  if (field == "Pressure") smooth = body.smoothing()(cell_pressures(body));
-  for (Index i = 0; i < body.particles(); ++i) {
+namespace {
+
+/// f(slot, particle) of the particles of this rank.
+template <class F>
+void observe_each(NodalBody const& body, int body_number, PartFilled<double> const& smooth, F const& f) {
+  for (Index i = body.own().first; i < body.own().last; ++i) {
     ObservedParticle p;
     p.id = static_cast<double>(body.id(i));
     p.body = body_number;
@@ -137,13 +156,32 @@ void sample(NodalBody const& body, int body_number, std::string_view field, std:
     p.cauchy = cauchy_stress(p.P, p.F, determinant(p.F));
     p.J = cell(body, i, mean_J);
     p.least_J = cell(body, i, least_J);
-    p.pressure = smooth[static_cast<std::size_t>(i)];
+    p.pressure = smooth.empty() ? 0 : smooth[static_cast<std::size_t>(i)];
     p.cell_pressure = cell_pressure(body, i);
     p.inertia = body.material(i).constants.rho0;
     p.density = p.inertia / p.J;
     if (is_solid(body.material(i).material)) add_history(body, i, p);
-    put(found, p, values);
+    f(i, p);
   }
+}
+
+/// Of the cells, where somebody asks for it. Collective where ranks share the body.
+PartFilled<double> smooth_pressure(NodalBody const& body, std::string_view field) {
+  return field == "Pressure" ? body.smoothing()(cell_pressures(body)) : PartFilled<double>{};
+}
+
+}  // namespace
+
+void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  ObservedField const& found = find_observed(field, offered);
+  PartFilled<double> const smooth = smooth_pressure(body, field);
+  sample_for_first(body, found, values, [&](auto const& f) { observe_each(body, body_number, smooth, f); });
+}
+
+void sample_own(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  PartFilled<double> const smooth = smooth_pressure(body, field);
+  piola::sample_own(body, find_observed(field, offered), values,
+                    [&](auto const& f) { observe_each(body, body_number, smooth, f); });
 }
 
 }  // namespace piola::nodal

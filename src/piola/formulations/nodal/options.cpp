@@ -54,7 +54,7 @@ FormulationInfo info() {
       total_lagrangian_laws,
       diagnostics};
   info.pushable = true;
-  info.on_ranks = true;
+  info.on_ranks = info.observed_by_share = true;
   info.parts = true;
   info.surface_supports = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there

@@ -11,8 +11,7 @@ namespace piola::nodal::inline PIOLA_MACHINE {
 template <int D>
 struct ProjectQuadratic {
   static constexpr int values = Quadratic<D>::values, used = Records<D>::used, width = Records<D>::width;
-  View inverse;
-  ReferenceView V;
+  ReferenceView inverse, V;
   View weights, x;
   WriteView coefficients, stress, a;
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/projection_matrix.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/told.hpp"
 #include "piola/math/solve.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <initializer_list>
 
 namespace piola::nodal {
 namespace {
-
-template <int D>
-constexpr int triangle = Quadratic<D>::values*(Quadratic<D>::values + 1) / 2;
 
 Index padded(std::size_t particles) {
   auto const n = static_cast<Index>(particles);
@@ -20,19 +19,37 @@ Index padded(std::size_t particles) {
 
 template <int D>
 ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCell> const& cells, Machine const& machine,
-                                      LatticeLayout const* lattice)
+                                      LatticeLayout const* lattice, HaloPlan const* halo)
     : machine_(machine),
       particles_(static_cast<Index>(cells.size())),
       slots_(padded(cells.size())),
-      inverse_("InverseOfNormalEquations", "1", triangle<D>, Role::reference),
+      own_(fits.own()),
+      inverse_("InverseOfNormalEquations", "1", triangle, Role::reference),
       weights_("OwnWeights", "1", 2, Role::reference),
-      coefficients_("LeastSquaresQuadratic", "1", values * D, Role::derived) {
+      coefficients_(std::make_unique<Field>("LeastSquaresQuadratic", "1", values * D, Role::derived)) {
   allocate(lattice);
+  if (halo != nullptr) share(*halo);
   fill(fits, cells);
   auto const& pairs = fits.pairs();
   begin_ = pairs.begin;  // slots without a particle have no neighbours
   begin_.resize(static_cast<std::size_t>(slots_) + 1, begin_.back());
   state_.list = {begin_.data(), nullptr, pairs.neighbour.data(), pairs.weight.data()};
+}
+
+/// f(i) for the particles of this rank.
+template <int D>
+template <class F>
+void ProjectionMatrix<D>::each_own(F const& f) const {
+  exec_host::for_each_in_set_up(own_.last - own_.first, [&](Index k) { f(own_.first + k); });
+}
+
+template <int D>
+void ProjectionMatrix<D>::share(HaloPlan const& halo) {
+  state_.slots = share_of(slots_, ranks::own(), ranks::count());
+  if (state_.first.data == nullptr) state_.first = weights_.ref();  // of which nothing is told, nor read by neighbours
+  halo_ = halo;
+  tell_sums<D>(*halo_, state_);
+  state_.halo = &*halo_;
 }
 
 template <int D>
@@ -42,7 +59,7 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
     Gathered::place_lattice(f, slots_, lattice->guard());
   else
     gathered_.place_records(f, D, slots_);
-  for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &inverse_, &weights_, &coefficients_})
+  for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &weights_, coefficients_.get()})
     field->allocate_tiled(slots_);
   state_.dimension = D;
   state_.slots = {0, slots_};
@@ -62,40 +79,67 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
 
 template <int D>
 void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> const& cells) {
-  std::vector<double> explained(fits.pairs().neighbour.size());
-  for (Index i = 0; i < slots_; ++i) fields_.mass.at(i) = 1;
-  exec_host::for_each_in_set_up(particles_, [&](Index i) {
-    auto const a = static_cast<std::size_t>(i);
-    if (fits.alike(a) == a) fill_sums(fits, a, explained);
-  });
-  exec_host::for_each_in_set_up(particles_, [&](Index i) {
-    auto const a = static_cast<std::size_t>(i);
-    if (fits.alike(a) != a) copy_sums(fits, a, explained);
+  PartFilled<double> explained(fits.pairs().neighbour.size());  // of the first one of each kind
+  for (Index i = state_.slots.first; i < state_.slots.last; ++i) fields_.mass.at(i) = 1;
+  fill_sums_and_inverses(fits, explained);
+  exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
+    std::size_t const a = fits.rows()[k];
+    auto const i = static_cast<Index>(a);
+    for (int m = 0; m < values && fits.alike(a) != a; ++m)
+      fields_.own.at(i, m) = fields_.own.at(static_cast<Index>(fits.alike(a)), m);
     fields_.V.at(i) = cells[a].volume;
     weights_.at(i, 0) = cells[a].volume * fits.own_weight(a);
-    for (int c = 0; c < D && state_.lattice.present == nullptr; ++c)
-      fields_.X.at(i, c) = fits.X()[a][static_cast<std::size_t>(c)];
+    if (state_.lattice.present != nullptr) return;
+    for (int c = 0; c < D; ++c) fields_.X.at(i, c) = fits.X()[a][static_cast<std::size_t>(c)];
+    gathered_.complete_record(D, i);
   });
-  diagonal_.resize(cells.size());
+  diagonal_ = PartFilled<double>(cells.size());
   auto const& pairs = fits.pairs();
-  scatter_in_order(particles_, pairs.farthest(), [&](std::size_t a, auto const& mine) {
+  scatter_in_order(own_, fits.rows(), pairs.farthest(), [&](std::size_t a, auto const& mine) {
     auto const i = static_cast<Index>(a);
     double const own = fits.own_weight(a);
     bool const here = mine(a);
-    if (here) diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse_.at(i, 0));
+    if (here) diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse(i, 0, 0));
     double all = weights_.at(i, 0);
-    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+    double const* of_pair = explained.data() + pairs.first(fits.alike(a));
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k, ++of_pair) {
       if (mine(pairs.at(k)))
-        diagonal_[pairs.at(k)] += cells[a].volume * pairs.weight[k] * (1 - pairs.weight[k] * explained[k]);
+        diagonal_[pairs.at(k)] += cells[a].volume * pairs.weight[k] * (1 - pairs.weight[k] * *of_pair);
       all += cells[pairs.at(k)].volume * pairs.weight[k];
     }
     if (here) weights_.at(i, 1) = all;
   });
 }
 
-/// The inverse of a particle's normal equations, its sums of weights and, per pair, p(X_b).inverse.p(X_b).
+/// Of each particle; of a lattice each kind once.
 template <int D>
-void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, std::vector<double>& explained) {
+void ProjectionMatrix<D>::fill_sums_and_inverses(Fits<D> const& fits, PartFilled<double>& explained) {
+  bool const lattice = state_.lattice.present != nullptr;
+  if (lattice) groups_.emplace(fits, state_.slots, slots_, machine_.lanes);
+  inverse_.allocate_tiled(lattice ? groups_->slots() : slots_);
+  PartFilled<Inverse> of_kind(lattice ? fits.X().size() : 0);
+  auto const put = [this](Index place, Inverse const& inverse) {
+    for (int m = 0; m < triangle; ++m) inverse_.at(place, m) = inverse[static_cast<std::size_t>(m)];
+  };
+  exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
+    std::size_t const a = fits.rows()[k];
+    if (fits.alike(a) != a) return;
+    Inverse const inverse = fill_sums(fits, a, explained);
+    if (lattice)
+      of_kind[a] = inverse;
+    else
+      put(static_cast<Index>(a), inverse);
+  });
+  if (!lattice) return;
+  inverse_.share(groups_->stored.data());
+  groups_->each(fits.X().size(),
+                [&](std::size_t place, std::size_t a) { put(static_cast<Index>(place), of_kind[fits.alike(a)]); });
+}
+
+/// A particle's sums of weights and, per pair, p(X_b).inverse.p(X_b); returns the inverse of its normal equations.
+template <int D>
+typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a,
+                                                                     PartFilled<double>& explained) {
   auto const& pairs = fits.pairs();
   auto const i = static_cast<Index>(a);
   double A[values * values]{}, inverse[values * values], p[values]{1};
@@ -115,8 +159,10 @@ void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, std::vec
   for (int m = 0; m < values; ++m)
     for (int n = 0; n < m; ++n) A[m * values + n] = A[n * values + m];
   invert<values>(A, inverse);
-  for (int m = 0, at = 0; m < values; ++m)
-    for (int n = m; n < values; ++n) inverse_.at(i, at++) = inverse[m * values + n];
+  Inverse upper{};
+  std::size_t at = 0;
+  for (int m = 0; m < values; ++m)
+    for (int n = m; n < values; ++n) upper[at++] = inverse[m * values + n];
   for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
     monomials_of(k);
     explained[k] = 0;
@@ -126,40 +172,19 @@ void ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a, std::vec
       explained[k] += p[m] * row;
     }
   }
+  return upper;
 }
 
 template <int D>
-void ProjectionMatrix<D>::copy_sums(Fits<D> const& fits, std::size_t a, std::vector<double>& explained) {
-  auto const i = static_cast<Index>(a), from = static_cast<Index>(fits.alike(a));
-  for (int m = 0; m < values; ++m) fields_.own.at(i, m) = fields_.own.at(from, m);
-  for (int m = 0; m < triangle<D>; ++m) inverse_.at(i, m) = inverse_.at(from, m);
-  auto const& pairs = fits.pairs();
-  std::copy(explained.begin() + static_cast<std::ptrdiff_t>(pairs.first(fits.alike(a))),
-            explained.begin() + static_cast<std::ptrdiff_t>(pairs.end(fits.alike(a))),
-            explained.begin() + static_cast<std::ptrdiff_t>(pairs.first(a)));
-}
-
-template <int D>
-void ProjectionMatrix<D>::apply(std::vector<double> const& x, std::vector<double>& image) {
-  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+void ProjectionMatrix<D>::apply(PartFilled<double> const& x, PartFilled<double>& image) {
+  each_own([&](Index i) {
     for (int c = 0; c < D; ++c) fields_.x.at(i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
   });
-  machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_.ref()});
-  exec_host::for_each_in_set_up(particles_, [&](Index i) {
+  machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
+  each_own([&](Index i) {
     for (int c = 0; c < D; ++c)
       image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = fields_.a.at(i, c);
   });
-}
-
-template <int D>
-std::vector<double> ProjectionMatrix<D>::coefficients() const {
-  constexpr auto size = std::size_t{values} * D;
-  std::vector<double> c(static_cast<std::size_t>(particles_) * size);
-  exec_host::for_each_in_set_up(particles_, [&](Index i) {
-    for (std::size_t k = 0; k < size; ++k)
-      c[static_cast<std::size_t>(i) * size + k] = coefficients_.at(i, static_cast<int>(k));
-  });
-  return c;
 }
 
 template class ProjectionMatrix<1>;

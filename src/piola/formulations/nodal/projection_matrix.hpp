@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/nodal/alike_groups.hpp"
 #include "piola/formulations/nodal/closure.hpp"
 #include "piola/formulations/nodal/gathered.hpp"
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace piola::nodal {
@@ -14,34 +18,47 @@ class ProjectionMatrix {
  public:
   static constexpr int values = Quadratic<D>::values;
 
+  /// halo: of neighbours, without fields, where ranks share the body: each has its own rows then, and what is said
+  /// about particles is of its own.
   ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCell> const& cells, Machine const& machine,
-                   LatticeLayout const* lattice);
+                   LatticeLayout const* lattice, HaloPlan const* halo);
   ProjectionMatrix(ProjectionMatrix const&) = delete;
   ProjectionMatrix& operator=(ProjectionMatrix const&) = delete;
 
-  void apply(std::vector<double> const& x, std::vector<double>& image);
-  std::vector<double> const& diagonal() const { return diagonal_; }
+  /// Collective on ranks.
+  void apply(PartFilled<double> const& x, PartFilled<double>& image);
+  PartFilled<double> const& diagonal() const { return diagonal_; }
   /// Of the normal equations of particle i.
   double inverse(Index i, int m, int n) const {
     int const row = std::min(m, n), column = std::max(m, n);
-    return inverse_.at(i, row * values - row * (row - 1) / 2 + column - row);
+    return inverse_.at(groups_ ? groups_->place(i) : i, row * values - row * (row - 1) / 2 + column - row);
   }
-  /// Of the quadratics of the last product: values x D per particle.
-  std::vector<double> coefficients() const;
+  /// Hands over those of the quadratics of the last product, which was the last one: values x D per particle.
+  std::unique_ptr<Field> take_coefficients() { return std::move(coefficients_); }
 
  private:
+  template <class F>
+  void each_own(F const& f) const;
   void allocate(LatticeLayout const* lattice);
+  void share(HaloPlan const& halo);
   void fill(Fits<D> const& fits, std::vector<ScaledCell> const& cells);
-  void fill_sums(Fits<D> const& fits, std::size_t a, std::vector<double>& explained);
-  void copy_sums(Fits<D> const& fits, std::size_t a, std::vector<double>& explained);
+  /// Upper triangle, row by row.
+  static constexpr int triangle = values * (values + 1) / 2;
+  using Inverse = std::array<double, static_cast<std::size_t>(triangle)>;
+  void fill_sums_and_inverses(Fits<D> const& fits, PartFilled<double>& explained);
+  Inverse fill_sums(Fits<D> const& fits, std::size_t a, PartFilled<double>& explained);
 
   Machine const& machine_;
   Index particles_, slots_;
+  Range own_;
   Fields fields_{D};
   Gathered gathered_;
-  Field inverse_, weights_, coefficients_;
+  std::optional<AlikeGroups> groups_;  ///< of a lattice: those that share inverses
+  Field inverse_, weights_;
+  std::unique_ptr<Field> coefficients_;
   std::vector<std::int64_t> begin_;
-  std::vector<double> diagonal_;
+  PartFilled<double> diagonal_;
+  std::optional<HaloPlan> halo_;
   FailureSlot failure_;
   BodyState state_;
 };

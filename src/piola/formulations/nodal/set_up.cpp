@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/nodal/alike_groups.hpp"
 #include "piola/formulations/nodal/closure.hpp"
 #include "piola/formulations/nodal/face_parts.hpp"
 #include "piola/formulations/nodal/held_faces.hpp"
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <tuple>
 
 namespace piola::nodal {
@@ -61,64 +61,95 @@ class Tables {
   static constexpr auto dimension = static_cast<std::size_t>(D);
 
   Tables(SetUp const& from, ScaledBody const& scaled, Fits<D> const& fits, Reference& to)
-      : from_(from), scaled_(scaled), fits_(fits), to_(to), slots_(static_cast<std::size_t>(from.order.slots())) {
+      : from_(from),
+        scaled_(scaled),
+        fits_(fits),
+        to_(to),
+        slots_(static_cast<std::size_t>(from.order.slots())),
+        first_(static_cast<std::size_t>(std::min(from.own_slots().first, from.order.particles))),
+        last_(static_cast<std::size_t>(std::min(from.own_slots().last, from.order.particles))) {
     if (from.images != nullptr) keep_images();
   }
 
-  void fill(Closure const& closure, std::vector<double> const& mass) {
-    to_.V.assign(slots_, 0);
-    to_.mass.assign(slots_, 1);
-    to_.X.assign((slots_ + to_.images.size()) * dimension, 0);
-    to_.mu.assign((slots_ + to_.images.size()) * dimension, 0);
-    to_.L.assign(slots_ * dimension * dimension, 0);
-    to_.g.assign(slots_ * values * dimension, 0);
+  void fill(Closure const& closure, PartFilled<double> const& mass) {
+    using Values = PartFilled<double>;
+    to_.V = Values(slots_);
+    to_.mass = Values(slots_);
+    to_.X = Values((slots_ + to_.images.size()) * dimension);
+    to_.mu = Values((slots_ + to_.images.size()) * dimension);
+    to_.L = Values(slots_ * dimension * dimension);
+    to_.g = Values(slots_ * values * dimension);
     share_k();
-    to_.own.assign(slots_ * (values + dimension), 0);
-    to_.centroid.assign(slots_ * dimension, 0);
-    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.particles), [&](Index particle) {
-      auto const a = static_cast<std::size_t>(particle);
-      to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
+    to_.own = Values(slots_ * (values + dimension));
+    to_.centroid = Values(slots_ * dimension);
+    fill_seen(closure);
+    for (auto slot = from_.own_slots().first; slot < from_.own_slots().last; ++slot)
+      to_.mass[static_cast<std::size_t>(slot)] = 1;
+    each_own([&](std::size_t a) {
       to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0.front();
       auto const L = cholesky<D>(scaled_.cells[a], scaled_.h);
       for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
-      for (std::size_t c = 0; c < dimension; ++c) {
-        to_.X[a * dimension + c] = scaled_.X[a][c];
+      for (std::size_t c = 0; c < dimension; ++c)
         to_.centroid[a * dimension + c] = scaled_.cells[a].centroid[c] * scaled_.h[c];
-        to_.mu[a * dimension + c] = closure.mu[a * dimension + c] / scaled_.h[c];
-      }
       fill_derivatives(a, closure);
     });
     fill_images(closure);
-    exec_host::for_each_in_set_up(static_cast<Index>(scaled_.particles),
-                                  [this](Index a) { fill_own(static_cast<std::size_t>(a)); });
+    each_own([this](std::size_t a) { fill_own(a); });
   }
 
-  /// The lists of the body's own particles.
+  /// The lists of own particles.
   void fill_lists(Pairs pairs) {
-    // Slots without a particle have no neighbours.
-    pairs.begin.resize(scaled_.particles + 1);
-    pairs.begin.resize(slots_ + 1, pairs.begin.back());
-    pairs.neighbour.resize(static_cast<std::size_t>(pairs.begin.back()));
-    pairs.weight.resize(pairs.neighbour.size());
+    std::size_t const before = pairs.first(first_), after = pairs.first(last_) - before;
+    auto const keep = [&](auto& of_pairs) {
+      of_pairs.erase(of_pairs.begin(), of_pairs.begin() + static_cast<std::ptrdiff_t>(before));
+      of_pairs.resize(after);
+      if (from_.own) of_pairs.shrink_to_fit();
+    };
+    keep(pairs.neighbour);
+    if (!to_.lattice) keep(pairs.weight);  // of a lattice only observers read the lists
     if (from_.images != nullptr)
       for (Index& b : pairs.neighbour) b = static_cast<Index>(place_of(static_cast<std::size_t>(b)));
-    to_.begin = std::move(pairs.begin);
+    to_.begin = PartFilled<std::int64_t>(slots_ + 1);
+    // Slots without a particle have no neighbours.
+    for (auto slot = first_; slot <= static_cast<std::size_t>(from_.own_slots().last); ++slot)
+      to_.begin[slot] = pairs.begin[std::min(slot, last_)] - static_cast<std::int64_t>(before);
     to_.neighbour = std::move(pairs.neighbour);
-    to_.weight = std::move(pairs.weight);
+    if (!to_.lattice) to_.weight = std::move(pairs.weight);
   }
 
  private:
+  /// f(a) for the particles of this rank.
+  template <class F>
+  void each_own(F const& f) const {
+    exec_host::for_each_in_set_up(static_cast<Index>(last_ - first_),
+                                  [&](Index k) { f(first_ + static_cast<std::size_t>(k)); });
+  }
+
+  /// What is told, or known, of own particles and of those that they read.
+  void fill_seen(Closure const& closure) {
+    Entries const& rows = fits_.rows();
+    exec_host::for_each_in_set_up(rows.size(), [&](Index k) {
+      std::size_t const a = rows[k];
+      if (a >= scaled_.particles) return;
+      to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
+      for (std::size_t c = 0; c < dimension; ++c) {
+        to_.X[a * dimension + c] = scaled_.X[a][c];
+        to_.mu[a * dimension + c] = closure.mu[a * dimension + c] / scaled_.h[c];
+      }
+    });
+  }
+
   /// Slot of a particle or an image of the scaled body.
   std::size_t place_of(std::size_t b) const {
     return b < scaled_.particles ? b : slots_ + kept_[b - scaled_.particles];
   }
 
-  /// The images that are neighbours of the body's own particles.
+  /// The images that are neighbours of own particles.
   void keep_images() {
     auto const& images = *from_.images;
     std::vector<char> wanted(static_cast<std::size_t>(images.count()), 0);
     auto const& pairs = fits_.pairs();
-    for (std::size_t k = 0; k < pairs.end(scaled_.particles - 1); ++k)
+    for (std::size_t k = pairs.first(first_); k < pairs.first(last_); ++k)
       if (pairs.at(k) >= scaled_.particles) wanted[pairs.at(k) - scaled_.particles] = 1;
     kept_.resize(wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -127,7 +158,7 @@ class Tables {
       to_.images.push_back(static_cast<Index>(k));
       to_.source_of_image.push_back(images.particles().source[k]);
     }
-    to_.share.assign(slots_, 1);
+    to_.share = PartFilled<double>(slots_, 1);
     for (std::size_t a = 0; a < scaled_.particles; ++a) to_.share[a] = 1 / images.multiplicity(static_cast<Index>(a));
   }
 
@@ -165,7 +196,8 @@ class Tables {
     auto const& cell = scaled_.cells[a];
     for (std::size_t J = 0; J < dimension; ++J) {
       for (std::size_t m = 0; m < values; ++m)
-        g[m * dimension + J] = -closure.coefficients[(a * values + m) * dimension + J] / scaled_.h[J];
+        g[m * dimension + J] =
+            -closure.coefficients->at(static_cast<Index>(a), static_cast<int>(m * dimension + J)) / scaled_.h[J];
       for (int l = 0; l < Quadratic<D>::terms; ++l) {
         typename Fits<D>::Monomials column;
         for (int i = 0; i < Quadratic<D>::terms; ++i) column[static_cast<std::size_t>(i)] = fits_.inverse(a, i, l);
@@ -177,9 +209,8 @@ class Tables {
     }
   }
 
-  /// k of a particle, stored at `place`.
-  void fill_second(std::size_t a, std::size_t place) {
-    double* const k = &to_.k[place * terms * second];
+  /// k of a particle.
+  void fill_second(std::size_t a, double* k) const {
     for (int J = 0; J < D; ++J)
       for (int K = J; K < D; ++K) {
         int const n = Quadratic<D>::at(J, K);
@@ -192,30 +223,16 @@ class Tables {
 
   /// Makes k: one for each particle, or of a lattice for each kind of group of lanes.
   void share_k() {
-    std::size_t const particles = scaled_.particles;
     if (!to_.lattice) {
-      to_.k.assign(slots_ * terms * second, 0);
-      for (std::size_t a = 0; a < particles; ++a) fill_second(a, a);
+      to_.k = PartFilled<double>(slots_ * terms * second);
+      each_own([this](std::size_t a) { fill_second(a, &to_.k[a * terms * second]); });
       return;
     }
-    auto const lanes = static_cast<std::size_t>(from_.machine.lanes);
-    std::map<std::vector<std::size_t>, std::int32_t> known;
-    std::vector<std::size_t> kinds, last;
-    for (std::size_t first = 0; first < slots_; first += lanes) {
-      kinds.clear();
-      for (std::size_t a = first; a < std::min(first + lanes, particles); ++a) kinds.push_back(fits_.alike(a));
-      if (kinds == last) {  // as most groups
-        to_.group_of_k.push_back(to_.group_of_k.back());
-        continue;
-      }
-      last = kinds;
-      auto const [at, is_new] = known.try_emplace(kinds, static_cast<std::int32_t>(known.size()));
-      to_.group_of_k.push_back(at->second);
-      if (!is_new) continue;
-      to_.k.resize(known.size() * lanes * terms * second, 0);
-      for (std::size_t l = 0; l < kinds.size(); ++l)
-        fill_second(first + l, static_cast<std::size_t>(at->second) * lanes + l);
-    }
+    AlikeGroups groups(fits_, from_.own_slots(), static_cast<Index>(slots_), from_.machine.lanes);
+    to_.k = PartFilled<double>(static_cast<std::size_t>(groups.slots()) * terms * second);
+    groups.each(scaled_.particles,
+                [&](std::size_t place, std::size_t a) { fill_second(a, &to_.k[place * terms * second]); });
+    to_.group_of_k = std::move(groups.stored);
   }
 
   void fill_own(std::size_t a) {
@@ -236,8 +253,8 @@ class Tables {
   ScaledBody const& scaled_;
   Fits<D> const& fits_;
   Reference& to_;
-  std::size_t slots_;
-  std::vector<std::size_t> kept_;  ///< of each image, how many before it are neighbours
+  std::size_t slots_, first_, last_;  ///< all slots; own particles
+  std::vector<std::size_t> kept_;     ///< of each image, how many before it are neighbours
 };
 
 /// Slot of the particle that an entry of the scaled body is, or is the image of.
@@ -247,8 +264,10 @@ Index source_of(SetUp const& from, std::size_t i) {
 }
 
 /// The cells with volumes that stand for their masses, in units of the body's own density: what is handed over from
-/// cell to cell is mass, and its moments are those of all materials together.
-std::vector<ScaledCell> heavy_cells(SetUp const& from, std::vector<ScaledCell> cells) {
+/// cell to cell is mass, and its moments are those of all materials together. Nothing where there is one material.
+std::vector<ScaledCell> heavy_cells(SetUp const& from, std::vector<ScaledCell> const& light) {
+  if (from.rho0.size() == 1) return {};
+  std::vector<ScaledCell> cells = light;
   for (std::size_t i = 0; i < cells.size(); ++i)
     cells[i].volume *=
         from.rho0[part_of(from.set,
@@ -265,37 +284,57 @@ std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   return lattice_shape(from.set, from.body, from.order);
 }
 
+void refuse_without_cell(SetUp const& from, ScaledBody const& scaled) {
+  for (std::size_t i = 0; i < scaled.particles; ++i)
+    if (!(scaled.cells[i].volume > least_cell))
+      refuse(from, static_cast<Index>(i),
+             "has no part of the body to itself - move it into the body, or apart from its neighbours");
+}
+
+struct MassOptions {
+  std::optional<SharedSlots> const& shared;
+  bool endless;  ///< between two mirror planes
+};
+
+template <int D>
+PartFilled<double> masses(SetUp const& from, ScaledBody const& scaled, std::optional<LatticeShape> const& shape,
+                          MassOptions const& options) {
+  auto const heavy = heavy_cells(from, scaled.cells);
+  return exact_masses<D>(scaled.X, heavy.empty() ? scaled.cells : heavy,
+                         {from.least_mass, shape, !has_lattice_cells(from.body) && !options.endless, options.shared});
+}
+
 template <int D>
 Reference make(SetUp const& from) {
   Reference r;
   auto clock = std::chrono::steady_clock::now();
   ScaledBody const scaled = scaled_body(from);
   r.costs.cells = since(clock);
-  for (std::size_t i = 0; i < scaled.particles; ++i)
-    if (!(scaled.cells[i].volume > least_cell))
-      refuse(from, static_cast<Index>(i),
-             "has no part of the body to itself - move it into the body, or apart from its neighbours");
+  refuse_without_cell(from, scaled);
   auto const shape = shape_for_loops(from);
-  Fits<D> fits(scaled.X, shape);
+  std::optional<SharedSlots> shared;
+  if (from.is_shared()) shared = SharedSlots{from.order.slots(), from.order.particles};
+  std::optional<Fold<D>> fold;
+  if (from.images != nullptr) fold.emplace(*from.images, scaled.particles);
+  // First, because its pairs reach farther than those that are kept.
+  auto const mass = masses<D>(from, scaled, shape, {shared, fold && fold->endless()});
+  r.costs.masses = since(clock);
+  Fits<D> fits(scaled.X, shape, shared);
   if (shape && fits.usual()) r.lattice.emplace(*shape, from.order.slots(), from.machine.lanes);
   if (fits.hopeless() >= 0)
     refuse(from, source_of(from, static_cast<std::size_t>(fits.hopeless())),
            "has neighbours that determine no quadratic field - use at least three particles across the body in every "
            "direction");
+  if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, read_of_others(fits.pairs(), fits.own()));
   r.costs.fits = since(clock);
   Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
-  std::optional<Fold<D>> fold;
-  if (from.images != nullptr) fold.emplace(*from.images, scaled.particles);
   Closure const closure = divergence.solve(from.closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr,
-                                           fold ? &*fold : nullptr);
+                                           {fold ? &*fold : nullptr, r.halo.get()});
   r.closure_iterations = closure.iterations;
   r.parts = face_parts<D>(from, fits, divergence, scaled.h);
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
   r.held = held_faces<D>(from, fits, scaled.patches, scaled.h);
   r.costs.closure = since(clock);
-  auto const mass = exact_masses<D>(scaled.X, heavy_cells(from, scaled.cells), from.least_mass, shape,
-                                    !has_lattice_cells(from.body) && !(fold && fold->endless()));
-  r.costs.masses = since(clock);
   Tables<D> tables(from, scaled, fits, r);
   tables.fill(closure, mass);
   tables.fill_lists(fits.take_pairs());
@@ -304,6 +343,14 @@ Reference make(SetUp const& from) {
 }
 
 }  // namespace
+
+bool SetUp::is_shared() const {
+  auto const on_body = [&](Support const& support) {
+    return support.on_surface() && std::any_of(support.particles.begin(), support.particles.end(),
+                                               [&](auto id) { return id >= body.first && id < body.last; });
+  };
+  return own && images == nullptr && std::none_of(supports.begin(), supports.end(), on_body);
+}
 
 Reference make_reference(SetUp const& from) {
   if (from.set.dimension == 1) return make<1>(from);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/mirror_images.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/mechanics/surface_hold.hpp"
 #include "piola/neighbours/tables.hpp"
+#include "piola/parallel/halo_plan.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include "piola/particles/ordering.hpp"
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +38,12 @@ struct SetUp {
   MirrorImages const* images = nullptr;  ///< the whole body behind its mirror planes; nullptr: it has none
   /// Of the residual that the gradients leave in the divergence theorem; less changes no answer.
   double closure_tolerance = 1e-3;
+  std::optional<Range> own = std::nullopt;  ///< slots of this rank, where several share the body; nothing: all
+
+  /// Whether ranks set up their parts together. What goes on behind a mirror plane, and places of the surface that
+  /// supports hold, each rank sets up as a whole.
+  bool is_shared() const;
+  Range own_slots() const { return own.value_or(Range{0, order.slots()}); }
 };
 
 /// What a particle answers for of a loaded face.
@@ -42,24 +52,25 @@ struct FacePart {
   std::array<double, 3> normal{};  ///< outward unit vector
 };
 
-/// The undeformed body as loops see it: values per slot, one after the other, in the order of Fields. Theory:
-/// docs/theory/nodal.md, section 3.
+/// The undeformed body as loops see it: values per slot, one after the other, in the order of Fields; on ranks of own
+/// slots, and V, X and mu of those that their particles read, too. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
-  std::vector<double> V, mass, L, g, k, own, mu;
+  PartFilled<double> V, mass, L, g, k, own, mu;
   /// Where k of a group of lanes is stored, counted in groups, if groups that are alike share it: on a lattice.
-  std::vector<std::int32_t> group_of_k;
-  std::vector<double> X;                     ///< in spacings, D per slot
-  std::vector<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
-  std::vector<std::vector<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
-  std::vector<HeldPlace> held;               ///< parts of the surface that supports hold
-  std::vector<std::int64_t> begin;           ///< lists, see ListTable
+  PartFilled<std::int32_t> group_of_k;
+  PartFilled<double> X;                     ///< in spacings, D per slot
+  PartFilled<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
+  std::vector<PartFilled<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
+  std::vector<HeldPlace> held;              ///< parts of the surface that supports hold
+  PartFilled<std::int64_t> begin;           ///< lists, see ListTable
   std::vector<Index> neighbour;
   std::vector<double> weight;
   // With mirror planes lists name images by the slots after those of the body; V and mass are those of the whole body.
   std::vector<Index> images;           ///< those that are neighbours, as SetUp::images counts them
   std::vector<Index> source_of_image;  ///< slots
-  std::vector<double> share;  ///< of a particle in the body itself, where that is not all of it; empty: no planes
+  PartFilled<double> share;  ///< of a particle in the body itself, where that is not all of it; empty: no planes
   std::optional<LatticeLayout> lattice;  ///< takes the place of the lists where particles fill a lattice
+  std::unique_ptr<HaloPlan> halo;        ///< of neighbours, without fields; nullptr: one rank has all particles
   int closure_iterations = 0;
   SetUpCosts costs;
 
@@ -75,7 +86,8 @@ struct Reference {
   }
 };
 
-/// Throws InputError: a particle without a cell, too few particles across.
+/// Throws InputError: a particle without a cell, too few particles across; on ranks that share the body it is
+/// collective, and all throw.
 Reference make_reference(SetUp const& from);
 
 }  // namespace piola::nodal

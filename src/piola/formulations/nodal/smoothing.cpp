@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/smoothing.hpp"
 #include "piola/exec/set_up_loop.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace piola::nodal {
 namespace {
@@ -19,19 +21,26 @@ double kernel(double r) {
 
 }  // namespace
 
-Smoothing::Smoothing(Reference const& reference, int dimension, Index particles)
+Smoothing::Smoothing(Reference const& reference, int dimension, Range own, HaloPlan const* halo)
     : reference_(reference),
       begin_(reference.begin),
       neighbour_(reference.neighbour),
       V_(reference.V),
-      particles_(static_cast<std::size_t>(particles)) {
+      range_(own),
+      halo_(halo) {
   find_weights(reference, static_cast<std::size_t>(dimension));
   balance();
 }
 
 template <class F>
 void Smoothing::each_particle(F const& f) const {
-  exec_host::for_each_in_set_up(static_cast<Index>(particles_), [&](Index a) { f(static_cast<std::size_t>(a)); });
+  exec_host::for_each_in_set_up(range_.last - range_.first,
+                                [&](Index k) { f(static_cast<std::size_t>(range_.first + k)); });
+}
+
+/// What neighbours read of others.
+void Smoothing::tell(PartFilled<double>& values) const {
+  if (halo_ != nullptr) exchange_once(*halo_, {.data = values.data()}, 1);
 }
 
 void Smoothing::find_weights(Reference const& reference, std::size_t dimension) {
@@ -51,10 +60,11 @@ void Smoothing::find_weights(Reference const& reference, std::size_t dimension) 
 
 /// d <- sqrt(d / sum_b W_ab V_b d_b), b = a included, as long as a row is off. The sums of rows are exact in the end.
 void Smoothing::balance() {
-  std::vector<double> d(particles_), sum(particles_);
-  for (std::size_t a = 0; a < particles_; ++a) d[a] = 1 / std::sqrt(V_[a]);
+  PartFilled<double> d(V_.size()), sum(V_.size());
+  each_particle([&](std::size_t a) { d[a] = 1 / std::sqrt(V_[a]); });
   double off = 1;
   for (int sweep = 0; sweep < most_sweeps && off > tolerance; ++sweep) {
+    tell(d);
     each_particle([&](std::size_t a) {
       sum[a] = V_[a] * d[a];
       for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
@@ -63,11 +73,15 @@ void Smoothing::balance() {
       }
     });
     off = 0;
-    for (std::size_t a = 0; a < particles_; ++a) off = std::max(off, std::abs(d[a] * sum[a] - 1));
-    for (std::size_t a = 0; a < particles_; ++a) d[a] = std::sqrt(d[a] / sum[a]);
+    for (auto a = static_cast<std::size_t>(range_.first); a < static_cast<std::size_t>(range_.last); ++a)
+      off = std::max(off, std::abs(d[a] * sum[a] - 1));
+    if (halo_ != nullptr) ranks::take_largest(off);
+    each_particle([&](std::size_t a) { d[a] = std::sqrt(d[a] / sum[a]); });
   }
-  own_.assign(particles_, 1);
+  tell(d);
+  own_ = PartFilled<double>(V_.size());
   each_particle([&](std::size_t a) {
+    own_[a] = 1;
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
       auto const b = owner(k);
       weight_[k] *= d[a] * d[b] * V_[b];
@@ -76,8 +90,9 @@ void Smoothing::balance() {
   });
 }
 
-std::vector<double> Smoothing::once(std::vector<double> const& f) const {
-  std::vector<double> smooth(f.size());
+PartFilled<double> Smoothing::once(PartFilled<double> f) const {
+  tell(f);
+  PartFilled<double> smooth(f.size());
   each_particle([&](std::size_t a) {
     smooth[a] = own_[a] * f[a];
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k)
@@ -86,6 +101,6 @@ std::vector<double> Smoothing::once(std::vector<double> const& f) const {
   return smooth;
 }
 
-std::vector<double> Smoothing::operator()(std::vector<double> const& f) const { return once(once(f)); }
+PartFilled<double> Smoothing::operator()(PartFilled<double> f) const { return once(once(std::move(f))); }
 
 }  // namespace piola::nodal

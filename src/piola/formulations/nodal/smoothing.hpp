@@ -11,28 +11,34 @@ namespace piola::nodal {
 /// Theory: docs/theory/nodal.md, section 7.
 class Smoothing {
  public:
-  Smoothing(Reference const& reference, int dimension, Index particles);
+  /// Of all particles; or, where ranks share the body, for those that this one has, with a halo of neighbours, without
+  /// fields. Collective then, as all that follows.
+  Smoothing(Reference const& reference, int dimension, Range own, HaloPlan const* halo = nullptr);
 
-  /// S^2 f, values per slot.
-  std::vector<double> operator()(std::vector<double> const& f) const;
+  /// S^2 f, values per slot; on ranks of own ones.
+  PartFilled<double> operator()(PartFilled<double> f) const;
+
+  std::size_t bytes() const { return weight_.size() * sizeof(double) + own_.size() * sizeof(double); }
 
  private:
   template <class F>
   void each_particle(F const& f) const;
   void find_weights(Reference const& reference, std::size_t dimension);
   void balance();
-  std::vector<double> once(std::vector<double> const& f) const;
+  PartFilled<double> once(PartFilled<double> f) const;
+  void tell(PartFilled<double>& values) const;
 
   /// The particle of pair k, or that of which it is the image.
   std::size_t owner(std::size_t k) const { return static_cast<std::size_t>(reference_.owner(neighbour_[k])); }
 
   Reference const& reference_;
-  std::vector<std::int64_t> const& begin_;
+  PartFilled<std::int64_t> const& begin_;
   std::vector<Index> const& neighbour_;
-  std::vector<double> const& V_;
-  std::size_t particles_;
+  PartFilled<double> const& V_;
+  Range range_;
+  HaloPlan const* halo_;
   std::vector<double> weight_;  ///< W per pair, then d_a W d_b V_b
-  std::vector<double> own_;     ///< 1 - sum_b s_ab V_b
+  PartFilled<double> own_;      ///< 1 - sum_b s_ab V_b
 };
 
 }  // namespace piola::nodal

@@ -4,9 +4,12 @@
 #include "piola/formulations/checkpoint.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
+#include "piola/formulations/sample_own.hpp"
 #include "piola/formulations/slots_by_id.hpp"
 #include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/boundary.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
@@ -28,7 +31,6 @@ class Solver final : public Formulation {
       Options const options =
           read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
-      bodies_.back()->share();
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
     }
     pushed_ = assembly.pushed;
@@ -66,9 +68,8 @@ class Solver final : public Formulation {
     actions_.end_step(bodies_);
     time_ = time + dt;
     ends_step_ = true;
-    if (failed()) gather();  // rank 0 is told all that there is to say about it
+    if (ranks::several() && failed()) tell_failures();
   }
-  void gather() override;
 
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
@@ -78,7 +79,7 @@ class Solver final : public Formulation {
     read_motion_of(bodies_, slots_, ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    read_masses_of(bodies_, slots_, ids, m, [](auto const& body, Index slot) { return body.mass(slot); });
+    read_masses_of(bodies_, slots_, ids, m, [](auto const& body, Index slot) { return body.known_mass(slot); });
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     push_all(bodies_, set_.dimension, slots_, ids, change);
@@ -109,7 +110,7 @@ class Solver final : public Formulation {
       observe(*body, all);
     }
     Diagnostics d = finish(all);
-    d.actions = actions_.report();
+    d.actions = actions_.over_ranks(bodies_).report();
     return d;
   }
 
@@ -124,8 +125,16 @@ class Solver final : public Formulation {
     }
   }
 
+  void sample_owned(std::string_view field, std::span<double> values) const override {
+    sample_of_own(*this, bodies_, field, values, [&](auto const& body, int number, std::span<double> own) {
+      refresh(body);
+      sample_own(body, number, field, own);
+    });
+  }
+
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
+  std::optional<std::vector<std::int64_t>> owned() const override { return ids_of_own(bodies_); }
 
   int stages_per_step() const override { return 1; }
   std::optional<Talk> talk(std::size_t body) const override {
@@ -143,13 +152,12 @@ class Solver final : public Formulation {
   }
 
  private:
-  /// Brings the fields for observers up to date; nothing that steps read changes.
+  /// Brings the fields for observers up to date; nothing that steps read changes. Collective where ranks share the
+  /// body.
   void refresh(NodalBody const& body) const {
     FailureSlot failure;
     BodyState seen = body.state();
     seen.failure = &failure;
-    seen.slots = {0, seen.all_slots};  // on ranks, after gather(), rank 0 looks at all particles by itself
-    seen.halo = nullptr;
     machine_.observe(seen);
   }
   template <class F>
@@ -159,6 +167,7 @@ class Solver final : public Formulation {
                        [](auto const& body) { return body->state().failure->index < body->particles(); });
   }
   double calm_time_step() const;
+  void tell_failures();
 
   ParticleSet set_;
   SlotsById slots_;
@@ -170,6 +179,7 @@ class Solver final : public Formulation {
   bool ends_step_ = false;  ///< what pushes next does so for the step that was taken last, after that for the next one
   double time_ = 0;         ///< at the end of the last step [s]
   double repeated_ = 0;     ///< steps that were taken again in halves
+  std::vector<double> failed_neighbours_;  ///< on ranks, per body: of the particle that failed
 };
 
 /// The longest step that keeps the energy of all bodies as well as is wanted [s]; infinite where nothing moves.
@@ -183,11 +193,29 @@ double Solver::calm_time_step() const {
   return unrest > 0 && energy > 0 ? std::sqrt(energy / unrest) : std::numeric_limits<double>::infinity();
 }
 
+/// All ranks have what there is to say about the first particle that failed.
+void Solver::tell_failures() {
+  failed_neighbours_.assign(bodies_.size(), 0);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    NodalBody const& body = *bodies_[k];
+    Index const slot = body.state().failure->index;
+    if (slot >= body.particles()) continue;
+    refresh(body);
+    auto const& s = body.state();
+    int const D = set_.dimension;
+    for (auto const& [field, components] : {std::pair{s.x, D}, {s.v, D}, {s.F, D * D}, {s.cell, 4}})
+      merge_slots(field, body.own(), std::array{slot}, components);
+    if (is_own(body.own(), slot)) failed_neighbours_[k] = body.reference().neighbours(slot);
+  }
+  ranks::merge(failed_neighbours_);
+}
+
 std::optional<Failure> Solver::failure() const {
-  for (auto const& body : bodies_) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    auto const& body = bodies_[k];
     FailureSlot const& slot = *body->state().failure;
     if (slot.index >= body->particles()) continue;
-    refresh(*body);
+    if (!ranks::several()) refresh(*body);
     double const least = NodalBody::value(body->state().cell, slot.index, 2);
     Failure f;
     f.what = least <= 0 ? "is inverted" : "has a deformation that is not a number";
@@ -196,10 +224,11 @@ std::optional<Failure> Solver::failure() const {
     f.X = body->X(slot.index);
     f.x = body->x(slot.index);
     auto const v = body->v(slot.index);
-    f.values = {{"least det F in its cell", least},
-                {"det F", determinant(body->F(slot.index))},
-                {"neighbours", static_cast<double>(body->reference().neighbours(slot.index))},
-                {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])}};
+    f.values = {
+        {"least det F in its cell", least},
+        {"det F", determinant(body->F(slot.index))},
+        {"neighbours", failed_neighbours_.empty() ? body->reference().neighbours(slot.index) : failed_neighbours_[k]},
+        {"speed [m/s]", std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])}};
     return f;
   }
   return std::nullopt;
@@ -237,35 +266,23 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      save_field(writer, name, body, field, components);
+      save_own(writer, name, body, field, components);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
     writer.put(fmt::format("body{}_energy_books", k),
-               std::array{body.boundary().external_work().value(), body.damping_loss()});
+               std::array{body.boundary().external_work().over_ranks(), body.damping_loss()});
   }
-  writer.put("actions", actions_.state());
+  writer.put("actions", actions_.over_ranks(bodies_).state());
   writer.put("time", std::array{time_, repeated_});
-}
-
-/// What a checkpoint holds is all that observers see, too.
-void Solver::gather() {
-  for (std::size_t k = 0; ranks::several() && k < bodies_.size(); ++k) {
-    NodalBody& body = *bodies_[k];
-    each_evolved(body, k,
-                 [&](std::string const&, FieldRef const& field, int components) { body.gather(field, components); });
-    body.boundary().external_work().settle();
-    monitors_[k]->merge();
-  }
-  if (ranks::several()) actions_.settle(bodies_);
 }
 
 void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      load_field(reader, name, body, field, components);
+      load_own(reader, name, body, field, components);
     });
-    load_part(reader, fmt::format("body{}_step_limit", k), *monitors_[k]);
+    monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
     std::array<double, 2> books{};
     reader.get(fmt::format("body{}_energy_books", k), books);
     body.boundary().external_work().set(books[0]);

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/nodal/fit.hpp"
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace piola::nodal {
@@ -14,16 +15,17 @@ namespace piola::nodal {
 template <int D>
 class SplineLevels {
  public:
-  /// Places in spacings.
-  explicit SplineLevels(Points const& X);
+  /// Places in spacings. shared: ranks share them, and each has a part of the splines of the finest level.
+  SplineLevels(Points const& X, std::optional<SharedSlots> const& shared);
 
   /// A field whose sum of squares of third derivatives is `probe_square` everywhere; D columns alike.
-  std::vector<double> probe() const;
+  PartFilled<double> probe() const;
   /// stiffness: of the matrix, per volume and square of third derivatives.
   void set_stiffness(double stiffness) { stiffness_ = stiffness; }
   static constexpr double probe_square = D;
-  /// z += what the levels say to r; D values per particle.
-  void add(std::vector<double> const& r, std::vector<double>& z);
+  /// z += what the levels say to r; D values per particle. On ranks, for which it is collective, each has those of its
+  /// own particles right, and r is that of all particles afterwards.
+  void add(PartFilled<double>& r, PartFilled<double>& z);
 
  private:
   struct Level {
@@ -33,6 +35,7 @@ class SplineLevels {
     std::vector<double> value;   ///< D per spline
   };
   void add_level(double spacing);
+  void add_to_splines(PartFilled<double> const& r);
   static void restrict_to(Level const& fine, Level& coarse);
   static void prolong(Level const& coarse, Level& fine);
   /// Which interval of the finest level particle a is in, along an axis.
@@ -42,6 +45,7 @@ class SplineLevels {
   void visit(std::size_t a, F const& f) const;
 
   Points const& X_;
+  std::optional<SharedSlots> shared_;
   std::array<double, 3> low_{}, length_{};
   std::vector<Level> levels_;
   double stiffness_ = 1;

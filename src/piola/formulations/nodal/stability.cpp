@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/exec/set_up_loop.hpp"
-#include "piola/mechanics/modes.hpp"
+#include "piola/formulations/own_mode.hpp"
 #include "piola/parallel/ranks.hpp"
 #include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace piola::nodal {
 namespace {
@@ -96,16 +97,13 @@ double largest_eigenvalue(std::vector<double> const& diagonal, std::vector<doubl
 
 StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
     : body_(body), machine_(machine), interval_(shortest) {
-  if (body.options().cfl > 0) return;
-  mode_.resize(static_cast<std::size_t>(body.particles()) * body.state().dimension);
+  if (is_given()) return;
+  mode_.resize(size_of_mode(body));
   measure(first_cycles, true);
   start_ = frequency_;
 }
 
-std::size_t StabilityMonitor::place(Index i, int c) const {
-  auto const number = static_cast<std::size_t>(body_.id(i) - body_.body().first);
-  return number * static_cast<std::size_t>(body_.state().dimension) + static_cast<std::size_t>(c);
-}
+std::size_t StabilityMonitor::place(Index i, int c) const { return mode_place(body_, i, c); }
 
 template <class F>
 void StabilityMonitor::each_particle(F const& f) const {
@@ -148,24 +146,6 @@ StabilityMonitor::Vector StabilityMonitor::accelerations() {
     for (int c = 0; c < D; ++c) a[place(i, c)] = value_at(trial.a, i, c);
   });
   return a;
-}
-
-/// What this rank does not have becomes zero.
-void StabilityMonitor::keep_own(Vector& u) const {
-  if (!body_.shared()) return;
-  Vector own(u.size(), 0);
-  each_number([&](std::size_t i) { own[i] = u[i]; });
-  u = std::move(own);
-}
-
-double StabilityMonitor::largest_on_ranks(Vector const& u) const {
-  double most = largest_of(u);
-  if (body_.shared()) ranks::take_largest(most);
-  return most;
-}
-
-void StabilityMonitor::merge() {
-  if (body_.shared()) ranks::merge(mode_);
 }
 
 /// sum m u.v, of the particles of this rank.
@@ -263,7 +243,7 @@ double StabilityMonitor::unrest_at_start(Vector const& x, Vector const& rest, do
   each_particle([&](Index i) {
     for (int c = 0; c < s.dimension; ++c) v[place(i, c)] = value_at(s.v, i, c);
   });
-  double const most = largest_on_ranks(v);
+  double const most = largest_on_ranks(body_, v);
   if (!(most > 0)) return 0;
   put_moved(x, size / most, v);
   Vector change = accelerations();
@@ -275,14 +255,12 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
   machine_.keep(body_.state());
   machine_.observe(body_.state());
   energy_ = std::max(energy_, body_.kinetic_energy() + body_.strain_energy());
-  merge();
-  refresh_mode(mode_);
+  refresh_mode(body_, mode_);
   for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane
     MirroredParticle const& p = body_.state().mirrored[k];
     for (int c = 0; c < body_.state().dimension; ++c)
       if ((p.axes >> c & 1) != 0) mode_[place(p.slot, c)] = 0;
   }
-  keep_own(mode_);
   auto const x = positions();
   body_.state().marks = true;
   auto const rest = accelerations();
@@ -302,7 +280,7 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
 }
 
 void StabilityMonitor::update(double dt, int halvings) {
-  if (body_.options().cfl > 0) return;
+  if (is_given()) return;
   ++steps_;
   waited_ += dt * frequency() / (2 * calm_share);
   if (halvings == 0 && should_look(dt)) look_at_unrest(dt);
@@ -326,7 +304,7 @@ void StabilityMonitor::update(double dt, int halvings) {
 double StabilityMonitor::frequency() const { return lift * std::max(frequency_, start_); }
 
 double StabilityMonitor::step() const {
-  if (body_.options().cfl > 0) return body_.options().cfl * body_.state().constants.unit_step;
+  if (is_given()) return body_.options().cfl * body_.state().constants.unit_step;
   double const share = pace_ == 0              ? first_share
                        : pace_ >= brisk_pace   ? calm_share
                        : pace_ >= violent_pace ? brisk_share
@@ -340,11 +318,19 @@ double StabilityMonitor::step() const {
 std::vector<double> StabilityMonitor::state() const {
   std::vector<double> s{frequency_, start_,  steps_,  pace_,   caution_,   interval_,
                         waited_,    energy_, unrest_, lately_, lately_age_};
-  s.insert(s.end(), mode_.begin(), mode_.end());
-  return s;
+  if (is_given()) return s;
+  return with_mode(body_, std::move(s), mode_);
 }
 
-void StabilityMonitor::restore(std::vector<double> const& state) {
+void StabilityMonitor::load(StateReader& reader, std::string const& name) {
+  constexpr std::size_t numbers = 11;
+  std::vector<double> state = this->state();
+  if (is_given()) {
+    reader.get(name, state);
+  } else {
+    reader.get_to_deal(name, state);
+    state = without_mode(body_, numbers, state, mode_);
+  }
   frequency_ = state[0];
   start_ = state[1];
   steps_ = state[2];
@@ -356,7 +342,6 @@ void StabilityMonitor::restore(std::vector<double> const& state) {
   unrest_ = state[8];
   lately_ = state[9];
   lately_age_ = state[10];
-  std::copy(state.begin() + 11, state.end(), mode_.begin());
 }
 
 }  // namespace piola::nodal

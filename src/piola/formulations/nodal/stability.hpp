@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/body.hpp"
+#include <string>
 #include <vector>
 
 namespace piola::nodal {
@@ -36,17 +37,18 @@ class StabilityMonitor {
   /// B = (v.K.v + a.M.a) / 8 [J/s2], which a vibration keeps: Verlet steps let its energy rise and fall by B dt^2.
   double unrest() const { return unrest_; }
 
-  /// Everything that the next step depends on, but for the strains of the last measurement, which are a field.
+  /// Everything that the next step depends on, but for the strains of the last measurement, which are a field. On ranks
+  /// collective, and rank 0 has all of it.
   std::vector<double> state() const;
-  void restore(std::vector<double> const& state);
+  /// Collective.
+  void load(StateReader& reader, std::string const& name);
 
-  /// Brings the parts of the mode that ranks have to all of them. Collective.
-  void merge();
-
+  /// Whether the case gives the step.
+  bool is_given() const { return body_.options().cfl > 0; }
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
  private:
-  using Vector = std::vector<double>;  ///< D values per particle, in the order of ids; of other ranks zeros
+  using Vector = std::vector<double>;  ///< D values per particle of this rank, in the order of slots
   /// An approximate eigenvalue omega^2, and by how much the nearest true one differs at most.
   struct Estimate {
     double square = 0, error = 0;
@@ -59,13 +61,11 @@ class StabilityMonitor {
   /// f(place) for the numbers of a Vector that this rank has.
   template <class F>
   void each_number(F const& f) const;
-  void keep_own(Vector& u) const;
   /// sum m u.u and the largest |u_k|, of all ranks.
   struct Extent {
     double square, most;
   };
   Extent extent(Vector const& u) const;
-  double largest_on_ranks(Vector const& u) const;
   void measure(int cycles, bool at_start);
   bool should_look(double dt) const;
   void look_at_unrest(double dt);
@@ -79,18 +79,18 @@ class StabilityMonitor {
 
   NodalBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;  ///< in the order of ids
-  double frequency_ = 0;      ///< 1/s, at the last measurement
-  double start_ = 0;          ///< 1/s, at the start
-  double steps_ = 0;          ///< since the last measurement
-  double caution_ = 1;        ///< share of the step that is left after steps that had to be halved
-  double pace_ = 0;           ///< steps between the last two measurements; 0: there was one alone
-  double interval_ = 0;       ///< steps to the next measurement while strains change little
-  double waited_ = 0;         ///< since the last measurement, in steps of calm motion
-  double energy_ = 0;         ///< the largest that was measured [J]
-  double unrest_ = 0;         ///< see unrest() [J/s2]
-  double lately_ = 0;         ///< the largest unrest since it was last forgotten or kept, and for how long
-  double lately_age_ = 0;     ///< that was, in steps of calm motion
+  Vector mode_;            ///< empty where nothing is measured
+  double frequency_ = 0;   ///< 1/s, at the last measurement
+  double start_ = 0;       ///< 1/s, at the start
+  double steps_ = 0;       ///< since the last measurement
+  double caution_ = 1;     ///< share of the step that is left after steps that had to be halved
+  double pace_ = 0;        ///< steps between the last two measurements; 0: there was one alone
+  double interval_ = 0;    ///< steps to the next measurement while strains change little
+  double waited_ = 0;      ///< since the last measurement, in steps of calm motion
+  double energy_ = 0;      ///< the largest that was measured [J]
+  double unrest_ = 0;      ///< see unrest() [J/s2]
+  double lately_ = 0;      ///< the largest unrest since it was last forgotten or kept, and for how long
+  double lately_age_ = 0;  ///< that was, in steps of calm motion
 };
 
 }  // namespace piola::nodal

@@ -40,8 +40,8 @@ class Step {
 
   /// a = M x with the matrix of the divergence theorem.
   void project(ProjectionFields const& f) {
-    ProjectQuadratic<D> const pass{read(f.inverse),       read_reference(b_.V), read(f.weights), read(b_.x),
-                                   write(f.coefficients), write(b_.second),     write(b_.a)};
+    ProjectQuadratic<D> const pass{read_reference(f.inverse), read_reference(b_.V), read(f.weights), read(b_.x),
+                                   write(f.coefficients),     write(b_.second),     write(b_.a)};
     halo_.refresh(b_.x, b_.first);
     fused(b_.slots, exec::erased(pass));
     sum_forces();

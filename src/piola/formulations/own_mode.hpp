@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/checkpoint.hpp"
+#include "piola/mechanics/modes.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// Modes of a body of which a rank has its own particles: D values of each, in the order of slots.
+namespace piola {
+
+template <class Body>
+std::size_t size_of_mode(Body const& body) {
+  return static_cast<std::size_t>(body.own().last - body.own().first) *
+         static_cast<std::size_t>(body.state().dimension);
+}
+
+template <class Body>
+std::size_t mode_place(Body const& body, Index slot, int c) {
+  return static_cast<std::size_t>(slot - body.own().first) * static_cast<std::size_t>(body.state().dimension) +
+         static_cast<std::size_t>(c);
+}
+
+/// The largest |u_k| of all ranks. Collective.
+template <class Body>
+double largest_on_ranks(Body const& body, std::vector<double> const& u) {
+  double most = largest_of(u);
+  if (body.shared()) ranks::take_largest(most);
+  return most;
+}
+
+/// f(value, number) of the values of a mode; numbers go by id.
+template <class Body, class F>
+void each_of_mode(Body const& body, std::vector<double>& mode, F const& f) {
+  Range const own = body.own();
+  int const D = body.state().dimension;
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    auto const number =
+        static_cast<std::uint64_t>(body.id(own.first + k) - body.body().first) * static_cast<unsigned>(D);
+    for (int c = 0; c < D; ++c) f(mode[mode_place(body, own.first + k, c)], number + static_cast<unsigned>(c));
+  });
+}
+
+/// refreshed() of all of its values. Collective.
+template <class Body>
+void refresh_mode(Body const& body, std::vector<double>& mode) {
+  double const most = largest_on_ranks(body, mode);
+  each_of_mode(body, mode, [&](double& value, std::uint64_t number) { value = refreshed(value, most, number); });
+}
+
+/// `numbers`, then the mode in the order of ids; on ranks, of which all call it, on rank 0 alone.
+template <class Body>
+std::vector<double> with_mode(Body const& body, std::vector<double> numbers, std::vector<double> const& mode) {
+  auto const all =
+      in_id_order(body, body.state().dimension, [&](Index i, int c) { return mode[mode_place(body, i, c)]; });
+  numbers.insert(numbers.end(), all.begin(), all.end());
+  return numbers;
+}
+
+/// The way back: takes the mode out of what rank 0 has, and gives so many numbers before it to all. Collective.
+template <class Body>
+std::vector<double> without_mode(Body const& body, std::size_t numbers, std::span<double const> of_first,
+                                 std::vector<double>& mode) {
+  std::vector<double> told(of_first.begin(), of_first.begin() + static_cast<std::ptrdiff_t>(numbers));
+  if (body.shared()) ranks::broadcast_bytes(told.data(), numbers * sizeof(double));
+  from_id_order(body, body.state().dimension, of_first.subspan(numbers),
+                [&](Index i, int c, double value) { mode[mode_place(body, i, c)] = value; });
+  return told;
+}
+
+}  // namespace piola

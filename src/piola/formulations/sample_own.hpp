@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/formulations/observed.hpp"
+#include "piola/parallel/own_slots.hpp"
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// values[k * components + c] of one field for the k-th particle of this rank of one body; each(f) calls
+/// f(slot, particle) for these.
+template <class Body, class Each>
+void sample_own(Body const& body, ObservedField const& field, std::span<double> values, Each const& each) {
+  auto const width = static_cast<std::size_t>(field.components);
+  each([&](Index i, ObservedParticle const& p) {
+    field.put(p, &values[static_cast<std::size_t>(i - body.own().first) * width]);
+  });
+}
+
+/// values[id * components + c] of one field for the particles of one body; each(f) calls f(slot, particle) for those of
+/// this rank. On ranks that share the body collective, and rank 0 has them.
+template <class Body, class Each>
+void sample_for_first(Body const& body, ObservedField const& field, std::span<double> values, Each const& each) {
+  if (!body.shared()) return each([&](Index, ObservedParticle const& p) { put(field, p, values); });
+  auto const width = static_cast<std::size_t>(field.components);
+  Range const own = body.own();
+  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * width);
+  sample_own(body, field, mine, each);
+  SharedSlots{body.slots(), body.particles()}.collect(
+      width, std::move(mine), [&](Range part, std::span<double const> of) {
+        for (Index i = part.first; i < part.last; ++i)
+          std::copy_n(&of[static_cast<std::size_t>(i - part.first) * width], width,
+                      &values[static_cast<std::size_t>(body.id(i)) * width]);
+      });
+}
+
+/// The particles of this rank of several bodies, by id, if ranks share them.
+template <class Bodies>
+std::optional<std::vector<std::int64_t>> ids_of_own(Bodies const& bodies) {
+  if (!ranks::several()) return std::nullopt;
+  std::vector<std::int64_t> ids;
+  for (auto const& body : bodies)
+    for (Index i = body->own().first; i < body->own().last; ++i) ids.push_back(body->id(i));
+  return ids;
+}
+
+/// Formulation::sample_owned() by sample(body, its number, values of its own particles) for one body after the other.
+template <class Bodies, class F>
+void sample_of_own(Formulation const& formulation, Bodies const& bodies, std::string_view field,
+                   std::span<double> values, F const& sample) {
+  if (!ranks::several()) return formulation.sample(field, values);
+  auto const components = static_cast<std::size_t>(info_of(formulation.fields(), field).components);
+  int number = 0;
+  for (auto const& body : bodies) {
+    auto const numbers = static_cast<std::size_t>(body->own().last - body->own().first) * components;
+    sample(*body, number++, values.first(numbers));
+    values = values.subspan(numbers);
+  }
+}
+
+}  // namespace piola
