@@ -141,7 +141,7 @@ void HaloPlan::exchange(std::span<FieldRef const> fields) {
 }
 
 HaloPlan HaloPlan::without_fields() const {
-  HaloPlan bare(slots_);
+  HaloPlan bare(cut_);
   bare.reaches_ = reaches_;
   bare.received_ = received_;
   for (Side const& side : sends_) bare.sends_.push_back({side.rank, side.reaches, {}});

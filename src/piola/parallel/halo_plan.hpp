@@ -42,7 +42,7 @@ class HaloPlan {
   std::size_t bytes() const;
 
  private:
-  explicit HaloPlan(Index slots) : slots_(slots) {}
+  explicit HaloPlan(Shares cut) : cut_(std::move(cut)) {}
   /// Within one reach.
   struct Slots {
     Index count = 0;
