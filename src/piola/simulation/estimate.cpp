@@ -7,6 +7,7 @@
 #include "piola/input/check_case.hpp"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,12 @@ struct Pace {
   /// Where ranks observe their shares: bytes per particle of the body that every rank has, of which rank 0 needs some
   /// more for output. Measured by bench/ranks_memory.py.
   double everywhere = 0, of_first = 0;
+  /// The same of set-up, where that is another one: bytes of all particles, and of own ones besides
+  /// Formulation::memory_bytes, of which some come later.
+  struct SetUp {
+    double everywhere, lattice, scattered;
+  };
+  std::optional<SetUp> in_set_up = {};
 };
 
 /// Measured by the largest resident memory of runs with 64,000 to 512,000 particles: in it are what set-up and
@@ -43,10 +50,11 @@ Pace pace_of(std::string_view formulation) {
   return {{40 * ns, 103 * ns, 280 * ns},
           {80 * ns, 250 * ns, 1000 * ns},
           {2 * us, 3 * us, 6 * us},
-          nodal ? std::array{480.0, 480.0, 700.0} : std::array{270.0, 270.0, 300.0},
-          nodal ? std::array{0.0, 0.0, 500.0} : std::array{0.0, 0.0, 100.0},
+          nodal ? std::array{240.0, 240.0, 245.0} : std::array{270.0, 270.0, 300.0},
+          nodal ? std::array{0.0, 0.0, 335.0} : std::array{0.0, 0.0, 100.0},
           73,
-          107};
+          107,
+          nodal ? std::optional(Pace::SetUp{200, -240, 75}) : std::nullopt};
 }
 
 constexpr double filter_factor = 2;      ///< of the volumetric filter of jst_sph
@@ -101,6 +109,16 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
             !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
   return !mirrored && body.shape.jitter == 0 && !body.shape.random &&
          body.shape.arrangement == ShapeSpec::Arrangement::lattice;
+}
+
+/// Whether ranks that share a body share its set-up: nodal makes all of some on every rank (nodal::SetUp::is_shared).
+bool is_set_up_by_share(CaseSpec const& spec, BodySpec const& body) {
+  auto const continues = [&](MirrorSpec const& mirror) { return mirror.body == body.name; };
+  auto const holds = [&](SupportSpec const& support) {
+    return support.body == body.name && support.patch && support.hold != SupportSpec::Hold::particles;
+  };
+  return body.formulation.name != "nodal" || (std::none_of(spec.mirrors.begin(), spec.mirrors.end(), continues) &&
+                                              std::none_of(spec.supports.begin(), spec.supports.end(), holds));
 }
 
 /// Counts what a checkpoint holds.
@@ -194,7 +212,8 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
   double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
   double const of_formulation = e.memory, state = e.row_bytes;
   e.memory_in_steps = e.memory + program_bytes;
-  e.memory_everywhere = program_bytes + messages_bytes;
+  e.memory_everywhere = e.everywhere_in_set_up = program_bytes + messages_bytes;
+  e.memory_in_set_up = program_bytes;
   e.row_bytes = 0;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Pace const pace = pace_of(spec.bodies[b].formulation.name);
@@ -206,14 +225,23 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
     tables += n * pace.setup[D];
     double const for_a_while = n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
     e.memory += for_a_while;
+    bool const apart = pace.in_set_up && D == 2 && is_set_up_by_share(spec, spec.bodies[b]);
+    double const in_set_up =
+        of_formulation * n / all +
+        (apart ? n * (regular ? pace.in_set_up->lattice : pace.in_set_up->scattered) : for_a_while);
+    e.memory_in_set_up += in_set_up;
     if (observed_by_share(spec.bodies[b])) {
       e.row_bytes += 8 * n * probed;
       e.memory_everywhere += n * pace.everywhere;
+      e.everywhere_in_set_up += !is_set_up_by_share(spec, spec.bodies[b]) ? in_set_up
+                                : apart                                   ? n * pace.in_set_up->everywhere
+                                                                          : n * pace.everywhere;
       e.memory_of_first = std::max(e.memory_of_first, output_bytes) + n * pace.of_first;
     } else {
       e.row_work_of_first += row_stages * here;
       e.row_bytes += state * n / all;
       e.memory_everywhere += of_formulation * n / all + for_a_while;
+      e.everywhere_in_set_up += in_set_up;
     }
   }
   count_times(spec, particles, stages, side, tables, e);
