@@ -205,6 +205,22 @@ void count_times(CaseSpec const& spec, ParticleSet const& particles, double stag
                   plan.pictures * picture_seconds + plan.checkpoints * checkpoint_seconds * all;
 }
 
+/// What set-up takes of a rank: of all of a body, and of it what every rank has in full [bytes].
+struct MemoryInSetUp {
+  double all, everywhere;
+};
+
+/// `in_steps`: of the body's arrays; `for_a_while`: what it takes beside them where it is not shared [bytes].
+MemoryInSetUp memory_in_set_up(CaseSpec const& spec, std::size_t b, Pace const& pace, double n, double in_steps,
+                               double for_a_while) {
+  BodySpec const& body = spec.bodies[b];
+  double const usual = in_steps + for_a_while;
+  if (!observed_by_share(body) || !is_set_up_by_share(spec, body)) return {usual, usual};
+  if (!pace.in_set_up || body.shape.dimension < 3) return {usual, n * pace.everywhere};
+  double const besides = is_regular(spec, body) ? pace.in_set_up->lattice : pace.in_set_up->scattered;
+  return {in_steps + n * besides, n * pace.in_set_up->everywhere};
+}
+
 /// Fills in what follows from rule, memory and disk.
 void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, double probed, Estimate& e) {
   auto const D = static_cast<std::size_t>(particles.dimension - 1);
@@ -225,23 +241,17 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
     tables += n * pace.setup[D];
     double const for_a_while = n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
     e.memory += for_a_while;
-    bool const apart = pace.in_set_up && D == 2 && is_set_up_by_share(spec, spec.bodies[b]);
-    double const in_set_up =
-        of_formulation * n / all +
-        (apart ? n * (regular ? pace.in_set_up->lattice : pace.in_set_up->scattered) : for_a_while);
-    e.memory_in_set_up += in_set_up;
+    auto const set_up = memory_in_set_up(spec, b, pace, n, of_formulation * n / all, for_a_while);
+    e.memory_in_set_up += set_up.all;
+    e.everywhere_in_set_up += set_up.everywhere;
     if (observed_by_share(spec.bodies[b])) {
       e.row_bytes += 8 * n * probed;
       e.memory_everywhere += n * pace.everywhere;
-      e.everywhere_in_set_up += !is_set_up_by_share(spec, spec.bodies[b]) ? in_set_up
-                                : apart                                   ? n * pace.in_set_up->everywhere
-                                                                          : n * pace.everywhere;
       e.memory_of_first = std::max(e.memory_of_first, output_bytes) + n * pace.of_first;
     } else {
       e.row_work_of_first += row_stages * here;
       e.row_bytes += state * n / all;
       e.memory_everywhere += of_formulation * n / all + for_a_while;
-      e.everywhere_in_set_up += in_set_up;
     }
   }
   count_times(spec, particles, stages, side, tables, e);
