@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ranks: what a rank takes of memory at most is what `piola check --ranks` says, within 15 %, and with
-jst_sph less than all of the body.
+"""Ranks: what a rank takes of memory at most is what `piola check --ranks` says, within 15 %, and less than all of the
+body.
 
 Needs a program with MPI and mpirun; is skipped otherwise. PIOLA_RANKS_TESTS=quick takes a part of it.
 """
@@ -39,9 +39,11 @@ def compare(name, n, formulation, more, ranks, work):
 
 skip_without_ranks()
 with tempfile.TemporaryDirectory() as folder:
-    for name, n, more, share in (("lattice", 48, False, 0.75), ("cloud", 28, True, 0.95)):
+    for name, n, formulation, more, share in (
+            ("lattice", 48, "jst_sph", False, 0.75), ("cloud", 28, "jst_sph", True, 0.95),
+            ("lattice of nodal", 40, "nodal", False, 0.75), ("cloud of nodal", 28, "nodal", True, 0.8)):
         for ranks in (3,) if QUICK else (2, 3, 5):
-            taken = compare(name, n, "jst_sph", more, ranks, Path(folder))
+            taken = compare(name, n, formulation, more, ranks, Path(folder))
             alone = largest_of_ranks(PROGRAM, 1, Path(folder) / "case.toml", Path(folder))
             expect(taken[-1] < share * alone[0], f"{name}: one of {ranks} ranks takes {taken[-1]} bytes of {alone[0]}")
 finish()

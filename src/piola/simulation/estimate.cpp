@@ -7,6 +7,7 @@
 #include "piola/simulation/probes.hpp"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,12 @@ struct Pace {
   /// Where ranks observe their shares: bytes per particle of the body that every rank has, of which rank 0 needs some
   /// more for output. Measured by bench/ranks_memory.py.
   double everywhere = 0, of_first = 0;
+  /// The same of set-up, where that is another one: bytes of all particles, and of own ones besides
+  /// Formulation::memory_bytes, of which some come later.
+  struct SetUp {
+    double everywhere, lattice, scattered;
+  };
+  std::optional<SetUp> in_set_up = {};
 };
 
 /// Measured by the largest resident memory of runs with 64,000 to 512,000 particles: in it are what set-up and
@@ -42,10 +49,11 @@ Pace pace_of(std::string_view formulation) {
   return {{40 * ns, 103 * ns, 280 * ns},
           {80 * ns, 250 * ns, 1000 * ns},
           {2 * us, 3 * us, 6 * us},
-          nodal ? std::array{480.0, 480.0, 700.0} : std::array{270.0, 270.0, 300.0},
-          nodal ? std::array{0.0, 0.0, 500.0} : std::array{0.0, 0.0, 100.0},
+          nodal ? std::array{240.0, 240.0, 245.0} : std::array{270.0, 270.0, 300.0},
+          nodal ? std::array{0.0, 0.0, 335.0} : std::array{0.0, 0.0, 100.0},
           73,
-          107};
+          107,
+          nodal ? std::optional(Pace::SetUp{200, -240, 75}) : std::nullopt};
 }
 
 constexpr double filter_factor = 2;      ///< of the volumetric filter of jst_sph
@@ -100,6 +108,16 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
             !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
   return !mirrored && body.shape.jitter == 0 && !body.shape.random &&
          body.shape.arrangement == ShapeSpec::Arrangement::lattice;
+}
+
+/// Whether ranks that share a body share its set-up: nodal makes all of some on every rank (nodal::SetUp::is_shared).
+bool is_set_up_by_share(CaseSpec const& spec, BodySpec const& body) {
+  auto const continues = [&](MirrorSpec const& mirror) { return mirror.body == body.name; };
+  auto const holds = [&](SupportSpec const& support) {
+    return support.body == body.name && support.patch && support.hold != SupportSpec::Hold::particles;
+  };
+  return body.formulation.name != "nodal" || (std::none_of(spec.mirrors.begin(), spec.mirrors.end(), continues) &&
+                                              std::none_of(spec.supports.begin(), spec.supports.end(), holds));
 }
 
 /// Counts what a checkpoint holds.
@@ -182,6 +200,22 @@ void count_times(CaseSpec const& spec, ParticleSet const& particles, double stag
                   plan.pictures * picture_seconds + plan.checkpoints * checkpoint_seconds * all;
 }
 
+/// What set-up takes of a rank: of all of a body, and of it what every rank has in full [bytes].
+struct MemoryInSetUp {
+  double all, everywhere;
+};
+
+/// `in_steps`: of the body's arrays; `for_a_while`: what it takes beside them where it is not shared [bytes].
+MemoryInSetUp memory_in_set_up(CaseSpec const& spec, std::size_t b, Pace const& pace, double n, double in_steps,
+                               double for_a_while) {
+  BodySpec const& body = spec.bodies[b];
+  double const usual = in_steps + for_a_while;
+  if (!observed_by_share(body) || !is_set_up_by_share(spec, body)) return {usual, usual};
+  if (!pace.in_set_up || body.shape.dimension < 3) return {usual, n * pace.everywhere};
+  double const besides = is_regular(spec, body) ? pace.in_set_up->lattice : pace.in_set_up->scattered;
+  return {in_steps + n * besides, n * pace.in_set_up->everywhere};
+}
+
 /// Fills in what follows from rule, memory and disk.
 void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, double probed, Estimate& e) {
   auto const D = static_cast<std::size_t>(particles.dimension - 1);
@@ -189,7 +223,8 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
   double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
   double const of_formulation = e.memory, state = e.row_bytes;
   e.memory_in_steps = e.memory + program_bytes;
-  e.memory_everywhere = program_bytes + messages_bytes;
+  e.memory_everywhere = e.everywhere_in_set_up = program_bytes + messages_bytes;
+  e.memory_in_set_up = program_bytes;
   e.row_bytes = 0;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Pace const pace = pace_of(spec.bodies[b].formulation.name);
@@ -201,6 +236,9 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
     tables += n * pace.setup[D];
     double const for_a_while = n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
     e.memory += for_a_while;
+    auto const set_up = memory_in_set_up(spec, b, pace, n, of_formulation * n / all, for_a_while);
+    e.memory_in_set_up += set_up.all;
+    e.everywhere_in_set_up += set_up.everywhere;
     if (observed_by_share(spec.bodies[b])) {
       e.row_bytes += 8 * n * probed;
       e.memory_everywhere += n * pace.everywhere;

@@ -28,6 +28,8 @@ struct Estimate {
   double rows_per_step = 0;               ///< of the history
   double memory_everywhere = 0;           ///< of `memory` what every rank has in full [bytes]
   double memory_in_steps = 0;             ///< `memory` without what set-up and output need for a while
+  double memory_in_set_up = 0;            ///< the most of one rank before the first step
+  double everywhere_in_set_up = 0;        ///< of it what every rank has in full
   double memory_of_first = 0;             ///< what rank 0 needs for output of all particles
   std::vector<std::optional<Talk>> talk;  ///< per body
 };

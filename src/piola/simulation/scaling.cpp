@@ -56,7 +56,7 @@ void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<R
 double memory_of(RankShare const& share, Estimate const& cost, double all, int ranks, bool writes) {
   if (ranks == 1) return cost.memory;
   double const held = static_cast<double>(share.particles + share.halo) / all, everywhere = cost.memory_everywhere;
-  double const in_set_up = everywhere + held * (cost.memory - everywhere);
+  double const in_set_up = cost.everywhere_in_set_up + held * (cost.memory_in_set_up - cost.everywhere_in_set_up);
   double const in_steps = everywhere + held * std::max(cost.memory_in_steps - everywhere, 0.0);
   return writes ? std::max(in_set_up, in_steps + cost.memory_of_first) : in_set_up;
 }

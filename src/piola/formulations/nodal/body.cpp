@@ -383,7 +383,7 @@ std::size_t NodalBody::bytes() const {
   std::size_t total = gathered_.bytes() + order_.id.size() * 8 + r.begin.size() * 8 + r.neighbour.size() * 4 +
                       r.weight.size() * 8 + r.group_of_k.size() * 4 +
                       (r.V.size() + r.mass.size() + r.X.size() + partial_.size()) * 8;
-  if (smoothing_) total += smoothing_->bytes();
+  total += r.neighbour.size() * 8 + r.V.size() * 8;  // the smoothing of observers
   return total + fields_.bytes() + boundary_->bytes();
 }
 

@@ -125,7 +125,7 @@ void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& clo
 
 /// The stiffness that coarse levels divide by, from the matrix itself.
 template <int D>
-void set_levels(Fits<D> const& fits, ProjectionMatrix<D>& matrix, std::vector<ScaledCell> const& cells,
+void set_levels(Fits<D> const& fits, ProjectionMatrix<D>& matrix, PartFilled<ScaledCell> const& cells,
                 SplineLevels<D>& levels) {
   // Measured: splines overlap, of one level and of several. Three times their own energy takes the fewest iterations.
   constexpr double overlap = 3;
@@ -150,7 +150,7 @@ double largest(Fits<D> const& fits, PartFilled<double> const& u) {
 }  // namespace
 
 template <int D>
-Divergence<D>::Divergence(Fits<D> const& fits, std::vector<ScaledCell> const& cells,
+Divergence<D>::Divergence(Fits<D> const& fits, PartFilled<ScaledCell> const& cells,
                           std::vector<SurfacePatch> const& patches)
     : fits_(fits), cells_(cells), patches_(patches) {}
 

@@ -38,7 +38,7 @@ class Divergence {
  public:
   static constexpr int terms = Quadratic<D>::terms, values = Quadratic<D>::values;
 
-  Divergence(Fits<D> const& fits, std::vector<ScaledCell> const& cells, std::vector<SurfacePatch> const& patches);
+  Divergence(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, std::vector<SurfacePatch> const& patches);
 
   /// Shares of the surface by which pressure and traction on the chosen patches are handed to particles, along the
   /// outward normals, consistent with quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches.
@@ -66,7 +66,7 @@ class Divergence {
 
  private:
   Fits<D> const& fits_;
-  std::vector<ScaledCell> const& cells_;
+  PartFilled<ScaledCell> const& cells_;
   std::vector<SurfacePatch> const& patches_;
 };
 

@@ -94,7 +94,7 @@ Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, Mas
 
 /// What cells hand over; of a lattice each kind of cell once.
 template <int D>
-Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells, MassesOf const& of) {
+Exchange<D> hand_over(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of) {
   std::vector<Index> const alike = of.lattice ? alike_in_lattice(*of.lattice, static_cast<int>(reach))
                                               : std::vector<Index>();  // at `reach` there is none
   Exchange<D> x = pairs_in_reach<D>(X, alike, of);
@@ -120,7 +120,7 @@ Exchange<D> hand_over(Points const& X, std::vector<ScaledCell> const& cells, Mas
 class Restraint {
  public:
   template <int D>
-  Restraint(Exchange<D> const& x, std::vector<ScaledCell> const& cells, MassesOf const& of)
+  Restraint(Exchange<D> const& x, PartFilled<ScaledCell> const& cells, MassesOf const& of)
       : pairs_(x.pairs),
         handed_(x.handed),
         cells_(cells),
@@ -221,7 +221,7 @@ class Restraint {
 
   Pairs const& pairs_;
   std::vector<double> const& handed_;  ///< V_a phi_ab, per pair of a
-  std::vector<ScaledCell> const& cells_;
+  PartFilled<ScaledCell> const& cells_;
   double least_;
   Range own_;
   PartFilled<double> theta_;   ///< the share that a cell still hands out
@@ -269,7 +269,7 @@ class BodyMonomials {
 /// than a fifth. Not for lattices: there the moments are off by less, and a stiffness that is too large by as much goes
 /// with them.
 template <int D>
-void match_moments(Points const& X, std::vector<ScaledCell> const& cells, Range own, bool shared,
+void match_moments(Points const& X, PartFilled<ScaledCell> const& cells, Range own, bool shared,
                    PartFilled<double>& mass) {
   constexpr int n = BodyMonomials<D>::count;
   constexpr double most = 0.2;
@@ -307,7 +307,7 @@ void match_moments(Points const& X, std::vector<ScaledCell> const& cells, Range 
 }  // namespace
 
 template <int D>
-PartFilled<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, MassesOf const& of) {
+PartFilled<double> exact_masses(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of) {
   auto const x = hand_over<D>(X, cells, of);
   PartFilled<double> mass = Restraint(x, cells, of)();
   Range const own = of.shared ? of.shared->own() : Range{0, static_cast<Index>(X.size())};
@@ -315,8 +315,8 @@ PartFilled<double> exact_masses(Points const& X, std::vector<ScaledCell> const& 
   return mass;
 }
 
-template PartFilled<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
-template PartFilled<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
-template PartFilled<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
+template PartFilled<double> exact_masses<1>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
+template PartFilled<double> exact_masses<2>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
+template PartFilled<double> exact_masses<3>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
 
 }  // namespace piola::nodal

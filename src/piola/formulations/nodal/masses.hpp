@@ -17,10 +17,10 @@ struct MassesOf {
   std::optional<SharedSlots> shared = std::nullopt;
 };
 template <int D>
-PartFilled<double> exact_masses(Points const& X, std::vector<ScaledCell> const& cells, MassesOf const& of);
+PartFilled<double> exact_masses(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of);
 
-extern template PartFilled<double> exact_masses<1>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
-extern template PartFilled<double> exact_masses<2>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
-extern template PartFilled<double> exact_masses<3>(Points const&, std::vector<ScaledCell> const&, MassesOf const&);
+extern template PartFilled<double> exact_masses<1>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
+extern template PartFilled<double> exact_masses<2>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
+extern template PartFilled<double> exact_masses<3>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
 
 }  // namespace piola::nodal

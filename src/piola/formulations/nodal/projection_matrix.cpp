@@ -18,7 +18,7 @@ Index padded(std::size_t particles) {
 }  // namespace
 
 template <int D>
-ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCell> const& cells, Machine const& machine,
+ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, Machine const& machine,
                                       LatticeLayout const* lattice, HaloPlan const* halo)
     : machine_(machine),
       particles_(static_cast<Index>(cells.size())),
@@ -31,8 +31,10 @@ ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCel
   if (halo != nullptr) share(*halo);
   fill(fits, cells);
   auto const& pairs = fits.pairs();
-  begin_ = pairs.begin;  // slots without a particle have no neighbours
-  begin_.resize(static_cast<std::size_t>(slots_) + 1, begin_.back());
+  begin_ = PartFilled<std::int64_t>(static_cast<std::size_t>(slots_) + 1);
+  // Slots without a particle have no neighbours.
+  for (Index i = state_.slots.first; i <= state_.slots.last; ++i)
+    begin_[static_cast<std::size_t>(i)] = pairs.begin[static_cast<std::size_t>(std::min(i, particles_))];
   state_.list = {begin_.data(), nullptr, pairs.neighbour.data(), pairs.weight.data()};
 }
 
@@ -78,7 +80,7 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
 }
 
 template <int D>
-void ProjectionMatrix<D>::fill(Fits<D> const& fits, std::vector<ScaledCell> const& cells) {
+void ProjectionMatrix<D>::fill(Fits<D> const& fits, PartFilled<ScaledCell> const& cells) {
   PartFilled<double> explained(fits.pairs().neighbour.size());  // of the first one of each kind
   for (Index i = state_.slots.first; i < state_.slots.last; ++i) fields_.mass.at(i) = 1;
   fill_sums_and_inverses(fits, explained);

@@ -20,7 +20,7 @@ class ProjectionMatrix {
 
   /// halo: of neighbours, without fields, where ranks share the body: each has its own rows then, and what is said
   /// about particles is of its own.
-  ProjectionMatrix(Fits<D> const& fits, std::vector<ScaledCell> const& cells, Machine const& machine,
+  ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, Machine const& machine,
                    LatticeLayout const* lattice, HaloPlan const* halo);
   ProjectionMatrix(ProjectionMatrix const&) = delete;
   ProjectionMatrix& operator=(ProjectionMatrix const&) = delete;
@@ -41,7 +41,7 @@ class ProjectionMatrix {
   void each_own(F const& f) const;
   void allocate(LatticeLayout const* lattice);
   void share(HaloPlan const& halo);
-  void fill(Fits<D> const& fits, std::vector<ScaledCell> const& cells);
+  void fill(Fits<D> const& fits, PartFilled<ScaledCell> const& cells);
   /// Upper triangle, row by row.
   static constexpr int triangle = values * (values + 1) / 2;
   using Inverse = std::array<double, static_cast<std::size_t>(triangle)>;
@@ -56,7 +56,7 @@ class ProjectionMatrix {
   std::optional<AlikeGroups> groups_;  ///< of a lattice: those that share inverses
   Field inverse_, weights_;
   std::unique_ptr<Field> coefficients_;
-  std::vector<std::int64_t> begin_;
+  PartFilled<std::int64_t> begin_;
   PartFilled<double> diagonal_;
   std::optional<HaloPlan> halo_;
   FailureSlot failure_;

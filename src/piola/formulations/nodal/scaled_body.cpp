@@ -70,6 +70,12 @@ void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
 
 }  // namespace
 
+void keep_cells(ScaledBody& body, Entries const& of) {
+  PartFilled<ScaledCell> kept(body.cells.size());
+  for (Index k = 0; k < of.size(); ++k) kept[of[k]] = body.cells[of[k]];
+  body.cells = std::move(kept);
+}
+
 ScaledBody scaled_body(SetUp const& from) {
   auto const& [set, body, order] = std::tie(from.set, from.body, from.order);
   ScaledBody r;
@@ -79,6 +85,8 @@ ScaledBody scaled_body(SetUp const& from) {
   }
   BodyCells measured = measure_cells(set, body);
   std::vector<Index> slot_of(measured.cell.size());
+  r.X.reserve(measured.cell.size());
+  r.cells.reserve(measured.cell.size());
   for (Index i = 0; i < order.particles; ++i) {
     auto const id = order.id[static_cast<std::size_t>(i)];
     auto const local = static_cast<std::size_t>(id - body.first);

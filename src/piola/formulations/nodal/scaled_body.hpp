@@ -11,7 +11,7 @@ namespace piola::nodal {
 /// one: after its own particles come their images, and what belongs to a particle on a plane is that of the whole body.
 struct ScaledBody {
   Points X;
-  std::vector<ScaledCell> cells;
+  PartFilled<ScaledCell> cells;
   std::vector<SurfacePatch> patches;
   std::array<double, 3> h{1, 1, 1};
   double h_volume = 1;        ///< product of the spacings
@@ -19,6 +19,9 @@ struct ScaledBody {
 };
 
 constexpr std::size_t moment_axis[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+
+/// Gives back the memory of the cells of all particles but these.
+void keep_cells(ScaledBody& body, Entries const& of);
 
 /// Measures the cells of the body and continues it behind its mirror planes.
 ScaledBody scaled_body(SetUp const& from);

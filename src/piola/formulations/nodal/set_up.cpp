@@ -265,9 +265,9 @@ Index source_of(SetUp const& from, std::size_t i) {
 
 /// The cells with volumes that stand for their masses, in units of the body's own density: what is handed over from
 /// cell to cell is mass, and its moments are those of all materials together. Nothing where there is one material.
-std::vector<ScaledCell> heavy_cells(SetUp const& from, std::vector<ScaledCell> const& light) {
+PartFilled<ScaledCell> heavy_cells(SetUp const& from, PartFilled<ScaledCell> const& light) {
   if (from.rho0.size() == 1) return {};
-  std::vector<ScaledCell> cells = light;
+  PartFilled<ScaledCell> cells = light;
   for (std::size_t i = 0; i < cells.size(); ++i)
     cells[i].volume *=
         from.rho0[part_of(from.set,
@@ -308,7 +308,7 @@ template <int D>
 Reference make(SetUp const& from) {
   Reference r;
   auto clock = std::chrono::steady_clock::now();
-  ScaledBody const scaled = scaled_body(from);
+  ScaledBody scaled = scaled_body(from);
   r.costs.cells = since(clock);
   refuse_without_cell(from, scaled);
   auto const shape = shape_for_loops(from);
@@ -325,6 +325,7 @@ Reference make(SetUp const& from) {
     refuse(from, source_of(from, static_cast<std::size_t>(fits.hopeless())),
            "has neighbours that determine no quadratic field - use at least three particles across the body in every "
            "direction");
+  if (shared) keep_cells(scaled, fits.rows());
   if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, read_of_others(fits.pairs(), fits.own()));
   r.costs.fits = since(clock);
   Divergence<D> const divergence(fits, scaled.cells, scaled.patches);

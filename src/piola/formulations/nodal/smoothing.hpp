@@ -18,8 +18,6 @@ class Smoothing {
   /// S^2 f, values per slot; on ranks of own ones.
   PartFilled<double> operator()(PartFilled<double> f) const;
 
-  std::size_t bytes() const { return weight_.size() * sizeof(double) + own_.size() * sizeof(double); }
-
  private:
   template <class F>
   void each_particle(F const& f) const;
