@@ -26,8 +26,8 @@ void Particles::take(std::vector<Shares> cuts) {
   exchanges_ = std::make_unique<Exchanges>(system_, material_, std::move(cuts));
 }
 
-/// Relative to a total-Lagrangian particle: processor time of the cubes of `piola bench adaptle`. Of what is deleted the
-/// points are left, of what blends descriptions both.
+/// Relative to a total-Lagrangian particle: processor time of the cubes of `piola bench adaptle`. Of what is deleted
+/// the points are left, of what blends descriptions both.
 double Particles::work_of(Index slot) const {
   constexpr double eulerian = 1.5, corrected = 3.5, points = 0.3;
   if (!(fields_.alive.at(slot) > 0)) return points;
