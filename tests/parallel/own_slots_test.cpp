@@ -38,6 +38,22 @@ TEST(OwnSlots, OfSeveralBodiesAreNamedRankByRank) {
   EXPECT_EQ(values, std::vector<double>(130, 7));
 }
 
+TEST(OwnSlots, TellSeveralThingsAtOnce) {
+  std::vector<double> first(10, 1), second(10, 2);
+  FailureSlot slot{.index = 3, .code = 2};
+  FailuresOfRanks failures(slot);
+  SlotsOfRanks const all(std::vector<Shares>{Shares({0, 10})}, [](Index) { return true; });
+  complete_slots(
+      std::array{ToldToAll{{{{.data = first.data()}, 0, 1}, {{.data = second.data()}, 0, 1}}, &all}, failures.told()});
+  failures.put(slot);
+  EXPECT_EQ(first, std::vector<double>(10, 1));
+  EXPECT_EQ(slot.index, 3);
+  EXPECT_EQ(slot.code, 2);
+  FailureSlot none;
+  FailuresOfRanks(none).put(none);
+  EXPECT_EQ(none.index, FailureSlot::none);
+}
+
 TEST(OwnSlots, KeepTheFirstFailureOfOneRank) {
   std::vector<std::int64_t> const id{7, 5, -1};
   FailureSlot slot{.index = 1, .code = 2, .id = id.data()};

@@ -81,29 +81,70 @@ std::vector<double> complete_slots(std::span<SlotArray const> arrays, std::span<
   return of_all;
 }
 
-void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some) {
-  if (!ranks::several() || some.slots.empty()) return;
+namespace {
+
+/// Values of a slot in the message.
+std::size_t width_of(ToldToAll const& told) {
   std::size_t width = 0;
-  for (FieldPart const& part : parts) width += static_cast<std::size_t>(part.count);
-  static std::vector<double> values;  // kept, because large ones come from the system, page by page, each time
-  values.resize(width * some.slots.size());
-  // f(value in the message, value in its field) of the slots k in [first, last).
-  auto const each = [&](std::size_t first, std::size_t last, auto const& f) {
-    exec_host::for_each_in_set_up(static_cast<Index>(last - first), [&](Index k) {
-      std::size_t const place = first + static_cast<std::size_t>(k);
-      double* value = &values[place * width];
-      for (FieldPart const& part : parts)
-        for (int c = 0; c < part.count; ++c) f(*value++, value_at(part.field, some.slots[place], part.first + c));
+  for (FieldPart const& part : told.parts) width += static_cast<std::size_t>(part.count);
+  return width;
+}
+
+/// f(value in the message, value in its field) of what a rank tells, whose values begin at `values`.
+template <class F>
+void each_told(std::span<ToldToAll const> all, std::size_t rank, double* values, F const& f) {
+  for (ToldToAll const& told : all) {
+    std::size_t const width = width_of(told), first = told.some->starts[rank];
+    auto const count = static_cast<Index>(told.some->starts[rank + 1] - first);
+    exec_host::for_each_in_set_up(count, [&](Index k) {
+      double* value = values + static_cast<std::size_t>(k) * width;
+      Index const slot = told.some->slots[first + static_cast<std::size_t>(k)];
+      for (FieldPart const& part : told.parts)
+        for (int c = 0; c < part.count; ++c) f(*value++, value_at(part.field, slot, part.first + c));
     });
-  };
+    values += static_cast<std::size_t>(count) * width;
+  }
+}
+
+}  // namespace
+
+void complete_slots(std::span<ToldToAll const> all) {
+  if (!ranks::several()) return;
+  auto const count = static_cast<std::size_t>(ranks::count());
+  std::vector<std::size_t> starts(count + 1, 0);
+  for (ToldToAll const& told : all)
+    for (std::size_t r = 0; r <= count; ++r) starts[r] += told.some->starts[r] * width_of(told);
+  if (starts.back() == 0) return;
+  static std::vector<double> values;  // kept, because large ones come from the system, page by page, each time
+  values.resize(starts.back());
   auto const own = static_cast<std::size_t>(ranks::own());
-  each(some.starts[own], some.starts[own + 1], [](double& told, double& here) { told = here; });
-  std::vector<std::size_t> starts = some.starts;
-  for (std::size_t& start : starts) start *= width;
+  each_told(all, own, values.data() + starts[own], [](double& told, double& here) { told = here; });
   ranks::complete(values, starts);
-  auto const take = [](double& told, double& here) { here = told; };
-  each(0, some.starts[own], take);
-  each(some.starts[own + 1], some.slots.size(), take);
+  for (std::size_t r = 0; r < count; ++r)
+    if (r != own) each_told(all, r, values.data() + starts[r], [](double& told, double& here) { here = told; });
+}
+
+FailuresOfRanks::FailuresOfRanks(FailureSlot const& own) : values_(size * each_.slots.size()) {
+  FirstFailure const first(own);
+  double* const mine = &values_[size * static_cast<std::size_t>(ranks::own())];
+  mine[0] = static_cast<double>(first.id);
+  mine[1] = first.index;
+  mine[2] = first.code;
+}
+
+ToldToAll FailuresOfRanks::told() {
+  FieldRef const values{.data = values_.data(), .component_stride = 1, .particle_stride = size};
+  return {{{values, 0, static_cast<int>(size)}}, &each_};
+}
+
+void FailuresOfRanks::put(FailureSlot& slot) const {
+  double lowest = static_cast<double>(FirstFailure().id);
+  for (std::size_t k = 0; k < values_.size(); k += size) {
+    if (!(values_[k] < lowest)) continue;
+    lowest = values_[k];
+    slot.index = static_cast<Index>(values_[k + 1]);
+    slot.code = static_cast<int>(values_[k + 2]);
+  }
 }
 
 void gather_slots(FieldRef const& field, Range own, int components) {

@@ -9,6 +9,7 @@
 #include <bit>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// A body of which every rank has all slots, in the same order, and works on some of them: what the ranks have to tell
@@ -58,6 +59,13 @@ void complete_slots_and_add(std::span<SlotArray const> arrays, T& sum) {
 struct SlotsOfRanks {
   std::vector<Index> slots;
   std::vector<std::size_t> starts{0};  ///< per rank, one more at the end
+  /// One of each rank, which has its number.
+  SlotsOfRanks() {
+    for (int rank = 0; rank < ranks::count(); ++rank) {
+      slots.push_back(rank);
+      starts.push_back(slots.size());
+    }
+  }
   /// bodies: who has what of each. wanted(slot): whether it is one of them.
   template <class F>
   SlotsOfRanks(std::span<Shares const> bodies, F const& wanted) {
@@ -77,8 +85,30 @@ struct FieldPart {
   FieldRef field;
   int first, count;
 };
-/// Of fields that each rank has right in its own slots: all ranks have these slots of all of them, in one message.
-void complete_slots(std::span<FieldPart const> parts, SlotsOfRanks const& some);
+/// Fields that each rank has right in its own slots, and of which all ranks are told these.
+struct ToldToAll {
+  std::vector<FieldPart> parts;
+  SlotsOfRanks const* some;
+};
+/// All of it in one message.
+void complete_slots(std::span<ToldToAll const> told);
+inline void complete_slots(std::vector<FieldPart> parts, SlotsOfRanks const& some) {
+  complete_slots(std::array{ToldToAll{std::move(parts), &some}});
+}
+
+/// What share_failure() does, beside other things that all ranks are told.
+class FailuresOfRanks {
+ public:
+  explicit FailuresOfRanks(FailureSlot const& own);
+  ToldToAll told();
+  /// After it was told: the first failure of all.
+  void put(FailureSlot& slot) const;
+
+ private:
+  static constexpr std::size_t size = 3;  ///< id, slot, code
+  SlotsOfRanks each_;
+  std::vector<double> values_;
+};
 
 /// Of a field that each rank has right in its own slots, a share of them as share_of() has it: rank 0 has all of it.
 void gather_slots(FieldRef const& field, Range own, int components);

@@ -87,8 +87,13 @@ Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists 
   return told;
 }
 
+/// Failures travel with positions, where all ranks are told these.
 void Exchanges::after_prediction(System const& s) {
-  if (SpatialLists::needed(s)) complete_slots(std::array{FieldPart{positions(s), 0, 3}}, all_);
+  FailuresOfRanks failures(*s.failure);
+  std::array const with_positions{ToldToAll{{{positions(s), 0, 3}}, &all_}, failures.told()};
+  complete_slots(std::span(with_positions).subspan(SpatialLists::needed(s) ? 0 : 1));
+  failures.put(*s.failure);
+  if (s.failure->index != FailureSlot::none) return;
   for (ToNeighbours& told : to_neighbours_)
     if (s.material.used) told.plan.exchange(told.motion);
 }
@@ -108,25 +113,20 @@ void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
     if (s.eulerians > 0) fields.insert(fields.end(), told.hourglass.begin(), told.hourglass.end());
     told.plan.exchange(fields);
   }
-  if (SpatialLists::touching(s))
-    complete_slots(std::array{FieldPart{s.field.v_half, 0, 3}, FieldPart{s.field.volume_half, 0, 1}},
-                   SlotsOfRanks(cuts_, [&](Index i) { return lists.meets(i); }));
   auto const [corrected, all] = parts_of(s);
-  tell_records(s, 0, s.settings.corrected ? corrected : all);
+  SlotsOfRanks const meet(cuts_, [&](Index i) { return SpatialLists::touching(s) && lists.meets(i); });
+  complete_slots(std::array{ToldToAll{{{s.field.v_half, 0, 3}, {s.field.volume_half, 0, 1}}, &meet},
+                            ToldToAll{{{spatial_records(s), 0, s.settings.corrected ? corrected : all}}, &near_}});
 }
 
 void Exchanges::after_correction(System const& s) {
   auto const [corrected, all] = parts_of(s);
-  tell_records(s, corrected, all);
-}
-
-void Exchanges::tell_records(System const& s, int first, int last) const {
-  complete_slots(std::array{FieldPart{spatial_records(s), first, last - first}}, near_);
+  complete_slots({{spatial_records(s), corrected, all - corrected}}, near_);
 }
 
 void Exchanges::wishes(System const& s) const {
   std::vector<double> wishes(s.wish, s.wish + s.particles);
-  complete_slots(std::array{FieldPart{{.data = wishes.data()}, 0, 1}}, all_);
+  complete_slots({{{.data = wishes.data()}, 0, 1}}, all_);
   std::transform(wishes.begin(), wishes.end(), s.wish, [](double wish) { return static_cast<std::int8_t>(wish); });
 }
 
@@ -147,9 +147,8 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   for (Index i = b.first; i < b.last && SpatialLists::needed(s); ++i)
     talk.to_all += 3 + (flows && lists.near(i) ? all : 0) + (touching && lists.meets(i) ? 4 : 0);
   if (body > 0) return talk;
-  // Failures, what the step says; positions and who is near.
-  talk.collectives =
-      2 + (SpatialLists::needed(s) ? 1 : 0) + (touching ? 1 : 0) + (flows ? (s.settings.corrected ? 2 : 1) : 0);
+  // Failures with positions, what the step says; who is near, and what their correction leaves to be told.
+  talk.collectives = 2 + (touching || flows ? 1 : 0) + (flows && s.settings.corrected ? 1 : 0);
   return talk;
 }
 

@@ -18,7 +18,7 @@ class Exchanges {
   /// system: of a run that several ranks share, with its tables. cuts: who has what of each body.
   Exchanges(System const& system, MaterialLists const& lists, std::vector<Shares> cuts);
 
-  /// Between the parts of a step (Machine), in this order.
+  /// Between the parts of a step (Machine), in this order. After the first one all ranks know of a failure of any.
   void after_prediction(System const& system);
   void after_lists(System const& system, SpatialLists const& lists);
   void after_half_state(System const& system, SpatialLists const& lists);
@@ -42,7 +42,6 @@ class Exchanges {
     std::vector<FieldRef> hourglass;  ///< F and its rate, where neighbours read them
   };
   ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
-  void tell_records(System const& system, int first, int last) const;
 
   std::vector<Shares> cuts_;
   SlotsOfRanks all_, near_;  ///< near_: places of records in the order of cells

@@ -448,10 +448,7 @@ void Particles::evaluate(double dt) {
     BusyWatch const work(balance_.busy());
     machine_->predict(s, dt);
   }
-  if (exchanges_) {
-    share_failure(failure_);
-    if (failure_.index == FailureSlot::none) exchanges_->after_prediction(s);
-  }
+  if (exchanges_) exchanges_->after_prediction(s);
   if (failure_.index != FailureSlot::none) return;
   {
     Stopwatch const watch(seconds_.lists);
