@@ -51,7 +51,7 @@ std::vector<double> complete_slots(std::span<SlotArray const> arrays, std::span<
   // f(values of this rank's slots of an array, how many), array after array.
   auto const each = [&](int rank, auto const& f) {
     for (SlotArray const& array : arrays) {
-      Range const part = part_of(array.whole, rank);
+      Range const part = Shares(array.whole).of(rank);
       f(array.data + part.first * array.size, (part.last - part.first) * array.size);
     }
   };
