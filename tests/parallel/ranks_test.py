@@ -230,7 +230,8 @@ with tempfile.TemporaryDirectory() as folder:
         compare_case(work / "mixed.toml", "two bodies", work)
     if "restarts" in chosen:
         compare_restarts(bar, work)
-        for name in ("touching bodies", "mirrored copper", "adjoint, triangles", "torn plate", "deleted disc"):
+        for name in ("touching bodies", "mirrored copper", "crushed cells", "adjoint, triangles", "torn plate",
+                     "deleted disc"):
             compare_own_restart(name, OWN_CASES[name], work / f"restart_{name.replace(chr(32), chr(95))}")
         draw_cuts(1)
         for name in ("torn plate", "deleted disc"):

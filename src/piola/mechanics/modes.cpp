@@ -3,6 +3,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace piola {
 

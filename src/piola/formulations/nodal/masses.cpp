@@ -7,7 +7,6 @@
 #include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace piola::nodal {
 namespace {
@@ -135,7 +134,8 @@ class Restraint {
       halo_->add(field_of(marked_), 0, 1);
     }
     for (Index row = 0; row < x.rows.size(); ++row) theta_[x.rows[row]] = 1;
-    auto const& [pairs, handed] = std::tie(pairs_, handed_);
+    Pairs const& pairs = x.pairs;
+    std::vector<double> const& handed = x.handed;
     for (auto a = own_.first; a < own_.last; ++a)
       mass_[static_cast<std::size_t>(a)] = cells[static_cast<std::size_t>(a)].volume;
     scatter_in_order(own_, x.rows, pairs.farthest(), [&](std::size_t a, auto const& mine) {
