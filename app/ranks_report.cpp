@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
 #include "piola/simulation/build.hpp"
+#include "piola/simulation/coarse_talk.hpp"
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/ranks.hpp"
 #include "piola/simulation/scaling.hpp"
@@ -31,17 +32,33 @@ std::string mean(double n) {
 }
 std::string size(double bytes) { return size_text(bytes); }
 
+/// Counts what is not known yet of what the case would send. Throws InputError if that cannot be.
+void complete_talk(CaseSpec const& spec, ParticleSet const& particles, int ranks, Estimate& cost) {
+  auto const unknown = [&](std::string const& why) {
+    return InputError(fmt::format(
+        "--ranks {}: what this case would send is not known before it runs ({}) - run some steps with mpirun, and look "
+        "at \"ranks\" in summary.json",
+        ranks, why));
+  };
+  if (!runs_on_ranks(cost)) throw unknown("bodies that ranks do not share were not counted");
+  if (particles.size() >= large_case && may_meet(spec)) {
+    try {
+      count_meetings(spec, particles, cost);
+    } catch (InputError const& error) {
+      throw unknown(
+          fmt::format("it has more than {} particles, and a coarser copy, which is counted in its place, "
+                      "was refused: {}",
+                      large_case, error.what()));
+    }
+  }
+}
+
 }  // namespace
 
-void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks) {
+void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
   Assembly const assembly = assemble(spec, particles);
   refuse_on_ranks(assembly, ranks);
-  bool const parts_that_meet = !assembly.surfaces.empty() && static_cast<std::int64_t>(particles.size()) >= large_case;
-  if (!runs_on_ranks(cost) || parts_that_meet)
-    throw InputError(fmt::format(
-        "--ranks {}: what this case would send is not known before it runs (exchange = \"estimates\", and contact of "
-        "more than {} particles, were not counted) - run some steps with mpirun, and look at \"ranks\" in summary.json",
-        ranks, large_case));
+  complete_talk(spec, particles, ranks, cost);
   Scaling const s = scale(particles, cost, ranks);
   say("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
       cost.threads == 1 ? "thread" : "threads");

@@ -191,6 +191,7 @@ class Conductor final : public Formulation {
   std::vector<FieldInfo> fields() const override { return own().fields(); }
   std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().fields_of(body); }
   void sample(std::string_view field, std::span<double> values) const override {
+    Gathering const gathering(gathered_);
     Aside const aside;
     Order order{Order::What::sample};
     if (field.size() >= sizeof order.field) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
@@ -204,6 +205,7 @@ class Conductor final : public Formulation {
     own().sample_owned(field, values);
   }
   void save(StateWriter& writer) const override {
+    Gathering const gathering(gathered_);
     Aside const aside;
     send({Order::What::save});
     LastingWriter lasting(writer);
@@ -217,14 +219,31 @@ class Conductor final : public Formulation {
     own().load(shared);
   }
   int stages_per_step() const override { return own().stages_per_step(); }
-  std::vector<std::pair<std::string, double>> costs() const override { return own().costs(); }
+  std::vector<std::pair<std::string, double>> costs() const override {
+    auto all = own().costs();
+    all.emplace_back("gathering", *gathered_);
+    return all;
+  }
   std::size_t memory_bytes() const override { return own().memory_bytes(); }
   std::optional<Recuts> recuts() const override { return own().recuts(); }
 
  private:
+  /// Adds to a sum what its rank spends in its life time with getting what others have [s].
+  class Gathering {
+   public:
+    explicit Gathering(std::shared_ptr<double> const& sum) : sum_(*sum), start_(ranks::spent().in_exchanges) {}
+    Gathering(Gathering const&) = delete;
+    Gathering& operator=(Gathering const&) = delete;
+    ~Gathering() { sum_ += ranks::spent().in_exchanges - start_; }
+
+   private:
+    double& sum_;
+    double start_;
+  };
   Formulation& own() const { return *own_; }
 
   std::unique_ptr<Formulation> own_;
+  std::shared_ptr<double> gathered_ = std::make_shared<double>(0);
 };
 
 /// For ranks that take part in what rank 0 writes.
