@@ -12,9 +12,7 @@ namespace piola {
 namespace {
 
 /// Of a thread, on the mean, since the start of the program [s].
-double time_of_its_own() {
-  return (exec_host::processor_time() - ranks::spent().processor) / exec_host::threads();
-}
+double time_of_its_own() { return (exec_host::processor_time() - ranks::spent().processor) / exec_host::threads(); }
 
 /// Seconds that a unit of the work of each rank has taken. Times of ranks that had next to nothing say little, so no
 /// pace is taken for far from the mean.

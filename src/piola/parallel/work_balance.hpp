@@ -20,8 +20,8 @@ struct Recuts {
   double last = 0;                ///< when it was looked at for the last time
 };
 
-/// Adds the processor time of its life to a sum, divided by threads and without that of messages and collectives [s]. It
-/// is as long as the wall time of a rank that has its cores for itself; of one that has not it still tells its work.
+/// Adds the processor time of its life to a sum, divided by threads and without that of messages and collectives [s].
+/// It is as long as the wall time of a rank that has its cores for itself; of one that has not it still tells its work.
 class BusyWatch {
  public:
   explicit BusyWatch(double& sum);
