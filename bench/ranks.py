@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Ranks against threads: steps of the twisting column with 26 x 157 x 26 particles, on one rank with two threads and on
-two ranks with one, in turn. Prints the speed of the steps (wall time, without set-up and output), the processor time
+two ranks with one, in turn; or of another case. Prints the speed of the steps (wall time, without set-up and output), the processor time
 of the whole run, and what ranks spent on each other.
 
 Usage: bench/ranks.py PROGRAM [REPEATS [STEPS]]      PROGRAM: with MPI; default 5 times 60 steps
+       bench/ranks.py PROGRAM REPEATS CASE END       END: when the run of the case ends, "2e-6" seconds
 """
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -28,6 +30,18 @@ def column(folder, steps):
     return case
 
 
+def part_of(file, folder, end):
+    """A case until then, with two rows of its history and no other files."""
+    case = folder / "case.toml"
+    text = file.read_text()
+    for name in ("frames", "checkpoints", "pictures"):
+        text = re.sub(rf"^\[output\.{name}\]\n(?:(?!\[).*\n?)*", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^\[output\.history\]\n(?:(?!\[).*\n?)*", "", text, flags=re.MULTILINE)
+    text = re.sub(r'^end = .*$', f'end = "{end:.6e} s"', text, count=1, flags=re.MULTILINE)
+    case.write_text(text + f'\n[output.history]\nevery = "{end:.6e} s"\n')
+    return case
+
+
 def run(program, case, ranks, threads):
     launcher = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none", "-n", str(ranks)]
     out = case.parent / f"out{ranks}"
@@ -41,11 +55,15 @@ def run(program, case, ranks, threads):
     return summary
 
 
-def main(program, repeats=5, steps=60):
+def main(program, repeats=5, steps=60, end=None):
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         (place / "short").mkdir()
-        case, short = column(place, steps), column(place / "short", steps // 4)
+        if end is None:
+            case, short = column(place, int(steps)), column(place / "short", int(steps) // 4)
+        else:
+            case, short = (part_of(SOURCE / steps / "case.toml", *to)
+                           for to in ((place, float(end)), (place / "short", float(end) / 4)))
         speeds, processor, talk = {1: [], 2: []}, {1: [], 2: []}, []
         for _ in range(repeats):
             for ranks, threads in ((1, 2), (2, 1)):
@@ -69,4 +87,4 @@ def main(program, repeats=5, steps=60):
 if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    main(Path(sys.argv[1]).resolve(), *map(int, sys.argv[2:4]))
+    main(Path(sys.argv[1]).resolve(), *map(int, sys.argv[2:3]), *sys.argv[3:5])

@@ -188,8 +188,7 @@ formulation = { name = "jst_sph" }
 TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(message_of(sample_case(), {"run.ens=1"}),
             "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, rest, max_step, "
-            "min_step, threads, machine, guards) - did you "
-            "mean \"end\"?");
+            "min_step, threads, machine, repartition, guards) - did you mean \"end\"?");
   EXPECT_EQ(message_of(sample_case(), {"body.colum.name=a"}),
             "--set body.colum.name=a: no body has the name \"colum\" (known: column) - did you mean \"column\"?");
   EXPECT_EQ(

@@ -442,4 +442,7 @@ VARIANTS = {
     "fluxes": ("colliding_halves", "eulerian_particles",
                [HALVES + "description=eulerian", HALVES + "viscosity=riemann"]),
     "on a wall": ("taylor_bar", "contact_overlap", ["body.bar.shape.spacing=0.8 mm"]),
+    "along a wall": ("taylor_bar", "contact_overlap",  # each rank has some that touch it
+                     ["body.bar.shape.spacing=0.8 mm", 'body.bar.initial_velocity=["-227", "0", "0"]',
+                      'rigid.wall.plane={ point = ["-3 mm", "0 mm", "0 mm"], normal = [1, 0, 0] }']),
 }

@@ -124,26 +124,25 @@ void complete_slots(std::span<ToldToAll const> all) {
     if (r != own) each_told(all, r, values.data() + starts[r], [](double& told, double& here) { here = told; });
 }
 
-FailuresOfRanks::FailuresOfRanks(FailureSlot const& own) : values_(size * each_.slots.size()) {
+FailuresOfRanks::FailuresOfRanks(FailureSlot const& own) : said_(each_.slots.size()) {
   FirstFailure const first(own);
-  double* const mine = &values_[size * static_cast<std::size_t>(ranks::own())];
-  mine[0] = static_cast<double>(first.id);
-  mine[1] = first.index;
-  mine[2] = first.code;
+  said_[static_cast<std::size_t>(ranks::own())] = {static_cast<double>(first.id), static_cast<double>(first.index),
+                                                   static_cast<double>(first.code)};
 }
 
 ToldToAll FailuresOfRanks::told() {
-  FieldRef const values{.data = values_.data(), .component_stride = 1, .particle_stride = size};
-  return {{{values, 0, static_cast<int>(size)}}, &each_};
+  constexpr int size = std::tuple_size_v<Said>;
+  FieldRef const values{.data = said_.front().data(), .component_stride = 1, .particle_stride = size};
+  return {{{values, 0, size}}, &each_};
 }
 
 void FailuresOfRanks::put(FailureSlot& slot) const {
   double lowest = static_cast<double>(FirstFailure().id);
-  for (std::size_t k = 0; k < values_.size(); k += size) {
-    if (!(values_[k] < lowest)) continue;
-    lowest = values_[k];
-    slot.index = static_cast<Index>(values_[k + 1]);
-    slot.code = static_cast<int>(values_[k + 2]);
+  for (auto const& [id, index, code] : said_) {
+    if (!(id < lowest)) continue;
+    lowest = id;
+    slot.index = static_cast<Index>(index);
+    slot.code = static_cast<int>(code);
   }
 }
 

@@ -105,9 +105,9 @@ class FailuresOfRanks {
   void put(FailureSlot& slot) const;
 
  private:
-  static constexpr std::size_t size = 3;  ///< id, slot, code
+  using Said = std::array<double, 3>;  // id, slot, code
   SlotsOfRanks each_;
-  std::vector<double> values_;
+  std::vector<Said> said_;
 };
 
 /// Of a field that each rank has right in its own slots, a share of them as share_of() has it: rank 0 has all of it.
