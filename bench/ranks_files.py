@@ -21,7 +21,7 @@ EVERY = {"nothing": (), "frames": ("output.frames.every",), "checkpoints": ("out
 
 def run(program, ranks, case, folder, kind, step):
     """Wall time and that of gathering [s]."""
-    words = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--mca", "plm", "isolated", "-n", str(ranks)]
+    words = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none", "--mca", "plm", "isolated", "-n", str(ranks)]
     words += [program, "run", case, "--out", folder, "--force", "--quiet", "--no-pictures"]
     for key in ("output.frames.every", "output.checkpoints.every", "output.history.every"):
         words += ["--set", f'{key}="{step if key in EVERY[kind] else 1} s"']

@@ -109,7 +109,7 @@ std::vector<int> owners(ParticleSet const& set, SlotOrder const& order, int rank
 }
 
 /// The tables of records 0097 and 0110. Runs of pencils are planks along the longest side where bisection of particles
-/// makes cubes; bisection of blocks lies between them.
+/// makes cubes; bisection of leaves lies between them.
 TEST(HaloCount, OfRunsOfPencilsAndOfBisection) {
   for (auto const& particles : {std::array{26, 157, 26}, {48, 48, 48}, {120, 80, 24}}) {
     ShapeSpec box;
@@ -129,15 +129,15 @@ TEST(HaloCount, OfRunsOfPencilsAndOfBisection) {
       bisect(X, all, 0, ranks, halved);
       constexpr double reach = 2.4;  // of the default filter of jst_sph, in spacings
       Halo const runs = largest_halo(X, owners(set, pencils, ranks), ranks, reach),
-                 blocks = largest_halo(X, owners(set, bisected(set, body, pencils, ranks), ranks), ranks, reach),
+                 leaves = largest_halo(X, owners(set, bisected(set, body, pencils, ranks), ranks), ranks, reach),
                  finest = largest_halo(X, halved, ranks, reach);
       fmt::print(
-          "{} on {} ranks: {} particles each, {} of {} ranks read by runs, {} of {} by bisection of blocks, "
+          "{} on {} ranks: {} particles each, {} of {} ranks read by runs, {} of {} by bisection of leaves, "
           "{} of {} of particles\n",
           fmt::join(particles, " x "), ranks, X.size() / static_cast<std::size_t>(ranks), runs.most, runs.neighbours,
-          blocks.most, blocks.neighbours, finest.most, finest.neighbours);
-      EXPECT_LE(blocks.most, runs.most);
-      EXPECT_GE(static_cast<double>(blocks.most), 0.9 * static_cast<double>(finest.most));
+          leaves.most, leaves.neighbours, finest.most, finest.neighbours);
+      EXPECT_LE(leaves.most, runs.most);
+      EXPECT_GE(static_cast<double>(leaves.most), 0.9 * static_cast<double>(finest.most));
     }
   }
 }
