@@ -78,7 +78,7 @@ def words_of(file):
     text = file.read_text().replace(f"{file.parent}/", "")
     if file.name == "log.txt":
         text = re.sub(r"(?m)^.*shared out among the ranks anew.*\n", "", text)
-        return re.sub(r", [\d.]+ [^,]+ of wall time|\d+ thread", "", text)
+        return re.sub(r", [\d.e-]+ [^,]+ of wall time|\d+ thread", "", text)
     summary = json.loads(text)
     for name in ("wall_seconds", "stages_per_second", "seconds", "threads", "ranks", "repartition"):
         summary.pop(name, None)

@@ -317,7 +317,8 @@ CaseOutcome CaseRun::finish() {
   outcome.summary.guards = p.watch.guards.report();
   outcome.summary.ranks = traffic_on_ranks();
   if (!outcome.summary.ranks.empty()) outcome.summary.recuts = s.formulation->recuts();
-  if (outcome.summary.recuts) p.journal.note(recuts_text(*outcome.summary.recuts));
+  if (auto const& recuts = outcome.summary.recuts; recuts && !recuts->imbalance.empty())
+    p.journal.note(recuts_text(*recuts));
   auto const& folder = p.options.folder;
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (p.watch.relaxation.active()) {
