@@ -326,14 +326,20 @@ std::vector<FieldInfo> Ensemble::fields_of(std::size_t body) const {
   return {};
 }
 
+/// That of this name among `fields`, as long as they live; nullptr: there is none.
+FieldInfo const* find_field(std::span<FieldInfo const> fields, std::string_view name) {
+  auto const found = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
 void Ensemble::sample(std::string_view field, std::span<double> values) const {
   bool const wanted = ranks::own() == 0;  // others take part
   std::fill(values.begin(), values.end(), 0.0);
   if (meeting_ && meeting_->sample(field, values)) return;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const fields = formulations_[k]->fields();
-    auto const info = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == field; });
-    if (info == fields.end()) continue;
+    FieldInfo const* const info = find_field(fields, field);
+    if (info == nullptr) continue;
     std::vector<double> own(wanted ? static_cast<std::size_t>(counts_[k]) * static_cast<std::size_t>(info->components)
                                    : 0);
     formulations_[k]->sample(field, own);
@@ -355,8 +361,7 @@ std::optional<std::vector<std::int64_t>> Ensemble::owned() const {
 void Ensemble::sample_owned(std::string_view field, std::span<double> values) const {
   if (!ranks::several()) return sample(field, values);
   auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
-  auto const infos = Meeting::fields();
-  if (meeting_ && std::any_of(infos.begin(), infos.end(), [&](FieldInfo const& f) { return f.name == field; })) {
+  if (meeting_ && find_field(Meeting::fields(), field) != nullptr) {
     double particles = 0;
     for (double const count : counts_) particles += count;
     std::vector<double> all(static_cast<std::size_t>(particles) * width, 0);  // every rank has them
@@ -369,8 +374,7 @@ void Ensemble::sample_owned(std::string_view field, std::span<double> values) co
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const here = values.first(owned_of(k).size() * width);
     values = values.subspan(here.size());
-    auto const known = formulations_[k]->fields();
-    if (std::any_of(known.begin(), known.end(), [&](FieldInfo const& f) { return f.name == field; }))
+    if (find_field(formulations_[k]->fields(), field) != nullptr)
       formulations_[k]->sample_owned(field, here);
     else
       std::fill(here.begin(), here.end(), 0.0);
