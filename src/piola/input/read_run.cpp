@@ -27,11 +27,12 @@ void read_repartition(Section const& section, RunSpec& run) {
   if (!value || (value->node.is_text() && value->node.text == "auto")) return;
   if (value->node.is_text() && value->node.text == "never") {
     run.repartition.never = true;
-  } else if (value->node.is_text()) {
-    section.problems().add(value->node.place, "run.repartition is " + in_quotes(value->node.text) +
-                                                  " (allowed: \"auto\", \"never\" or a number of steps)");
-  } else if (auto const steps = section.whole("repartition")) {
-    run.repartition.every = static_cast<int>(*steps);
+  } else if (value->node.kind == Node::Kind::integer && value->node.integer > 0 &&
+             value->node.integer <= std::numeric_limits<int>::max()) {
+    run.repartition.every = static_cast<int>(value->node.integer);
+  } else {
+    section.problems().add(value->node.place, "run.repartition is " + shown(value->node) +
+                                                  " (allowed: \"auto\", \"never\" or a whole number of steps)");
   }
 }
 
