@@ -372,7 +372,8 @@ void Ensemble::sample_owned(std::string_view field, std::span<double> values) co
     return;
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    auto const here = values.first(owned_of(k).size() * width);
+    auto const ids = formulations_[k]->owned();
+    auto const here = values.first((ids ? ids->size() : static_cast<std::size_t>(counts_[k])) * width);
     values = values.subspan(here.size());
     if (find_field(formulations_[k]->fields(), field) != nullptr)
       formulations_[k]->sample_owned(field, here);
