@@ -42,6 +42,23 @@ def ending(text, end):
     return re.sub(r'\nend = "[^"]+"', f'\nend = "{end}"', text) + f'\n[output.history]\nevery = "{end}"\n'
 
 
+# Bodies that could meet and are too far from each other to tell ranks anything of it.
+APART = """title = "Two blocks of AdapTLE that fly apart"
+[run]
+end = "0.4 us"
+[contact]
+friction = 0.3
+""" + "".join(f"""[[body]]
+name = "{name}"
+shape.box = {{ min = ["0 mm", "{low} mm"], max = ["12 mm", "{low + 6} mm"] }}
+shape.spacing = "0.25 mm"
+shape.placement = "cell_centred"
+material = {{ name = "copper_ofhc", damage = "none" }}
+formulation = {{ name = "adaptle", description = "total_lagrangian" }}
+initial_velocity = ["0 m/s", "{speed} m/s"]
+""" for name, low, speed in (("low", 0, -5), ("high", 9, 5)))
+
+
 def meeting():
     """What acts between bodies, and formulations that tell all ranks. What converts tells more than the model knows."""
     slow = TORN.replace("3100 m/s", "31 m/s").replace("200 m/s", "0 m/s").replace("500 m/s", "0 m/s")
@@ -58,6 +75,7 @@ def meeting():
                 of_taylor(', exchange = "estimates", virtual_particles = "delaunay"', 0.15), "4 ms"),
             "estimates, boxes": ending(
                 of_taylor(', exchange = "estimates", virtual_particles = "lattice_cells"'), "4 ms"),
+            "apart": APART + '[output.history]\nevery = "0.4 us"\n',
             "adaptle": ending(lagrangian, "0.4 us"), "adaptle, flowing": ending(flowing, "1.5 us"),
             "adaptle, corrected": ending(flowing.replace('"eulerian"', '"eulerian", correction = "mixed"'), "1.5 us")}
 

@@ -144,11 +144,13 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
     talk.messages = {{{2 * b.material_h, motion}}, {{2 * b.material_h, stress + (with_F ? 18 : 0)}}};
   }
   auto const [corrected, all] = parts_of(s);
+  bool meet = false;  // bodies that are not near each other have nothing to tell
+  for (Index i = 0; i < s.particles && touching && body == 0; ++i) meet = meet || lists.meets(i);
   for (Index i = b.first; i < b.last && SpatialLists::needed(s); ++i)
     talk.to_all += 3 + (flows && lists.near(i) ? all : 0) + (touching && lists.meets(i) ? 4 : 0);
   if (body > 0) return talk;
   // Failures with positions, what the step says; who is near, and what their correction leaves to be told.
-  talk.collectives = 2 + (touching || flows ? 1 : 0) + (flows && s.settings.corrected ? 1 : 0);
+  talk.collectives = 2 + (meet || flows ? 1 : 0) + (flows && s.settings.corrected ? 1 : 0);
   return talk;
 }
 
