@@ -75,8 +75,8 @@ class Particles {
   Fields& fields() { return fields_; }
   Fields const& fields() const { return fields_; }
   Books& books() { return books_; }
-  /// f(field) for everything that a checkpoint holds. Deformation follows from positions, but for particles that were
-  /// deleted; of those `alive` is told before.
+  /// f(field) for everything that a checkpoint holds of those that is_saved() tells; `alive` comes first. Deformation
+  /// follows from positions, but for particles that were deleted. What those that have converted had is read by nobody.
   template <class Set, class F>
   void each_saved(Set& fields, F const& f) const {
     fields.each([&](auto& field) {
@@ -86,6 +86,9 @@ class Particles {
     f(fields.F);
     f(fields.F_rate);
     f(fields.gap);
+  }
+  bool is_saved(Field const& field, Index slot) const {
+    return field.role() == Role::evolved || !(fields_.alive.at(slot) > 0);
   }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
   std::vector<double> const& rigid_centres() const { return rigid_centre_; }

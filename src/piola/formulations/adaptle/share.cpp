@@ -36,8 +36,7 @@ double Particles::work_of(Index slot) const {
   return points + (phi < 1 ? 1 - points : 0) + (phi > 0 ? flows - points : 0);
 }
 
-/// What a checkpoint holds is all that the new owner of a particle needs, as with a run that goes on elsewhere. What is
-/// left of deformation once a particle has converted is read by nobody, but checkpoints of later may hold it.
+/// What a checkpoint holds is all that the new owner of a particle needs, as with a run that goes on elsewhere.
 void Particles::cut_anew() {
   std::vector<Shares> const& now = exchanges_->cuts();
   std::vector<std::vector<double>> work(now.size());
@@ -49,11 +48,7 @@ void Particles::cut_anew() {
   }
   auto [cuts, longest] = balance_.plan(now, std::move(work));
   if (cuts == now || !balance_.pays(longest)) return;
-  fields_.each([&](Field const& field) {
-    bool const kept = &field == &fields_.F || &field == &fields_.F_rate || &field == &fields_.gap;
-    if (fields_.holds(field) && (kept || field.role() == Role::evolved))
-      exchanges_->complete(field.ref(), field.components());
-  });
+  each_saved(fields_, [&](Field const& field) { exchanges_->complete(field.ref(), field.components()); });
   take(std::move(cuts));
   balance_.was_cut();
 }

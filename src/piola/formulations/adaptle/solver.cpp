@@ -145,7 +145,9 @@ void Solver::save(StateWriter& writer) const {
   std::vector<double> values;
   particles_.each_saved(particles_.fields(), [&](Field const& field) {
     values.resize(at(particles_.system().particles) * at(field.components()));
-    each_value(field, [&](std::size_t place, Index i, int c) { values[place] = field.at(i, c); });
+    each_value(field, [&](std::size_t place, Index i, int c) {
+      values[place] = particles_.is_saved(field, i) ? field.at(i, c) : 0;
+    });
     writer.put(field.name(), values);
   });
   writer.put("books", particles_.books().state());
@@ -158,7 +160,9 @@ void Solver::load(StateReader& reader) {
   particles_.each_saved(particles_.fields(), [&](Field& field) {
     values.resize(at(particles_.system().particles) * at(field.components()));
     reader.get(field.name(), values);
-    each_value(field, [&](std::size_t place, Index i, int c) { field.at(i, c) = values[place]; });
+    each_value(field, [&](std::size_t place, Index i, int c) {
+      if (particles_.is_saved(field, i)) field.at(i, c) = values[place];
+    });
   });
   load_part(reader, "books", particles_.books());
   reader.get("rigid_centres", particles_.rigid_centres());
