@@ -152,16 +152,6 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   return talk;
 }
 
-void Exchanges::gather(FieldRef const& field, int components) const {
-  for (Shares const& body : cuts_) {
-    Index const first = body.whole().first;
-    FieldRef of_body = field;
-    of_body.data += first * field.particle_stride;
-    Range const own = body.own();
-    gather_slots(of_body, {own.first - first, own.last - first}, components);
-  }
-}
-
 void Exchanges::complete(FieldRef const& field, int components) const {
   for (Shares const& body : cuts_) complete_slots(field, components, body);
 }

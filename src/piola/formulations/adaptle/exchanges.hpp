@@ -28,11 +28,8 @@ class Exchanges {
   /// What a body would tell in a step from its state as it is, of a run on one rank.
   static Talk talk(System const& system, SpatialLists const& lists, int body);
 
-  /// Rank 0 has all of a field that each rank has right in its own slots.
-  void gather(FieldRef const& field, int components) const;
   /// All ranks have all of it.
   void complete(FieldRef const& field, int components) const;
-  std::vector<Shares> const& cuts() const { return cuts_; }
 
  private:
   /// What one body tells its reference neighbours.

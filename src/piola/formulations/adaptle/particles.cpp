@@ -75,7 +75,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
       actions_(assembly.supports, assembly.loads, assembly.rigid_shapes),
       shapes_(assembly.rigid_shapes),
       balance_(assembly.repartition),
-      X_(assembly.particles.X) {
+      set_(assembly.particles) {
   system_.dimension = assembly.particles.dimension;
   system_.settings = options_.settings;
   set_bodies(assembly);
@@ -282,7 +282,7 @@ void Particles::choose_material() {
 }
 
 void Particles::set_factors() {
-  factors_.build(body_, options_.bodies, fields_.volume.ref(), system_.particles, order_, X_, books_.time);
+  factors_.build(body_, options_.bodies, fields_.volume.ref(), system_.particles, order_, set_.X.seen(), books_.time);
   system_.own = factors_.view();
 }
 
@@ -326,7 +326,7 @@ void Particles::prepare_supports(double time) {
         std::size_t const k = 3 * at(order_.slot(id)) + c;
         held_[k] = 1;
         holder_[k] = number;
-        held_velocity_[k] = support.velocity ? (*support.velocity)[c](X_[static_cast<std::size_t>(id)], time) : 0;
+        held_velocity_[k] = support.velocity ? (*support.velocity)[c](set_.X[static_cast<std::size_t>(id)], time) : 0;
       }
   }
 }
@@ -383,7 +383,7 @@ void Particles::step(double time, double dt) {
   evaluate(dt);
   sum_actions(time, dt);
   factors_.end_of_step();
-  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) gather();  // for what there is to say about it
+  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) tell_failure();
 }
 
 /// Forces act at half time and at the places of then, for the whole step: impulses of the supports, then of the loads,
@@ -422,7 +422,9 @@ void Particles::sum_actions(double time, double dt) {
   for (std::size_t block = 0; block < rigid_action_.size(); block += 6)
     action_sums_->rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
   for (std::size_t k = 0; k < shapes_.size(); ++k) std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
-  if (!exchanges_) settle_actions();
+  if (exchanges_) return;
+  actions_ = actions();
+  action_sums_.reset();
 }
 
 /// Sums over neighbours and what they need.
@@ -478,9 +480,10 @@ void Particles::evaluate(double dt) {
 
 void Particles::damp(double factor) {
   double const before = kinetic_energy();
-  for (Index i = 0; i < system_.particles; ++i)
-    for (int c = 0; c < 3; ++c)
-      if (held_.empty() || held_[3 * at(i) + at(c)] == 0) fields_.v.at(i, c) *= factor;
+  for (Range const& own : own_)
+    for (Index i = own.first; i < own.last; ++i)
+      for (int c = 0; c < 3; ++c)
+        if (held_.empty() || held_[3 * at(i) + at(c)] == 0) fields_.v.at(i, c) *= factor;
   books_.damping_loss += before - kinetic_energy();
 }
 

@@ -5,9 +5,11 @@
 #include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/own_particles.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/point_factors.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/shared_lines.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/parallel/work_balance.hpp"
@@ -63,8 +65,12 @@ class Particles {
   System const& system() const { return system_; }
   ParticleOrder const& order() const { return order_; }
   Books const& books() const { return books_; }
-  Actions const& actions() const { return actions_; }
-  Actions& actions() { return actions_; }
+  /// With what all ranks have given in the last step. Collective.
+  Actions actions() const;
+  void restore_actions(std::span<double const> state) {
+    action_sums_.reset();
+    actions_.restore(state);
+  }
   PartSeconds const& seconds() const { return seconds_; }
   Options const& options() const { return options_; }
   FailureSlot const& failure() const { return failure_; }
@@ -101,8 +107,9 @@ class Particles {
                    std::span<std::array<double, 3>> v) const;
   /// For estimates.
   Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
-  /// Where ranks share the particles: rank 0 has all of them.
-  void gather();
+  OwnParticles const& owned() const { return owned_; }
+  /// For observers of what ranks share; null: one has all.
+  SharedLines* lines(int body) const { return lines_.empty() ? nullptr : lines_[static_cast<std::size_t>(body)].get(); }
   std::optional<Recuts> recuts() const { return balance_.recuts(); }
 
  private:
@@ -122,13 +129,12 @@ class Particles {
   void set_boundaries(Assembly const& assembly);
   void allocate(Assembly const& assembly);
   void choose_material();
-  std::array<double, 3> const& X(Index slot) const { return X_[order_.id(slot)]; }
+  std::array<double, 3> const& X(Index slot) const { return set_.X[order_.id(slot)]; }
   void prepare_supports(double time);
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
   void sum_actions(double time, double dt);
-  /// Collective on ranks, for which steps do not wait: when somebody asks.
-  void settle_actions();
+  void tell_failure();
   void start();
   void sweep(double dt);
   void evaluate(double dt);
@@ -156,8 +162,10 @@ class Particles {
   Machine const* machine_;
   System system_;
   std::vector<BodyConstants> body_;
+  OwnParticles owned_;
   std::vector<Range> own_;                ///< of each body: the slots that this rank works on
   std::unique_ptr<Exchanges> exchanges_;  ///< null: one rank, which has all
+  std::vector<std::unique_ptr<SharedLines>> lines_;
   std::vector<int> body_of_;
   Fields fields_;
   std::vector<Correction> correction_;
@@ -182,7 +190,7 @@ class Particles {
   std::vector<std::size_t> holder_;  ///< per component: the support that holds it
   std::vector<double> held_velocity_, load_, reaction_, rigid_action_;
   Actions actions_;
-  /// Of the last step, of this rank; nothing once they are in `actions_`.
+  /// Of the last step, of this rank, for which steps do not wait; nothing where they are in `actions_`.
   struct ActionSums {
     double dt;
     std::vector<ImpulseSum> impulses;        ///< of supports, then of loads
@@ -193,7 +201,7 @@ class Particles {
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;
   WorkBalance balance_;
-  SharedVector<std::array<double, 3>> const X_;  ///< reference positions, per id [m]
+  ParticleSet const set_;  ///< shares its memory with that of the case
 };
 
 }  // namespace piola::adaptle

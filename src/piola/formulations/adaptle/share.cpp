@@ -5,24 +5,35 @@
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
+#include <array>
 
 namespace piola::adaptle {
 
 /// From here on; the initial state is that of one rank.
 void Particles::share() {
+  std::vector<Shares> equal;
+  for (Range const& body : own_) equal.emplace_back(body);
+  owned_ = OwnParticles(equal, order_);
   if (!ranks::several()) return;
   system_.shared = true;
   // Records of reference neighbours hold what never changes, too.
   machine_->predict(system_, 0);
-  std::vector<Shares> equal;
-  for (Range const& body : own_) equal.emplace_back(body);
   choose_material();
   take(std::move(equal));
 }
 
 void Particles::take(std::vector<Shares> cuts) {
   std::fill(rigid_action_.begin(), rigid_action_.end(), 0);  // a part may have fewer blocks than the one before
-  for (std::size_t b = 0; b < own_.size(); ++b) own_[b] = cuts[b].own();
+  owned_ = OwnParticles(cuts, order_);
+  lines_.clear();
+  for (std::size_t b = 0; b < own_.size(); ++b) {
+    own_[b] = cuts[b].own();
+    Index const first = body_[b].first;
+    std::int64_t const* const ids = order_.ids();
+    lines_.push_back(std::make_unique<SharedLines>(
+        set_, set_.bodies[b], SharedLines::Slots{ids != nullptr ? ids + first : nullptr, first, body_[b].last - first},
+        Range{own_[b].first - first, own_[b].last - first}, cuts[b].from_zero()));
+  }
   exchanges_ = std::make_unique<Exchanges>(system_, material_, std::move(cuts));
 }
 
@@ -38,7 +49,7 @@ double Particles::work_of(Index slot) const {
 
 /// What a checkpoint holds is all that the new owner of a particle needs, as with a run that goes on elsewhere.
 void Particles::cut_anew() {
-  std::vector<Shares> const& now = exchanges_->cuts();
+  std::vector<Shares> const& now = owned_.cuts();
   std::vector<std::vector<double>> work(now.size());
   for (std::size_t b = 0; b < now.size(); ++b) {
     Range const body = now[b].whole();
@@ -53,32 +64,30 @@ void Particles::cut_anew() {
   balance_.was_cut();
 }
 
-/// What a checkpoint holds, and who has how many neighbours, is all that observers see.
-void Particles::gather() {
-  if (!exchanges_) return;
-  each_saved(fields_, [&](Field const& field) { exchanges_->gather(field.ref(), field.components()); });
-  std::vector<int> const found = spatial_.neighbours_by_slot(system_);
-  std::vector<double> neighbours(found.begin(), found.end());
-  exchanges_->gather({.data = neighbours.data()}, 1);
-  spatial_.set_neighbours({neighbours.begin(), neighbours.end()});
-  settle_actions();
-}
-
-void Particles::settle_actions() {
-  if (!action_sums_) return;
-  auto& [dt, impulses, rigids] = *action_sums_;
+Actions Particles::actions() const {
+  Actions all = actions_;
+  if (!action_sums_) return all;
+  auto [dt, impulses, rigids] = *action_sums_;
   if (exchanges_) {
     ranks::add(std::span(impulses));
     ranks::add(std::span(rigids));
   }
-  for (std::size_t s = 0; s < supports_.size(); ++s) actions_.supports[s].add(impulses[s].value());
-  for (std::size_t l = 0; l < loads_.size(); ++l) actions_.loads[l].add(impulses[supports_.size() + l].value());
+  for (std::size_t s = 0; s < supports_.size(); ++s) all.supports[s].add(impulses[s].value());
+  for (std::size_t l = 0; l < loads_.size(); ++l) all.loads[l].add(impulses[supports_.size() + l].value());
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     exec::ExactSums<6> const& sum = rigids[k];
-    actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
-                            {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
+    all.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
+                       {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
   }
-  action_sums_.reset();
+  return all;
+}
+
+/// All ranks have what there is to say about the particle that failed.
+void Particles::tell_failure() {
+  Index const slot = failure_.index != FailureSlot::none ? failure_.index : order_.slot(0);
+  Range const own = own_[at(body_of_[at(slot)])];
+  for (Field* field : {&fields_.x, &fields_.v, &fields_.rho, &fields_.damage, &fields_.plastic_strain})
+    merge_slots(field->ref(), own, std::array{slot}, field->components());
 }
 
 void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
