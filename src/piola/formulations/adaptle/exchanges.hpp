@@ -23,13 +23,9 @@ class Exchanges {
   void after_lists(System const& system, SpatialLists const& lists);
   void after_half_state(System const& system, SpatialLists const& lists);
   void after_correction(System const& system);
-  void wishes(System const& system) const;
 
   /// What a body would tell in a step from its state as it is, of a run on one rank.
   static Talk talk(System const& system, SpatialLists const& lists, int body);
-
-  /// All ranks have all of it.
-  void complete(FieldRef const& field, int components) const;
 
  private:
   /// What one body tells its reference neighbours.
@@ -41,7 +37,8 @@ class Exchanges {
   ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
 
   std::vector<Shares> cuts_;
-  SlotsOfRanks all_, near_;  ///< near_: places of records in the order of cells
+  SlotsOfRanks all_;   ///< where space is asked for
+  SlotsOfRanks near_;  ///< places of records in the order of cells
   std::vector<ToNeighbours> to_neighbours_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/exact_sum.hpp"
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/adaptle/exchanges.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
@@ -105,6 +106,13 @@ class Particles {
   /// Motion of these particles, the same on all ranks [m], [m/s].
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
+  /// Whether this rank works on it.
+  bool is_own(Index slot) const {
+    Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
+    return slot >= own.first && slot < own.last;
+  }
+  /// Of any rank [kg]: what is deleted flies on and touches nobody.
+  double mass_that_touches(std::int64_t id) const;
   /// For estimates.
   Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
   OwnParticles const& owned() const { return owned_; }
@@ -123,10 +131,11 @@ class Particles {
   }
   void set_bodies(Assembly const& assembly);
   void set_particles(Assembly const& assembly);
-  void set_descriptions(Assembly const& assembly);
+  void set_descriptions();
+  void set_reference();
   void set_contact(Assembly const& assembly);
   void set_factors();
-  void set_boundaries(Assembly const& assembly);
+  void set_boundaries();
   void allocate(Assembly const& assembly);
   void choose_material();
   std::array<double, 3> const& X(Index slot) const { return set_.X[order_.id(slot)]; }
@@ -142,15 +151,11 @@ class Particles {
   bool wishes_by_formula();
   /// Mass, change of energy and of momentum of those that convert in a step.
   using ConversionSums = exec::ExactSums<3>;
-  void share();
   /// Shares the particles out among ranks by the work that they have been: the bits of all numbers stay.
   void cut_anew();
   void take(std::vector<Shares> cuts);
+  void hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to);
   double work_of(Index slot) const;
-  bool is_own(Index slot) const {
-    Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
-    return slot >= own.first && slot < own.last;
-  }
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
   double energy_of(Index i) const;
@@ -168,15 +173,16 @@ class Particles {
   std::vector<std::unique_ptr<SharedLines>> lines_;
   std::vector<int> body_of_;
   Fields fields_;
-  std::vector<Correction> correction_;
-  std::vector<std::int8_t> wish_;
-  std::vector<double> position_;
+  PartFilled<Correction> correction_;
+  PartFilled<std::int8_t> wish_;
+  PartFilled<double> position_;
   std::vector<std::uint8_t> eulerian_;
   MaterialLists material_;
   SpatialLists spatial_;
   Memory material_records_;
   std::vector<ContactPair> contact_pairs_;
-  std::vector<double> partial_, rigid_power_;
+  std::vector<double> partial_;
+  PartFilled<double> rigid_power_;
   PointFactors factors_;
   FailureSlot failure_;
   Books books_;
@@ -186,9 +192,10 @@ class Particles {
   // Boundaries
   std::vector<Support> supports_;
   std::vector<Load> loads_;
-  std::vector<std::int8_t> held_;
-  std::vector<std::size_t> holder_;  ///< per component: the support that holds it
-  std::vector<double> held_velocity_, load_, reaction_, rigid_action_;
+  PartFilled<std::int8_t> held_;
+  PartFilled<std::size_t> holder_;  ///< per component: the support that holds it
+  PartFilled<double> held_velocity_, load_, reaction_;
+  std::vector<double> rigid_action_;
   Actions actions_;
   /// Of the last step, of this rank, for which steps do not wait; nothing where they are in `actions_`.
   struct ActionSums {

@@ -73,15 +73,12 @@ class Solver final : public Formulation {
     particles_.read_motion(ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    Fields const& fields = particles_.fields();  // what is deleted flies on and touches nobody
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      Index const slot = particles_.order().slot(ids[k]);
-      m[k] = fields.alive.at(slot) > 0 ? fields.mass.at(slot) : 0;
-    }
+    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.mass_that_touches(ids[k]);
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       Index const slot = particles_.order().slot(ids[k]);
+      if (!particles_.is_own(slot)) continue;
       for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
   }
