@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What each rank of a run takes of memory at most: a cube of N^3 particles, a step or a few, with frames, checkpoints and
-rows of the history.
+rows of the history. Or, of adaptle, two halves of it that collide: with `impact` as they are, total-Lagrangian; with `flow` the second
+one is Eulerian.
 
-Usage: bench/ranks_memory.py PROGRAM [N [RANKS,RANKS... [FORMULATION [jitter]]]]        (default: 80, 1,2,4, jst_sph)
+Usage: bench/ranks_memory.py PROGRAM [N [RANKS,RANKS... [FORMULATION [jitter|impact|flow]]]]  (default: 80, 1,2,4, jst_sph)
 PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks have one thread each; there may be more of them
 than cores.
 """
@@ -33,11 +34,29 @@ body = "cube"
 where = "Y < 1e-9"
 fix = "xyz"
 """
+HALF = """[[body]]
+name = "{name}"
+shape = {{ box = {{ min = ["0 m", "0 m", "{low} m"], max = ["1 m", "1 m", "{high} m"] }}, particles = [{n}, {n}, {half}] }}
+material = {{ law = "elastic", density = "7000 kg/m^3", youngs_modulus = "21 GPa", poissons_ratio = 0.3 }}
+formulation = {{ name = "adaptle", description = "{description}" }}
+initial_velocity = ["0 m/s", "0 m/s", "{velocity} m/s"]
+"""
 
 
-def write_case(file, n, formulation, jittered):
-    more = ", jitter = 0.2" if jittered else ""
-    file.write_text(CASE.format(n=n, formulation=formulation, end=1e-4 / int(n), more=more))
+def write_case(file, n, formulation, more):
+    """more: jitter, impact, flow, or nothing."""
+    n = int(n)
+    jitter = ", jitter = 0.2" if more == "jitter" else ""
+    case = CASE.format(n=n, formulation=formulation, end=1e-4 / n, more=jitter)
+    if formulation == "adaptle":
+        case = case.replace("neo_hookean", "elastic")
+    if more in ("impact", "flow"):
+        second = "eulerian" if more == "flow" else "total_lagrangian"
+        halves = (("lower", 0, 0.5, 10, "total_lagrangian"), ("upper", 0.5 + 1 / n, 1 + 1 / n, -10, second))
+        case = case[:case.index("[[body]]")] + "".join(
+            HALF.format(name=name, low=low, high=high, velocity=velocity, description=description, n=n, half=n // 2)
+            for name, low, high, velocity, description in halves)
+    file.write_text(case)
 
 
 def run_as_rank(report, words):

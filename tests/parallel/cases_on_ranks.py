@@ -340,6 +340,12 @@ body = "disc"
 kind = "maximum"
 quantities = ["position_x", "pressure"]
 """
+# Each row looks at particles of other ranks, once these are cut anew.
+PROBED_TORN = TORN + "".join(
+    probe(f"{kind}_{body}", body, kind, more) for body, x in (("disc", -1), ("plate", 1)) for kind, more in (
+        ("point", f'at = ["{x} mm", "0 mm"]\n' + POINTS.replace("FIELD", "kernel_type")),
+        ("average", POINTS.replace("FIELD", "density")), ("twist", 'axis = "z"'), ("extent", 'axis = "y"'))
+) + '[output.history]\nevery = "1e-12 s"\n'
 # Surfaces of whole bodies of AdapTLE rub and tie as others do.
 RUBBING = """title = "Bar of AdapTLE that rubs on a packed block and on itself"
 [run]
@@ -406,6 +412,7 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "adjoint, boxes": of_taylor(', virtual_particles = "lattice_cells", hourglass_stiffness = 0.05'),
     "Taylor-SPH between others": TAYLOR_BETWEEN,
     "torn plate": TORN,
+    "torn plate with probes": PROBED_TORN,
     "deleted disc": TORN.replace("convert_strain = 0.05", 'description = "total_lagrangian", failed = "delete", '
                                                           "convert_strain = 0.05"),
     "rubbing bar of AdapTLE": RUBBING,

@@ -40,8 +40,8 @@ def compare(name, n, formulation, more, ranks, work):
 skip_without_ranks()
 with tempfile.TemporaryDirectory() as folder:
     for name, n, formulation, more, share in (
-            ("lattice", 48, "jst_sph", False, 0.75), ("cloud", 28, "jst_sph", True, 0.95),
-            ("lattice of nodal", 40, "nodal", False, 0.75), ("cloud of nodal", 28, "nodal", True, 0.8)):
+            ("lattice", 48, "jst_sph", "", 0.75), ("cloud", 28, "jst_sph", "jitter", 0.95),
+            ("lattice of nodal", 40, "nodal", "", 0.75), ("cloud of nodal", 28, "nodal", "jitter", 0.8)):
         for ranks in (3,) if QUICK else (2, 3, 5):
             taken = compare(name, n, formulation, more, ranks, Path(folder))
             alone = largest_of_ranks(PROGRAM, 1, Path(folder) / "case.toml", Path(folder))

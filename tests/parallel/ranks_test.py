@@ -23,7 +23,8 @@ STEPS = 20
 QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
               "damped patch", "deleted", "restarts", "words"]
 OFTEN = "run.repartition=3"  # steps
-SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",  # columns above zero at the end
+SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",
+         "torn plate with probes": "converted_particles",  # columns above zero at the end
          "deleted disc": "deleted_particles", "rubbing bar of AdapTLE": "friction_heat"}
 SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph|adaptle)"')  # the formulations of bodies that ranks share
 # What no case of one rank has together: two bodies, a metal, jitter, a mirror plane, loads, a release.
@@ -216,7 +217,7 @@ with tempfile.TemporaryDirectory() as folder:
         cases.append((SOURCE / "cases/adaptle" / folder / "case.toml", name, "variants", overrides, column))
         cases.append((SOURCE / "cases/adaptle" / folder / "case.toml", f"cut anew: {name}", "recuts",
                       [*overrides, OFTEN], column))
-    for name in ("torn plate", "deleted disc", "rubbing bar of AdapTLE"):
+    for name in ("torn plate", "torn plate with probes", "deleted disc", "rubbing bar of AdapTLE"):
         cases.append((work / f"{name.lower().replace(' ', '_')}.toml", f"cut anew: {name}", "recuts", [OFTEN],
                       SHOWN[name]))
     for file, name, kind, overrides, column in cases:

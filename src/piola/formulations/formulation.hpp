@@ -144,8 +144,8 @@ class Formulation {
   virtual std::vector<FieldInfo> fields_of(std::size_t /*body*/) const { return fields(); }
   /// Values of one field, particle by particle: values[id * components + c]; ranks other than 0 give no room for them.
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
-  /// The particles that this rank looks at for observers, of which all ranks together have each once; the same all
-  /// through a run. Nothing: all of them, in Id order.
+  /// The particles that this rank looks at for observers, of which all ranks together have each once; the same
+  /// until they are cut anew (recuts). Nothing: all of them, in Id order.
   virtual std::optional<std::vector<std::int64_t>> owned() const;
   /// Values of one field of those: values[k * components + c] of the k-th. All ranks call it.
   virtual void sample_owned(std::string_view field, std::span<double> values) const { sample(field, values); }

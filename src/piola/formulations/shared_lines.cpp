@@ -5,11 +5,11 @@
 namespace piola {
 
 LatticeLines::At const& SharedLines::at(Index slot) const {
-  return set_->lattice_index[static_cast<std::size_t>(order_->id[static_cast<std::size_t>(slot)])];
+  return set_->lattice_index[static_cast<std::size_t>(slots_.of(slot))];
 }
 
-SharedLines::SharedLines(ParticleSet const& set, Body const& body, SlotOrder const& order, Range own)
-    : set_(&set), order_(&order), own_(own) {
+SharedLines::SharedLines(ParticleSet const& set, Body const& body, Slots slots, Range own, Shares const& cut)
+    : set_(&set), slots_(slots), own_(own) {
   LatticeLines::At first{}, size{};  // of a box around own particles and their neighbours
   for (std::size_t c = 0; c < 3; ++c) {
     int lowest = body.lattice[c], highest = -1;
@@ -21,20 +21,19 @@ SharedLines::SharedLines(ParticleSet const& set, Body const& body, SlotOrder con
     size[c] = own.first < own.last ? std::min(body.lattice[c] - 1, highest + 1) - first[c] + 1 : 0;
   }
   lines_ = LatticeLines(first, size);
-  auto const id = [&](Index slot) { return order_->id[static_cast<std::size_t>(slot)]; };
   // Where several particles share a place the last one stands for it.
-  for (Index i = 0; i < order.particles; ++i) {
+  for (Index i = 0; i < slots.particles; ++i) {
     if (!lines_.holds(at(i))) continue;
     Index& there = lines_[at(i)];
-    if (there == LatticeLines::nobody || id(there) < id(i)) there = i;
+    if (there == LatticeLines::nobody || slots.of(there) < slots.of(i)) there = i;
   }
   std::vector<Index> read;
   for (Index i = own.first; i < own.last; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (Index const slot : lines_.neighbours(at(i), axis))
         if (slot != LatticeLines::nobody) read.push_back(slot);
-  pressure_.allocate(order.slots(), 0);
-  halo_ = std::make_unique<HaloPlan>(order.slots(), std::move(read));
+  pressure_.allocate(cut.whole().last, 0);
+  halo_ = std::make_unique<HaloPlan>(cut, std::move(read));
   halo_->add(pressure_.ref(), 0, 1);
 }
 

@@ -6,6 +6,7 @@
 #include "piola/formulations/observation.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/particles/ordering.hpp"
+#include <cstdint>
 #include <memory>
 
 namespace piola {
@@ -15,7 +16,17 @@ namespace piola {
 class SharedLines {
  public:
   /// `set`, `order` are kept by reference. Collective.
-  SharedLines(ParticleSet const& set, Body const& body, SlotOrder const& order, Range own);
+  SharedLines(ParticleSet const& set, Body const& body, SlotOrder const& order, Range own)
+      : SharedLines(set, body, {order.id.data(), 0, order.particles}, own, Shares({0, order.slots()})) {}
+  /// Where particles stand: id of slot 0 and on, or, without ids, the first one, from which they go on.
+  struct Slots {
+    std::int64_t const* id;
+    std::int64_t first_id;
+    Index particles;
+    std::int64_t of(Index slot) const { return id != nullptr ? id[slot] : first_id + slot; }
+  };
+  /// own: slots of particles of this rank; cut: who has which, from 0 on.
+  SharedLines(ParticleSet const& set, Body const& body, Slots slots, Range own, Shares const& cut);
   SharedLines(SharedLines const&) = delete;
   SharedLines& operator=(SharedLines const&) = delete;
 
@@ -29,7 +40,7 @@ class SharedLines {
   LatticeLines::At const& at(Index slot) const;
 
   ParticleSet const* set_;
-  SlotOrder const* order_;
+  Slots slots_;
   Range own_;
   LatticeLines lines_;  ///< of slots, around own particles
   Field pressure_{"PressureSeen", "Pa", 1, Role::derived};

@@ -3,6 +3,9 @@
 #include "piola/formulations/formulation.hpp"
 #include "piola/input/case_spec.hpp"
 #include "piola/simulation/probes.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace piola {
@@ -21,9 +24,11 @@ class ProbeRow {
 
  private:
   std::vector<std::vector<double>> evaluate_owned(Formulation const& formulation, double time);
+  void share(std::optional<std::vector<std::int64_t>> const& owned);
   ParticleSet const& particles_;
+  std::vector<ProbeSpec> specs_;
   std::vector<Probe> probes_;
-  bool shared_ = false;
+  std::optional<std::size_t> shared_for_;  ///< how often ranks had been cut anew when they shared the probes
 };
 
 }  // namespace piola

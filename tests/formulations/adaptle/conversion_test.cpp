@@ -279,6 +279,41 @@ TEST(AdaptleDeletion, GoesOnFromACheckpointBitForBit) {
   EXPECT_EQ(saved(*resumed).values, saved(*whole).values);
 }
 
+/// What converts keeps a deformation that nobody reads, and that positions do not tell once it has gone on.
+TEST(AdaptleDeletion, GoesOnFromACheckpointBetweenAConversionAndADeletionBitForBit) {
+  ParticleSet set;
+  for (double const start : {0.0, 3.0}) {
+    ShapeSpec shape;
+    shape.dimension = 2;
+    shape.min[0] = start;
+    shape.max = {start + 1, 1, 0};
+    shape.particles = {9, 9, 1};
+    fill(shape, start > 0 ? "deletes" : "converts", set);
+  }
+  Assembly a = adaptle_assembly(std::move(set), damaging());
+  a.formulations[1].words.insert_or_assign("description", "total_lagrangian");
+  a.formulations[1].words.insert_or_assign("failed", "delete");
+  give_velocity(a, [](Point const& X) { return Point{200 * X[0] * X[1], -100 * X[1], 0}; });
+  auto const whole = make_formulation(a);
+  auto const fails = [&](std::size_t particle) {
+    SavedState state = saved(*whole);
+    state.values["Damage"][particle] = 1;
+    whole->load(state);
+  };
+  double const first = take_steps(*whole, 0, 3);
+  fails(40);
+  double const second = take_steps(*whole, first, 2);
+  ASSERT_GT(largest(saved(*whole).values["KernelType"]), 0);
+  fails(81 + 40);
+  SavedState state = saved(*whole);
+  EXPECT_FALSE(state.values.contains("DeformationGradient"));
+  auto const resumed = make_formulation(a);
+  resumed->load(state);
+  EXPECT_EQ(take_steps(*resumed, second, 5), take_steps(*whole, second, 5));
+  EXPECT_TRUE(saved(*whole).values.contains("DeformationGradient"));
+  EXPECT_EQ(saved(*resumed).values, saved(*whole).values);
+}
+
 TEST(AdaptleDeletion, KeepsMomentumAndEnergyOfTheRest) {
   Assembly a = adaptle_assembly(unit_box(2, 11, 0.1), damaging());
   choose(a, "description", "total_lagrangian");

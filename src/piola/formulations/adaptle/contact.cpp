@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/contact_sweep.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace piola::adaptle {
@@ -38,25 +40,32 @@ double potential(System const& s, Index i, Index j, double r) {
 }
 
 template <int D>
-double energy_of_contacts(System const& s) {
-  exec::ExactSum energy;
+void add_rigid_contacts(System const& s, Index i, exec::ExactSums<1>& sum) {
+  for (int k = 0; k < s.rigids; ++k) {
+    double normal[3];
+    BodyConstants const& b = s.body[s.body_of[i]];
+    double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], point_at(s.field.x, i, 3).data(), normal);
+    double const energy = s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
+    if (depth > 0) sum.add(&energy);
+  }
+}
+
+template <int D>
+exec::ExactSums<1> energy_of_contacts(System const& s) {
+  exec::ExactSums<1> sum;
   for (Index t = 0; t < s.contact.targets; ++t) {
     Index const i = s.spatial.slot[s.contact.target[t]];
     for (Index k = 0; k < s.contact.length[t]; ++k) {
       Index const j = s.spatial.slot[s.contact.list[static_cast<std::ptrdiff_t>(t) * s.contact.capacity + k]];
       double square = 0;
       for (int c = 0; c < D; ++c) square += std::pow(value_at(s.field.x, i, c) - value_at(s.field.x, j, c), 2);
-      energy += 0.5 * potential<D>(s, i, j, std::sqrt(square));
+      double const half = 0.5 * potential<D>(s, i, j, std::sqrt(square));
+      sum.add(&half);
     }
   }
-  for (Index i = 0; i < s.particles; ++i)
-    for (int k = 0; k < s.rigids; ++k) {
-      double normal[3];
-      BodyConstants const& b = s.body[s.body_of[i]];
-      double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], point_at(s.field.x, i, 3).data(), normal);
-      if (depth > 0) energy += s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
-    }
-  return energy.value();
+  for (Range const& own : std::span(s.part, static_cast<std::size_t>(s.bodies)))
+    for (Index i = own.first; i < own.last; ++i) add_rigid_contacts<D>(s, i, sum);
+  return sum;
 }
 
 /// The largest pressure of two half spaces that meet at the speed v [Pa].
@@ -93,7 +102,9 @@ double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v
 }
 
 double contact_energy(System const& system) {
-  return system.dimension == 2 ? energy_of_contacts<2>(system) : energy_of_contacts<3>(system);
+  exec::ExactSums<1> sum = system.dimension == 2 ? energy_of_contacts<2>(system) : energy_of_contacts<3>(system);
+  if (system.shared) ranks::add(sum);
+  return sum.value();
 }
 
 std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,

@@ -30,7 +30,7 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
 void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs);
 
 /// Potential energy of all contacts where particles are now [J]: bodies may start within reach of each other or of a
-/// rigid shape. The lists must be those of the present positions.
+/// rigid shape. The lists must be those of the present positions. Collective.
 double contact_energy(System const& system);
 
 }  // namespace piola::adaptle

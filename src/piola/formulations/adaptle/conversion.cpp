@@ -3,8 +3,12 @@
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace piola::adaptle {
 namespace {
@@ -52,24 +56,53 @@ bool Particles::wishes_by_formula() {
   return any_wish > 0;
 }
 
+namespace {
+
+/// A mark for each particle, of any rank.
+class Marks {
+ public:
+  explicit Marks(Index particles) : bits_(at(particles) / 64 + 1, 0) {}
+  void set(Index i) { bits_[at(i) / 64] |= bit(i); }
+  bool operator[](Index i) const { return (bits_[at(i) / 64] & bit(i)) != 0; }
+  /// Those that some rank has set. Collective.
+  void share() {
+    ranks::combine(std::span(bits_), [](void const* other, void* mine) {
+      *static_cast<std::uint64_t*>(mine) |= *static_cast<std::uint64_t const*>(other);
+    });
+  }
+
+ private:
+  static std::uint64_t bit(Index i) { return std::uint64_t{1} << (at(i) % 64); }
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace
+
 /// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not. Those that the guard
-/// alone wants come last, so that nothing depends on who comes first. All ranks do it for all particles.
+/// alone wants count as such if nobody else does. All ranks know of all of them.
 void Particles::convert(double dt) {
-  if (exchanges_) exchanges_->wishes(system_);
+  Marks change(system_.particles), by_guard(system_.particles);
+  for (std::size_t k = 0; k < body_.size(); ++k)
+    for (Index i = own_[k].first; i < own_[k].last; ++i) {
+      if (wish_[at(i)] == 0) continue;
+      if (wish_[at(i)] == 2 && !body_[k].deletes) {
+        by_guard.set(i);
+        continue;
+      }
+      change.set(i);
+      if (!body_[k].deletes)
+        material_.each_neighbour(i, options_.bodies[k].conversion_radius * body_[k].material_h, fields_,
+                                 [&](Index j) { change.set(j); });
+    }
+  change.share();
+  by_guard.share();
   ConversionSums sums;
   for (Index i = 0; i < system_.particles; ++i) {
-    if (wish_[at(i)] == 0) continue;
-    std::size_t const body = at(body_of_[at(i)]);
-    if (body_[body].deletes)
+    if (body_[at(body_of_[at(i)])].deletes && change[i])
       remove(i);
-    else if (wish_[at(i)] == 1) {
-      material_.each_neighbour(i, options_.bodies[body].conversion_radius * body_[body].material_h, fields_,
-                               [&](Index j) { make_eulerian(j, dt, false, sums); });
-      make_eulerian(i, dt, false, sums);
-    }
+    else if (change[i] || by_guard[i])
+      make_eulerian(i, dt, !change[i], sums);
   }
-  for (Index i = 0; i < system_.particles; ++i)
-    if (wish_[at(i)] == 2 && !body_[at(body_of_[at(i)])].deletes) make_eulerian(i, dt, true, sums);
   if (exchanges_) ranks::add(sums);
   books_.converted_mass += sums.value(0);
   books_.energy_change += sums.value(1);
@@ -115,12 +148,13 @@ void Particles::remove(Index i) {
   Fields& f = fields_;
   if (!(f.alive.at(i) > 0)) return;
   f.alive.at(i) = 0;
+  books_.deleted += 1;
+  if (!is_own(i)) return;
   for (int c = 0; c < 6; ++c) f.S.at(i, c) = f.S_rate.at(i, c) = 0;
   f.rho_rate.at(i) = f.energy_rate.at(i) = 0;
   if (f.holds(f.thickness_rate)) f.thickness_rate.at(i) = 0;
   if (f.holds(f.F_rate))
     for (int c = 0; c < 9; ++c) f.F_rate.at(i, c) = 0;
-  books_.deleted += 1;
 }
 
 }  // namespace piola::adaptle

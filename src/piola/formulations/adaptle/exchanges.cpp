@@ -60,7 +60,7 @@ SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
 }  // namespace
 
 Exchanges::Exchanges(System const& s, MaterialLists const& lists, std::vector<Shares> cuts)
-    : cuts_(std::move(cuts)), all_(cuts_, [](Index) { return true; }), near_({}, [](Index) { return false; }) {
+    : cuts_(std::move(cuts)), all_({}, [](Index) { return false; }), near_({}, [](Index) { return false; }) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(to_neighbours(s, lists, b));
 }
 
@@ -78,6 +78,8 @@ Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists 
   });
   told.stress = told.motion;
   told.stress.data += stress * told.motion.component_stride;
+  for (Index const i : told.plan.received())
+    for (int c = 0; c < s.dimension; ++c) value_at(told.motion, i, motion + c) = value_at(s.field.X, i + b.first, c);
   told.plan.add(told.motion, 0, motion);
   told.plan.add(told.stress, 0, values - stress);
   if (b.hourglass > 0 || b.hourglass_stiffness > 0) {
@@ -90,10 +92,10 @@ Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists 
 /// Failures travel with positions, where all ranks are told these.
 void Exchanges::after_prediction(System const& s) {
   FailuresOfRanks failures(*s.failure);
+  if (SpatialLists::needed(s) && all_.slots.empty()) all_ = SlotsOfRanks(cuts_, [](Index) { return true; });
   std::array const with_positions{ToldToAll{{{positions(s), 0, 3}}, &all_}, failures.told()};
   complete_slots(std::span(with_positions).subspan(SpatialLists::needed(s) ? 0 : 1));
   failures.put(*s.failure);
-  if (s.failure->index != FailureSlot::none) return;
   for (ToNeighbours& told : to_neighbours_)
     if (s.material.used) told.plan.exchange(told.motion);
 }
@@ -124,12 +126,6 @@ void Exchanges::after_correction(System const& s) {
   complete_slots({{spatial_records(s), corrected, all - corrected}}, near_);
 }
 
-void Exchanges::wishes(System const& s) const {
-  std::vector<double> wishes(s.wish, s.wish + s.particles);
-  complete_slots({{{.data = wishes.data()}, 0, 1}}, all_);
-  std::transform(wishes.begin(), wishes.end(), s.wish, [](double wish) { return static_cast<std::int8_t>(wish); });
-}
-
 Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   BodyConstants const& b = s.body[body];
   bool const touching = SpatialLists::touching(s), flows = s.eulerians > 0;
@@ -152,20 +148,6 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   // Failures with positions, what the step says; who is near, and what their correction leaves to be told.
   talk.collectives = 2 + (meet || flows ? 1 : 0) + (flows && s.settings.corrected ? 1 : 0);
   return talk;
-}
-
-void Exchanges::gather(FieldRef const& field, int components) const {
-  for (Shares const& body : cuts_) {
-    Index const first = body.whole().first;
-    FieldRef of_body = field;
-    of_body.data += first * field.particle_stride;
-    Range const own = body.own();
-    gather_slots(of_body, {own.first - first, own.last - first}, components);
-  }
-}
-
-void Exchanges::complete(FieldRef const& field, int components) const {
-  for (Shares const& body : cuts_) complete_slots(field, components, body);
 }
 
 }  // namespace piola::adaptle

@@ -23,16 +23,9 @@ class Exchanges {
   void after_lists(System const& system, SpatialLists const& lists);
   void after_half_state(System const& system, SpatialLists const& lists);
   void after_correction(System const& system);
-  void wishes(System const& system) const;
 
   /// What a body would tell in a step from its state as it is, of a run on one rank.
   static Talk talk(System const& system, SpatialLists const& lists, int body);
-
-  /// Rank 0 has all of a field that each rank has right in its own slots.
-  void gather(FieldRef const& field, int components) const;
-  /// All ranks have all of it.
-  void complete(FieldRef const& field, int components) const;
-  std::vector<Shares> const& cuts() const { return cuts_; }
 
  private:
   /// What one body tells its reference neighbours.
@@ -44,7 +37,8 @@ class Exchanges {
   ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
 
   std::vector<Shares> cuts_;
-  SlotsOfRanks all_, near_;  ///< near_: places of records in the order of cells
+  SlotsOfRanks all_;   ///< where space is asked for
+  SlotsOfRanks near_;  ///< places of records in the order of cells
   std::vector<ToNeighbours> to_neighbours_;
 };
 

@@ -4,6 +4,7 @@
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace piola::adaptle {
@@ -27,17 +28,27 @@ bool invert_moments(double const* A, double* K) {
 }  // namespace
 
 void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
-                          Fields& fields, Settings const& settings, int lanes) {
+                          std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
+  *this = {};
   particles_ = static_cast<Index>(set.size());
+  own_ = own;
   published_ = settings.published;
   rounded_ = !published_ && settings.corrected_material;
-  begin_.assign(1, 0);
-  begin_.reserve(at(particles_) + 1);
-  filled_.reserve(at(particles_));
-  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, order, set.bodies[b], bodies[b], fields, lanes);
+  begin_ = PartFilled<Offset>(at(particles_) + 1);
+  filled_ = PartFilled<std::uint8_t>(at(particles_));
+  part_ = PartFilled<std::uint8_t>(at(particles_) + 16);
+  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, order, {set.bodies[b], bodies[b], own[b]}, lanes);
+  for (Range const& of_body : own)
+    each_neighbour_of(of_body, [&](Index i) {
+      for (int c = 0; c < 3; ++c) fields.X.at(i, c) = set.X[order.id(i)][at(c)];
+      fields.volume.at(i) = set.volume[order.id(i)];
+    });
+  find_edge();
   if (published_) {
-    for (Index i = 0; i < particles_; ++i)
-      for (int c = 0; c < 9; c += 4) fields.N.at(i, c) = 1;
+    each_own([&](Index i) {
+      for (int c = 0; c < 9; ++c) fields.N.at(i, c) = c % 4 == 0 ? 1 : 0;
+      for (int c = 0; c < 3; ++c) fields.gradient_mean.at(i, c) = 0;
+    });
     if (settings.corrected_material) correct(fields, bodies, set.dimension);
     sum_gradients([](Index) { return true; }, fields);
   } else {
@@ -46,45 +57,76 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
   int const components =
       set.dimension == 2 ? MaterialRecord<2>::values(published_) : MaterialRecord<3>::values(published_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    rows_.emplace_back(set, order, set.bodies[b], bodies[b].material_h, begin_, neighbour_, lanes, rounded_,
-                       components);
+    rows_.emplace_back(set, order, LatticeRows::OfBody{set.bodies[b], own[b], bodies[b].material_h}, begin_, neighbour_,
+                       lanes, rounded_, components);
   for (LatticeRows& rows : rows_) row_views_.push_back(rows.view());
 }
 
-void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, Body const& geometry,
-                         BodyConstants const& body, Fields const& fields, int lanes) {
-  double const reach = 2 * body.material_h * (1 - 1e-9);
+void MaterialLists::find_edge() {
+  for (Range const& own : own_)
+    for (Index i = own.first; i < own.last; ++i) {
+      bool inside = true;
+      each_neighbour_of({i, i + 1}, [&](Index j) { inside = inside && has(j, own); });
+      if (!inside) edge_.push_back(i);
+    }
+}
+
+/// Of the particles of a body those that are within reach of some of `own`: f(slot).
+template <class F>
+void each_around(ParticleSet const& set, ParticleOrder const& order, Range body, Range own, double reach, F const& f) {
+  std::array<double, 3> low{}, high{};
+  for (Index i = own.first; i < own.last; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double const x = set.X[order.id(i)][c];
+      low[c] = i == own.first ? x : std::min(low[c], x);
+      high[c] = i == own.first ? x : std::max(high[c], x);
+    }
+  for (Index i = body.first; i < body.last; ++i) {
+    auto const& x = set.X[order.id(i)];
+    bool near = true;
+    for (std::size_t c = 0; c < 3; ++c) near = near && x[c] >= low[c] - reach && x[c] <= high[c] + reach;
+    if (near) f(i);
+  }
+}
+
+void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, OfBody const& body, int lanes) {
+  auto const& [geometry, constants, own] = body;
+  begin_[at(own.first)] = static_cast<Offset>(neighbour_.size());
+  if (own.first == own.last) return;
+  double const reach = 2 * constants.material_h * (1 - 1e-9);
   bool const lattice = geometry.regular && !geometry.scattered;
   auto const& place = set.lattice_index.seen();
   std::vector<std::array<double, 3>> points;
-  for (Index i = body.first; i < body.last; ++i) points.push_back(set.X[order.id(i)]);
+  std::vector<Index> slots;
+  each_around(set, order, {constants.first, constants.last}, own, reach, [&](Index i) {
+    points.push_back(set.X[order.id(i)]);
+    slots.push_back(i);
+  });
   CellGrid const grid(points, reach);
   std::vector<Index> near;
-  for (Index i = body.first; i < body.last; ++i) {
+  for (Index i = own.first; i < own.last; ++i) {
     auto const& x = set.X[order.id(i)];
     near.clear();
     grid.visit(x, [&](Index local) {
-      Index const j = body.first + local;
+      Index const j = slots[at(local)];
       auto const& y = set.X[order.id(j)];
       double const dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
       if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) near.push_back(j);
     });
     std::sort(near.begin(), near.end(), [&](Index a, Index b) { return order.id(a) < order.id(b); });
     for (Index const j : near) {
+      auto const& y = set.X[order.id(j)];
       double square = 0;
-      for (int c = 0; c < 3; ++c) {
-        double const d = fields.X.at(j, c) - fields.X.at(i, c);
-        square += d * d;
-      }
+      for (std::size_t c = 0; c < 3; ++c) square += (y[c] - x[c]) * (y[c] - x[c]);
       // Of a lattice: the same number wherever the pair is, as patterns have it.
       if (lattice) square = lattice_square(geometry, place[order.id(i)], place[order.id(j)]);
-      add_pair(set.dimension, body.material_h, j, square);
+      add_pair(set.dimension, constants.material_h, j, square);
     }
     std::size_t const found = neighbour_.size();
     while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0)
-      add_pair(set.dimension, body.material_h, particles_, 1e300);
-    filled_.push_back(static_cast<std::uint8_t>(neighbour_.size() - found));
-    begin_.push_back(static_cast<Offset>(neighbour_.size()));
+      add_pair(set.dimension, constants.material_h, particles_, 1e300);
+    filled_[at(i)] = static_cast<std::uint8_t>(neighbour_.size() - found);
+    begin_[at(i) + 1] = static_cast<Offset>(neighbour_.size());
   }
 }
 
@@ -100,8 +142,8 @@ void MaterialLists::add_pair(int dimension, double h, Index j, double square) {
 /// K from the same rounded s as the sums, so that gradients of linear fields stay exact to double precision; the
 /// identity where there is no correction.
 void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
-  for (Index i = 0; i < particles_; ++i) {
-    double A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  each_own([&](Index i) {
+    double G[3]{}, A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
       Index const j = neighbour_[at(k)];
       if (j >= particles_) continue;
@@ -109,22 +151,23 @@ void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
       double r[3];
       for (int c = 0; c < 3; ++c) r[c] = fields.X.at(j, c) - fields.X.at(i, c);
       for (int p = 0; p < 3; ++p) {
-        fields.gradient_sum.at(i, p) += Vs * r[p];
+        G[p] += Vs * r[p];
         for (int q = 0; q < 3; ++q) A[3 * p + q] += Vs * r[p] * r[q];
       }
     }
+    for (int p = 0; p < 3; ++p) fields.gradient_sum.at(i, p) = G[p];
     if (corrected && dimension == 2) invert_moments<2>(A, K);
     if (corrected && dimension == 3) invert_moments<3>(A, K);
     for (int p = 0; p < dimension; ++p)
       for (int q = p; q < dimension; ++q)
         fields.K.at(i, dimension == 2 ? SymMat<2>::at(p, q) : SymMat<3>::at(p, q)) = K[3 * p + q];
-  }
+  });
 }
 
 /// The sums of V0 s r and V0 W anew, without deleted neighbours.
 template <class F>
 void MaterialLists::sum_gradients(F const& alive, Fields& fields) {
-  for (Index i = 0; i < particles_; ++i) {
+  each_own([&](Index i) {
     double G[3]{}, W = 0;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
       Index const j = neighbour_[at(k)];
@@ -135,14 +178,14 @@ void MaterialLists::sum_gradients(F const& alive, Fields& fields) {
     }
     for (int c = 0; c < 3; ++c) fields.gradient_sum.at(i, c) = G[c];
     if (published_) fields.kernel_sum.at(i) = W;
-  }
+  });
 }
 
 void MaterialLists::correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension) {
-  for (BodyConstants const& body : bodies)
-    for (Index i = body.first; i < body.last; ++i) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (Index i = own_[b].first; i < own_[b].last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
-      kernel_of(dimension, body.material_h, 0, none, W0);
+      kernel_of(dimension, bodies[b].material_h, 0, none, W0);
       double S = fields.volume.at(i) * W0;
       for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
         Index const j = neighbour_[at(k)];
@@ -174,22 +217,36 @@ void MaterialLists::choose(Fields& fields, bool printed) {
   if (deleted || deleted_) sum_gradients([&](Index j) { return fields.alive.at(j) > 0; }, fields);
   deleted_ = deleted;
   using Part = MaterialPart;
-  part_.assign(at(particles_) + 16, 0);
   auto const lagrangian = [&](Index i) { return fields.phi.at(i) < 1; };
-  for (Index i = 0; i < particles_; ++i) {
+  each_own([&](Index i) { part_[at(i)] = 0; });
+  mark_mixed(fields);
+  each_own([&](Index i) {
     bool const own = lagrangian(i), other = fields.phi.at(i) > 0;
     bool beside = false;
-    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && other; ++k) {
-      Index const j = neighbour_[at(k)];
-      if (j >= particles_) continue;
-      part_[at(j)] |= Part::mixed;
-      beside = beside || lagrangian(j);
-    }
+    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && other && !beside; ++k)
+      if (Index const j = neighbour_[at(k)]; j < particles_) beside = lagrangian(j);
     bool const kinematic = own || (printed && beside);
     if (kinematic) part_[at(i)] |= Part::kinematic;
     if (own || (beside && !printed)) part_[at(i)] |= Part::target;
     fields.gap.at(i) = kinematic ? std::max(fields.gap.at(i), 0.0) : -1;
-  }
+  });
+}
+
+/// Those with neighbours that are not total-Lagrangian: few are not, so these say so, and whoever has neighbours of
+/// other ranks looks for itself.
+void MaterialLists::mark_mixed(Fields const& fields) {
+  auto const other = [&](Index i) { return fields.phi.at(i) > 0; };
+  for (Range const& own : own_)
+    for (Index i = own.first; i < own.last; ++i) {
+      if (!other(i)) continue;
+      each_neighbour_of({i, i + 1}, [&](Index j) {
+        if (has(j, own)) part_[at(j)] |= MaterialPart::mixed;
+      });
+    }
+  for (Index const i : edge_)
+    each_neighbour_of({i, i + 1}, [&](Index j) {
+      if (other(j)) part_[at(i)] |= MaterialPart::mixed;
+    });
 }
 
 void MaterialLists::put_into(MaterialTable& table) const {

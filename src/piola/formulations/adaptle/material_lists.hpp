@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/material_rows.hpp"
 #include <algorithm>
@@ -7,17 +8,17 @@
 
 namespace piola::adaptle {
 
-/// Reference neighbours of all bodies, which never change, and who takes part in material sums, which changes whenever
-/// a particle converts.
+/// Reference neighbours of the particles of this rank, which never change as long as it has the same, and who takes
+/// part in material sums, which changes whenever a particle converts.
 class MaterialLists {
  public:
-  /// Within 2h of each body, in order of ids, with what the sums of `settings` need. Particles whose correction is
-  /// singular keep plain gradients.
+  /// Within 2h of each body, in order of ids, with what the sums of `settings` need; the neighbours get their places
+  /// and volumes. Particles whose correction is singular keep plain gradients. own: of each body. Collective.
   void build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
-             Fields& fields, Settings const& settings, int lanes);
+             std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes);
 
   /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0, others by
-  /// -1. Deleted ones leave the sums of their neighbours.
+  /// -1. Deleted ones leave the sums of their neighbours. phi and alive are read of all particles.
   void choose(Fields& fields, bool printed);
 
   /// f(b) for the reference neighbours of a within the distance [m].
@@ -56,8 +57,21 @@ class MaterialLists {
   std::size_t bytes() const;
 
  private:
-  void list(ParticleSet const& set, ParticleOrder const& order, Body const& geometry, BodyConstants const& body,
-            Fields const& fields, int lanes);
+  struct OfBody {
+    Body const& geometry;
+    BodyConstants const& constants;
+    Range own;
+  };
+  void list(ParticleSet const& set, ParticleOrder const& order, OfBody const& body, int lanes);
+  /// f(slot) for the particles of this rank.
+  template <class F>
+  void each_own(F const& f) const {
+    for (Range const& own : own_)
+      for (Index i = own.first; i < own.last; ++i) f(i);
+  }
+  bool has(Index slot, Range const& own) const { return slot >= own.first && slot < own.last; }
+  void find_edge();
+  void mark_mixed(Fields const& fields);
   void add_pair(int dimension, double h, Index j, double square);
   void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
   void invert(Fields& fields, int dimension, bool corrected);
@@ -71,12 +85,14 @@ class MaterialLists {
 
   Index particles_ = 0;
   bool published_ = false, rounded_ = false, deleted_ = false;
-  std::vector<Offset> begin_;
+  std::vector<Range> own_;
+  std::vector<Index> edge_;  ///< own particles with neighbours of other ranks
+  PartFilled<Offset> begin_;
   std::vector<Index> neighbour_;
   std::vector<float> gradient_;
   std::vector<double> s_, W_;
-  std::vector<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
-  std::vector<std::uint8_t> part_;
+  PartFilled<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
+  PartFilled<std::uint8_t> part_;
   std::vector<LatticeRows> rows_;        ///< per body
   std::vector<MaterialRows> row_views_;  ///< per body
 };

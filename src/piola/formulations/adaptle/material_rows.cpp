@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/material_rows.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,14 +49,21 @@ double lattice_square(Body const& body, std::array<int, 3> const& from, std::arr
   return square;
 }
 
-LatticeRows::LatticeRows(ParticleSet const& set, ParticleOrder const& order, Body const& body, double h,
+LatticeRows::LatticeRows(ParticleSet const& set, ParticleOrder const& order, OfBody const& body,
                          std::span<Offset const> begin, std::span<Index const> neighbour, int lanes, bool rounded,
                          int components)
-    : first_(static_cast<Index>(body.first)) {
-  if (!body.regular || body.scattered) return;
-  find_offsets(body, set.dimension, h, rounded);
-  find_patterns(set, order, body, begin, neighbour, lanes);
-  if (has_rows()) allocate(body, components);
+    : first_(static_cast<Index>(body.geometry.first)) {
+  if (!body.geometry.regular || body.geometry.scattered) return;
+  find_offsets(body.geometry, set.dimension, body.h, rounded);
+  Fill fill = find_patterns(set, order, body, begin, neighbour, lanes);
+  ranks::combine(fill, [](void const* other, void* mine) {
+    auto const& from = *static_cast<Fill const*>(other);
+    auto& to = *static_cast<Fill*>(mine);
+    to = {to.present + from.present, to.all + from.all, to.lattice && from.lattice};
+  });
+  bool const faster = static_cast<double>(fill.present) >= least_fill * static_cast<double>(fill.all);
+  has_rows_ = fill.lattice && faster && fill.present > 0;
+  if (has_rows_) allocate(body.geometry, components);
 }
 
 void LatticeRows::find_offsets(Body const& body, int dimension, double h, bool rounded) {
@@ -89,48 +97,51 @@ std::int32_t LatticeRows::offset_between(std::array<int, 3> const& from, std::ar
   return number_[at(cell)];
 }
 
-/// Whether lists are faster must not depend on where tiles stand: lanes are counted in the order of the body.
-void LatticeRows::find_patterns(ParticleSet const& set, ParticleOrder const& order, Body const& body,
-                                std::span<Offset const> begin, std::span<Index const> neighbour, int lanes) {
+/// Whether lists are faster must not depend on where tiles stand, nor on ranks: lanes are counted in the order of the
+/// body.
+LatticeRows::Fill LatticeRows::find_patterns(ParticleSet const& set, ParticleOrder const& order, OfBody const& body,
+                                             std::span<Offset const> begin, std::span<Index const> neighbour,
+                                             int lanes) {
   auto const& place = set.lattice_index.seen();
-  Index const last = static_cast<Index>(body.last);
   auto const W = static_cast<std::size_t>(lanes);
   std::vector<Index> distance(offsets_.size() * W), between_ids(distance.size());
   std::map<GroupShape, std::int32_t> known;
-  std::int64_t present = 0, all = 0;
-  for (Index group = first_; group < last; group += lanes) {
+  pattern_of_.assign(at((static_cast<Index>(body.geometry.last) - first_ + lanes - 1) / lanes), 0);
+  Fill fill;
+  for (Index group = body.own.first; group < body.own.last; group += lanes) {
     std::fill(distance.begin(), distance.end(), absent);
     std::fill(between_ids.begin(), between_ids.end(), absent);
-    for (Index i = group; i < std::min(group + lanes, last); ++i)
+    for (Index i = group; i < std::min(group + lanes, body.own.last); ++i)
       for (Offset k = begin[at(i)]; k < begin[at(i) + 1]; ++k) {
         Index const j = neighbour[at(k)];
         if (j >= static_cast<Index>(set.size())) continue;
         std::size_t const from = order.id(i), to = order.id(j);
         std::int32_t const o = offset_between(place[from], place[to]);
-        if (o < 0) return entries_.clear();  // not a lattice after all
+        if (o < 0) return {0, 0, false};  // not a lattice after all
         std::size_t const here = at(o) * W + at(i - group);
         distance[here] = j - i;
         between_ids[here] = static_cast<Index>(to) - static_cast<Index>(from);
         farthest_ = std::max(farthest_, std::abs(j - i));
-        ++present;
+        ++fill.present;
       }
     GroupShape shape = shape_of_group(distance, lanes);
-    all += std::ssize(order.dealt() ? shape_of_group(between_ids, lanes) : shape) / 3 * lanes;
+    fill.all += std::ssize(order.dealt() ? shape_of_group(between_ids, lanes) : shape) / 3 * lanes;
     auto const [found, is_new] = known.try_emplace(std::move(shape), static_cast<std::int32_t>(known.size()));
-    pattern_of_.push_back(found->second);
-    if (!is_new) continue;
-    GroupShape const& entries = found->first;
-    StencilPattern pattern{};
-    pattern.inner[0] = static_cast<std::int32_t>(entries_.size());
-    for (std::size_t e = 0; e < entries.size(); e += 3)
-      entries_.push_back(
-          {entries[e + 1], entries[e], entries[e + 2] == (1 << lanes) - 1 ? -1 : entries[e + 2] * lanes});
-    pattern.inner[1] = pattern.outer[0] = pattern.outer[1] = static_cast<std::int32_t>(entries_.size());
-    patterns_.push_back(pattern);
+    pattern_of_[at((group - first_) / lanes)] = found->second;
+    if (is_new) add_pattern(found->first, lanes);
   }
-  if (static_cast<double>(present) < least_fill * static_cast<double>(all)) entries_.clear();
   for (std::int32_t bits = 0; bits < 1 << lanes; ++bits)
     for (int l = 0; l < lanes; ++l) weights_.push_back(((bits >> l) & 1) != 0 ? 1.0 : 0.0);
+  return fill;
+}
+
+void LatticeRows::add_pattern(std::span<std::int32_t const> entries, int lanes) {
+  StencilPattern pattern{};
+  pattern.inner[0] = static_cast<std::int32_t>(entries_.size());
+  for (std::size_t e = 0; e < entries.size(); e += 3)
+    entries_.push_back({entries[e + 1], entries[e], entries[e + 2] == (1 << lanes) - 1 ? -1 : entries[e + 2] * lanes});
+  pattern.inner[1] = pattern.outer[0] = pattern.outer[1] = static_cast<std::int32_t>(entries_.size());
+  patterns_.push_back(pattern);
 }
 
 /// Room for what whole lanes read beyond both ends of the body.

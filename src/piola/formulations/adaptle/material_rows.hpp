@@ -12,20 +12,32 @@ namespace piola::adaptle {
 /// they read of each other.
 class LatticeRows {
  public:
-  /// begin, neighbour: lists of all bodies. Bodies that are no lattice, or whose groups of lanes have too few
-  /// neighbours in common, keep their lists: has_rows() is false. components: of a record.
-  LatticeRows(ParticleSet const& set, ParticleOrder const& order, Body const& body, double h,
-              std::span<Offset const> begin, std::span<Index const> neighbour, int lanes, bool rounded, int components);
+  /// own: slots of this rank.
+  struct OfBody {
+    Body const& geometry;
+    Range own;
+    double h;
+  };
+  /// begin, neighbour: lists of the particles of this rank. Bodies that are no lattice, or whose groups of lanes have
+  /// too few neighbours in common, keep their lists: has_rows() is false. components: of a record. Collective.
+  LatticeRows(ParticleSet const& set, ParticleOrder const& order, OfBody const& body, std::span<Offset const> begin,
+              std::span<Index const> neighbour, int lanes, bool rounded, int components);
 
-  bool has_rows() const { return !entries_.empty(); }
+  bool has_rows() const { return has_rows_; }
   MaterialRows view();
   std::size_t bytes() const;
 
  private:
   void find_offsets(Body const& body, int dimension, double h, bool rounded);
   std::int32_t offset_between(std::array<int, 3> const& from, std::array<int, 3> const& to) const;
-  void find_patterns(ParticleSet const& set, ParticleOrder const& order, Body const& body,
+  /// What decides whether lists are faster: neighbours, and lanes that would be computed for them, of all ranks.
+  struct Fill {
+    std::int64_t present = 0, all = 0;
+    bool lattice = true;  ///< all neighbours are at known offsets
+  };
+  Fill find_patterns(ParticleSet const& set, ParticleOrder const& order, OfBody const& body,
                      std::span<Offset const> begin, std::span<Index const> neighbour, int lanes);
+  void add_pattern(std::span<std::int32_t const> entries, int lanes);
   void allocate(Body const& body, int components);
 
   std::array<int, 3> reach_{};
@@ -35,6 +47,7 @@ class LatticeRows {
   std::vector<StencilPattern> patterns_;
   std::vector<std::int32_t> pattern_of_;
   std::vector<double> weights_, kernel_;
+  bool has_rows_ = false;
   Index first_ = 0, farthest_ = 0, margin_ = 0;
   std::ptrdiff_t stride_ = 0;
   Memory record_;

@@ -4,8 +4,11 @@
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/observation.hpp"
 #include "piola/formulations/observed.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace piola::adaptle {
 namespace {
@@ -28,76 +31,128 @@ constexpr std::array<std::string_view, 17> offered{"Displacement",
                                                    "Body",
                                                    "Id"};
 
-/// f(i, pressure positive in tension) for every particle.
+/// f(i, pressure positive in tension) for every particle of this rank of a body.
 template <class F>
-void each_particle(System const& s, F const& f) {
-  for (int b = 0; b < s.bodies; ++b)
-    with_solid(s.body[b].material, [&](auto const& law) {
-      PointFields const point(s.field, s.own);
-      for (Index i = s.body[b].first; i < s.body[b].last; ++i) {
-        double const specific = value_at(s.field.energy, i) / value_at(s.field.mass, i);
-        f(i, -point.pressure<double>(law, i, value_at(s.field.rho, i), specific));
-      }
-    });
+void each_particle(System const& s, int body, F const& f) {
+  with_solid(s.body[body].material, [&](auto const& law) {
+    PointFields const point(s.field, s.own);
+    for (Index i = s.part[body].first; i < s.part[body].last; ++i) {
+      double const specific = value_at(s.field.energy, i) / value_at(s.field.mass, i);
+      f(i, -point.pressure<double>(law, i, value_at(s.field.rho, i), specific));
+    }
+  });
+}
+
+/// f(particle) for those of this rank, body by body.
+template <class F>
+void observe_each(Particles const& particles, F const& f) {
+  System const& s = particles.system();
+  Fields const& of = particles.fields();
+  std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
+  auto const see = [&](Index i, double pressure) {
+    ObservedParticle p;
+    p.id = static_cast<double>(particles.order().id(i));
+    p.body = s.body_of[i];
+    p.kernel_type = of.phi.at(i);
+    p.neighbours = p.kernel_type > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
+    p.x = point_at(s.field.x, i, 3);
+    p.v = point_at(s.field.v, i, 3);
+    for (int c = 0; c < 3; ++c) p.displacement[at(c)] = p.x[at(c)] - of.X.at(i, c);
+    p.pressure = pressure;
+    for (int c = 0; c < 6; ++c) p.cauchy.c[c] = of.S.at(i, c) + (c < 3 ? pressure : 0);
+    p.inertia = p.density = of.rho.at(i);
+    p.J = s.body[s.body_of[i]].rho0 / p.density;
+    p.plastic_strain = of.plastic_strain.at(i);
+    p.damage = of.damage.at(i);
+    p.temperature = of.temperature.at(i);
+    p.specific_energy = of.energy.at(i) / of.mass.at(i);
+    f(p);
+  };
+  for (int b = 0; b < s.bodies; ++b) each_particle(s, b, see);
+}
+
+/// What ranks add up, and what only this formulation has.
+struct OwnSums {
+  std::vector<exec::ExactSums<1>> internal;  ///< of each body [J]
+  exec::ExactSums<3> others;                 ///< plastic work [J]; how many are Eulerian, and have failed
+  double hottest = 0;                        ///< [K]
+
+  /// But for the first. Collective.
+  void share() {
+    ranks::add(others);
+    ranks::take_largest(hottest);
+  }
+};
+
+/// Sums over the particles of this rank of one body.
+void observe_body(Particles const& particles, ParticleSet const& set, int number, Observation& o, OwnSums& sums) {
+  System const& s = particles.system();
+  Fields const& f = particles.fields();
+  Body const& body = set.bodies[at(number)];
+  SharedLines* const lines = particles.lines(number);
+  double const rho0 = s.body[number].rho0;
+  std::vector<double> pressures(lines != nullptr ? 0 : static_cast<std::size_t>(body.last - body.first));
+  exec::ExactSums<1>& internal = sums.internal.emplace_back();
+  o.open_body(body.name);
+  each_particle(s, number, [&](Index i, double pressure) {
+    double const mass = f.mass.at(i), energy = f.energy.at(i);
+    if (lines != nullptr)
+      lines->pressure(i - s.body[number].first) = pressure;
+    else
+      pressures[particles.order().id(i) - static_cast<std::size_t>(body.first)] = pressure;
+    o.add_motion(point_at(s.field.x, i, 3), point_at(s.field.v, i, 3), mass);
+    o.add_state(rho0 / f.rho.at(i), pressure, f.volume.at(i));
+    internal.add(&energy);
+    double const others[]{mass / rho0 * f.plastic_work.at(i), f.phi.at(i) > 0 ? 1.0 : 0.0,
+                          f.damage.at(i) >= 1 || !(f.alive.at(i) > 0) ? 1.0 : 0.0};
+    sums.others.add(others);
+    sums.hottest = std::max(sums.hottest, f.temperature.at(i));
+  });
+  if (lines != nullptr)
+    lines->add_oscillation(o);
+  else
+    o.add_oscillation(set, body, pressures);
 }
 
 }  // namespace
 
 std::vector<FieldInfo> observed_fields() { return field_infos(offered); }
 
-void sample(Particles const& particles, std::string_view field, std::span<double> values) {
+void sample_own(Particles const& particles, std::string_view field, std::span<double> values) {
   ObservedField const& found = find_observed(field, offered);
-  System const& s = particles.system();
-  Fields const& f = particles.fields();
-  std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
-  each_particle(s, [&](Index i, double pressure) {
-    ObservedParticle p;
-    p.id = static_cast<double>(particles.order().id(i));
-    p.body = s.body_of[i];
-    p.kernel_type = f.phi.at(i);
-    p.neighbours = p.kernel_type > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
-    p.x = point_at(s.field.x, i, 3);
-    p.v = point_at(s.field.v, i, 3);
-    for (int c = 0; c < 3; ++c) p.displacement[at(c)] = p.x[at(c)] - f.X.at(i, c);
-    p.pressure = pressure;
-    for (int c = 0; c < 6; ++c) p.cauchy.c[c] = f.S.at(i, c) + (c < 3 ? pressure : 0);
-    p.inertia = p.density = f.rho.at(i);
-    p.J = s.body[s.body_of[i]].rho0 / p.density;
-    p.plastic_strain = f.plastic_strain.at(i);
-    p.damage = f.damage.at(i);
-    p.temperature = f.temperature.at(i);
-    p.specific_energy = f.energy.at(i) / f.mass.at(i);
-    put(found, p, values);
+  double* to = values.data();
+  observe_each(particles, [&](ObservedParticle const& p) {
+    found.put(p, to);
+    to += found.components;
   });
 }
 
+void sample(Particles const& particles, std::string_view field, std::span<double> values) {
+  ObservedField const& found = find_observed(field, offered);
+  if (!ranks::several()) return observe_each(particles, [&](ObservedParticle const& p) { put(found, p, values); });
+  auto const width = static_cast<std::size_t>(found.components);
+  std::vector<double> mine(particles.owned().count(ranks::own()) * width);
+  sample_own(particles, field, mine);
+  particles.owned().collect(width, std::move(mine), values);
+}
+
 Diagnostics observe(Particles const& particles, ParticleSet const& set) {
-  System const& s = particles.system();
-  Fields const& f = particles.fields();
   Books const& books = particles.books();
   Observation o;
-  std::vector<double> pressures(at(s.particles));
-  exec::ExactSum internal_sum, plastic;
-  double eulerian = 0, failed = 0, hottest = 0;
-  each_particle(s, [&](Index i, double pressure) {
-    if (i == s.body[s.body_of[i]].first) o.open_body(set.bodies[at(s.body_of[i])].name);
-    double const rho0 = s.body[s.body_of[i]].rho0, mass = f.mass.at(i), energy = f.energy.at(i);
-    pressures[particles.order().id(i)] = pressure;
-    o.add_motion(point_at(s.field.x, i, 3), point_at(s.field.v, i, 3), mass);
-    o.add_state(rho0 / f.rho.at(i), pressure, f.volume.at(i));
-    internal_sum += energy;
-    o.add_strain_energy(energy);
-    plastic += mass / rho0 * f.plastic_work.at(i);
-    eulerian += f.phi.at(i) > 0 ? 1 : 0;
-    failed += f.damage.at(i) >= 1 || !(f.alive.at(i) > 0) ? 1 : 0;
-    hottest = std::max(hottest, f.temperature.at(i));
-  });
-  for (Body const& body : set.bodies) {
-    std::vector<double> const p(pressures.begin() + body.first, pressures.begin() + body.last);
-    o.add_oscillation(set, body, p);
+  OwnSums sums;
+  for (int b = 0; b < particles.system().bodies; ++b) {
+    observe_body(particles, set, b, o, sums);
+    if (ranks::several()) ranks::add(sums.internal.back());
+    o.add_strain_energy(sums.internal.back().value());
+  }
+  if (ranks::several()) {
+    o.share();
+    sums.share();
   }
   Diagnostics d = o.finish();
-  double const internal = internal_sum.value();
+  exec::ExactSums<1> all;
+  for (auto const& of_body : sums.internal) all.add(of_body);
+  double const internal = all.value();
   d.actions = particles.actions().report();
   d.strain_energy = internal + books.contact_energy + books.hourglass_energy;
   d.external_work = books.external_work;
@@ -105,19 +160,19 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   d.more = {{"internal_energy", internal},
             {"contact_energy", books.contact_energy},
             {"hourglass_energy", books.hourglass_energy},
-            {"plastic_work", plastic.value()},
+            {"plastic_work", sums.others.value(0)},
             {"viscous_loss", books.viscous_loss},
             {"artificial_stress_work", books.artificial_work},
-            {"eulerian_particles", eulerian},
+            {"eulerian_particles", sums.others.value(1)},
             {"converted_particles", books.converted},
             {"guard_conversions", books.by_guard},
             {"converted_mass", books.converted_mass},
             {"conversion_energy_change", books.energy_change},
             {"conversion_momentum_change", books.momentum_change},
-            {"failed_particles", failed},
+            {"failed_particles", sums.others.value(2)},
             {"deleted_particles", books.deleted},
             {"contact_overlap", books.overlap},
-            {"temperature_max", hottest}};
+            {"temperature_max", sums.hottest}};
   return d;
 }
 

@@ -6,6 +6,9 @@
 namespace piola::adaptle {
 
 std::vector<FieldInfo> observed_fields();
+/// values[k * components + c] of the k-th particle of this rank.
+void sample_own(Particles const& particles, std::string_view field, std::span<double> values);
+/// Of all, by id, on rank 0. Collective.
 void sample(Particles const& particles, std::string_view field, std::span<double> values);
 Diagnostics observe(Particles const& particles, ParticleSet const& set);
 

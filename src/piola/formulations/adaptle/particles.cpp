@@ -5,6 +5,7 @@
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -75,17 +76,19 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
       actions_(assembly.supports, assembly.loads, assembly.rigid_shapes),
       shapes_(assembly.rigid_shapes),
       balance_(assembly.repartition),
-      X_(assembly.particles.X) {
+      set_(assembly.particles) {
   system_.dimension = assembly.particles.dimension;
   system_.settings = options_.settings;
+  system_.shared = ranks::several();
   set_bodies(assembly);
-  set_particles(assembly);
   set_contact(assembly);
   allocate(assembly);
-  set_descriptions(assembly);
-  set_boundaries(assembly);
-  set_factors();
-  choose_material();
+  set_descriptions();
+  std::vector<Shares> equal;
+  for (BodyConstants const& b : body_) equal.emplace_back(Range{b.first, b.last});
+  take(std::move(equal));
+  set_particles(assembly);
+  set_boundaries();
   double dt = std::numeric_limits<double>::infinity();
   for (auto const& b : body_)
     with_solid(b.material, [&](auto const& law) {
@@ -93,7 +96,6 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
     });
   books_.next_dt = dt;
   start();
-  share();
 }
 
 /// Lists, contact energy, rates and the stable step of the initial state: without rates the first prediction would know
@@ -104,11 +106,13 @@ void Particles::start() {
   prepare_rigid(0, 0);
   spatial_.build(system_, *machine_, balance_.busy());
   spatial_.put_into(system_);
+  if (exchanges_) exchanges_->after_lists(system_, spatial_);
   books_.contact_energy = contact_energy(system_);
   // A pressure that acts for one step is an impulse of the step that waves allow.
   for (BodyOptions const& o : options_.bodies)
     if (o.initial_pressure && !o.initial_pressure_lasts) return;
   machine_->predict(system_, 0);
+  if (exchanges_) exchanges_->after_prediction(system_);
   sweep(0);
   books_.next_dt = std::min(books_.next_dt, machine_->finish(system_, 0).dt);
   seconds_ = {};
@@ -145,55 +149,36 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.deletes = o.deletes;
     with_solid(b.material, [&](auto const& law) { take_constants(law, o, reach, b); });
     body_.push_back(b);
-    own_.push_back({b.first, b.last});
   }
+  own_.resize(body_.size());
 }
 
+/// What evolves, of the particles of this rank.
 void Particles::set_particles(Assembly const& assembly) {
-  auto const& set = assembly.particles;
-  body_of_.reserve(set.X.size());
-  auto const n = static_cast<Index>(set.size());
-  Fields::Needs needs;
-  needs.lagrangian = std::any_of(options_.bodies.begin(), options_.bodies.end(),
-                                 [](BodyOptions const& o) { return o.description != Description::eulerian; });
-  needs.published = options_.settings.published;
-  needs.plane_stress = options_.settings.plane_stress;
-  needs.touching = body_.size() > 1 || !shapes_.empty();
-  fields_.allocate(n, needs);
-  for (Index slot = 0; slot < static_cast<Index>(set.size()); ++slot) {
-    std::size_t const i = order_.id(slot);
-    int const body = set.body[i];
-    BodyConstants const& b = body_[static_cast<std::size_t>(body)];
-    body_of_.push_back(body);
-    for (int c = 0; c < 3; ++c) {
-      auto const k = static_cast<std::size_t>(c);
-      fields_.X.at(slot, c) = set.X[i][k];
-      fields_.x.at(slot, c) =
-          set.X[i][k] + (assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][k]);
-      fields_.v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][k];
-    }
-    fields_.volume.at(slot) = set.volume[i];
-    fields_.mass.at(slot) = b.rho0 * set.volume[i];
-    fields_.rho.at(slot) = b.rho0;
-    fields_.viscosity.at(slot) = fields_.alive.at(slot) = 1;
-    if (needs.plane_stress) fields_.thickness.at(slot) = 1;
-    if (needs.lagrangian)
-      for (int c = 0; c < 9; c += 4) fields_.F.at(slot, c) = 1;
-    with_solid(b.material, [&](auto const& law) {
-      fields_.temperature.at(slot) = law.initial_temperature();
-      fields_.energy.at(slot) = fields_.mass.at(slot) * law.initial_energy();
+  for (std::size_t k = 0; k < body_.size(); ++k)
+    with_solid(body_[k].material, [&](auto const& law) {
+      for (Index slot = own_[k].first; slot < own_[k].last; ++slot) {
+        std::size_t const i = order_.id(slot);
+        for (int c = 0; c < 3; ++c) {
+          fields_.x.at(slot, c) = position_[3 * at(slot) + at(c)];
+          fields_.v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][at(c)];
+        }
+        fields_.rho.at(slot) = body_[k].rho0;
+        fields_.viscosity.at(slot) = 1;
+        if (fields_.holds(fields_.thickness)) fields_.thickness.at(slot) = 1;
+        fields_.temperature.at(slot) = law.initial_temperature();
+        fields_.energy.at(slot) = fields_.mass.at(slot) * law.initial_energy();
+      }
     });
-  }
-  wish_.resize(at(n));
-  if (options_.settings.corrected) correction_.resize(at(n));
 }
 
 void Particles::set_contact(Assembly const& assembly) {
   std::vector<std::array<double, 3>> mean(body_.size());
-  for (std::size_t b = 0; b < body_.size(); ++b)
+  for (std::size_t b = 0; b < body_.size() && !assembly.initial_velocity.empty(); ++b)
     for (std::size_t c = 0; c < 3; ++c) {
       Index const first = body_[b].first, n = body_[b].last - first;
-      mean[b][c] = exec_host::sum_of(n, [&](Index k) { return fields_.v.at(first + k, static_cast<int>(c)); }) / n;
+      auto const& velocity = assembly.initial_velocity;
+      mean[b][c] = exec_host::sum_of(n, [&](Index k) { return velocity[at(first + k)][c]; }) / n;
     }
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
   leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
@@ -207,9 +192,23 @@ void Particles::set_contact(Assembly const& assembly) {
                                                                : 0;
 }
 
+/// Memory is taken where somebody writes: where a particle is, what it is and whether it lives is known to all ranks,
+/// other things to those that have it, and what neighbours read to them.
 void Particles::allocate(Assembly const& assembly) {
   auto const n = static_cast<std::size_t>(assembly.particles.size());
   System& s = system_;
+  Fields::Needs needs;
+  needs.lagrangian = std::any_of(options_.bodies.begin(), options_.bodies.end(),
+                                 [](BodyOptions const& o) { return o.description != Description::eulerian; });
+  needs.published = options_.settings.published;
+  needs.plane_stress = options_.settings.plane_stress;
+  needs.touching = body_.size() > 1 || !shapes_.empty();
+  fields_.allocate(static_cast<Index>(n), needs);
+  for (std::size_t b = 0; b < body_.size(); ++b)
+    body_of_.insert(body_of_.end(), at(body_[b].last - body_[b].first), static_cast<int>(b));
+  wish_ = PartFilled<std::int8_t>(n);
+  if (options_.settings.corrected) correction_ = PartFilled<Correction>(n);
+  position_ = PartFilled<double>(3 * n);
   s.bodies = static_cast<int>(body_.size());
   s.particles = static_cast<Index>(n);
   s.body = body_.data();
@@ -218,10 +217,13 @@ void Particles::allocate(Assembly const& assembly) {
   s.field = fields_.refs();
   s.correction = correction_.data();
   s.wish = wish_.data();
-  position_.resize(3 * n);
-  for (Index i = 0; i < s.particles; ++i)
-    for (int c = 0; c < 3; ++c) position_[3 * at(i) + at(c)] = fields_.x.at(i, c);
   s.position = position_.data();
+  for (Index i = 0; i < s.particles; ++i) {
+    std::size_t const id = order_.id(i);
+    auto const& moved = assembly.initial_displacement;
+    fields_.alive.at(i) = 1;
+    for (std::size_t c = 0; c < 3; ++c) position_[3 * at(i) + c] = set_.X[id][c] + (moved.empty() ? 0 : moved[id][c]);
+  }
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
   s.partial = partial_.data();
@@ -231,7 +233,7 @@ void Particles::allocate(Assembly const& assembly) {
 }
 
 /// Who is Eulerian from the start, and how descriptions blend at the border of a patch.
-void Particles::set_descriptions(Assembly const& assembly) {
+void Particles::set_descriptions() {
   for (std::size_t k = 0; k < body_.size(); ++k) {
     BodyOptions const& o = options_.bodies[k];
     std::vector<Index> outside;
@@ -255,18 +257,38 @@ void Particles::set_descriptions(Assembly const& assembly) {
     }
   }
   lagrangian_ = any_of([&](Index i) { return fields_.phi.at(i) < 1; });
-  if (!lagrangian_) return;
-  material_.build(assembly.particles, order_, body_, fields_, options_.settings, machine_->lanes);
+}
+
+/// Of the particles of this rank and, where they have reference neighbours, of those.
+void Particles::set_reference() {
+  System& s = system_;
+  auto const set_point = [&](Index slot) {
+    std::size_t const i = order_.id(slot);
+    for (int c = 0; c < 3; ++c) fields_.X.at(slot, c) = set_.X[i][at(c)];
+    fields_.volume.at(slot) = set_.volume[i];
+  };
+  for (std::size_t b = 0; b < body_.size(); ++b)
+    for (Index i = own_[b].first; i < own_[b].last; ++i) {
+      set_point(i);
+      fields_.mass.at(i) = body_[b].rho0 * set_.volume[order_.id(i)];
+      bool const deforms = fields_.holds(fields_.F) && fields_.alive.at(i) > 0;  // what is deleted keeps its own
+      for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
+    }
+  set_point(order_.slot(0));  // where cells of space begin
+  if (s.contact.law == 3)     // what the potential of the printed law asks of both sides
+    for (Index i = 0; i < s.particles; ++i) set_point(i);
+  if (!lagrangian_ && !material_.built()) return;
+  material_.build(set_, order_, body_, own_, fields_, options_.settings, machine_->lanes);
   if (!material_.needs_records()) return;
   using Flat = MaterialRecord<2>;
   using Deep = MaterialRecord<3>;
-  bool const flat = system_.dimension == 2, published = options_.settings.published;
+  bool const flat = s.dimension == 2, published = options_.settings.published;
   int const stride = flat ? Flat::stride(published) : Deep::stride(published);
-  material_records_ = Memory((at(system_.particles) + 1) * at(stride));
-  double* filler = material_records_.data() + std::ptrdiff_t{system_.particles} * stride;
+  material_records_ = Memory((at(s.particles) + 1) * at(stride));
+  double* filler = material_records_.data() + std::ptrdiff_t{s.particles} * stride;
   filler[flat ? Flat::viscosity : Deep::viscosity] = 1;
   if (published) filler[flat ? Flat::inverse_J : Deep::inverse_J] = 1;
-  system_.material.record = material_records_.data();
+  s.material.record = material_records_.data();
 }
 
 void Particles::choose_material() {
@@ -282,26 +304,27 @@ void Particles::choose_material() {
 }
 
 void Particles::set_factors() {
-  factors_.build(body_, options_.bodies, fields_.volume.ref(), system_.particles, order_, X_, books_.time);
+  factors_.build(body_, options_.bodies, own_, set_, order_, books_.time);
   system_.own = factors_.view();
 }
 
-void Particles::set_boundaries(Assembly const&) {
+void Particles::set_boundaries() {
+  std::size_t const n = at(system_.particles);
   if (!supports_.empty()) {
-    held_.resize(3 * at(system_.particles));
-    held_velocity_.resize(3 * at(system_.particles));
-    holder_.resize(3 * at(system_.particles));
-    reaction_.resize(3 * at(system_.particles));
+    held_ = PartFilled<std::int8_t>(3 * n);
+    held_velocity_ = PartFilled<double>(3 * n);
+    holder_ = PartFilled<std::size_t>(3 * n);
+    reaction_ = PartFilled<double>(3 * n);
     system_.reaction = reaction_.data();
     system_.held = held_.data();
     system_.held_velocity = held_velocity_.data();
   }
   if (!loads_.empty()) {
-    load_.resize(3 * at(system_.particles));
+    load_ = PartFilled<double>(3 * n);
     system_.load = load_.data();
   }
   if (shapes_.empty()) return;
-  rigid_power_.resize(at(system_.particles) + 16);  // loops read whole lanes
+  rigid_power_ = PartFilled<double>(n + 16);  // loops read whole lanes
   rigid_.resize(shapes_.size());
   system_.rigid = rigid_.data();
   system_.rigids = static_cast<int>(rigid_.size());
@@ -316,7 +339,8 @@ void Particles::set_boundaries(Assembly const&) {
 
 void Particles::prepare_supports(double time) {
   if (supports_.empty()) return;
-  std::fill(held_.begin(), held_.end(), std::int8_t{0});
+  for (Range const& own : own_)
+    std::fill(held_.begin() + std::ptrdiff_t{3} * own.first, held_.begin() + std::ptrdiff_t{3} * own.last, 0);
   for (std::size_t number = 0; number < supports_.size(); ++number) {
     Support const& support = supports_[number];
     if (has_ended(support.until, time)) continue;
@@ -326,14 +350,15 @@ void Particles::prepare_supports(double time) {
         std::size_t const k = 3 * at(order_.slot(id)) + c;
         held_[k] = 1;
         holder_[k] = number;
-        held_velocity_[k] = support.velocity ? (*support.velocity)[c](X_[static_cast<std::size_t>(id)], time) : 0;
+        held_velocity_[k] = support.velocity ? (*support.velocity)[c](set_.X[static_cast<std::size_t>(id)], time) : 0;
       }
   }
 }
 
 void Particles::prepare_loads(double time) {
   if (loads_.empty()) return;
-  std::fill(load_.begin(), load_.end(), 0);
+  for (Range const& own : own_)
+    std::fill(load_.begin() + std::ptrdiff_t{3} * own.first, load_.begin() + std::ptrdiff_t{3} * own.last, 0);
   for (Load const& load : loads_) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
@@ -383,7 +408,7 @@ void Particles::step(double time, double dt) {
   evaluate(dt);
   sum_actions(time, dt);
   factors_.end_of_step();
-  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) gather();  // for what there is to say about it
+  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) tell_failure();
 }
 
 /// Forces act at half time and at the places of then, for the whole step: impulses of the supports, then of the loads,
@@ -422,7 +447,9 @@ void Particles::sum_actions(double time, double dt) {
   for (std::size_t block = 0; block < rigid_action_.size(); block += 6)
     action_sums_->rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
   for (std::size_t k = 0; k < shapes_.size(); ++k) std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
-  if (!exchanges_) settle_actions();
+  if (exchanges_) return;
+  actions_ = actions();
+  action_sums_.reset();
 }
 
 /// Sums over neighbours and what they need.
@@ -478,9 +505,10 @@ void Particles::evaluate(double dt) {
 
 void Particles::damp(double factor) {
   double const before = kinetic_energy();
-  for (Index i = 0; i < system_.particles; ++i)
-    for (int c = 0; c < 3; ++c)
-      if (held_.empty() || held_[3 * at(i) + at(c)] == 0) fields_.v.at(i, c) *= factor;
+  for (Range const& own : own_)
+    for (Index i = own.first; i < own.last; ++i)
+      for (int c = 0; c < 3; ++c)
+        if (held_.empty() || held_[3 * at(i) + at(c)] == 0) fields_.v.at(i, c) *= factor;
   books_.damping_loss += before - kinetic_energy();
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/exact_sum.hpp"
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/adaptle/exchanges.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
+#include "piola/formulations/adaptle/own_particles.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/point_factors.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/shared_lines.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/parallel/work_balance.hpp"
@@ -63,8 +66,12 @@ class Particles {
   System const& system() const { return system_; }
   ParticleOrder const& order() const { return order_; }
   Books const& books() const { return books_; }
-  Actions const& actions() const { return actions_; }
-  Actions& actions() { return actions_; }
+  /// With what all ranks have given in the last step. Collective.
+  Actions actions() const;
+  void restore_actions(std::span<double const> state) {
+    action_sums_.reset();
+    actions_.restore(state);
+  }
   PartSeconds const& seconds() const { return seconds_; }
   Options const& options() const { return options_; }
   FailureSlot const& failure() const { return failure_; }
@@ -75,8 +82,8 @@ class Particles {
   Fields& fields() { return fields_; }
   Fields const& fields() const { return fields_; }
   Books& books() { return books_; }
-  /// f(field) for everything that a checkpoint holds. Deformation follows from positions, but for particles that were
-  /// deleted; of those `alive` is told before.
+  /// f(field) for everything that a checkpoint holds of those that is_saved() tells; `alive` comes first. Deformation
+  /// follows from positions, but for particles that were deleted. What those that have converted had is read by nobody.
   template <class Set, class F>
   void each_saved(Set& fields, F const& f) const {
     fields.each([&](auto& field) {
@@ -87,6 +94,9 @@ class Particles {
     f(fields.F_rate);
     f(fields.gap);
   }
+  bool is_saved(Field const& field, Index slot) const {
+    return field.role() == Role::evolved || !(fields_.alive.at(slot) > 0);
+  }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
   std::vector<double> const& rigid_centres() const { return rigid_centre_; }
   /// After a checkpoint has been read.
@@ -96,10 +106,18 @@ class Particles {
   /// Motion of these particles, the same on all ranks [m], [m/s].
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
+  /// Whether this rank works on it.
+  bool is_own(Index slot) const {
+    Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
+    return slot >= own.first && slot < own.last;
+  }
+  /// Of any rank [kg]: what is deleted flies on and touches nobody.
+  double mass_that_touches(std::int64_t id) const;
   /// For estimates.
   Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
-  /// Where ranks share the particles: rank 0 has all of them.
-  void gather();
+  OwnParticles const& owned() const { return owned_; }
+  /// For observers of what ranks share; null: one has all.
+  SharedLines* lines(int body) const { return lines_.empty() ? nullptr : lines_[static_cast<std::size_t>(body)].get(); }
   std::optional<Recuts> recuts() const { return balance_.recuts(); }
 
  private:
@@ -113,19 +131,19 @@ class Particles {
   }
   void set_bodies(Assembly const& assembly);
   void set_particles(Assembly const& assembly);
-  void set_descriptions(Assembly const& assembly);
+  void set_descriptions();
+  void set_reference();
   void set_contact(Assembly const& assembly);
   void set_factors();
-  void set_boundaries(Assembly const& assembly);
+  void set_boundaries();
   void allocate(Assembly const& assembly);
   void choose_material();
-  std::array<double, 3> const& X(Index slot) const { return X_[order_.id(slot)]; }
+  std::array<double, 3> const& X(Index slot) const { return set_.X[order_.id(slot)]; }
   void prepare_supports(double time);
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
   void sum_actions(double time, double dt);
-  /// Collective on ranks, for which steps do not wait: when somebody asks.
-  void settle_actions();
+  void tell_failure();
   void start();
   void sweep(double dt);
   void evaluate(double dt);
@@ -133,15 +151,11 @@ class Particles {
   bool wishes_by_formula();
   /// Mass, change of energy and of momentum of those that convert in a step.
   using ConversionSums = exec::ExactSums<3>;
-  void share();
   /// Shares the particles out among ranks by the work that they have been: the bits of all numbers stay.
   void cut_anew();
   void take(std::vector<Shares> cuts);
+  void hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to);
   double work_of(Index slot) const;
-  bool is_own(Index slot) const {
-    Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
-    return slot >= own.first && slot < own.last;
-  }
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
   double energy_of(Index i) const;
@@ -153,19 +167,22 @@ class Particles {
   Machine const* machine_;
   System system_;
   std::vector<BodyConstants> body_;
+  OwnParticles owned_;
   std::vector<Range> own_;                ///< of each body: the slots that this rank works on
   std::unique_ptr<Exchanges> exchanges_;  ///< null: one rank, which has all
+  std::vector<std::unique_ptr<SharedLines>> lines_;
   std::vector<int> body_of_;
   Fields fields_;
-  std::vector<Correction> correction_;
-  std::vector<std::int8_t> wish_;
-  std::vector<double> position_;
+  PartFilled<Correction> correction_;
+  PartFilled<std::int8_t> wish_;
+  PartFilled<double> position_;
   std::vector<std::uint8_t> eulerian_;
   MaterialLists material_;
   SpatialLists spatial_;
   Memory material_records_;
   std::vector<ContactPair> contact_pairs_;
-  std::vector<double> partial_, rigid_power_;
+  std::vector<double> partial_;
+  PartFilled<double> rigid_power_;
   PointFactors factors_;
   FailureSlot failure_;
   Books books_;
@@ -175,11 +192,12 @@ class Particles {
   // Boundaries
   std::vector<Support> supports_;
   std::vector<Load> loads_;
-  std::vector<std::int8_t> held_;
-  std::vector<std::size_t> holder_;  ///< per component: the support that holds it
-  std::vector<double> held_velocity_, load_, reaction_, rigid_action_;
+  PartFilled<std::int8_t> held_;
+  PartFilled<std::size_t> holder_;  ///< per component: the support that holds it
+  PartFilled<double> held_velocity_, load_, reaction_;
+  std::vector<double> rigid_action_;
   Actions actions_;
-  /// Of the last step, of this rank; nothing once they are in `actions_`.
+  /// Of the last step, of this rank, for which steps do not wait; nothing where they are in `actions_`.
   struct ActionSums {
     double dt;
     std::vector<ImpulseSum> impulses;        ///< of supports, then of loads
@@ -190,7 +208,7 @@ class Particles {
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;
   WorkBalance balance_;
-  SharedVector<std::array<double, 3>> const X_;  ///< reference positions, per id [m]
+  ParticleSet const set_;  ///< shares its memory with that of the case
 };
 
 }  // namespace piola::adaptle

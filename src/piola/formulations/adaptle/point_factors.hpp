@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
 #include <array>
+#include <span>
 #include <vector>
 
 namespace piola::adaptle {
@@ -11,9 +13,9 @@ namespace piola::adaptle {
 /// what particles bear before they fail. Nothing of it is in checkpoints: it follows from the case and the time.
 class PointFactors {
  public:
-  /// At a time [s]: that of the start, or of a resumed run. X: reference positions, per id [m].
-  void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options, FieldRef const& volume,
-             Index particles, ParticleOrder const& order, std::span<std::array<double, 3> const> X, double time);
+  /// At a time [s]: that of the start, or of a resumed run. own: slots of this rank, of each body; others have none.
+  void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
+             std::vector<Range> const& own, ParticleSet const& set, ParticleOrder const& order, double time);
   /// Brings what changes to a time [s].
   void go_to(double time);
   /// What acts for one step only is gone.
@@ -22,25 +24,27 @@ class PointFactors {
   OwnFactors view() const;
 
  private:
-  void add_initial_pressure(BodyConstants const& body, BodyOptions const& options);
-  std::array<double, 3> const& X(Index slot) const { return X_[order_->id(slot)]; }
-  void add_explosive(BodyConstants const& body, BodyOptions const& options);
-  void add_scatter(BodyConstants const& body);
+  void add_initial_pressure(Range own, BodyOptions const& options);
+  std::array<double, 3> const& X(Index slot) const { return set_->X[order_->id(slot)]; }
+  void add_explosive(BodyConstants const& body, Range own, BodyOptions const& options);
+  void add_scatter(BodyConstants const& body, Range own);
 
   /// An explosive body.
   struct Explosive {
-    Index first, last;
+    Range own;
     double rate;  ///< of burning [1/s]
   };
 
-  FieldRef volume_;
-  std::size_t room_ = 0;
+  /// Of a factor, per slot, that other bodies do not have.
+  PartFilled<double>& with(PartFilled<double>& values, double otherwise) const;
+
   ParticleOrder const* order_ = nullptr;
-  std::span<std::array<double, 3> const> X_;
-  std::vector<double> initial_pressure_, burnt_, toughness_;  ///< per slot; empty: none
-  std::vector<double> lit_;                                   ///< when each particle of an explosive is lit [s]
+  ParticleSet const* set_ = nullptr;
+  std::vector<Range> own_;
+  PartFilled<double> initial_pressure_, burnt_, toughness_;  ///< per slot; empty: none
+  PartFilled<double> lit_;                                   ///< when each particle of an explosive is lit [s]
   std::vector<Explosive> explosives_;
-  std::vector<std::array<Index, 2>> impulses_;  ///< bodies whose initial pressure acts for one step
+  std::vector<Range> impulses_;  ///< particles whose initial pressure acts for one step
 };
 
 }  // namespace piola::adaptle

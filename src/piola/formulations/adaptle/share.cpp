@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranks: every rank makes all bodies and lists and then works on its part of the slots of each body, from time to time
-// on another one.
+// Ranks: each works on its part of the slots of each body, from time to time on another one, and has memory for that
+// and for what its particles read of reference neighbours. Where particles are in space, and what they are, all ranks
+// know.
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
+#include <array>
 
 namespace piola::adaptle {
 
-/// From here on; the initial state is that of one rank.
-void Particles::share() {
-  if (!ranks::several()) return;
-  system_.shared = true;
-  // Records of reference neighbours hold what never changes, too.
-  machine_->predict(system_, 0);
-  std::vector<Shares> equal;
-  for (Range const& body : own_) equal.emplace_back(body);
-  choose_material();
-  take(std::move(equal));
-}
-
+/// What is made for the particles of this rank.
 void Particles::take(std::vector<Shares> cuts) {
   std::fill(rigid_action_.begin(), rigid_action_.end(), 0);  // a part may have fewer blocks than the one before
+  owned_ = OwnParticles(cuts, order_);
   for (std::size_t b = 0; b < own_.size(); ++b) own_[b] = cuts[b].own();
+  set_reference();
+  set_factors();
+  choose_material();
+  if (!ranks::several()) return;
+  lines_.clear();
+  for (std::size_t b = 0; b < own_.size(); ++b) {
+    Index const first = body_[b].first;
+    std::int64_t const* const ids = order_.ids();
+    lines_.push_back(std::make_unique<SharedLines>(
+        set_, set_.bodies[b], SharedLines::Slots{ids != nullptr ? ids + first : nullptr, first, body_[b].last - first},
+        Range{own_[b].first - first, own_[b].last - first}, cuts[b].from_zero()));
+  }
   exchanges_ = std::make_unique<Exchanges>(system_, material_, std::move(cuts));
 }
 
@@ -36,10 +40,9 @@ double Particles::work_of(Index slot) const {
   return points + (phi < 1 ? 1 - points : 0) + (phi > 0 ? flows - points : 0);
 }
 
-/// What a checkpoint holds is all that the new owner of a particle needs, as with a run that goes on elsewhere. What is
-/// left of deformation once a particle has converted is read by nobody, but checkpoints of later may hold it.
+/// What a checkpoint holds is all that the new owner of a particle needs, as with a run that goes on elsewhere.
 void Particles::cut_anew() {
-  std::vector<Shares> const& now = exchanges_->cuts();
+  std::vector<Shares> const& now = owned_.cuts();
   std::vector<std::vector<double>> work(now.size());
   for (std::size_t b = 0; b < now.size(); ++b) {
     Range const body = now[b].whole();
@@ -49,41 +52,77 @@ void Particles::cut_anew() {
   }
   auto [cuts, longest] = balance_.plan(now, std::move(work));
   if (cuts == now || !balance_.pays(longest)) return;
-  fields_.each([&](Field const& field) {
-    bool const kept = &field == &fields_.F || &field == &fields_.F_rate || &field == &fields_.gap;
-    if (fields_.holds(field) && (kept || field.role() == Role::evolved))
-      exchanges_->complete(field.ref(), field.components());
-  });
-  take(std::move(cuts));
+  std::vector<Shares> const before = now;
+  take(cuts);
+  hand_over(before, cuts);
   balance_.was_cut();
 }
 
-/// What a checkpoint holds, and who has how many neighbours, is all that observers see.
-void Particles::gather() {
-  if (!exchanges_) return;
-  each_saved(fields_, [&](Field const& field) { exchanges_->gather(field.ref(), field.components()); });
-  std::vector<int> const found = spatial_.neighbours_by_slot(system_);
-  std::vector<double> neighbours(found.begin(), found.end());
-  exchanges_->gather({.data = neighbours.data()}, 1);
-  spatial_.set_neighbours({neighbours.begin(), neighbours.end()});
-  settle_actions();
-}
-
-void Particles::settle_actions() {
-  if (!action_sums_) return;
-  auto& [dt, impulses, rigids] = *action_sums_;
+Actions Particles::actions() const {
+  Actions all = actions_;
+  if (!action_sums_) return all;
+  auto [dt, impulses, rigids] = *action_sums_;
   if (exchanges_) {
     ranks::add(std::span(impulses));
     ranks::add(std::span(rigids));
   }
-  for (std::size_t s = 0; s < supports_.size(); ++s) actions_.supports[s].add(impulses[s].value());
-  for (std::size_t l = 0; l < loads_.size(); ++l) actions_.loads[l].add(impulses[supports_.size() + l].value());
+  for (std::size_t s = 0; s < supports_.size(); ++s) all.supports[s].add(impulses[s].value());
+  for (std::size_t l = 0; l < loads_.size(); ++l) all.loads[l].add(impulses[supports_.size() + l].value());
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     exec::ExactSums<6> const& sum = rigids[k];
-    actions_.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
-                            {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
+    all.rigids[k].add({{dt * sum.value(0), dt * sum.value(1), dt * sum.value(2)},
+                       {dt * sum.value(3), dt * sum.value(4), dt * sum.value(5)}});
   }
-  action_sums_.reset();
+  return all;
+}
+
+/// What a checkpoint holds of particles that change hands, from those who had them to those who have them now.
+void Particles::hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to) {
+  std::vector<Field*> fields;
+  each_saved(fields_, [&](Field& field) {
+    if (&field != &fields_.phi && &field != &fields_.alive) fields.push_back(&field);
+  });
+  // f(value) of what goes from one rank to another.
+  auto const each = [&](int giver, int taker, auto const& f) {
+    for (std::size_t b = 0; b < from.size(); ++b) {
+      Range const had = from[b].of(giver), has = to[b].of(taker);
+      for (Index i = std::max(had.first, has.first); i < std::min(had.last, has.last); ++i)
+        for (Field* field : fields)
+          for (int c = 0; c < field->components(); ++c) f(field->at(i, c));
+    }
+  };
+  auto const count = static_cast<std::size_t>(ranks::count());
+  std::vector<std::vector<double>> given(count), taken(count);
+  std::vector<ranks::Message> sends, receives;
+  for (int rank = 0; rank < ranks::count(); ++rank) {
+    if (rank == ranks::own()) continue;
+    std::vector<double>&out = given[at(rank)], &in = taken[at(rank)];
+    each(ranks::own(), rank, [&](double value) { out.push_back(value); });
+    std::size_t numbers = 0;
+    each(rank, ranks::own(), [&](double) { ++numbers; });
+    in.resize(numbers);
+    if (!out.empty()) sends.push_back({rank, out.data(), out.size()});
+    if (!in.empty()) receives.push_back({rank, in.data(), in.size()});
+  }
+  ranks::exchange(receives, sends);
+  for (int rank = 0; rank < ranks::count(); ++rank) {
+    auto value = taken[at(rank)].begin();
+    if (rank != ranks::own()) each(rank, ranks::own(), [&](double& here) { here = *value++; });
+  }
+}
+
+/// All ranks have what there is to say about the particle that failed.
+void Particles::tell_failure() {
+  Index const slot = failure_.index != FailureSlot::none ? failure_.index : order_.slot(0);
+  Range const own = own_[at(body_of_[at(slot)])];
+  for (Field* field : {&fields_.x, &fields_.v, &fields_.rho, &fields_.damage, &fields_.plastic_strain})
+    merge_slots(field->ref(), own, std::array{slot}, field->components());
+}
+
+double Particles::mass_that_touches(std::int64_t id) const {
+  Index const slot = order_.slot(id);
+  bool const there = fields_.alive.at(slot) > 0;
+  return there ? body_[at(body_of_[at(slot)])].rho0 * set_.volume[static_cast<std::size_t>(id)] : 0;
 }
 
 void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,

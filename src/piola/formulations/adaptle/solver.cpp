@@ -7,6 +7,7 @@
 #include "piola/formulations/checkpoint.hpp"
 #include "piola/materials/solids.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -72,15 +73,12 @@ class Solver final : public Formulation {
     particles_.read_motion(ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    Fields const& fields = particles_.fields();  // what is deleted flies on and touches nobody
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      Index const slot = particles_.order().slot(ids[k]);
-      m[k] = fields.alive.at(slot) > 0 ? fields.mass.at(slot) : 0;
-    }
+    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.mass_that_touches(ids[k]);
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       Index const slot = particles_.order().slot(ids[k]);
+      if (!particles_.is_own(slot)) continue;
       for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
   }
@@ -91,6 +89,12 @@ class Solver final : public Formulation {
   void sample(std::string_view field, std::span<double> values) const override {
     adaptle::sample(particles_, field, values);
   }
+  std::optional<std::vector<std::int64_t>> owned() const override {
+    return ranks::several() ? std::optional(particles_.owned().ids()) : std::nullopt;
+  }
+  void sample_owned(std::string_view field, std::span<double> values) const override {
+    ranks::several() ? adaptle::sample_own(particles_, field, values) : sample(field, values);
+  }
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
   int stages_per_step() const override { return 1; }
@@ -99,16 +103,21 @@ class Solver final : public Formulation {
     return {{"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
   }
   std::size_t memory_bytes() const override { return particles_.bytes(); }
-  void gather() override { particles_.gather(); }
   std::optional<Recuts> recuts() const override { return particles_.recuts(); }
   std::optional<Talk> talk(std::size_t body) const override { return particles_.talk(static_cast<int>(body)); }
 
  private:
-  /// f(position in values, slot, component) for the values of a field, by id.
-  template <class F>
-  void each_value(Field const& field, F const& f) const {
-    for (Index i = 0; i < particles_.system().particles; ++i)
-      for (int c = 0; c < field.components(); ++c) f(particles_.order().id(i) * at(field.components()) + at(c), i, c);
+  /// Room for the values of a field, by id, on the rank that has them all.
+  std::vector<double> room_for(Field const& field) const {
+    return std::vector<double>(ranks::own() == 0 ? at(particles_.system().particles) * at(field.components()) : 0);
+  }
+  /// f(value, slot, component) for a field of the particles of this rank.
+  template <class Values, class F>
+  void each_value(Field const& field, Values& mine, F const& f) const {
+    auto const width = at(field.components());
+    particles_.owned().each(ranks::own(), [&](Index i, std::size_t k) {
+      for (std::size_t c = 0; c < width; ++c) f(mine[k * width + c], i, static_cast<int>(c));
+    });
   }
 
   ParticleSet set_;
@@ -142,27 +151,40 @@ std::optional<Failure> Solver::failure() const {
 }
 
 void Solver::save(StateWriter& writer) const {
-  std::vector<double> values;
   particles_.each_saved(particles_.fields(), [&](Field const& field) {
-    values.resize(at(particles_.system().particles) * at(field.components()));
-    each_value(field, [&](std::size_t place, Index i, int c) { values[place] = field.at(i, c); });
-    writer.put(field.name(), values);
+    std::vector<double> mine(particles_.owned().count(ranks::own()) * at(field.components())), all = room_for(field);
+    each_value(field, mine,
+               [&](double& value, Index i, int c) { value = particles_.is_saved(field, i) ? field.at(i, c) : 0; });
+    particles_.owned().collect(at(field.components()), std::move(mine), all);
+    writer.put(field.name(), all);
   });
   writer.put("books", particles_.books().state());
   writer.put("rigid_centres", particles_.rigid_centres());
   writer.put("actions", particles_.actions().state());
 }
 
+/// Descriptions are known to all ranks.
 void Solver::load(StateReader& reader) {
-  std::vector<double> values;
-  particles_.each_saved(particles_.fields(), [&](Field& field) {
-    values.resize(at(particles_.system().particles) * at(field.components()));
-    reader.get(field.name(), values);
-    each_value(field, [&](std::size_t place, Index i, int c) { field.at(i, c) = values[place]; });
+  Fields& fields = particles_.fields();
+  particles_.each_saved(fields, [&](Field& field) {
+    if (&field == &fields.phi || &field == &fields.alive) {
+      std::vector<double> all(at(particles_.system().particles));
+      reader.get(field.name(), all);
+      for (Index i = 0; i < particles_.system().particles; ++i) field.at(i) = all[particles_.order().id(i)];
+      return;
+    }
+    std::vector<double> all = room_for(field);
+    reader.get_to_deal(field.name(), all);
+    auto const mine = particles_.owned().deal(at(field.components()), all);
+    each_value(field, mine, [&](double value, Index i, int c) {
+      if (particles_.is_saved(field, i)) field.at(i, c) = value;
+    });
   });
   load_part(reader, "books", particles_.books());
   reader.get("rigid_centres", particles_.rigid_centres());
-  load_part(reader, "actions", particles_.actions());
+  std::vector<double> actions = particles_.actions().state();
+  reader.get("actions", actions);
+  particles_.restore_actions(actions);
   particles_.resumed();
 }
 

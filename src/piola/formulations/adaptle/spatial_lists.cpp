@@ -87,7 +87,6 @@ void SpatialLists::build(System const& s, Machine const& machine, double& busy) 
   eulerian_ = s.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
-  of_all_.clear();
   if (!needed(s)) return;
   widest_ = 0;
   for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
@@ -186,7 +185,6 @@ void SpatialLists::put_into(System& s) {
 }
 
 std::vector<int> SpatialLists::neighbours_by_slot(System const& s) const {
-  if (!of_all_.empty()) return of_all_;
   std::vector<int> count(at(s.particles), 0);
   for (std::size_t t = 0; t < spatial_.found.size() && t < spatial_.target.size(); ++t)
     count[at(grid_.slots()[spatial_.target[t]])] = spatial_.found[t];

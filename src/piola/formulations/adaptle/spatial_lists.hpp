@@ -22,10 +22,8 @@ class SpatialLists {
   /// Whether particles of other slots read what this one says of itself: in spatial sums, and in contacts.
   bool near(Index slot) const { return everyone_ || near_[static_cast<std::size_t>(slot)] != 0; }
   bool meets(Index slot) const { return meets_[static_cast<std::size_t>(slot)] != 0; }
-  /// Of the last step, per slot; 0 where there is no list.
+  /// Of the last step, per slot; 0 where this rank has no list.
   std::vector<int> neighbours_by_slot(System const& system) const;
-  /// What all ranks have found, per slot; forgotten with the next lists.
-  void set_neighbours(std::vector<int> of_all) { of_all_ = std::move(of_all); }
 
  private:
   struct List {
@@ -48,7 +46,6 @@ class SpatialLists {
   double widest_ = 0;
   bool eulerian_ = false, overflow_ = false;
   bool everyone_ = false;  ///< every particle is a target
-  std::vector<int> of_all_;
 };
 
 }  // namespace piola::adaptle

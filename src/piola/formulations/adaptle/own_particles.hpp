@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/adaptle/particle_order.hpp"
+#include "piola/parallel/ranks.hpp"
+#include "piola/parallel/shares.hpp"
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace piola::adaptle {
+
+/// Who has which particles of a run, and how values of theirs go to rank 0 and come back: `width` of each, those of a
+/// rank in the order of its bodies and slots, on rank 0 in the order of ids. One rank has all.
+class OwnParticles {
+ public:
+  OwnParticles() = default;
+  /// cuts: of each body; order: kept by reference.
+  OwnParticles(std::vector<Shares> cuts, ParticleOrder const& order) : cuts_(std::move(cuts)), order_(&order) {}
+
+  std::vector<Shares> const& cuts() const { return cuts_; }
+  /// f(slot, number of it among those of the rank)
+  template <class F>
+  void each(int rank, F const& f) const {
+    std::size_t before = 0;
+    for (Shares const& body : cuts_) {
+      Range const part = body.of(rank);
+      exec_host::for_each_in_set_up(part.last - part.first,
+                                    [&](Index k) { f(part.first + k, before + static_cast<std::size_t>(k)); });
+      before += static_cast<std::size_t>(part.last - part.first);
+    }
+  }
+  std::size_t count(int rank) const {
+    std::size_t sum = 0;
+    for (Shares const& body : cuts_) sum += static_cast<std::size_t>(body.of(rank).last - body.of(rank).first);
+    return sum;
+  }
+  std::vector<std::int64_t> ids() const {
+    std::vector<std::int64_t> ids(count(ranks::own()));
+    each(ranks::own(), [&](Index i, std::size_t k) { ids[k] = static_cast<std::int64_t>(order_->id(i)); });
+    return ids;
+  }
+
+  /// all: room on rank 0, one rank after the other. Collective.
+  void collect(std::size_t width, std::vector<double> mine, std::span<double> all) const {
+    for (int rank = 0; rank < ranks::count(); ++rank) {
+      if (ranks::own() == 0 && rank > 0) mine.resize(count(rank) * width);
+      if (rank > 0) ranks::carry(rank, 0, mine);
+      if (ranks::own() != 0) continue;
+      each(rank, [&](Index i, std::size_t k) {
+        for (std::size_t c = 0; c < width; ++c) all[order_->id(i) * width + c] = mine[k * width + c];
+      });
+    }
+  }
+  /// The other way. Collective.
+  std::vector<double> deal(std::size_t width, std::span<double const> all) const {
+    std::vector<double> mine;
+    for (int rank = ranks::count() - 1; rank >= 0; --rank) {
+      if (ranks::own() != 0 && ranks::own() != rank) continue;
+      mine.resize(count(rank) * width);
+      if (ranks::own() == 0)
+        each(rank, [&](Index i, std::size_t k) {
+          for (std::size_t c = 0; c < width; ++c) mine[k * width + c] = all[order_->id(i) * width + c];
+        });
+      if (rank > 0) ranks::carry(0, rank, mine);
+    }
+    return mine;
+  }
+
+ private:
+  std::vector<Shares> cuts_;
+  ParticleOrder const* order_ = nullptr;
+};
+
+}  // namespace piola::adaptle
