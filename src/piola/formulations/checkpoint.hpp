@@ -65,10 +65,26 @@ void from_id_order(Body const& body, int components, std::span<double const> all
   });
 }
 
-/// A field of a body, of which ranks that share it have their own particles. Collective.
+/// Puts values(slot, c) of a body, of which ranks that share it have their own particles. Collective.
+template <class Body, class F>
+void save_own(StateWriter& writer, std::string const& name, Body const& body, int components, F const& value) {
+  RowsOfRanks rows{static_cast<int>(body.body().first), body.particles(), std::nullopt, components};
+  if (!ranks::several()) return writer.put_rows(name, rows, in_id_order(body, components, value));
+  auto const n = static_cast<std::size_t>(components);
+  Range const own = body.own();
+  std::vector<Index> places(static_cast<std::size_t>(own.last - own.first));
+  std::vector<double> mine(places.size() * n);
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    auto const at = static_cast<std::size_t>(k);
+    places[at] = static_cast<Index>(body.id(own.first + k) - body.body().first);
+    for (std::size_t c = 0; c < n; ++c) mine[at * n + c] = value(own.first + k, static_cast<int>(c));
+  });
+  rows.places = places;
+  writer.put_rows(name, rows, mine);
+}
 template <class Body>
 void save_own(StateWriter& writer, std::string const& name, Body const& body, FieldRef const& field, int components) {
-  writer.put(name, in_id_order(body, components, [&](Index i, int c) { return value_at(field, i, c); }));
+  save_own(writer, name, body, components, [&](Index i, int c) { return value_at(field, i, c); });
 }
 template <class Body>
 void load_own(StateReader& reader, std::string const& name, Body const& body, FieldRef const& field, int components) {

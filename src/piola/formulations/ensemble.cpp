@@ -20,6 +20,9 @@ class PartWriter : public StateWriter {
   void put(std::string_view name, std::span<double const> values) override {
     whole_.put(prefix_ + std::string(name), values);
   }
+  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
+    whole_.put_rows(prefix_ + std::string(name), rows, values);
+  }
 
  private:
   StateWriter& whole_;

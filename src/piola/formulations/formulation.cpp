@@ -18,4 +18,10 @@ std::optional<std::vector<std::int64_t>> Formulation::owned() const {
   return ranks::own() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
 }
 
+void StateWriter::put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) {
+  if (!ranks::several() && !rows.places) return put(name, values);
+  std::vector<double> const all = RowPlan(rows, rows.count).collect(values, rows.columns);
+  if (ranks::own() == 0) put(name, all);
+}
+
 }  // namespace piola

@@ -3,6 +3,7 @@
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/rigid_state.hpp"
 #include "piola/parallel/bisection.hpp"
+#include "piola/parallel/row_plan.hpp"
 #include "piola/parallel/work_balance.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
@@ -93,6 +94,12 @@ class StateWriter {
  public:
   virtual ~StateWriter() = default;
   virtual void put(std::string_view name, std::span<double const> values) = 0;
+  /// Of what ranks have rows of: `values` are those of this rank, row by row. Collective; here rank 0 gets all of them
+  /// and puts them.
+  virtual void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values);
+  /// Whether put_rows() has all ranks write to one file: end_rows() follows then. Collective.
+  virtual bool on_all_ranks() const { return false; }
+  virtual void end_rows() {}
 };
 class StateReader {
  public:

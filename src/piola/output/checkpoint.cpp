@@ -3,6 +3,8 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
+#include "piola/output/row_writer.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,15 +21,28 @@ class GroupWriter : public StateWriter {
  public:
   GroupWriter(hdf5::Writer& file, std::string group) : file_(file), group_(std::move(group)) { file_.group(group_); }
   void put(std::string_view name, std::span<double const> values) override {
-    std::string path = fmt::format("{}/{}", group_, name);  // a name may hold slashes, which HDF5 would take for groups
-    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
+    std::string const path = path_of(name);
     file_.dataset<double>(path, values);
     file_.attribute(path, "name", name);
   }
+  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
+    std::string const path = path_of(name);
+    rows_.put(path, rows, values, hdf5::Storage::sequence);
+    if (rows_.good()) file_.attribute(path, "name", name);
+  }
+  bool on_all_ranks() const override { return true; }
+  void end_rows() override { rows_.end(); }
 
  private:
+  /// A name may hold slashes, which HDF5 would take for groups.
+  std::string path_of(std::string_view name) const {
+    std::string path = fmt::format("{}/{}", group_, name);
+    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
+    return path;
+  }
   hdf5::Writer& file_;
   std::string group_;
+  RowWriter rows_{&file_};
 };
 
 void put_all(NamedState const& state, StateWriter& writer) {
@@ -125,6 +140,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
     save(state);
   else
     put_all(c.state, state);
+  if (!ranks::several()) state.end_rows();  // of several, the formulation says when all have written
   GroupWriter observers(file, "/observers");
   put_all(c.observers, observers);
   file.finish();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/output/frames.hpp"
+#include "piola/output/row_writer.hpp"
 #include "piola/parallel/agreement.hpp"
 #include "piola/simulation/probe_row.hpp"
 #include <algorithm>
@@ -24,6 +26,7 @@ struct Order {
     diagnose,
     sample,
     probes,
+    frame,
     save,
     load,
     traffic,
@@ -151,6 +154,20 @@ class LastingWriter final : public StateWriter {
         trouble_ = std::current_exception();
       }
   }
+  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
+    try {
+      writer_.put_rows(name, rows, values);
+    } catch (...) {
+      if (!trouble_) trouble_ = std::current_exception();
+    }
+  }
+  void end_rows() override {
+    try {
+      writer_.end_rows();
+    } catch (...) {
+      if (!trouble_) trouble_ = std::current_exception();
+    }
+  }
   void raise() const {
     if (trouble_) std::rethrow_exception(trouble_);
   }
@@ -207,9 +224,10 @@ class Conductor final : public Formulation {
   void save(StateWriter& writer) const override {
     Gathering const gathering(gathered_);
     Aside const aside;
-    send({Order::What::save});
+    send({.what = Order::What::save, .code = writer.on_all_ranks() ? 1 : 0});
     LastingWriter lasting(writer);
     own().save(lasting);
+    if (writer.on_all_ranks()) lasting.end_rows();
     lasting.raise();
   }
   void load(StateReader& reader) override {
@@ -247,15 +265,28 @@ class Conductor final : public Formulation {
 };
 
 /// For ranks that take part in what rank 0 writes.
-class NoWriter final : public StateWriter {
+class NoWriter : public StateWriter {
  public:
   void put(std::string_view, std::span<double const>) override {}
 };
 
+/// For ranks that write parts of the file that rank 0 has open.
+class PartOfWriter final : public NoWriter {
+ public:
+  void put_rows(std::string_view, RowsOfRanks const& rows, std::span<double const> values) override {
+    rows_.put("", rows, values);
+  }
+  bool on_all_ranks() const override { return true; }
+  void end_rows() override { rows_.end(); }
+
+ private:
+  RowWriter rows_{nullptr};
+};
+
 bool is_for_observers(Order const& order) {
   using enum Order::What;
-  return order.what == diagnose || order.what == sample || order.what == probes || order.what == save ||
-         order.what == load;
+  return order.what == diagnose || order.what == sample || order.what == probes || order.what == frame ||
+         order.what == save || order.what == load;
 }
 
 void obey(Formulation& formulation, Order const& order) {
@@ -267,8 +298,13 @@ void obey(Formulation& formulation, Order const& order) {
     case Order::What::diagnose: return void(formulation.diagnose());
     case Order::What::sample: return formulation.sample(order.field, {});
     case Order::What::save: {
-      NoWriter nobody;
-      return formulation.save(nobody);
+      if (order.code == 0) {
+        NoWriter nobody;
+        return formulation.save(nobody);
+      }
+      PartOfWriter part;
+      formulation.save(part);
+      return part.end_rows();
     }
     case Order::What::load: {
       SharedReader shared(nullptr);
@@ -340,6 +376,12 @@ void with_probes_of_all(double time, std::function<void()> const& look) {
   look();
 }
 
+void with_frame_of_all(std::function<void()> const& write) {
+  Aside const aside;
+  if (ranks::several() && ranks::own() == 0) send({Order::What::frame});
+  write();
+}
+
 int follow(Simulation& simulation) {
   Formulation& formulation = *simulation.formulation;
   std::optional<ProbeRow> probes;  // made when rank 0 has made them without complaint
@@ -355,6 +397,10 @@ int follow(Simulation& simulation) {
     if (order.what == Order::What::probes) {
       if (!probes) probes.emplace(simulation.spec, simulation.particles);
       probes->take_part(formulation, order.first);
+    } else if (order.what == Order::What::frame) {
+      FieldCache cache(formulation, simulation.particles, FieldCache::Of::owned);
+      RowWriter part(nullptr);
+      FrameContent(simulation.spec.output.frame_fields, simulation.spec.output.compress, cache).put(part);
     } else {
       obey(formulation, order);
     }
