@@ -13,35 +13,51 @@
 namespace piola {
 namespace {
 
+/// Which of how many formulations, each of which numbers the sets of its rows by itself.
+struct PartNumber {
+  std::size_t part, parts;
+  RowsOfRanks of_whole(RowsOfRanks rows) const {
+    rows.set = rows.set * static_cast<std::int64_t>(parts) + static_cast<std::int64_t>(part);
+    return rows;
+  }
+};
+
 /// Names of a part's arrays in a checkpoint begin with its formulation.
 class PartWriter : public StateWriter {
  public:
-  PartWriter(StateWriter& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
+  PartWriter(StateWriter& whole, std::string prefix, PartNumber number)
+      : whole_(whole), prefix_(std::move(prefix)), number_(number) {}
   void put(std::string_view name, std::span<double const> values) override {
     whole_.put(prefix_ + std::string(name), values);
   }
   void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
-    whole_.put_rows(prefix_ + std::string(name), rows, values);
+    whole_.put_rows(prefix_ + std::string(name), number_.of_whole(rows), values);
   }
 
  private:
   StateWriter& whole_;
   std::string prefix_;
+  PartNumber number_;
 };
 
 class PartReader : public StateReader {
  public:
-  PartReader(StateReader& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
+  PartReader(StateReader& whole, std::string prefix, PartNumber number)
+      : whole_(whole), prefix_(std::move(prefix)), number_(number) {}
   void get(std::string_view name, std::span<double> values) override {
     whole_.get(prefix_ + std::string(name), values);
   }
   void get_to_deal(std::string_view name, std::span<double> values) override {
     whole_.get_to_deal(prefix_ + std::string(name), values);
   }
+  void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) override {
+    whole_.get_rows(prefix_ + std::string(name), number_.of_whole(rows), values);
+  }
 
  private:
   StateReader& whole_;
   std::string prefix_;
+  PartNumber number_;
 };
 
 template <std::size_t N>
@@ -141,14 +157,14 @@ class Ensemble : public Formulation {
   void sample_owned(std::string_view field, std::span<double> values) const override;
   void save(StateWriter& writer) const override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      PartWriter part(writer, parts_[k].name + ".");
+      PartWriter part(writer, parts_[k].name + ".", {k, parts_.size()});
       formulations_[k]->save(part);
     }
     if (meeting_) meeting_->save(writer);
   }
   void load(StateReader& reader) override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      PartReader part(reader, parts_[k].name + ".");
+      PartReader part(reader, parts_[k].name + ".", {k, parts_.size()});
       formulations_[k]->load(part);
     }
     if (!meeting_) return;

@@ -24,4 +24,11 @@ void StateWriter::put_rows(std::string_view name, RowsOfRanks const& rows, std::
   if (ranks::own() == 0) put(name, all);
 }
 
+void StateReader::get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) {
+  if (!ranks::several() && !rows.places) return get(name, values);
+  std::vector<double> all(ranks::own() == 0 ? numbers_of(rows) : 0);
+  get_to_deal(name, all);
+  RowPlan(rows, rows.count).hand_out<double>(all, values, rows.columns);
+}
+
 }  // namespace piola

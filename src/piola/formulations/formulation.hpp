@@ -101,6 +101,11 @@ class StateWriter {
   virtual bool on_all_ranks() const { return false; }
   virtual void end_rows() {}
 };
+/// Where the numbers of a name stand, one after the other, as they are in memory.
+struct PlaceInFile {
+  std::string path;
+  std::uint64_t at;  ///< [bytes]
+};
 class StateReader {
  public:
   virtual ~StateReader() = default;
@@ -108,6 +113,10 @@ class StateReader {
   virtual void get(std::string_view name, std::span<double> values) = 0;
   /// The same for what rank 0 alone has room for, because it deals it out then; other ranks give none.
   virtual void get_to_deal(std::string_view name, std::span<double> values) { get(name, values); }
+  /// What put_rows() has put: `values` are those of this rank. Collective; here rank 0 gets all of them and hands out.
+  virtual void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values);
+  /// Of so many numbers, if they are in a file that other processes can read, too. Throws as get().
+  virtual std::optional<PlaceInFile> place(std::string_view /*name*/, std::size_t /*count*/) { return std::nullopt; }
 };
 
 /// The narrow face of every formulation: called at most a few times per step, holds no data.

@@ -39,11 +39,12 @@ class NewFile {
   int error_ = 0;  ///< errno of the first failure
 };
 
-/// A NewFile of another process, to write to beside it.
+/// A NewFile of another process, to write to beside it, or a file to read.
 class JoinedFile {
  public:
   /// `number` is that of the file there; see number(). Nothing can be written if it is another one, or none.
-  JoinedFile(std::filesystem::path const& part, std::uint64_t number);
+  enum class To { write, read };
+  JoinedFile(std::filesystem::path const& path, std::uint64_t number, To to = To::write);
   JoinedFile(JoinedFile const&) = delete;
   JoinedFile& operator=(JoinedFile const&) = delete;
   ~JoinedFile() { close(); }
@@ -52,11 +53,14 @@ class JoinedFile {
   bool is_open() const { return fd_ >= 0; }
   /// Never throws: the first failure is kept, what comes after it is not written.
   void write(std::uint64_t at, std::span<std::byte const> bytes) noexcept;
+  /// Returns whether all of them could be read.
+  bool read(std::uint64_t at, std::span<std::byte> bytes) const noexcept;
   /// All is on the disk afterwards; the errno of the first failure, or 0.
   int close() noexcept;
 
  private:
   int fd_ = -1, error_ = 0;
+  To to_;
 };
 
 /// Writes a file as a whole, as NewFile. Throws FileError with path, reason and advice. `end` follows the content.

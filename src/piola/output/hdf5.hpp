@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <hdf5.h>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -100,6 +101,8 @@ class Reader {
   /// for as floating-point ones, not the other way round.
   template <class T>
   std::vector<T> dataset(std::string const& path, std::uint64_t columns = 1) const;
+  /// Where in the file the numbers of a list of doubles stand, one after the other; nothing if they do not.
+  std::optional<std::uint64_t> place_of_doubles(std::string const& path) const;
   std::string text(std::string const& object, std::string const& name) const;
   double number(std::string const& object, std::string const& name) const;
   std::int64_t integer(std::string const& object, std::string const& name) const;

@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/deflate.hpp"
 #include "piola/output/hdf5.hpp"
+#include "piola/output/row_reader.hpp"
 #include "piola/output/seal.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
@@ -12,8 +13,6 @@
 
 namespace piola {
 namespace {
-
-constexpr Index rows_of_pages = 4096;  // of numbers of any size
 
 /// The rows of a rank's stretch in order: those that are there already, or what comes from all ranks.
 template <class T>
@@ -33,18 +32,11 @@ class Stretch {
 
 }  // namespace
 
-/// All ranks but the first open the file, if all of them see it.
 void RowWriter::join() {
   if (std::exchange(begun_, true) || !ranks::several()) return;
-  std::string part = file_ != nullptr ? std::filesystem::absolute(file_->part()).string() : "";
-  std::array<std::uint64_t, 2> about{part.size(), JoinedFile::number(part)};
-  ranks::broadcast_bytes(about.data(), sizeof about);
-  part.resize(about[0]);
-  ranks::broadcast_bytes(part.data(), part.size());
-  if (file_ == nullptr) joined_ = std::make_unique<JoinedFile>(part, about[1]);
-  double blind = joined_ && !joined_->is_open() ? 1 : 0;
-  ranks::take_largest(blind);
-  all_see_ = blind == 0;
+  joined_ = open_on_all(file_ != nullptr ? file_->part() : "", JoinedFile::To::write);
+  all_see_ = joined_ != nullptr;
+  if (file_ != nullptr) joined_.reset();
 }
 
 RowPlan const& RowWriter::plan(RowsOfRanks const& rows, Index block) {

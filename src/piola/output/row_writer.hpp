@@ -3,6 +3,7 @@
 #include "piola/output/files.hpp"
 #include "piola/output/storage.hpp"
 #include "piola/parallel/row_plan.hpp"
+#include <cstdint>
 #include <exception>
 #include <map>
 #include <memory>
@@ -47,7 +48,7 @@ class RowWriter {
   hdf5::Writer* file_;
   std::unique_ptr<JoinedFile> joined_;  ///< on other ranks
   bool begun_ = false, ended_ = false, all_see_ = false;
-  std::map<std::pair<int, Index>, RowPlan> plans_;  ///< by set and block
+  std::map<std::pair<std::int64_t, Index>, RowPlan> plans_;  ///< by set and block
   std::vector<hdf5::WrittenPart> written_;          ///< on other ranks
   std::exception_ptr trouble_;
 };

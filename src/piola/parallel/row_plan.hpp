@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/parallel.hpp"
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -11,12 +12,16 @@ namespace piola {
 
 /// A table of which each rank has some rows, and all ranks together have each once.
 struct RowsOfRanks {
-  int set = 0;      ///< tables whose rows are dealt out alike have the same number
-  Index count = 0;  ///< of all ranks
+  std::int64_t set = 0;  ///< tables whose rows are dealt out alike have the same number
+  Index count = 0;       ///< of all ranks
   /// Of the rows of this rank, from 0 to count - 1; nothing: it has all of them, in order.
   std::optional<std::span<Index const>> places;
   int columns = 1;
 };
+
+inline std::size_t numbers_of(RowsOfRanks const& rows) {
+  return static_cast<std::size_t>(rows.count) * static_cast<std::size_t>(rows.columns);
+}
 
 /// The way of the rows of a table, wherever they are, to the ranks that read or write them: those have a stretch of the
 /// whole each, of so many blocks of rows; a table of one block is that of rank 0.

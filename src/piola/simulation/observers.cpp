@@ -146,6 +146,7 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
                exec_host::machine_text(results_.spec.run.machine),
                results_.spec.source,
                {},
+               {},
                {}};
   for (Observer const* other : others_) other->save(c.observers);
   return c;

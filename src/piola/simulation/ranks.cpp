@@ -2,6 +2,7 @@
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/row_reader.hpp"
 #include "piola/output/row_writer.hpp"
 #include "piola/parallel/agreement.hpp"
 #include "piola/simulation/probe_row.hpp"
@@ -124,22 +125,32 @@ class SharedReader final : public StateReader {
     ranks::broadcast_bytes(values.data(), values.size_bytes());
   }
   void get_to_deal(std::string_view name, std::span<double> values) override {
-    int good = 1;
-    if (reader_ == nullptr) {
-      ranks::broadcast_bytes(&good, sizeof good);
-      if (good == 0) throw NotThere();
-    } else {
-      try {
-        reader_->get(name, values);
-      } catch (...) {
-        good = 0;
-        ranks::broadcast_bytes(&good, sizeof good);
-        throw;
-      }
-      ranks::broadcast_bytes(&good, sizeof good);
-    }
+    on_first([&] { reader_->get(name, values); });
+  }
+  void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) override {
+    std::optional<PlaceInFile> place;
+    on_first([&] { place = reader_->place(name, numbers_of(rows)); });
+    if (!rows_.read(place, rows, values)) StateReader::get_rows(name, rows, values);
   }
 
+ private:
+  /// All ranks throw if rank 0 does.
+  template <class F>
+  void on_first(F const& f) {
+    int good = 1;
+    std::exception_ptr trouble;
+    if (reader_ != nullptr) try {
+        f();
+      } catch (...) {
+        trouble = std::current_exception();
+        good = 0;
+      }
+    ranks::broadcast_bytes(&good, sizeof good);
+    if (trouble) std::rethrow_exception(trouble);
+    if (good == 0) throw NotThere();
+  }
+
+  RowReader rows_;
   StateReader* reader_;
 };
 
