@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/ensemble.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/ensemble_state.hpp"
 #include "piola/formulations/meeting.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -12,53 +13,6 @@
 
 namespace piola {
 namespace {
-
-/// Which of how many formulations, each of which numbers the sets of its rows by itself.
-struct PartNumber {
-  std::size_t part, parts;
-  RowsOfRanks of_whole(RowsOfRanks rows) const {
-    rows.set = rows.set * static_cast<std::int64_t>(parts) + static_cast<std::int64_t>(part);
-    return rows;
-  }
-};
-
-/// Names of a part's arrays in a checkpoint begin with its formulation.
-class PartWriter : public StateWriter {
- public:
-  PartWriter(StateWriter& whole, std::string prefix, PartNumber number)
-      : whole_(whole), prefix_(std::move(prefix)), number_(number) {}
-  void put(std::string_view name, std::span<double const> values) override {
-    whole_.put(prefix_ + std::string(name), values);
-  }
-  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
-    whole_.put_rows(prefix_ + std::string(name), number_.of_whole(rows), values);
-  }
-
- private:
-  StateWriter& whole_;
-  std::string prefix_;
-  PartNumber number_;
-};
-
-class PartReader : public StateReader {
- public:
-  PartReader(StateReader& whole, std::string prefix, PartNumber number)
-      : whole_(whole), prefix_(std::move(prefix)), number_(number) {}
-  void get(std::string_view name, std::span<double> values) override {
-    whole_.get(prefix_ + std::string(name), values);
-  }
-  void get_to_deal(std::string_view name, std::span<double> values) override {
-    whole_.get_to_deal(prefix_ + std::string(name), values);
-  }
-  void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) override {
-    whole_.get_rows(prefix_ + std::string(name), number_.of_whole(rows), values);
-  }
-
- private:
-  StateReader& whole_;
-  std::string prefix_;
-  PartNumber number_;
-};
 
 template <std::size_t N>
 void add(std::array<double, N>& sum, std::array<double, N> const& more) {

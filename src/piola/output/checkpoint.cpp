@@ -56,8 +56,8 @@ std::string no_such_name(std::string_view name) {
 
 void demand_size(std::string_view name, std::size_t has, std::size_t needed) {
   if (has == needed) return;
-  throw FileError(fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name, has,
-                              needed));
+  throw FileError(
+      fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name, has, needed));
 }
 
 /// Paths of the data sets of a group, by the names that they were put with.

@@ -67,8 +67,8 @@ std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes) {
 
 /// An empty data set. `early`: its place in the file is known at once; `chunk`: rows that are compressed together, or
 /// 0.
-Handle Writer::make_dataset(std::string const& path, hid_t type, std::uint64_t rows, int columns,
-                            std::uint64_t chunk, bool early) {
+Handle Writer::make_dataset(std::string const& path, hid_t type, std::uint64_t rows, int columns, std::uint64_t chunk,
+                            bool early) {
   std::array<hsize_t, 2> const shape{rows, static_cast<hsize_t>(columns)};
   int const rank = columns > 1 ? 2 : 1;
   Handle const space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, path);

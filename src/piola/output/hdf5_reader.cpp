@@ -127,8 +127,8 @@ std::optional<std::uint64_t> Reader::place_of_doubles(std::string const& path) c
   Handle const set = open_dataset(path);
   Handle const type(H5Dget_type(set.id()), H5Tclose, path), layout(H5Dget_create_plist(set.id()), H5Pclose, path);
   auto const dims = shape(set.id(), path);
-  bool const plain = dims.size() == 1 && H5Tequal(type.id(), H5T_NATIVE_DOUBLE) > 0 &&
-                     H5Pget_layout(layout.id()) == H5D_CONTIGUOUS;
+  bool const plain =
+      dims.size() == 1 && H5Tequal(type.id(), H5T_NATIVE_DOUBLE) > 0 && H5Pget_layout(layout.id()) == H5D_CONTIGUOUS;
   haddr_t const at = plain ? H5Dget_offset(set.id()) : HADDR_UNDEF;
   if (at == HADDR_UNDEF || at > bytes_ || dims[0] > (bytes_ - at) / sizeof(double)) return std::nullopt;
   return at;

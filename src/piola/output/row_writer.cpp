@@ -127,8 +127,8 @@ void RowWriter::end() {
   if (ranks::several()) {
     std::vector<double> said{static_cast<double>(joined_ ? joined_->close() : 0), static_cast<double>(written_.size())};
     for (hdf5::WrittenPart const& part : written_)
-      said.insert(said.end(), {static_cast<double>(part.at), static_cast<double>(part.bytes),
-                               static_cast<double>(part.check_sum)});
+      said.insert(said.end(),
+                  {static_cast<double>(part.at), static_cast<double>(part.bytes), static_cast<double>(part.check_sum)});
     said = ranks::gather(said);
     int rank = 0;
     for (std::size_t k = 0; k < said.size(); ++rank) {

@@ -49,7 +49,7 @@ class RowWriter {
   std::unique_ptr<JoinedFile> joined_;  ///< on other ranks
   bool begun_ = false, ended_ = false, all_see_ = false;
   std::map<std::pair<std::int64_t, Index>, RowPlan> plans_;  ///< by set and block
-  std::vector<hdf5::WrittenPart> written_;          ///< on other ranks
+  std::vector<hdf5::WrittenPart> written_;                   ///< on other ranks
   std::exception_ptr trouble_;
 };
 

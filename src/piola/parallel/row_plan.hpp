@@ -15,7 +15,7 @@ struct RowsOfRanks {
   std::int64_t set = 0;  ///< tables whose rows are dealt out alike have the same number
   Index count = 0;       ///< of all ranks
   /// Of the rows of this rank, from 0 to count - 1; nothing: it has all of them, in order.
-  std::optional<std::span<Index const>> places;
+  std::optional<std::span<Index const>> places = {};
   int columns = 1;
 };
 
@@ -51,8 +51,8 @@ class RowPlan {
   void collect(std::span<std::byte const> rows, std::span<std::byte> whole, std::size_t row) const;
   void hand_out(std::span<std::byte const> whole, std::span<std::byte> rows, std::size_t row) const;
   Index count_, block_;
-  std::vector<Index> packed_;                        ///< rows of this rank in the order in which they leave
-  std::vector<Index> arriving_;                      ///< rows of own(), from 0, in the order in which they come
+  std::vector<Index> packed_;                          ///< rows of this rank in the order in which they leave
+  std::vector<Index> arriving_;                        ///< rows of own(), from 0, in the order in which they come
   std::vector<Index> leaving_count_, arriving_count_;  ///< per rank
 };
 

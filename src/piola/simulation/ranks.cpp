@@ -2,10 +2,10 @@
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/output/row_reader.hpp"
 #include "piola/output/row_writer.hpp"
 #include "piola/parallel/agreement.hpp"
 #include "piola/simulation/probe_row.hpp"
+#include "piola/simulation/state_on_ranks.hpp"
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -111,81 +111,19 @@ std::vector<double> gather_traffic() {
   return ranks::gather(mine);
 }
 
-/// Rank 0 has not found what it looked for in a checkpoint.
-struct NotThere : std::runtime_error {
-  NotThere() : std::runtime_error("rank 0 could not read a checkpoint") {}
-};
+/// What this rank has spent with bringing values to the ranks that write them [s].
+double gathered = 0;
 
-/// Gives all ranks what rank 0 reads.
-class SharedReader final : public StateReader {
+/// Adds its life time's share to it.
+class Gathering {
  public:
-  explicit SharedReader(StateReader* of_first) : reader_(of_first) {}
-  void get(std::string_view name, std::span<double> values) override {
-    get_to_deal(name, values);
-    ranks::broadcast_bytes(values.data(), values.size_bytes());
-  }
-  void get_to_deal(std::string_view name, std::span<double> values) override {
-    on_first([&] { reader_->get(name, values); });
-  }
-  void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) override {
-    std::optional<PlaceInFile> place;
-    on_first([&] { place = reader_->place(name, numbers_of(rows)); });
-    if (!rows_.read(place, rows, values)) StateReader::get_rows(name, rows, values);
-  }
+  Gathering() = default;
+  Gathering(Gathering const&) = delete;
+  Gathering& operator=(Gathering const&) = delete;
+  ~Gathering() { gathered += ranks::spent().in_exchanges - start_; }
 
  private:
-  /// All ranks throw if rank 0 does.
-  template <class F>
-  void on_first(F const& f) {
-    int good = 1;
-    std::exception_ptr trouble;
-    if (reader_ != nullptr) try {
-        f();
-      } catch (...) {
-        trouble = std::current_exception();
-        good = 0;
-      }
-    ranks::broadcast_bytes(&good, sizeof good);
-    if (trouble) std::rethrow_exception(trouble);
-    if (good == 0) throw NotThere();
-  }
-
-  RowReader rows_;
-  StateReader* reader_;
-};
-
-/// Keeps the first thing that goes wrong until everything is said, because others wait to say it.
-class LastingWriter final : public StateWriter {
- public:
-  explicit LastingWriter(StateWriter& writer) : writer_(writer) {}
-  void put(std::string_view name, std::span<double const> values) override {
-    if (!trouble_) try {
-        writer_.put(name, values);
-      } catch (...) {
-        trouble_ = std::current_exception();
-      }
-  }
-  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
-    try {
-      writer_.put_rows(name, rows, values);
-    } catch (...) {
-      if (!trouble_) trouble_ = std::current_exception();
-    }
-  }
-  void end_rows() override {
-    try {
-      writer_.end_rows();
-    } catch (...) {
-      if (!trouble_) trouble_ = std::current_exception();
-    }
-  }
-  void raise() const {
-    if (trouble_) std::rethrow_exception(trouble_);
-  }
-
- private:
-  StateWriter& writer_;
-  std::exception_ptr trouble_;
+  double start_ = ranks::spent().in_exchanges;
 };
 
 /// The formulation of rank 0, whose calls the other ranks take part in.
@@ -219,7 +157,7 @@ class Conductor final : public Formulation {
   std::vector<FieldInfo> fields() const override { return own().fields(); }
   std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().fields_of(body); }
   void sample(std::string_view field, std::span<double> values) const override {
-    Gathering const gathering(gathered_);
+    Gathering const gathering;
     Aside const aside;
     Order order{Order::What::sample};
     if (field.size() >= sizeof order.field) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
@@ -233,7 +171,7 @@ class Conductor final : public Formulation {
     own().sample_owned(field, values);
   }
   void save(StateWriter& writer) const override {
-    Gathering const gathering(gathered_);
+    Gathering const gathering;
     Aside const aside;
     send({.what = Order::What::save, .code = writer.on_all_ranks() ? 1 : 0});
     LastingWriter lasting(writer);
@@ -250,48 +188,16 @@ class Conductor final : public Formulation {
   int stages_per_step() const override { return own().stages_per_step(); }
   std::vector<std::pair<std::string, double>> costs() const override {
     auto all = own().costs();
-    all.emplace_back("gathering", *gathered_);
+    all.emplace_back("gathering", gathered);
     return all;
   }
   std::size_t memory_bytes() const override { return own().memory_bytes(); }
   std::optional<Recuts> recuts() const override { return own().recuts(); }
 
  private:
-  /// Adds to a sum what its rank spends in its life time with getting what others have [s].
-  class Gathering {
-   public:
-    explicit Gathering(std::shared_ptr<double> const& sum) : sum_(*sum), start_(ranks::spent().in_exchanges) {}
-    Gathering(Gathering const&) = delete;
-    Gathering& operator=(Gathering const&) = delete;
-    ~Gathering() { sum_ += ranks::spent().in_exchanges - start_; }
-
-   private:
-    double& sum_;
-    double start_;
-  };
   Formulation& own() const { return *own_; }
 
   std::unique_ptr<Formulation> own_;
-  std::shared_ptr<double> gathered_ = std::make_shared<double>(0);
-};
-
-/// For ranks that take part in what rank 0 writes.
-class NoWriter : public StateWriter {
- public:
-  void put(std::string_view, std::span<double const>) override {}
-};
-
-/// For ranks that write parts of the file that rank 0 has open.
-class PartOfWriter final : public NoWriter {
- public:
-  void put_rows(std::string_view, RowsOfRanks const& rows, std::span<double const> values) override {
-    rows_.put("", rows, values);
-  }
-  bool on_all_ranks() const override { return true; }
-  void end_rows() override { rows_.end(); }
-
- private:
-  RowWriter rows_{nullptr};
 };
 
 bool is_for_observers(Order const& order) {
@@ -388,6 +294,7 @@ void with_probes_of_all(double time, std::function<void()> const& look) {
 }
 
 void with_frame_of_all(std::function<void()> const& write) {
+  Gathering const gathering;
   Aside const aside;
   if (ranks::several() && ranks::own() == 0) send({Order::What::frame});
   write();
