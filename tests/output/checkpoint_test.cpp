@@ -166,7 +166,7 @@ TEST(Checkpoint, FallsBackWhenItsUserCannotUseIt) {
   std::vector<std::string> warnings;
   std::int64_t used = 0;
   use_newest_checkpoint(folder.path(), warnings, [&](Checkpoint& c) {
-    if (c.step == 6) c.state.all("something else");
+    if (c.step == 6) c.in_file->get("something else", {});
     used = c.step;
     return true;
   });

@@ -3,6 +3,7 @@
 #include "piola/output/hdf5.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/frames.hpp"
+#include "piola/output/row_writer.hpp"
 #include "piola/output/seal.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
@@ -68,7 +69,10 @@ int write_under_every_limit(std::filesystem::path const& path) {
     hdf5::Writer file(path);
     file.group("/state");
     for (char const* name : {"/state/a", "/state/b"}) file.dataset<double>(name, values);
-    file.dataset<double>("/state/c", values, 5, hdf5::Storage::compressed);
+    RowWriter rows(&file);
+    rows.put<double>("/state/c", {.count = 1000, .columns = 5}, values, hdf5::Storage::compressed);
+    rows.put<double>("/state/d", {.count = 5000}, values, hdf5::Storage::sequence);
+    rows.end();
     file.attribute("/state/a", "name", "a");
     file.finish();
   };
@@ -97,6 +101,20 @@ TEST(Hdf5Writer, LeavesWhatWasThereWhereverTheDiskIsFull) {
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_EQ(hdf5::Reader(folder / "file.h5").dataset<double>("/state/c", 5), std::vector<double>(5000, 1.5));
+}
+
+TEST(CheckSum, OfPartsIsThatOfTheWhole) {
+  std::string text;
+  for (int k = 0; k < 1000; ++k) text += static_cast<char>(k * k % 251);
+  CheckSum whole;
+  whole.add(text);
+  for (std::size_t const cut : {0UL, 1UL, 7UL, 512UL, 999UL, 1000UL}) {
+    CheckSum sum, second;
+    sum.add(std::string_view(text).substr(0, cut));
+    second.add(std::string_view(text).substr(cut));
+    sum.add(second.value(), text.size() - cut);
+    EXPECT_EQ(sum.value(), whole.value()) << cut;
+  }
 }
 
 TEST(Hdf5Writer, LeavesNothingOfAFileThatIsNotFinished) {

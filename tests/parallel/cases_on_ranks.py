@@ -393,6 +393,18 @@ def of_taylor(setting, jitter=0):
     return TAYLOR.replace("SETTING", setting).replace("JITTER", f", jitter = {jitter}" if jitter else "")
 
 
+# Enough particles for several ranks to have pages, and compressed chunks, of a file to write.
+LARGE = """title = "Block of rubber of many particles"
+[run]
+end = "1 ms"
+[[body]]
+name = "block"
+shape = { box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "0.9 m", "1 m"] }, particles = [40, 33, 36] }
+material = { law = "neo_hookean", density = 1100, youngs_modulus = "17 MPa", poissons_ratio = 0.45 }
+formulation = { name = "jst_sph" }
+initial_velocity = ["20*Z*Z", "5*X*Y", "-20*X"]
+"""
+
 OWN_CASES = {name: text + OUTPUT for name, text in {
     "touching bodies": TOUCHING,
     "glued to a plate": GLUED,
@@ -416,6 +428,7 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "deleted disc": TORN.replace("convert_strain = 0.05", 'description = "total_lagrangian", failed = "delete", '
                                                           "convert_strain = 0.05"),
     "rubbing bar of AdapTLE": RUBBING,
+    "large files": LARGE,
 }.items()}
 
 NEAR = ('body.disc.shape={ sphere = { centre = ["-5.2 mm", 0], radius = "5 mm", arrangement = "rings" }, '

@@ -16,8 +16,8 @@ import time
 from pathlib import Path
 
 from cases_on_ranks import TORN
-from on_ranks import (ENVIRONMENT, QUICK, checkpoint, command, differences, differently, expect, finish, piola,
-                      short_bar, skip_without_ranks, start)
+from on_ranks import (ENVIRONMENT, QUICK, checkpoint, command, contents, differences, differently, expect, finish,
+                      piola, short_bar, skip_without_ranks, start)
 
 KILLS = int(os.environ.get("PIOLA_KILLS", "4" if QUICK else "50"))
 SEED = int(os.environ.get("PIOLA_SEED", "17"))
@@ -152,6 +152,22 @@ def check_memory(work):
     print(f"memory, {least} to {most} kB: {stopped} of {len(shares)} runs stopped", flush=True)
 
 
+def check_blind_rank(work, case):
+    """A rank whose machine does not see the folder of results: rank 0 writes all."""
+    apart, seen = work / "apart", work / "seen"
+    apart.mkdir()
+    blind = ["unshare", "--mount", "bash", "-c", f"mount -t tmpfs none {apart} && exec \"$@\"", "blind"]
+    if subprocess.run([*blind, "true"], capture_output=True).returncode != 0:
+        print("a rank that does not see the results: skipped, file systems cannot be mounted here")
+        return
+    words = ["run", case, "--quiet", "--no-pictures", "--out"]
+    run = start(differently(([], [*words, apart / "out"]), (blind, [*words, apart / "out"])))
+    expect(run.returncode == 0, f"a rank that does not see the results: {run.stderr}")
+    piola(2, *words, seen)
+    different = differences(contents(apart / "out"), contents(seen))
+    expect(not different, f"where a rank does not see the results they differ in {different[:6]}")
+
+
 def check_faults(bar, work):
     words = ["run", bar, "--out", work / "out", "--quiet"]
     missing = ["run", work / "missing.toml", *words[2:]]
@@ -163,6 +179,14 @@ def check_faults(bar, work):
     check_one_voice("a folder that is a file", piola(2, "run", bar, "--out", bar / "results"), (1, 2), str(bar))
     full = start(differently((limited("-f 40"), words), ([], words)))
     check_one_voice("a disk without room", full, (1,), "cannot be written")
+    large = work / "large.toml"
+    large.write_text(bar.read_text().replace("[5, 5, 9]", "[25, 25, 33]").replace('"20 ms"', '"0.1 ms"'))
+    words = ["run", large, "--out", work / "large", "--quiet", "--no-pictures"]
+    full = start(differently(([], words), (limited("-f 400"), words)))
+    check_one_voice("a disk without room for the part of rank 1", full, (1,), "(on rank 1)")
+    left = [file.name for file in (work / "large").rglob("*.part")]
+    expect(not left, f"parts of files are left: {left}")
+    check_blind_rank(work, large)
     check_memory(work)
 
 

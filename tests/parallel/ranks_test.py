@@ -21,7 +21,7 @@ from on_ranks import (ENVIRONMENT, QUICK, SOURCE, checkpoint, contents, differen
 
 STEPS = 20
 QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
-              "damped patch", "deleted", "restarts", "words"]
+              "damped patch", "deleted", "large files", "restarts", "words"]
 OFTEN = "run.repartition=3"  # steps
 SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",
          "torn plate with probes": "converted_particles",  # columns above zero at the end
@@ -232,7 +232,7 @@ with tempfile.TemporaryDirectory() as folder:
     if "restarts" in chosen:
         compare_restarts(bar, work)
         for name in ("touching bodies", "mirrored copper", "crushed cells", "adjoint, triangles", "torn plate",
-                     "deleted disc"):
+                     "deleted disc", "large files"):
             compare_own_restart(name, OWN_CASES[name], work / f"restart_{name.replace(chr(32), chr(95))}")
         draw_cuts(1)
         for name in ("torn plate", "deleted disc"):

@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/formulation.hpp"
 #include "piola/parallel/own_slots.hpp"
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -65,16 +66,54 @@ void from_id_order(Body const& body, int components, std::span<double const> all
   });
 }
 
+/// Of a body, of which ranks that share it have their own particles, the rows of those in the order of ids.
+class OwnRows {
+ public:
+  template <class Body>
+  explicit OwnRows(Body const& body) : set_(body.body().first), count_(body.particles()) {
+    if (!ranks::several()) return;
+    Range const own = body.own();
+    for (Index i = own.first; i < own.last; ++i) places_.push_back(static_cast<Index>(body.id(i) - body.body().first));
+  }
+  RowsOfRanks of(int columns) const {
+    RowsOfRanks rows{set_, count_, std::nullopt, columns};
+    if (ranks::several()) rows.places = places_;
+    return rows;
+  }
+
+ private:
+  std::int64_t set_;
+  Index count_;
+  std::vector<Index> places_;
+};
+
 /// A field of a body, of which ranks that share it have their own particles. Collective.
 template <class Body>
 void save_own(StateWriter& writer, std::string const& name, Body const& body, FieldRef const& field, int components) {
-  writer.put(name, in_id_order(body, components, [&](Index i, int c) { return value_at(field, i, c); }));
+  OwnRows const rows(body);
+  auto const value = [&](Index i, int c) { return value_at(field, i, c); };
+  if (!ranks::several()) return writer.put_rows(name, rows.of(components), in_id_order(body, components, value));
+  auto const n = static_cast<std::size_t>(components);
+  Range const own = body.own();
+  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      mine[static_cast<std::size_t>(k) * n + c] = value(own.first + k, static_cast<int>(c));
+  });
+  writer.put_rows(name, rows.of(components), mine);
 }
 template <class Body>
 void load_own(StateReader& reader, std::string const& name, Body const& body, FieldRef const& field, int components) {
-  std::vector<double> all(ranks::own() == 0 ? static_cast<std::size_t>(body.particles() * components) : 0);
-  reader.get_to_deal(name, all);
-  from_id_order(body, components, all, [&](Index i, int c, double value) { value_at(field, i, c) = value; });
+  auto const n = static_cast<std::size_t>(components);
+  Range const own = ranks::several() ? body.own() : Range{0, body.particles()};
+  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
+  reader.get_rows(name, OwnRows(body).of(components), mine);
+  if (!ranks::several())
+    return from_id_order(body, components, mine, [&](Index i, int c, double v) { value_at(field, i, c) = v; });
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      value_at(field, own.first + k, static_cast<int>(c)) = mine[static_cast<std::size_t>(k) * n + c];
+  });
 }
 
 /// Of what says its state in numbers, always as many, and takes it back.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/ensemble.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/ensemble_state.hpp"
 #include "piola/formulations/meeting.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -12,34 +13,6 @@
 
 namespace piola {
 namespace {
-
-/// Names of a part's arrays in a checkpoint begin with its formulation.
-class PartWriter : public StateWriter {
- public:
-  PartWriter(StateWriter& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
-  void put(std::string_view name, std::span<double const> values) override {
-    whole_.put(prefix_ + std::string(name), values);
-  }
-
- private:
-  StateWriter& whole_;
-  std::string prefix_;
-};
-
-class PartReader : public StateReader {
- public:
-  PartReader(StateReader& whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
-  void get(std::string_view name, std::span<double> values) override {
-    whole_.get(prefix_ + std::string(name), values);
-  }
-  void get_to_deal(std::string_view name, std::span<double> values) override {
-    whole_.get_to_deal(prefix_ + std::string(name), values);
-  }
-
- private:
-  StateReader& whole_;
-  std::string prefix_;
-};
 
 template <std::size_t N>
 void add(std::array<double, N>& sum, std::array<double, N> const& more) {
@@ -138,14 +111,14 @@ class Ensemble : public Formulation {
   void sample_owned(std::string_view field, std::span<double> values) const override;
   void save(StateWriter& writer) const override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      PartWriter part(writer, parts_[k].name + ".");
+      PartWriter part(writer, parts_[k].name + ".", {k, parts_.size()});
       formulations_[k]->save(part);
     }
     if (meeting_) meeting_->save(writer);
   }
   void load(StateReader& reader) override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      PartReader part(reader, parts_[k].name + ".");
+      PartReader part(reader, parts_[k].name + ".", {k, parts_.size()});
       formulations_[k]->load(part);
     }
     if (!meeting_) return;

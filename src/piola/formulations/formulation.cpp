@@ -18,4 +18,17 @@ std::optional<std::vector<std::int64_t>> Formulation::owned() const {
   return ranks::own() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
 }
 
+void StateWriter::put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) {
+  if (!ranks::several() && !rows.places) return put(name, values);
+  std::vector<double> const all = RowPlan(rows, rows.count).collect(values, rows.columns);
+  if (ranks::own() == 0) put(name, all);
+}
+
+void StateReader::get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) {
+  if (!ranks::several() && !rows.places) return get(name, values);
+  std::vector<double> all(ranks::own() == 0 ? numbers_of(rows) : 0);
+  get_to_deal(name, all);
+  RowPlan(rows, rows.count).hand_out<double>(all, values, rows.columns);
+}
+
 }  // namespace piola

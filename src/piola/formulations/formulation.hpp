@@ -3,6 +3,7 @@
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/rigid_state.hpp"
 #include "piola/parallel/bisection.hpp"
+#include "piola/parallel/row_plan.hpp"
 #include "piola/parallel/work_balance.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
@@ -93,6 +94,17 @@ class StateWriter {
  public:
   virtual ~StateWriter() = default;
   virtual void put(std::string_view name, std::span<double const> values) = 0;
+  /// Of what ranks have rows of: `values` are those of this rank, row by row. Collective; here rank 0 gets all of them
+  /// and puts them.
+  virtual void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values);
+  /// Whether put_rows() has all ranks write to one file: end_rows() follows then. Collective.
+  virtual bool on_all_ranks() const { return false; }
+  virtual void end_rows() {}
+};
+/// Where the numbers of a name stand, one after the other, as they are in memory.
+struct PlaceInFile {
+  std::string path;
+  std::uint64_t at;  ///< [bytes]
 };
 class StateReader {
  public:
@@ -101,6 +113,10 @@ class StateReader {
   virtual void get(std::string_view name, std::span<double> values) = 0;
   /// The same for what rank 0 alone has room for, because it deals it out then; other ranks give none.
   virtual void get_to_deal(std::string_view name, std::span<double> values) { get(name, values); }
+  /// What put_rows() has put: `values` are those of this rank. Collective; here rank 0 gets all of them and hands out.
+  virtual void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values);
+  /// Of so many numbers, if they are in a file that other processes can read, too. Throws as get().
+  virtual std::optional<PlaceInFile> place(std::string_view /*name*/, std::size_t /*count*/) { return std::nullopt; }
 };
 
 /// The narrow face of every formulation: called at most a few times per step, holds no data.

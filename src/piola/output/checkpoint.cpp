@@ -3,6 +3,8 @@
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
+#include "piola/output/row_writer.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,29 +21,87 @@ class GroupWriter : public StateWriter {
  public:
   GroupWriter(hdf5::Writer& file, std::string group) : file_(file), group_(std::move(group)) { file_.group(group_); }
   void put(std::string_view name, std::span<double const> values) override {
-    std::string path = fmt::format("{}/{}", group_, name);  // a name may hold slashes, which HDF5 would take for groups
-    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
+    std::string const path = path_of(name);
     file_.dataset<double>(path, values);
     file_.attribute(path, "name", name);
   }
+  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
+    std::string const path = path_of(name);
+    rows_.put(path, rows, values, hdf5::Storage::sequence);
+    if (rows_.good()) file_.attribute(path, "name", name);
+  }
+  bool on_all_ranks() const override { return true; }
+  void end_rows() override { rows_.end(); }
 
  private:
+  /// A name may hold slashes, which HDF5 would take for groups.
+  std::string path_of(std::string_view name) const {
+    std::string path = fmt::format("{}/{}", group_, name);
+    std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
+    return path;
+  }
   hdf5::Writer& file_;
   std::string group_;
+  RowWriter rows_{&file_};
 };
 
 void put_all(NamedState const& state, StateWriter& writer) {
   for (auto const& [name, values] : state.arrays()) writer.put(name, values);
 }
 
-NamedState get_state(hdf5::Reader const& file, std::string const& group) {
-  NamedState state;
+std::string no_such_name(std::string_view name) {
+  return fmt::format("checkpoint: has no '{}' - it was written by another version or formulation; run the case again",
+                     name);
+}
+
+void demand_size(std::string_view name, std::size_t has, std::size_t needed) {
+  if (has == needed) return;
+  throw FileError(
+      fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name, has, needed));
+}
+
+/// Paths of the data sets of a group, by the names that they were put with.
+std::map<std::string, std::string, std::less<>> paths_of(hdf5::Reader const& file, std::string const& group) {
+  std::map<std::string, std::string, std::less<>> paths;
   for (std::string const& name : file.names(group)) {
     std::string const path = fmt::format("{}/{}", group, name);
-    state.put(file.text(path, "name"), file.dataset<double>(path));
+    paths.emplace(file.text(path, "name"), path);
   }
+  return paths;
+}
+
+NamedState get_state(hdf5::Reader const& file, std::string const& group) {
+  NamedState state;
+  for (auto const& [name, path] : paths_of(file, group)) state.put(name, file.dataset<double>(path));
   return state;
 }
+
+/// Reads the arrays of a group when they are asked for.
+class GroupReader : public StateReader {
+ public:
+  GroupReader(std::shared_ptr<hdf5::Reader const> file, std::string const& group)
+      : file_(std::move(file)), paths_(paths_of(*file_, group)) {}
+  void get(std::string_view name, std::span<double> values) override {
+    auto const kept = file_->dataset<double>(path(name));
+    demand_size(name, kept.size(), values.size());
+    std::copy(kept.begin(), kept.end(), values.begin());
+  }
+  std::optional<PlaceInFile> place(std::string_view name, std::size_t count) override {
+    auto const at = file_->place_of_doubles(path(name));
+    if (!at) return std::nullopt;
+    demand_size(name, file_->shape_of_numbers(path(name)).front(), count);
+    return PlaceInFile{file_->path().string(), *at};
+  }
+
+ private:
+  std::string const& path(std::string_view name) const {
+    auto const found = paths_.find(name);
+    if (found == paths_.end()) throw FileError(no_such_name(name));
+    return found->second;
+  }
+  std::shared_ptr<hdf5::Reader const> file_;
+  std::map<std::string, std::string, std::less<>> paths_;
+};
 
 /// How long runs took: step, seconds of wall time, of these in steps.
 struct Duration {
@@ -91,19 +151,13 @@ void NamedState::put(std::string_view name, std::span<double const> values) {
 
 std::vector<double> const& NamedState::all(std::string_view name) const {
   auto const found = arrays_.find(name);
-  if (found == arrays_.end()) {
-    throw FileError(fmt::format(
-        "checkpoint: has no '{}' - it was written by another version or formulation; run the case again", name));
-  }
+  if (found == arrays_.end()) throw FileError(no_such_name(name));
   return found->second;
 }
 
 void NamedState::get(std::string_view name, std::span<double> values) {
   auto const& kept = all(name);
-  if (kept.size() != values.size()) {
-    throw FileError(fmt::format("checkpoint: '{}' has {} numbers (this case needs {}) - run the case again", name,
-                                kept.size(), values.size()));
-  }
+  demand_size(name, kept.size(), values.size());
   std::copy(kept.begin(), kept.end(), values.begin());
 }
 
@@ -125,13 +179,16 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
     save(state);
   else
     put_all(c.state, state);
+  if (!ranks::several()) state.end_rows();  // of several, the formulation says when all have written
   GroupWriter observers(file, "/observers");
   put_all(c.observers, observers);
   file.finish();
 }
 
-Checkpoint read_checkpoint(std::filesystem::path const& path) {
-  hdf5::Reader const file(path);
+namespace {
+
+/// All but the state.
+Checkpoint read_words(hdf5::Reader const& file, std::filesystem::path const& path) {
   if (file.integer("/", "piola_checkpoint") != layout_version) {
     throw FileError(fmt::format(
         "{}: was written in another layout of checkpoints - resume with the version that wrote it", path.string()));
@@ -146,8 +203,16 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
   c.cut_to_end = file.integer("/", "cut_to_end") != 0;
   auto const source = file.dataset<char>("/case");
   c.source.assign(source.begin(), source.end());
-  c.state = get_state(file, "/state");
   c.observers = get_state(file, "/observers");
+  return c;
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(std::filesystem::path const& path) {
+  hdf5::Reader const file(path);
+  Checkpoint c = read_words(file, path);
+  c.state = get_state(file, "/state");
   return c;
 }
 
@@ -182,7 +247,9 @@ bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std
   bool declined = false;
   for (auto const& path : list_checkpoints(results)) {
     try {
-      Checkpoint checkpoint = read_checkpoint(path);
+      auto const file = std::make_shared<hdf5::Reader const>(path);
+      Checkpoint checkpoint = read_words(*file, path);
+      checkpoint.in_file = std::make_shared<GroupReader>(file, "/state");
       find_duration(results, checkpoint);
       if (use(checkpoint)) return true;
       declined = true;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct Checkpoint {
   std::string machine;                            ///< instruction sets used and available when it was written
   std::string source;                             ///< the case as run
   NamedState state;                               ///< of the formulation
+  std::shared_ptr<StateReader> in_file;           ///< has it in place of `state`, and reads it array by array
   NamedState observers;                           ///< next output times, twist angles, times of frames
 };
 
@@ -58,10 +60,10 @@ inline constexpr char const* durations_name = "wall_times.txt";
 /// Writes the checkpoint of its step and how long the run took, and removes all but the last two.
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint,
                      std::function<void(StateWriter&)> const& save = {});
-/// Hands the newest checkpoint to `use`. One that is damaged, or that `use` throws at, is passed over for the one
-/// before it, with a line in `warnings`; one for which `use` returns false without a word. Returns whether one was
-/// used. InputError and std::bad_alloc come through; throws InputError with the reasons if there is none to choose
-/// from.
+/// Hands the newest checkpoint to `use`, with its state in_file. One that is damaged, or that `use` throws at, is
+/// passed over for the one before it, with a line in `warnings`; one for which `use` returns false without a word.
+/// Returns whether one was used. InputError and std::bad_alloc come through; throws InputError with the reasons if
+/// there is none to choose from.
 bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
                            std::function<bool(Checkpoint&)> const& use);
 

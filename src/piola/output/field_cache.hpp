@@ -26,6 +26,8 @@ class FieldCache {
   std::span<double const> values(std::string_view field);
   std::vector<FieldInfo> const& fields() const { return fields_; }
   ParticleSet const& particles() const { return particles_; }
+  /// Of Of::owned: whose values those are; nothing if this rank owns all.
+  std::optional<std::vector<std::int64_t>> const& owned() const { return owned_; }
 
  private:
   std::vector<double> make(std::string_view field, std::size_t components);

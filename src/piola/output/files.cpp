@@ -49,6 +49,29 @@ void sync_folder(std::filesystem::path const& folder) {
   if (handle.get() >= 0) ::fsync(handle.get());
 }
 
+/// Nothing if there has been an error already.
+void write_at(int fd, std::uint64_t at, std::span<std::byte const> bytes, int& error) {
+  while (!bytes.empty() && error == 0) {
+    ::ssize_t const written = ::pwrite(fd, bytes.data(), bytes.size(), static_cast<::off_t>(at));
+    if (written < 0 && errno != EINTR) error = errno;
+    if (written <= 0) continue;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    at += static_cast<std::uint64_t>(written);
+  }
+}
+
+/// Returns what is left to read at the end of the file, or at an error.
+std::span<std::byte> read_at(int fd, std::uint64_t at, std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    ::ssize_t const had = ::pread(fd, bytes.data(), bytes.size(), static_cast<::off_t>(at));
+    if (had < 0 && errno == EINTR) continue;
+    if (had <= 0) break;
+    bytes = bytes.subspan(static_cast<std::size_t>(had));
+    at += static_cast<std::uint64_t>(had);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string cannot_write(std::filesystem::path const& path, int error) {
@@ -70,24 +93,10 @@ void NewFile::remove() noexcept {
   ::unlink(part_.c_str());
 }
 
-void NewFile::write(std::uint64_t at, std::span<std::byte const> bytes) noexcept {
-  while (!bytes.empty() && error_ == 0) {
-    ::ssize_t const written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<::off_t>(at));
-    if (written < 0 && errno != EINTR) error_ = errno;
-    if (written <= 0) continue;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-    at += static_cast<std::uint64_t>(written);
-  }
-}
+void NewFile::write(std::uint64_t at, std::span<std::byte const> bytes) noexcept { write_at(fd_, at, bytes, error_); }
 
 void NewFile::read(std::uint64_t at, std::span<std::byte> bytes) const noexcept {
-  while (!bytes.empty()) {
-    ::ssize_t const had = ::pread(fd_, bytes.data(), bytes.size(), static_cast<::off_t>(at));
-    if (had < 0 && errno == EINTR) continue;
-    if (had <= 0) break;
-    bytes = bytes.subspan(static_cast<std::size_t>(had));
-    at += static_cast<std::uint64_t>(had);
-  }
+  bytes = read_at(fd_, at, bytes);
   std::fill(bytes.begin(), bytes.end(), std::byte{0});
 }
 
@@ -106,6 +115,33 @@ void NewFile::finish(std::uint64_t bytes, std::string_view end) {
   }
   demand_written();
   sync_folder(path_.parent_path());
+}
+
+std::uint64_t JoinedFile::number(std::filesystem::path const& path) {
+  struct stat found {};
+  return ::stat(path.c_str(), &found) == 0 ? static_cast<std::uint64_t>(found.st_ino) : 0;
+}
+
+JoinedFile::JoinedFile(std::filesystem::path const& path, std::uint64_t number, To to)
+    : fd_(::open(path.c_str(), (to == To::write ? O_WRONLY : O_RDONLY) | O_CLOEXEC)), to_(to) {
+  struct stat found {};
+  if (fd_ < 0 || (::fstat(fd_, &found) == 0 && static_cast<std::uint64_t>(found.st_ino) == number)) return;
+  ::close(std::exchange(fd_, -1));
+}
+
+void JoinedFile::write(std::uint64_t at, std::span<std::byte const> bytes) noexcept {
+  write_at(fd_, at, bytes, error_);
+}
+
+bool JoinedFile::read(std::uint64_t at, std::span<std::byte> bytes) const noexcept {
+  return read_at(fd_, at, bytes).empty();
+}
+
+int JoinedFile::close() noexcept {
+  if (fd_ < 0) return error_;
+  if (to_ == To::write && error_ == 0 && ::fsync(fd_) != 0) error_ = errno;
+  if (::close(std::exchange(fd_, -1)) != 0 && error_ == 0) error_ = errno;
+  return error_;
 }
 
 void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {

@@ -25,6 +25,9 @@ class NewFile {
   void read(std::uint64_t at, std::span<std::byte> bytes) const noexcept;
   /// Throws FileError if something could not be written so far.
   void demand_written() const;
+  /// Where it stands until it has its name.
+  std::filesystem::path const& part() const { return part_; }
+  std::filesystem::path const& path() const { return path_; }
   /// Gives the file this end behind its `bytes` first ones, syncs it to the disk and gives it its name. Throws
   /// FileError with path, reason and advice.
   void finish(std::uint64_t bytes, std::string_view end = {});
@@ -34,6 +37,30 @@ class NewFile {
   std::filesystem::path path_, part_;
   int fd_ = -1;
   int error_ = 0;  ///< errno of the first failure
+};
+
+/// A NewFile of another process, to write to beside it, or a file to read.
+class JoinedFile {
+ public:
+  /// `number` is that of the file there; see number(). Nothing can be written if it is another one, or none.
+  enum class To { write, read };
+  JoinedFile(std::filesystem::path const& path, std::uint64_t number, To to = To::write);
+  JoinedFile(JoinedFile const&) = delete;
+  JoinedFile& operator=(JoinedFile const&) = delete;
+  ~JoinedFile() { close(); }
+  /// What tells a file from others of its name on other machines; 0 if there is none.
+  static std::uint64_t number(std::filesystem::path const& path);
+  bool is_open() const { return fd_ >= 0; }
+  /// Never throws: the first failure is kept, what comes after it is not written.
+  void write(std::uint64_t at, std::span<std::byte const> bytes) noexcept;
+  /// Returns whether all of them could be read.
+  bool read(std::uint64_t at, std::span<std::byte> bytes) const noexcept;
+  /// All is on the disk afterwards; the errno of the first failure, or 0.
+  int close() noexcept;
+
+ private:
+  int fd_ = -1, error_ = 0;
+  To to_;
 };
 
 /// Writes a file as a whole, as NewFile. Throws FileError with path, reason and advice. `end` follows the content.

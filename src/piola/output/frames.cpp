@@ -4,9 +4,11 @@
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <numeric>
 
 namespace piola {
 namespace {
@@ -14,11 +16,6 @@ namespace {
 using hdf5::Storage;
 
 constexpr char const* index_name = "frames.hdf.series";
-
-template <class T>
-std::span<T const> one(T const& value) {
-  return {&value, 1};
-}
 
 std::vector<float> to_float(std::span<double const> values) {
   std::vector<float> out(values.size());
@@ -28,32 +25,17 @@ std::vector<float> to_float(std::span<double const> values) {
 
 bool is_integer(std::string_view field) { return field == "Body" || field == "Id"; }
 
-/// Every particle is one cell of type VTK_VERTEX.
-void put_cells(hdf5::Writer& file, std::int64_t particles, Storage storage) {
-  auto const n = static_cast<std::size_t>(particles);
-  std::vector<std::int64_t> offsets(n + 1);
-  for (std::size_t i = 0; i <= n; ++i) offsets[i] = static_cast<std::int64_t>(i);
-  constexpr std::uint8_t vtk_vertex = 1;
-  std::vector<std::uint8_t> const types(n, vtk_vertex);
-  for (char const* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
-    file.dataset<std::int64_t>(fmt::format("/VTKHDF/{}", count), one(particles));
-  }
-  file.dataset<std::int64_t>("/VTKHDF/Connectivity", std::span<std::int64_t const>(offsets).first(n), 1, storage);
-  file.dataset<std::int64_t>("/VTKHDF/Offsets", offsets, 1, storage);
-  file.dataset<std::uint8_t>("/VTKHDF/Types", types, 1, storage);
+/// Of the rows [0, count) of a table that follow from their places: those that this rank makes.
+std::vector<Index> own_rows(Index count) {
+  std::int64_t const n = ranks::count(), rank = ranks::own();
+  auto const first = static_cast<Index>(count * rank / n), last = static_cast<Index>(count * (rank + 1) / n);
+  std::vector<Index> rows(static_cast<std::size_t>(last - first));
+  std::iota(rows.begin(), rows.end(), first);
+  return rows;
 }
 
-void put_field(hdf5::Writer& file, FieldInfo const& info, std::span<double const> values, Storage storage) {
-  std::string const path = "/VTKHDF/PointData/" + info.name;
-  if (is_integer(info.name)) {  // a float would lose ids above 16 million
-    std::vector<std::int64_t> const whole(values.begin(), values.end());
-    file.dataset<std::int64_t>(path, whole, 1, storage);
-  } else {
-    std::vector<float> const single = to_float(values);
-    file.dataset<float>(path, single, info.components, storage);
-  }
-  file.attribute(path, "unit", info.unit);
-}
+/// Tables of a frame whose rows are dealt out alike.
+enum Set : int { of_particles, of_cells, of_offsets };
 
 }  // namespace
 
@@ -62,20 +44,71 @@ std::string frame_name(std::size_t number) { return fmt::format("frames/{:06}.hd
 FrameWriter::FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress)
     : folder_(std::move(folder)), fields_(std::move(fields)), compress_(compress), index_(folder_ / index_name) {}
 
-std::vector<FieldInfo> FrameWriter::chosen(FieldCache const& cache) const {
-  std::vector<FieldInfo> list;
+FrameContent::FrameContent(std::vector<std::string> const& fields, bool compress, FieldCache& cache)
+    : cache_(cache), storage_(compress ? Storage::compressed : Storage::contiguous) {
   for (FieldInfo const& info : cache.fields()) {
     bool const always = info.name == "Id" || info.name == "Body";
-    bool const asked = std::find(fields_.begin(), fields_.end(), info.name) != fields_.end();
-    bool const wanted = fields_.empty() ? !is_derived(info.name) : asked;  // what follows from others only if asked for
-    if (info.name != "Position" && (always || wanted)) list.push_back(info);
+    bool const asked = std::find(fields.begin(), fields.end(), info.name) != fields.end();
+    bool const wanted = fields.empty() ? !is_derived(info.name) : asked;  // what follows from others only if asked for
+    if (info.name != "Position" && (always || wanted)) chosen_.push_back(info);
   }
-  return list;
+  if (cache.owned()) places_.assign(cache.owned()->begin(), cache.owned()->end());
 }
 
-void FrameWriter::write(double time, FieldCache& cache) {
+/// Every particle is one cell of type VTK_VERTEX.
+void FrameContent::put_cells(RowWriter& rows) const {
+  auto const n = static_cast<Index>(cache_.particles().size());
+  auto const whole = [](std::vector<Index> const& of) { return std::vector<std::int64_t>(of.begin(), of.end()); };
+  std::vector<Index> const cells = own_rows(n), offsets = own_rows(n + 1);
+  constexpr std::uint8_t vtk_vertex = 1;
+  std::vector<std::uint8_t> const types(cells.size(), vtk_vertex);
+  rows.put<std::int64_t>("/VTKHDF/Connectivity", {of_cells, n, cells}, whole(cells), storage_);
+  rows.put<std::int64_t>("/VTKHDF/Offsets", {of_offsets, n + 1, offsets}, whole(offsets), storage_);
+  rows.put<std::uint8_t>("/VTKHDF/Types", {of_cells, n, cells}, types, storage_);
+}
+
+namespace {
+
+RowsOfRanks rows_of(FieldCache const& cache, std::vector<Index> const& places, int columns) {
+  RowsOfRanks rows{of_particles, static_cast<Index>(cache.particles().size()), std::nullopt, columns};
+  if (cache.owned()) rows.places = places;
+  return rows;
+}
+std::string path_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
+
+}  // namespace
+
+void FrameContent::put_field(RowWriter& rows, FieldInfo const& info) {
+  std::span<double const> const values = cache_.values(info.name);
+  RowsOfRanks const table = rows_of(cache_, places_, info.components);
+  if (is_integer(info.name)) {  // a float would lose ids above 16 million
+    std::vector<std::int64_t> const whole(values.begin(), values.end());
+    rows.put<std::int64_t>(path_of(info.name), table, whole, storage_);
+  } else {
+    rows.put<float>(path_of(info.name), table, to_float(values), storage_);
+  }
+}
+
+void FrameContent::put(RowWriter& rows) {
+  rows.put<float>("/VTKHDF/Points", rows_of(cache_, places_, 3), to_float(cache_.values("Position")), storage_);
+  put_cells(rows);
+  for (FieldInfo const& info : chosen_) put_field(rows, info);
+  auto const& volume = cache_.particles().volume;
+  std::vector<float> own;
+  if (cache_.owned())
+    for (Index const id : places_) own.push_back(static_cast<float>(volume[static_cast<std::size_t>(id)]));
+  else
+    own = to_float(volume);
+  rows.put<float>(path_of("Volume"), rows_of(cache_, places_, 1), own, storage_);
+  rows.end();
+}
+
+void FrameContent::describe(hdf5::Writer& file) const {
+  for (FieldInfo const& info : chosen_) file.attribute(path_of(info.name), "unit", info.unit);
+}
+
+void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all) {
   make_folder(folder_ / "frames");
-  Storage const storage = compress_ ? Storage::compressed : Storage::contiguous;
   hdf5::Writer file(folder_ / frame_name(times_.size()));
   file.group("/VTKHDF/PointData");
   file.group("/VTKHDF/CellData");
@@ -83,12 +116,15 @@ void FrameWriter::write(double time, FieldCache& cache) {
   file.attribute("/", "dimension", std::array<std::int64_t, 1>{cache.particles().dimension});
   file.attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
   file.attribute("/VTKHDF", "Type", std::string_view("UnstructuredGrid"));
-  file.dataset<float>("/VTKHDF/Points", to_float(cache.values("Position")), 3, storage);
-  put_cells(file, cache.particles().size(), storage);
-  auto const fields = chosen(cache);
-  for (FieldInfo const& info : fields) put_field(file, info, cache.values(info.name), storage);
-  file.dataset<float>("/VTKHDF/PointData/Volume", to_float(cache.particles().volume), 1, storage);
-  file.dataset<double>("/VTKHDF/FieldData/TimeValue", one(time));
+  for (char const* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
+    file.dataset<std::int64_t>(fmt::format("/VTKHDF/{}", count), std::array{cache.particles().size()});
+  file.dataset<double>("/VTKHDF/FieldData/TimeValue", std::array{time});
+  FrameContent content(fields_, compress_, cache);
+  with_all([&] {
+    RowWriter rows(&file);
+    content.put(rows);
+  });
+  content.describe(file);
   file.finish();
   times_.push_back(time);
   if (times_.size() == 1 || !index_.add({time, frame_name(times_.size() - 1)})) write_index();

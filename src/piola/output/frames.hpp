@@ -2,12 +2,34 @@
 #pragma once
 #include "piola/output/field_cache.hpp"
 #include "piola/output/frame_index.hpp"
+#include "piola/output/row_writer.hpp"
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace piola {
+
+/// The tables of one frame. Where ranks share the particles, all of them put theirs.
+class FrameContent {
+ public:
+  /// `fields` empty: every field of the formulation; names that it does not have are left out. `cache`: of the
+  /// particles that this rank owns. Both outlive it.
+  FrameContent(std::vector<std::string> const& fields, bool compress, FieldCache& cache);
+  /// Collective. Throws FileError on rank 0.
+  void put(RowWriter& rows);
+  /// What stands beside the tables, in words; on rank 0, after them.
+  void describe(hdf5::Writer& file) const;
+
+ private:
+  void put_cells(RowWriter& rows) const;
+  void put_field(RowWriter& rows, FieldInfo const& info);
+  FieldCache& cache_;
+  std::vector<FieldInfo> chosen_;
+  std::vector<Index> places_;  ///< of the particles that this rank owns
+  hdf5::Storage storage_;
+};
 
 /// Frames as ParaView 5.11 opens them: one HDF5 file per frame in VTKHDF 1.0 layout, frames/000000.hdf and so on,
 /// with an index over all frames that grows with each, frames.hdf.series.
@@ -15,8 +37,12 @@ class FrameWriter {
  public:
   /// `fields` empty: every field of the formulation. Names that the formulation does not have are left out.
   FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress);
-  /// Writes the next frame and its line in the index. Throws FileError; earlier frames stay as they are.
-  void write(double time, FieldCache& cache);
+  /// Calls a function that puts tables, on ranks that share the particles when all of them put theirs.
+  using WithAll = std::function<void(std::function<void()> const&)>;
+  /// Writes the next frame and its line in the index. Throws FileError; earlier frames stay as they are. `cache`: of
+  /// the particles that this rank owns.
+  void write(
+      double time, FieldCache& cache, WithAll const& with_all = [](auto const& put) { put(); });
   /// Times of the frames written so far [s].
   std::vector<double> const& times() const { return times_; }
   /// Continues after the frames with these times; later files on the disk are removed. Returns the names of frames that
@@ -24,7 +50,6 @@ class FrameWriter {
   std::vector<std::string> continue_after(std::vector<double> times);
 
  private:
-  std::vector<FieldInfo> chosen(FieldCache const& cache) const;
   void write_index();
   std::filesystem::path folder_;
   std::vector<std::string> fields_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/hdf5.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/output/deflate.hpp"
 #include "piola/output/hdf5_driver.hpp"
 #include "piola/output/hdf5_types.hpp"
 #include "piola/output/seal.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 
 namespace piola::hdf5 {
@@ -19,16 +19,6 @@ constexpr std::size_t chunk_bytes = std::size_t{1}
 void check(herr_t result, std::string_view what) {
   if (result < 0)
     throw FileError(fmt::format("HDF5 cannot make {} - this is a defect of the program, please report it", what));
-}
-
-/// Compresses all chunks in threads, then hands them to HDF5 in order.
-void write_chunks(hid_t dataset, std::span<std::byte const> bytes, std::size_t row_bytes, std::size_t chunk_rows,
-                  std::size_t width) {
-  auto const chunks = deflate_chunks(bytes, row_bytes * chunk_rows, width);
-  for (std::size_t k = 0; k < chunks.size(); ++k) {
-    std::array<hsize_t, 2> const offset{k * chunk_rows, 0};
-    check(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, offset.data(), chunks[k].size(), chunks[k].data()), "a chunk");
-  }
 }
 
 }  // namespace
@@ -46,8 +36,18 @@ struct Writer::Parts {
     disk.on_disk.demand_written();
     return file->id();
   }
+  /// Bytes of HDF5's own.
+  void add_from_disk(CheckSum& sum, std::uint64_t from, std::uint64_t to) const {
+    std::vector<std::byte> some;
+    for (std::uint64_t at = from; at < to; at += some.size()) {
+      some.resize(static_cast<std::size_t>(std::min<std::uint64_t>(chunk_bytes, to - at)));
+      disk.on_disk.read(at, some);
+      sum.add(some);
+    }
+  }
   GrowingFile disk;
   std::optional<Handle> file;
+  std::map<std::uint64_t, WrittenPart> written;  ///< of what was reserved
 };
 
 Writer::Writer(std::filesystem::path path) : parts_(std::make_unique<Parts>(std::move(path))) {}
@@ -60,40 +60,94 @@ void Writer::group(std::string const& path) {
   Handle const made(H5Gcreate2(parts_->id(), path.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
 }
 
-template <class T>
-void Writer::dataset(std::string const& path, std::span<T const> values, int columns, Storage storage) {
-  auto const width = static_cast<std::size_t>(columns);
-  std::array<hsize_t, 2> const shape{values.size() / width, width};
+std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes) {
+  std::uint64_t const row = bytes * static_cast<std::uint64_t>(columns);
+  return std::clamp<std::uint64_t>(chunk_bytes / row, 1, std::max<std::uint64_t>(rows, 1));
+}
+
+/// An empty data set. `early`: its place in the file is known at once; `chunk`: rows that are compressed together, or
+/// 0.
+Handle Writer::make_dataset(std::string const& path, hid_t type, std::uint64_t rows, int columns, std::uint64_t chunk,
+                            bool early) {
+  std::array<hsize_t, 2> const shape{rows, static_cast<hsize_t>(columns)};
   int const rank = columns > 1 ? 2 : 1;
   Handle const space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, path);
   Handle const layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
-  std::size_t const chunk_rows =
-      std::clamp<std::size_t>(chunk_bytes / (sizeof(T) * width), 1, std::max<std::size_t>(shape[0], 1));
   check(H5Pset_obj_track_times(layout.id(), false), path);  // the same data give the same file
-  bool const compress = storage == Storage::compressed && shape[0] > 1;
-  if (compress) {
-    std::array<hsize_t, 2> const chunk{chunk_rows, width};
-    check(H5Pset_chunk(layout.id(), rank, chunk.data()), path);
+  if (chunk > 0) {
+    std::array<hsize_t, 2> const extent{chunk, shape[1]};
+    check(H5Pset_chunk(layout.id(), rank, extent.data()), path);
     check(H5Pset_shuffle(layout.id()), path);
     check(H5Pset_deflate(layout.id(), 1), path);
-    check(H5Pset_fill_time(layout.id(), H5D_FILL_TIME_NEVER), path);
   }
-  hid_t const type = native_type<T>();
-  Handle const set(H5Dcreate2(parts_->id(), path.c_str(), type, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
-                   H5Dclose, path);
-  if (values.empty()) return;
-  if (compress) {
-    write_chunks(set.id(), std::as_bytes(values), sizeof(T) * width, chunk_rows, sizeof(T));
-  } else {
-    check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
-  }
+  if (chunk > 0 || early) check(H5Pset_fill_time(layout.id(), H5D_FILL_TIME_NEVER), path);
+  if (early) check(H5Pset_alloc_time(layout.id(), H5D_ALLOC_TIME_EARLY), path);
+  return {H5Dcreate2(parts_->id(), path.c_str(), type, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT), H5Dclose,
+          path};
 }
-template void Writer::dataset(std::string const&, std::span<float const>, int, Storage);
-template void Writer::dataset(std::string const&, std::span<double const>, int, Storage);
-template void Writer::dataset(std::string const&, std::span<std::int64_t const>, int, Storage);
-template void Writer::dataset(std::string const&, std::span<std::int32_t const>, int, Storage);
-template void Writer::dataset(std::string const&, std::span<std::uint8_t const>, int, Storage);
-template void Writer::dataset(std::string const&, std::span<char const>, int, Storage);
+
+template <class T>
+void Writer::dataset(std::string const& path, std::span<T const> values, int columns) {
+  hid_t const type = native_type<T>();
+  Handle const set = make_dataset(path, type, values.size() / static_cast<std::size_t>(columns), columns, 0, false);
+  if (!values.empty()) check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
+}
+
+template <class T>
+std::uint64_t Writer::reserve(std::string const& path, std::uint64_t rows, int columns) {
+  Handle const set = make_dataset(path, native_type<T>(), rows, columns, 0, true);
+  return rows == 0 ? 0 : H5Dget_offset(set.id());
+}
+
+template <class T>
+std::vector<std::uint64_t> Writer::reserve_chunks(std::string const& path, std::uint64_t rows, int columns,
+                                                  std::span<std::uint64_t const> bytes) {
+  std::uint64_t const chunk = chunk_rows(rows, columns, sizeof(T));
+  Handle const set = make_dataset(path, native_type<T>(), rows, columns, chunk, false);
+  // HDF5 finds room for a chunk when it writes one, and the driver tells where it would have gone.
+  std::vector<std::byte> const nothing(bytes.empty() ? 0 : *std::max_element(bytes.begin(), bytes.end()));
+  std::vector<std::uint64_t> places;
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    std::array<hsize_t, 2> const offset{k * chunk, 0};
+    parts_->disk.reserving = true;
+    herr_t const made = H5Dwrite_chunk(set.id(), H5P_DEFAULT, 0, offset.data(), bytes[k], nothing.data());
+    parts_->disk.reserving = false;
+    check(made, "a chunk");
+    places.push_back(parts_->disk.reserved);
+  }
+  return places;
+}
+
+void Writer::put_at(std::uint64_t at, std::span<std::byte const> bytes) {
+  parts_->disk.on_disk.write(at, bytes);
+  CheckSum sum;
+  sum.add(bytes);
+  note({at, bytes.size(), sum.value()});
+}
+
+void Writer::note(WrittenPart part) {
+  if (part.bytes > 0) parts_->written.emplace(part.at, part);
+}
+
+std::filesystem::path const& Writer::part() const { return parts_->disk.on_disk.part(); }
+std::filesystem::path const& Writer::path() const { return parts_->disk.on_disk.path(); }
+
+template std::uint64_t Writer::reserve<float>(std::string const&, std::uint64_t, int);
+template std::uint64_t Writer::reserve<double>(std::string const&, std::uint64_t, int);
+template std::uint64_t Writer::reserve<std::int64_t>(std::string const&, std::uint64_t, int);
+template std::uint64_t Writer::reserve<std::uint8_t>(std::string const&, std::uint64_t, int);
+using Sizes = std::span<std::uint64_t const>;
+using Places = std::vector<std::uint64_t>;
+template Places Writer::reserve_chunks<float>(std::string const&, std::uint64_t, int, Sizes);
+template Places Writer::reserve_chunks<double>(std::string const&, std::uint64_t, int, Sizes);
+template Places Writer::reserve_chunks<std::int64_t>(std::string const&, std::uint64_t, int, Sizes);
+template Places Writer::reserve_chunks<std::uint8_t>(std::string const&, std::uint64_t, int, Sizes);
+template void Writer::dataset(std::string const&, std::span<float const>, int);
+template void Writer::dataset(std::string const&, std::span<double const>, int);
+template void Writer::dataset(std::string const&, std::span<std::int64_t const>, int);
+template void Writer::dataset(std::string const&, std::span<std::int32_t const>, int);
+template void Writer::dataset(std::string const&, std::span<std::uint8_t const>, int);
+template void Writer::dataset(std::string const&, std::span<char const>, int);
 
 void Writer::attribute(std::string const& object, std::string const& name, std::string_view text) {
   // VTK wants a plain ASCII string of fixed length.
@@ -131,12 +185,13 @@ void Writer::finish() {
   GrowingFile& disk = parts_->disk;
   disk.on_disk.demand_written();
   CheckSum sum;
-  std::vector<std::byte> some;
-  for (std::uint64_t at = 0; at < disk.bytes; at += some.size()) {
-    some.resize(static_cast<std::size_t>(std::min<std::uint64_t>(chunk_bytes, disk.bytes - at)));
-    disk.on_disk.read(at, some);
-    sum.add(some);
+  std::uint64_t at = 0;
+  for (auto const& [start, part] : parts_->written) {
+    parts_->add_from_disk(sum, at, start);
+    sum.add(part.check_sum, part.bytes);
+    at = start + part.bytes;
   }
+  parts_->add_from_disk(sum, at, disk.bytes);
   disk.on_disk.finish(disk.bytes, seal_of(sum, disk.bytes));
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/storage.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <hdf5.h>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,8 +35,8 @@ class Handle {
   Close close_;
 };
 
-/// How the numbers of a data set lie on the disk.
-enum class Storage { contiguous, compressed };
+/// Rows of a compressed chunk of a table with so many rows, of values of so many bytes.
+std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes);
 
 /// Writes a file, which has its name when it is finished. HDF5 never hears that a disk is full (hdf5_driver.hpp), so
 /// that this ends in a FileError with a clear reason and never inside the library; of the content only what HDF5 keeps
@@ -50,15 +52,31 @@ class Writer {
   void group(std::string const& path);
   /// values[row * columns + c]; columns = 1 gives a one-dimensional data set.
   template <class T>
-  void dataset(std::string const& path, std::span<T const> values, int columns = 1,
-               Storage storage = Storage::contiguous);
+  void dataset(std::string const& path, std::span<T const> values, int columns = 1);
   void attribute(std::string const& object, std::string const& name, std::string_view text);
   void attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values);
   void attribute(std::string const& object, std::string const& name, double value);
+  /// Makes a data set whose values others write: returns where in the file the first one goes; the others follow.
+  template <class T>
+  std::uint64_t reserve(std::string const& path, std::uint64_t rows, int columns);
+  /// The same of chunks of so many rows, as chunk_rows() has it, of so many bytes when they are deflated: where each
+  /// of them goes.
+  template <class T>
+  std::vector<std::uint64_t> reserve_chunks(std::string const& path, std::uint64_t rows, int columns,
+                                            std::span<std::uint64_t const> bytes);
+  /// What was reserved. Never throws: finish() does.
+  void put_at(std::uint64_t at, std::span<std::byte const> bytes);
+  /// Some other process has written these bytes with this check sum.
+  void note(WrittenPart part);
+  /// Where the file stands until it has its name.
+  std::filesystem::path const& part() const;
+  std::filesystem::path const& path() const;
   /// Gives the file its seal and its name. Nothing can be written after this.
   void finish();
 
  private:
+  Handle make_dataset(std::string const& path, hid_t type, std::uint64_t rows, int columns, std::uint64_t chunk,
+                      bool early);
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
@@ -83,6 +101,8 @@ class Reader {
   /// for as floating-point ones, not the other way round.
   template <class T>
   std::vector<T> dataset(std::string const& path, std::uint64_t columns = 1) const;
+  /// Where in the file the numbers of a list of doubles stand, one after the other; nothing if they do not.
+  std::optional<std::uint64_t> place_of_doubles(std::string const& path) const;
   std::string text(std::string const& object, std::string const& name) const;
   double number(std::string const& object, std::string const& name) const;
   std::int64_t integer(std::string const& object, std::string const& name) const;

@@ -52,8 +52,13 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void*
   return 0;
 }
 
-herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void const* from) {
-  open_of(file).file->on_disk.write(at, {static_cast<std::byte const*>(from), size});
+herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t, haddr_t at, std::size_t size, void const* from) {
+  GrowingFile& to = *open_of(file).file;
+  if (to.reserving && type == H5FD_MEM_DRAW) {
+    to.reserved = at;
+    return 0;
+  }
+  to.on_disk.write(at, {static_cast<std::byte const*>(from), size});
   return 0;
 }
 
@@ -90,6 +95,10 @@ Handle create_on(GrowingFile& file) {
   GrowingFile* const info = &file;
   if (registered < 0 || H5Pset_driver(access.id(), registered, static_cast<void const*>(&info)) < 0)
     throw FileError("HDF5 cannot use the driver of the program - this is a defect of the program, please report it");
+  // Ranks write whole pages of large data sets, which no two of them have in common.
+  constexpr hsize_t page = 4096;
+  if (H5Pset_alignment(access.id(), page, page) < 0)
+    throw FileError("HDF5 cannot align data sets - this is a defect of the program, please report it");
   // The name is nobody's: the driver has the file.
   return {H5Fcreate("piola", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "a file"};
 }

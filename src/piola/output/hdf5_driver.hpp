@@ -13,7 +13,9 @@ namespace piola::hdf5 {
 struct GrowingFile {
   explicit GrowingFile(std::filesystem::path path) : on_disk(std::move(path)) {}
   NewFile on_disk;
-  std::uint64_t bytes = 0;  ///< that HDF5 has made use of: the length of the file once HDF5 has closed it
+  bool reserving = false;      ///< values of data sets are not written, but where they would be is kept
+  std::uint64_t reserved = 0;  ///< that place
+  std::uint64_t bytes = 0;     ///< that HDF5 has made use of: the length of the file once HDF5 has closed it
 };
 
 /// A new file of HDF5. `file` must live longer than the handle, and stay where it is.

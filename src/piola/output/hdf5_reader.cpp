@@ -123,6 +123,17 @@ template std::vector<std::int64_t> Reader::dataset(std::string const&, std::uint
 template std::vector<std::int32_t> Reader::dataset(std::string const&, std::uint64_t) const;
 template std::vector<char> Reader::dataset(std::string const&, std::uint64_t) const;
 
+std::optional<std::uint64_t> Reader::place_of_doubles(std::string const& path) const {
+  Handle const set = open_dataset(path);
+  Handle const type(H5Dget_type(set.id()), H5Tclose, path), layout(H5Dget_create_plist(set.id()), H5Pclose, path);
+  auto const dims = shape(set.id(), path);
+  bool const plain =
+      dims.size() == 1 && H5Tequal(type.id(), H5T_NATIVE_DOUBLE) > 0 && H5Pget_layout(layout.id()) == H5D_CONTIGUOUS;
+  haddr_t const at = plain ? H5Dget_offset(set.id()) : HADDR_UNDEF;
+  if (at == HADDR_UNDEF || at > bytes_ || dims[0] > (bytes_ - at) / sizeof(double)) return std::nullopt;
+  return at;
+}
+
 Handle Reader::open_attribute(std::string const& object, std::string const& name) const {
   hid_t const id = has_attribute(object, name)
                        ? H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT)

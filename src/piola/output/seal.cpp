@@ -15,6 +15,30 @@ std::string seal_text(std::uint32_t check_sum, std::uint64_t bytes) {
   return fmt::format("piola seal: CRC-32 {:08x} over {:020} bytes\n", check_sum, bytes);
 }
 
+// Bytes are polynomials over {0, 1}; a check sum is the rest of a division by a fixed one. Its highest bit is the
+// coefficient of x^0, its lowest that of x^31.
+constexpr std::uint32_t divisor = 0xedb88320, one = 0x80000000, x_to_the_8 = 0x00800000;
+
+/// The rest of a product of two.
+std::uint32_t product(std::uint32_t a, std::uint32_t b) {
+  std::uint32_t sum = 0;
+  for (std::uint32_t bit = one; bit != 0; bit >>= 1) {
+    if ((a & bit) != 0) sum ^= b;
+    b = (b >> 1) ^ ((b & 1) != 0 ? divisor : 0);  // times x
+  }
+  return sum;
+}
+
+/// The rest of what so many more bytes multiply all before them by.
+std::uint32_t shift_by(std::uint64_t bytes) {
+  std::uint32_t power = x_to_the_8, shift = one;
+  for (; bytes != 0; bytes >>= 1) {
+    if ((bytes & 1) != 0) shift = product(shift, power);
+    power = product(power, power);
+  }
+  return shift;
+}
+
 constexpr std::string_view seal_start = "piola seal: ";
 std::size_t const seal_length = seal_text(0, 0).size();
 
@@ -23,6 +47,10 @@ std::size_t const seal_length = seal_text(0, 0).size();
 void CheckSum::add(std::span<std::byte const> bytes) { value_ = libdeflate_crc32(value_, bytes.data(), bytes.size()); }
 
 void CheckSum::add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
+
+void CheckSum::add(std::uint32_t check_sum, std::uint64_t bytes) {
+  value_ = product(value_, shift_by(bytes)) ^ check_sum;
+}
 
 std::string seal_of(std::span<std::byte const> content) {
   CheckSum sum;

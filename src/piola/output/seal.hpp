@@ -16,6 +16,8 @@ class CheckSum {
  public:
   void add(std::span<std::byte const> bytes);
   void add(std::string_view text);
+  /// Of so many bytes that come next, whose own check sum this is.
+  void add(std::uint32_t check_sum, std::uint64_t bytes);
   std::uint32_t value() const { return value_; }
 
  private:

@@ -66,6 +66,11 @@ void broadcast_bytes(void* data, std::size_t bytes);
 /// to[r] goes to rank r; what comes from rank r is in place r.
 std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to);
 
+/// Items of so many bytes, those for rank 0 first, then those for rank 1, and so on, sent[r] of them; they come in the
+/// order of the ranks that send them, received[r] of each.
+void deal_items(void const* out, std::span<Index const> sent, void* in, std::span<Index const> received,
+                std::size_t bytes);
+
 /// A message from or to a rank.
 struct Message {
   int rank;

@@ -231,6 +231,17 @@ std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to) 
   return from;
 }
 
+void deal_items(void const* out, std::span<Index const> sent, void* in, std::span<Index const> received,
+                std::size_t bytes) {
+  Timer const timer(world.spent.in_exchanges);
+  std::vector<int> const to(sent.begin(), sent.end()), from(received.begin(), received.end());
+  std::vector<int> const to_at = starts_of(to), from_at = starts_of(from);
+  MPI_Request request;
+  MPI_Ialltoallv(out, to.data(), to_at.data(), type_of(bytes), in, from.data(), from_at.data(), type_of(bytes),
+                 MPI_COMM_WORLD, &request);
+  wait_for(request);
+}
+
 void exchange(std::span<Message const> receives, std::span<Message const> sends) {
   Timer const timer(world.spent.in_exchanges);
   std::vector<MPI_Request> requests(receives.size() + sends.size(), MPI_REQUEST_NULL);

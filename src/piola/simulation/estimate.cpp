@@ -52,7 +52,7 @@ Pace pace_of(std::string_view formulation) {
           nodal ? std::array{240.0, 240.0, 245.0} : std::array{270.0, 270.0, 300.0},
           nodal ? std::array{0.0, 0.0, 335.0} : std::array{0.0, 0.0, 100.0},
           73,
-          107,
+          6,
           nodal ? std::optional(Pace::SetUp{200, -240, 75}) : std::nullopt};
 }
 

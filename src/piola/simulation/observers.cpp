@@ -5,6 +5,7 @@
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/output/files.hpp"
+#include "piola/simulation/ranks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -101,8 +102,8 @@ FrameObserver::FrameObserver(Results results)
       writer_(results_.folder, results_.spec.output.frame_fields, results_.spec.output.compress) {}
 
 void FrameObserver::write(Formulation const& formulation, double time) {
-  FieldCache cache(formulation, results_.particles);
-  writer_.write(time, cache);
+  FieldCache cache(formulation, results_.particles, FieldCache::Of::owned);
+  writer_.write(time, cache, &with_frame_of_all);
 }
 
 void FrameObserver::see(Formulation const& formulation, Moment const& moment) {
@@ -144,6 +145,7 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
                std::string(version()),
                exec_host::machine_text(results_.spec.run.machine),
                results_.spec.source,
+               {},
                {},
                {}};
   for (Observer const* other : others_) other->save(c.observers);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/output/frames.hpp"
+#include "piola/output/row_writer.hpp"
 #include "piola/parallel/agreement.hpp"
 #include "piola/simulation/probe_row.hpp"
+#include "piola/simulation/state_on_ranks.hpp"
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,6 +27,7 @@ struct Order {
     diagnose,
     sample,
     probes,
+    frame,
     save,
     load,
     traffic,
@@ -107,57 +111,19 @@ std::vector<double> gather_traffic() {
   return ranks::gather(mine);
 }
 
-/// Rank 0 has not found what it looked for in a checkpoint.
-struct NotThere : std::runtime_error {
-  NotThere() : std::runtime_error("rank 0 could not read a checkpoint") {}
-};
+/// What this rank has spent with bringing values to the ranks that write them [s].
+double gathered = 0;
 
-/// Gives all ranks what rank 0 reads.
-class SharedReader final : public StateReader {
+/// Adds its life time's share to it.
+class Gathering {
  public:
-  explicit SharedReader(StateReader* of_first) : reader_(of_first) {}
-  void get(std::string_view name, std::span<double> values) override {
-    get_to_deal(name, values);
-    ranks::broadcast_bytes(values.data(), values.size_bytes());
-  }
-  void get_to_deal(std::string_view name, std::span<double> values) override {
-    int good = 1;
-    if (reader_ == nullptr) {
-      ranks::broadcast_bytes(&good, sizeof good);
-      if (good == 0) throw NotThere();
-    } else {
-      try {
-        reader_->get(name, values);
-      } catch (...) {
-        good = 0;
-        ranks::broadcast_bytes(&good, sizeof good);
-        throw;
-      }
-      ranks::broadcast_bytes(&good, sizeof good);
-    }
-  }
-
-  StateReader* reader_;
-};
-
-/// Keeps the first thing that goes wrong until everything is said, because others wait to say it.
-class LastingWriter final : public StateWriter {
- public:
-  explicit LastingWriter(StateWriter& writer) : writer_(writer) {}
-  void put(std::string_view name, std::span<double const> values) override {
-    if (!trouble_) try {
-        writer_.put(name, values);
-      } catch (...) {
-        trouble_ = std::current_exception();
-      }
-  }
-  void raise() const {
-    if (trouble_) std::rethrow_exception(trouble_);
-  }
+  Gathering() = default;
+  Gathering(Gathering const&) = delete;
+  Gathering& operator=(Gathering const&) = delete;
+  ~Gathering() { gathered += ranks::spent().in_exchanges - start_; }
 
  private:
-  StateWriter& writer_;
-  std::exception_ptr trouble_;
+  double start_ = ranks::spent().in_exchanges;
 };
 
 /// The formulation of rank 0, whose calls the other ranks take part in.
@@ -191,7 +157,7 @@ class Conductor final : public Formulation {
   std::vector<FieldInfo> fields() const override { return own().fields(); }
   std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().fields_of(body); }
   void sample(std::string_view field, std::span<double> values) const override {
-    Gathering const gathering(gathered_);
+    Gathering const gathering;
     Aside const aside;
     Order order{Order::What::sample};
     if (field.size() >= sizeof order.field) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
@@ -205,11 +171,12 @@ class Conductor final : public Formulation {
     own().sample_owned(field, values);
   }
   void save(StateWriter& writer) const override {
-    Gathering const gathering(gathered_);
+    Gathering const gathering;
     Aside const aside;
-    send({Order::What::save});
+    send({.what = Order::What::save, .code = writer.on_all_ranks() ? 1 : 0});
     LastingWriter lasting(writer);
     own().save(lasting);
+    if (writer.on_all_ranks()) lasting.end_rows();
     lasting.raise();
   }
   void load(StateReader& reader) override {
@@ -221,41 +188,22 @@ class Conductor final : public Formulation {
   int stages_per_step() const override { return own().stages_per_step(); }
   std::vector<std::pair<std::string, double>> costs() const override {
     auto all = own().costs();
-    all.emplace_back("gathering", *gathered_);
+    all.emplace_back("gathering", gathered);
     return all;
   }
   std::size_t memory_bytes() const override { return own().memory_bytes(); }
   std::optional<Recuts> recuts() const override { return own().recuts(); }
 
  private:
-  /// Adds to a sum what its rank spends in its life time with getting what others have [s].
-  class Gathering {
-   public:
-    explicit Gathering(std::shared_ptr<double> const& sum) : sum_(*sum), start_(ranks::spent().in_exchanges) {}
-    Gathering(Gathering const&) = delete;
-    Gathering& operator=(Gathering const&) = delete;
-    ~Gathering() { sum_ += ranks::spent().in_exchanges - start_; }
-
-   private:
-    double& sum_;
-    double start_;
-  };
   Formulation& own() const { return *own_; }
 
   std::unique_ptr<Formulation> own_;
-  std::shared_ptr<double> gathered_ = std::make_shared<double>(0);
-};
-
-/// For ranks that take part in what rank 0 writes.
-class NoWriter final : public StateWriter {
- public:
-  void put(std::string_view, std::span<double const>) override {}
 };
 
 bool is_for_observers(Order const& order) {
   using enum Order::What;
-  return order.what == diagnose || order.what == sample || order.what == probes || order.what == save ||
-         order.what == load;
+  return order.what == diagnose || order.what == sample || order.what == probes || order.what == frame ||
+         order.what == save || order.what == load;
 }
 
 void obey(Formulation& formulation, Order const& order) {
@@ -267,8 +215,13 @@ void obey(Formulation& formulation, Order const& order) {
     case Order::What::diagnose: return void(formulation.diagnose());
     case Order::What::sample: return formulation.sample(order.field, {});
     case Order::What::save: {
-      NoWriter nobody;
-      return formulation.save(nobody);
+      if (order.code == 0) {
+        NoWriter nobody;
+        return formulation.save(nobody);
+      }
+      PartOfWriter part;
+      formulation.save(part);
+      return part.end_rows();
     }
     case Order::What::load: {
       SharedReader shared(nullptr);
@@ -340,6 +293,13 @@ void with_probes_of_all(double time, std::function<void()> const& look) {
   look();
 }
 
+void with_frame_of_all(std::function<void()> const& write) {
+  Gathering const gathering;
+  Aside const aside;
+  if (ranks::several() && ranks::own() == 0) send({Order::What::frame});
+  write();
+}
+
 int follow(Simulation& simulation) {
   Formulation& formulation = *simulation.formulation;
   std::optional<ProbeRow> probes;  // made when rank 0 has made them without complaint
@@ -355,6 +315,10 @@ int follow(Simulation& simulation) {
     if (order.what == Order::What::probes) {
       if (!probes) probes.emplace(simulation.spec, simulation.particles);
       probes->take_part(formulation, order.first);
+    } else if (order.what == Order::What::frame) {
+      FieldCache cache(formulation, simulation.particles, FieldCache::Of::owned);
+      RowWriter part(nullptr);
+      FrameContent(simulation.spec.output.frame_fields, simulation.spec.output.compress, cache).put(part);
     } else {
       obey(formulation, order);
     }

@@ -31,6 +31,9 @@ std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation)
 /// alone. `time` [s].
 void with_probes_of_all(double time, std::function<void()> const& look);
 
+/// On rank 0 of several: the others write their shares of a frame, too; then write(). Elsewhere write() alone.
+void with_frame_of_all(std::function<void()> const& write);
+
 /// On the other ranks: does what rank 0 does until that says the end; returns the exit code that it says.
 int follow(Simulation& simulation);
 

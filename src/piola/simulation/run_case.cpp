@@ -166,7 +166,7 @@ std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder
               .cut_to_end = c.cut_to_end,
               .wall_seconds = c.wall_seconds,
               .stepping_seconds = c.stepping_seconds};
-    s.formulation->load(c.state);
+    s.formulation->load(*c.in_file);
     for (Observer* observer : watch.all()) observer->load(c.observers, moment);
     compare_origin(c, s, journal);
     return true;

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/formulation.hpp"
+#include "piola/output/row_reader.hpp"
+#include "piola/output/row_writer.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <exception>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+/// How the state of a formulation that ranks share goes into a checkpoint and comes back, all ranks taking part.
+namespace piola {
+
+/// Rank 0 has not found what it looked for in a checkpoint.
+struct NotThere : std::runtime_error {
+  NotThere() : std::runtime_error("rank 0 could not read a checkpoint") {}
+};
+
+/// Gives all ranks what rank 0 reads.
+class SharedReader final : public StateReader {
+ public:
+  explicit SharedReader(StateReader* of_first) : reader_(of_first) {}
+  void get(std::string_view name, std::span<double> values) override {
+    get_to_deal(name, values);
+    ranks::broadcast_bytes(values.data(), values.size_bytes());
+  }
+  void get_to_deal(std::string_view name, std::span<double> values) override {
+    on_first([&] { reader_->get(name, values); });
+  }
+  void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) override {
+    std::optional<PlaceInFile> place;
+    on_first([&] { place = reader_->place(name, numbers_of(rows)); });
+    if (!rows_.read(place, rows, values)) StateReader::get_rows(name, rows, values);
+  }
+
+ private:
+  /// All ranks throw if rank 0 does.
+  template <class F>
+  void on_first(F const& f) {
+    int good = 1;
+    std::exception_ptr trouble;
+    if (reader_ != nullptr) try {
+        f();
+      } catch (...) {
+        trouble = std::current_exception();
+        good = 0;
+      }
+    ranks::broadcast_bytes(&good, sizeof good);
+    if (trouble) std::rethrow_exception(trouble);
+    if (good == 0) throw NotThere();
+  }
+
+  RowReader rows_;
+  StateReader* reader_;
+};
+
+/// Keeps the first thing that goes wrong until everything is said, because others wait to say it.
+class LastingWriter final : public StateWriter {
+ public:
+  explicit LastingWriter(StateWriter& writer) : writer_(writer) {}
+  void put(std::string_view name, std::span<double const> values) override {
+    if (!trouble_) try {
+        writer_.put(name, values);
+      } catch (...) {
+        trouble_ = std::current_exception();
+      }
+  }
+  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
+    try {
+      writer_.put_rows(name, rows, values);
+    } catch (...) {
+      if (!trouble_) trouble_ = std::current_exception();
+    }
+  }
+  void end_rows() override {
+    try {
+      writer_.end_rows();
+    } catch (...) {
+      if (!trouble_) trouble_ = std::current_exception();
+    }
+  }
+  void raise() const {
+    if (trouble_) std::rethrow_exception(trouble_);
+  }
+
+ private:
+  StateWriter& writer_;
+  std::exception_ptr trouble_;
+};
+
+/// For ranks that take part in what rank 0 writes.
+class NoWriter : public StateWriter {
+ public:
+  void put(std::string_view, std::span<double const>) override {}
+};
+
+/// For ranks that write parts of the file that rank 0 has open.
+class PartOfWriter final : public NoWriter {
+ public:
+  void put_rows(std::string_view, RowsOfRanks const& rows, std::span<double const> values) override {
+    rows_.put("", rows, values);
+  }
+  bool on_all_ranks() const override { return true; }
+  void end_rows() override { rows_.end(); }
+
+ private:
+  RowWriter rows_{nullptr};
+};
+
+}  // namespace piola
