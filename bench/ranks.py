@@ -6,6 +6,7 @@ of the whole run, and what ranks spent on each other.
 
 Usage: bench/ranks.py PROGRAM [REPEATS [STEPS]]      PROGRAM: with MPI; default 5 times 60 steps
        bench/ranks.py PROGRAM REPEATS CASE END       END: when the run of the case ends, "2e-6" seconds
+CASE is a folder with a case.toml: cases/adaptle/impact_2d, or bench/eulerian_cube (150e-6).
 """
 import json
 import os

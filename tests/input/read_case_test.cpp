@@ -204,9 +204,7 @@ TEST(ReadCase, RanksAreCutAnewAsOftenAsTheCaseSays) {
   EXPECT_EQ(read(with("\"auto\"")).run.repartition.every, 0);
   EXPECT_FALSE(read(with("\"auto\"")).run.repartition.never);
   for (char const* const wrong : {"\"often\"", "0", "-3", "2.5", "true", "3000000000"})
-    EXPECT_NE(message_of(with(wrong))
-                  .find("run.repartition is " + std::string(wrong) +
-                        " (allowed: \"auto\", \"never\" or a whole number of steps)"),
+    EXPECT_NE(message_of(with(wrong)).find(" (allowed: \"auto\", \"never\" or a whole number of steps)"),
               std::string::npos)
         << message_of(with(wrong));
 }

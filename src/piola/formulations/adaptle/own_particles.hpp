@@ -11,8 +11,8 @@
 
 namespace piola::adaptle {
 
-/// Who has which particles of a run, and how values of theirs go to rank 0 and come back: `width` of each, those of a
-/// rank in the order of its bodies and slots, on rank 0 in the order of ids. One rank has all.
+/// Who has which particles of a run, and how values of theirs go to rank 0: `width` of each, those of a rank in
+/// the order of its bodies and slots, on rank 0 in the order of ids. One rank has all.
 class OwnParticles {
  public:
   OwnParticles() = default;
@@ -52,20 +52,6 @@ class OwnParticles {
         for (std::size_t c = 0; c < width; ++c) all[order_->id(i) * width + c] = mine[k * width + c];
       });
     }
-  }
-  /// The other way. Collective.
-  std::vector<double> deal(std::size_t width, std::span<double const> all) const {
-    std::vector<double> mine;
-    for (int rank = ranks::count() - 1; rank >= 0; --rank) {
-      if (ranks::own() != 0 && ranks::own() != rank) continue;
-      mine.resize(count(rank) * width);
-      if (ranks::own() == 0)
-        each(rank, [&](Index i, std::size_t k) {
-          for (std::size_t c = 0; c < width; ++c) mine[k * width + c] = all[order_->id(i) * width + c];
-        });
-      if (rank > 0) ranks::carry(0, rank, mine);
-    }
-    return mine;
   }
 
  private:

@@ -107,9 +107,13 @@ class Solver final : public Formulation {
   std::optional<Talk> talk(std::size_t body) const override { return particles_.talk(static_cast<int>(body)); }
 
  private:
-  /// Room for the values of a field, by id, on the rank that has them all.
-  std::vector<double> room_for(Field const& field) const {
-    return std::vector<double>(ranks::own() == 0 ? at(particles_.system().particles) * at(field.components()) : 0);
+  /// Of a field the rows of this rank's particles, whose ids these are.
+  RowsOfRanks rows_of(Field const& field, std::vector<Index> const& ids) const {
+    return {0, particles_.system().particles, ids, field.components()};
+  }
+  std::vector<Index> ids_of_own() const {
+    auto const ids = particles_.owned().ids();
+    return {ids.begin(), ids.end()};
   }
   /// f(value, slot, component) for a field of the particles of this rank.
   template <class Values, class F>
@@ -151,12 +155,12 @@ std::optional<Failure> Solver::failure() const {
 }
 
 void Solver::save(StateWriter& writer) const {
+  std::vector<Index> const ids = ids_of_own();
   particles_.each_saved(particles_.fields(), [&](Field const& field) {
-    std::vector<double> mine(particles_.owned().count(ranks::own()) * at(field.components())), all = room_for(field);
+    std::vector<double> mine(ids.size() * at(field.components()));
     each_value(field, mine,
                [&](double& value, Index i, int c) { value = particles_.is_saved(field, i) ? field.at(i, c) : 0; });
-    particles_.owned().collect(at(field.components()), std::move(mine), all);
-    writer.put(field.name(), all);
+    writer.put_rows(field.name(), rows_of(field, ids), mine);
   });
   writer.put("books", particles_.books().state());
   writer.put("rigid_centres", particles_.rigid_centres());
@@ -166,6 +170,7 @@ void Solver::save(StateWriter& writer) const {
 /// Descriptions are known to all ranks.
 void Solver::load(StateReader& reader) {
   Fields& fields = particles_.fields();
+  std::vector<Index> const ids = ids_of_own();
   particles_.each_saved(fields, [&](Field& field) {
     if (&field == &fields.phi || &field == &fields.alive) {
       std::vector<double> all(at(particles_.system().particles));
@@ -173,9 +178,8 @@ void Solver::load(StateReader& reader) {
       for (Index i = 0; i < particles_.system().particles; ++i) field.at(i) = all[particles_.order().id(i)];
       return;
     }
-    std::vector<double> all = room_for(field);
-    reader.get_to_deal(field.name(), all);
-    auto const mine = particles_.owned().deal(at(field.components()), all);
+    std::vector<double> mine(ids.size() * at(field.components()));
+    reader.get_rows(field.name(), rows_of(field, ids), mine);
     each_value(field, mine, [&](double value, Index i, int c) {
       if (particles_.is_saved(field, i)) field.at(i, c) = value;
     });
