@@ -62,11 +62,11 @@ Pace pace_of(std::string_view formulation) {
           nodal ? std::optional(Pace::SetUp{200, -240, 75}) : std::nullopt};
 }
 
-constexpr double filter_factor = 2;      ///< of the volumetric filter of jst_sph
-constexpr double program_bytes = 31e6;   ///< the program with its libraries
-constexpr double messages_bytes = 12e6;  ///< what MPI and messages take of a rank
-constexpr double output_bytes = 14e6;    ///< what files take of rank 0, however many particles there are
-constexpr double row_stages = 2;         ///< right-hand sides that a row of history.csv is worth
+constexpr double filter_factor = 2;     ///< of the volumetric filter of jst_sph
+constexpr double program_bytes = 31e6;  ///< the program with its libraries
+constexpr double messages_bytes = 9e6;  ///< what MPI and messages take of a rank
+constexpr double output_bytes = 14e6;   ///< what files take of rank 0, however many particles there are
+constexpr double row_stages = 2;        ///< right-hand sides that a row of history.csv is worth
 constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
 constexpr double picture_seconds = 0.2;
 constexpr double compressed = 0.42;     ///< share that is left of the numbers of a frame
