@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{1} << 21;
+constexpr std::size_t page = std::size_t{1} << 12, many_pages = 16;
 constexpr std::size_t colours = 64;
 constexpr std::size_t many_huge_pages = 32;
 std::size_t parts_of_arrays = 1;
@@ -35,7 +36,8 @@ Memory::Memory(std::size_t doubles) {
   // Small arrays stay in small pages: a huge page each would waste memory on cases of a thousand particles.
   bool const large = payload >= huge_page;
   std::size_t const offset = next_offset();
-  std::size_t const alignment = large ? huge_page : cache_line;
+  bool const by_parts = parts_of_arrays > 1 && payload >= many_pages * page;
+  std::size_t const alignment = large ? huge_page : by_parts ? page : cache_line;
   std::size_t const size = (payload + offset + alignment - 1) / alignment * alignment;
   // Nothing touches the pages before the data, so that they take no memory; nor what is left of the last page, which is
   // a huge one at most.
@@ -47,7 +49,7 @@ Memory::Memory(std::size_t doubles) {
   bool const huge = parts_of_arrays == 1 || payload / parts_of_arrays >= many_huge_pages * huge_page;
   if (large) (void)madvise(base_, size, huge ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
   // Pages that the system takes back are zero when somebody comes to them again.
-  bool const zero = large && parts_of_arrays > 1 && madvise(base_, size, MADV_DONTNEED) == 0;
+  bool const zero = by_parts && madvise(base_, size, MADV_DONTNEED) == 0;
 #else
   bool const zero = false;
 #endif

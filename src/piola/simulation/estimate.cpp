@@ -38,7 +38,13 @@ struct Pace {
 Pace pace_of(std::string_view formulation) {
   constexpr double ns = 1e-9, us = 1e-6;
   if (formulation == "adaptle")
-    return {{300 * ns, 345 * ns, 640 * ns}, {300 * ns, 377 * ns, 746 * ns}, {2 * us, 2 * us, 5 * us}, {280, 280, 150}};
+    return {{300 * ns, 345 * ns, 640 * ns},
+            {300 * ns, 377 * ns, 746 * ns},
+            {2 * us, 2 * us, 5 * us},
+            {280, 280, 250},
+            {},
+            118,
+            102};
   if (formulation == "taylor_sph")
     return {{10 * ns, 98 * ns, 590 * ns},
             {10 * ns, 200 * ns, 1350 * ns},
@@ -56,11 +62,11 @@ Pace pace_of(std::string_view formulation) {
           nodal ? std::optional(Pace::SetUp{200, -240, 75}) : std::nullopt};
 }
 
-constexpr double filter_factor = 2;      ///< of the volumetric filter of jst_sph
-constexpr double program_bytes = 31e6;   ///< the program with its libraries
-constexpr double messages_bytes = 12e6;  ///< what MPI and messages take of a rank
-constexpr double output_bytes = 14e6;    ///< what files take of rank 0, however many particles there are
-constexpr double row_stages = 2;         ///< right-hand sides that a row of history.csv is worth
+constexpr double filter_factor = 2;     ///< of the volumetric filter of jst_sph
+constexpr double program_bytes = 31e6;  ///< the program with its libraries
+constexpr double messages_bytes = 9e6;  ///< what MPI and messages take of a rank
+constexpr double output_bytes = 14e6;   ///< what files take of rank 0, however many particles there are
+constexpr double row_stages = 2;        ///< right-hand sides that a row of history.csv is worth
 constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
 constexpr double picture_seconds = 0.2;
 constexpr double compressed = 0.42;     ///< share that is left of the numbers of a frame
@@ -108,6 +114,23 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
             !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
   return !mirrored && body.shape.jitter == 0 && !body.shape.random &&
          body.shape.arrangement == ShapeSpec::Arrangement::lattice;
+}
+
+/// Bytes of each particle of a body that every rank has. Of adaptle, where particles are in space, too: cells, where
+/// bodies may touch or something flows, and what others read of what does.
+double bytes_everywhere(CaseSpec const& spec, BodySpec const& body, Pace const& pace) {
+  if (body.formulation.name != "adaptle") return pace.everywhere;
+  constexpr double cells = 115, records = 330;
+  auto const flows = [](BodySpec const& some) {
+    auto const found = some.formulation.words.find("description");
+    return found != some.formulation.words.end() && (found->second == "eulerian" || found->second == "patch");
+  };
+  auto const is_like = [&](BodySpec const& some) { return some.formulation.name == body.formulation.name; };
+  using Law = ContactRule::Law;
+  bool const apart = spec.contact && (spec.contact->law == Law::none || spec.contact->law == Law::surface);
+  bool const touching = !apart && std::count_if(spec.bodies.begin(), spec.bodies.end(), is_like) > 1;
+  bool const sorted = touching || std::any_of(spec.bodies.begin(), spec.bodies.end(), flows);
+  return pace.everywhere + (sorted ? cells : 0) + (flows(body) ? records : 0);
 }
 
 /// Whether ranks that share a body share its set-up: nodal makes all of some on every rank (nodal::SetUp::is_shared).
@@ -211,7 +234,7 @@ MemoryInSetUp memory_in_set_up(CaseSpec const& spec, std::size_t b, Pace const& 
   BodySpec const& body = spec.bodies[b];
   double const usual = in_steps + for_a_while;
   if (!observed_by_share(body) || !is_set_up_by_share(spec, body)) return {usual, usual};
-  if (!pace.in_set_up || body.shape.dimension < 3) return {usual, n * pace.everywhere};
+  if (!pace.in_set_up || body.shape.dimension < 3) return {usual, n * bytes_everywhere(spec, body, pace)};
   double const besides = is_regular(spec, body) ? pace.in_set_up->lattice : pace.in_set_up->scattered;
   return {in_steps + n * besides, n * pace.in_set_up->everywhere};
 }
@@ -241,7 +264,7 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
     e.everywhere_in_set_up += set_up.everywhere;
     if (observed_by_share(spec.bodies[b])) {
       e.row_bytes += 8 * n * probed;
-      e.memory_everywhere += n * pace.everywhere;
+      e.memory_everywhere += n * bytes_everywhere(spec, spec.bodies[b], pace);
       e.memory_of_first = std::max(e.memory_of_first, output_bytes) + n * pace.of_first;
     } else {
       e.row_work_of_first += row_stages * here;

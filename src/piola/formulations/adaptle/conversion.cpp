@@ -58,12 +58,13 @@ bool Particles::wishes_by_formula() {
 
 namespace {
 
-/// A mark for each particle, of any rank.
+/// Marks of two kinds for each particle, of any rank.
 class Marks {
  public:
-  explicit Marks(Index particles) : bits_(at(particles) / 64 + 1, 0) {}
-  void set(Index i) { bits_[at(i) / 64] |= bit(i); }
-  bool operator[](Index i) const { return (bits_[at(i) / 64] & bit(i)) != 0; }
+  enum Kind { changes, by_guard };
+  explicit Marks(Index particles) : bits_(2 * at(particles) / 64 + 1, 0) {}
+  void set(Index i, Kind kind) { bits_[place(i, kind) / 64] |= bit(i, kind); }
+  bool has(Index i, Kind kind) const { return (bits_[place(i, kind) / 64] & bit(i, kind)) != 0; }
   /// Those that some rank has set. Collective.
   void share() {
     ranks::combine(std::span(bits_), [](void const* other, void* mine) {
@@ -72,7 +73,8 @@ class Marks {
   }
 
  private:
-  static std::uint64_t bit(Index i) { return std::uint64_t{1} << (at(i) % 64); }
+  static std::size_t place(Index i, Kind kind) { return 2 * at(i) + static_cast<std::size_t>(kind); }
+  static std::uint64_t bit(Index i, Kind kind) { return std::uint64_t{1} << (place(i, kind) % 64); }
   std::vector<std::uint64_t> bits_;
 };
 
@@ -81,27 +83,24 @@ class Marks {
 /// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not. Those that the guard
 /// alone wants count as such if nobody else does. All ranks know of all of them.
 void Particles::convert(double dt) {
-  Marks change(system_.particles), by_guard(system_.particles);
+  Marks marks(system_.particles);
   for (std::size_t k = 0; k < body_.size(); ++k)
     for (Index i = own_[k].first; i < own_[k].last; ++i) {
       if (wish_[at(i)] == 0) continue;
-      if (wish_[at(i)] == 2 && !body_[k].deletes) {
-        by_guard.set(i);
-        continue;
-      }
-      change.set(i);
-      if (!body_[k].deletes)
+      bool const alone = wish_[at(i)] == 2;
+      marks.set(i, alone && !body_[k].deletes ? Marks::by_guard : Marks::changes);
+      if (!alone && !body_[k].deletes)
         material_.each_neighbour(i, options_.bodies[k].conversion_radius * body_[k].material_h, fields_,
-                                 [&](Index j) { change.set(j); });
+                                 [&](Index j) { marks.set(j, Marks::changes); });
     }
-  change.share();
-  by_guard.share();
+  marks.share();
   ConversionSums sums;
   for (Index i = 0; i < system_.particles; ++i) {
-    if (body_[at(body_of_[at(i)])].deletes && change[i])
+    bool const changes = marks.has(i, Marks::changes);
+    if (changes && body_[at(body_of_[at(i)])].deletes)
       remove(i);
-    else if (change[i] || by_guard[i])
-      make_eulerian(i, dt, !change[i], sums);
+    else if (changes || marks.has(i, Marks::by_guard))
+      make_eulerian(i, dt, !changes, sums);
   }
   if (exchanges_) ranks::add(sums);
   books_.converted_mass += sums.value(0);

@@ -3,6 +3,7 @@
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,12 +39,12 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
   filled_ = PartFilled<std::uint8_t>(at(particles_));
   part_ = PartFilled<std::uint8_t>(at(particles_) + 16);
   for (std::size_t b = 0; b < bodies.size(); ++b) list(set, order, {set.bodies[b], bodies[b], own[b]}, lanes);
-  for (Range const& of_body : own)
-    each_neighbour_of(of_body, [&](Index i) {
-      for (int c = 0; c < 3; ++c) fields.X.at(i, c) = set.X[order.id(i)][at(c)];
-      fields.volume.at(i) = set.volume[order.id(i)];
-    });
   find_edge();
+  for (Index const i : edge_)
+    each_neighbour_of({i, i + 1}, [&](Index j) {
+      for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[order.id(j)][at(c)];
+      fields.volume.at(j) = set.volume[order.id(j)];
+    });
   if (published_) {
     each_own([&](Index i) {
       for (int c = 0; c < 9; ++c) fields.N.at(i, c) = c % 4 == 0 ? 1 : 0;
@@ -63,6 +64,7 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
 }
 
 void MaterialLists::find_edge() {
+  if (!ranks::several()) return;
   for (Range const& own : own_)
     for (Index i = own.first; i < own.last; ++i) {
       bool inside = true;

@@ -48,7 +48,7 @@ template <class F>
 void observe_each(Particles const& particles, F const& f) {
   System const& s = particles.system();
   Fields const& of = particles.fields();
-  std::vector<int> const spatial = particles.spatial().neighbours_by_slot(s);
+  PartFilled<int> const spatial = particles.spatial().neighbours_by_slot(s);
   auto const see = [&](Index i, double pressure) {
     ObservedParticle p;
     p.id = static_cast<double>(particles.order().id(i));

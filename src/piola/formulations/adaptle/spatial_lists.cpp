@@ -184,8 +184,8 @@ void SpatialLists::put_into(System& s) {
   s.contact.length = contact_.found.data();
 }
 
-std::vector<int> SpatialLists::neighbours_by_slot(System const& s) const {
-  std::vector<int> count(at(s.particles), 0);
+PartFilled<int> SpatialLists::neighbours_by_slot(System const& s) const {
+  PartFilled<int> count(at(s.particles));
   for (std::size_t t = 0; t < spatial_.found.size() && t < spatial_.target.size(); ++t)
     count[at(grid_.slots()[spatial_.target[t]])] = spatial_.found[t];
   return count;

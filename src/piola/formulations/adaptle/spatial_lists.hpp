@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/memory.hpp"
+#include "piola/exec/part_filled.hpp"
 #include "piola/formulations/adaptle/state.hpp"
 #include <vector>
 
@@ -23,7 +24,7 @@ class SpatialLists {
   bool near(Index slot) const { return everyone_ || near_[static_cast<std::size_t>(slot)] != 0; }
   bool meets(Index slot) const { return meets_[static_cast<std::size_t>(slot)] != 0; }
   /// Of the last step, per slot; 0 where this rank has no list.
-  std::vector<int> neighbours_by_slot(System const& system) const;
+  PartFilled<int> neighbours_by_slot(System const& system) const;
 
  private:
   struct List {
