@@ -62,9 +62,14 @@ void FrameContent::put_cells(RowWriter& rows) const {
   std::vector<Index> const cells = own_rows(n), offsets = own_rows(n + 1);
   constexpr std::uint8_t vtk_vertex = 1;
   std::vector<std::uint8_t> const types(cells.size(), vtk_vertex);
-  rows.put<std::int64_t>("/VTKHDF/Connectivity", {of_cells, n, cells}, whole(cells), storage_);
-  rows.put<std::int64_t>("/VTKHDF/Offsets", {of_offsets, n + 1, offsets}, whole(offsets), storage_);
-  rows.put<std::uint8_t>("/VTKHDF/Types", {of_cells, n, cells}, types, storage_);
+  auto const table = [](Set set, Index count, std::vector<Index> const& own) {
+    RowsOfRanks of{set, count};
+    if (ranks::several()) of.places = own;
+    return of;
+  };
+  rows.put<std::int64_t>("/VTKHDF/Connectivity", table(of_cells, n, cells), whole(cells), storage_);
+  rows.put<std::int64_t>("/VTKHDF/Offsets", table(of_offsets, n + 1, offsets), whole(offsets), storage_);
+  rows.put<std::uint8_t>("/VTKHDF/Types", table(of_cells, n, cells), types, storage_);
 }
 
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <numeric>
 
 namespace piola {
 namespace {
@@ -26,23 +25,22 @@ void unpack(std::span<std::byte const> from, std::span<Index const> rows, std::s
 
 RowPlan::RowPlan(RowsOfRanks const& rows, Index block) : count_(rows.count), block_(block) {
   PIOLA_EXPECTS(block > 0);
-  std::vector<Index> places;
-  if (rows.places)
-    places.assign(rows.places->begin(), rows.places->end());
-  else
-    places.resize(static_cast<std::size_t>(count_));
-  if (!rows.places) std::iota(places.begin(), places.end(), 0);
-  packed_.resize(places.size());
-  std::iota(packed_.begin(), packed_.end(), 0);
-  auto const place_of = [&](Index k) { return places[static_cast<std::size_t>(k)]; };
-  std::sort(packed_.begin(), packed_.end(), [&](Index a, Index b) { return place_of(a) < place_of(b); });
-  std::vector<std::vector<Index>> leaving(static_cast<std::size_t>(ranks::count()));
-  int rank = 0;
-  for (Index const k : packed_) {
-    while (place_of(k) >= of(rank).last) ++rank;
-    leaving[static_cast<std::size_t>(rank)].push_back(place_of(k) - of(rank).first);
+  auto const n = static_cast<std::size_t>(ranks::count());
+  Index const own_rows = rows.places ? static_cast<Index>(rows.places->size()) : count_;
+  std::int64_t const blocks = (std::int64_t{count_} + block_ - 1) / block_;
+  std::vector<std::vector<Index>> leaving(n), of_rank(n);
+  for (Index k = 0; k < own_rows; ++k) {
+    Index const place = rows.places ? (*rows.places)[static_cast<std::size_t>(k)] : k;
+    PIOLA_EXPECTS(place >= 0 && place < count_);
+    auto const rank =
+        static_cast<std::size_t>(std::int64_t{place / block_} * ranks::count() / blocks);  // whose stretch it is in
+    of_rank[rank].push_back(k);
+    leaving[rank].push_back(place - of(static_cast<int>(rank)).first);
   }
-  for (auto const& part : leaving) leaving_count_.push_back(static_cast<Index>(part.size()));
+  for (auto const& part : of_rank) {
+    leaving_count_.push_back(static_cast<Index>(part.size()));
+    packed_.insert(packed_.end(), part.begin(), part.end());
+  }
   for (auto const& part : ranks::deal(leaving)) {
     arriving_count_.push_back(static_cast<Index>(part.size()));
     arriving_.insert(arriving_.end(), part.begin(), part.end());

@@ -44,7 +44,7 @@ Pace pace_of(std::string_view formulation) {
             {280, 280, 250},
             {},
             118,
-            102};
+            6};
   if (formulation == "taylor_sph")
     return {{10 * ns, 98 * ns, 590 * ns},
             {10 * ns, 200 * ns, 1350 * ns},
