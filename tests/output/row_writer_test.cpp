@@ -30,7 +30,7 @@ struct Table {
       for (int c = 0; c < width; ++c) shuffled.push_back(static_cast<double>(std::int64_t{places.back()} * width + c));
     }
   }
-  RowsOfRanks of() const { return {.count = rows, .places = places, .columns = columns}; }
+  RowsOfRanks of(int set = 0) const { return {.set = set, .count = rows, .places = places, .columns = columns}; }
 };
 
 class RowWriterStores : public ::testing::TestWithParam<Storage> {};
@@ -43,8 +43,8 @@ TEST_P(RowWriterStores, RowsInOrderInASealedFile) {
     file.group("/more");
     RowWriter rows(&file);
     rows.put<double>("/large", large.of(), large.shuffled, GetParam());
-    rows.put<double>("/more/small", small.of(), small.shuffled, GetParam());
-    rows.put<double>("/none", {.count = 0}, {}, GetParam());
+    rows.put<double>("/more/small", small.of(1), small.shuffled, GetParam());
+    rows.put<double>("/none", {.set = 2}, {}, GetParam());
     file.dataset<double>("/ordinary", std::array{1.0, 2.0});
     rows.end();
     file.finish();

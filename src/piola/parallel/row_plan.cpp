@@ -9,16 +9,14 @@
 namespace piola {
 namespace {
 
-/// to[k] has from[rows[k]].
-void pack(std::span<std::byte const> from, std::span<Index const> rows, std::span<std::byte> to, std::size_t row) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    std::memcpy(&to[k * row], &from[static_cast<std::size_t>(rows[k]) * row], row);
-}
-
-/// The way back.
-void unpack(std::span<std::byte const> from, std::span<Index const> rows, std::span<std::byte> to, std::size_t row) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    std::memcpy(&to[static_cast<std::size_t>(rows[k]) * row], &from[k * row], row);
+/// Rows to[to_rows[k]] become from[from_rows[k]]; no numbers of rows: they are k.
+void copy_rows(std::span<std::byte const> from, std::span<Index const> from_rows, std::span<std::byte> to,
+               std::span<Index const> to_rows, std::size_t row) {
+  auto const at = [&](std::span<Index const> rows, std::size_t k) {
+    return (rows.empty() ? k : static_cast<std::size_t>(rows[k])) * row;
+  };
+  std::size_t const count = std::max(from_rows.size(), to_rows.size());
+  for (std::size_t k = 0; k < count; ++k) std::memcpy(&to[at(to_rows, k)], &from[at(from_rows, k)], row);
 }
 
 }  // namespace
@@ -59,22 +57,20 @@ Range RowPlan::own() const { return of(ranks::own()); }
 
 void RowPlan::collect(std::span<std::byte const> rows, std::span<std::byte> whole, std::size_t row) const {
   PIOLA_EXPECTS(rows.size() == packed_.size() * row && whole.size() == arriving_.size() * row);
-  std::vector<std::byte> out(rows.size());
-  pack(rows, packed_, out, row);
-  if (!ranks::several()) return unpack(out, arriving_, whole, row);
-  std::vector<std::byte> in(whole.size());
+  if (!ranks::several()) return copy_rows(rows, packed_, whole, arriving_, row);
+  std::vector<std::byte> out(rows.size()), in(whole.size());
+  copy_rows(rows, packed_, out, {}, row);
   ranks::deal_items(out.data(), leaving_count_, in.data(), arriving_count_, row);
-  unpack(in, arriving_, whole, row);
+  copy_rows(in, {}, whole, arriving_, row);
 }
 
 void RowPlan::hand_out(std::span<std::byte const> whole, std::span<std::byte> rows, std::size_t row) const {
   PIOLA_EXPECTS(rows.size() == packed_.size() * row && whole.size() == arriving_.size() * row);
-  std::vector<std::byte> out(whole.size());
-  pack(whole, arriving_, out, row);
-  if (!ranks::several()) return unpack(out, packed_, rows, row);
-  std::vector<std::byte> in(rows.size());
+  if (!ranks::several()) return copy_rows(whole, arriving_, rows, packed_, row);
+  std::vector<std::byte> out(whole.size()), in(rows.size());
+  copy_rows(whole, arriving_, out, {}, row);
   ranks::deal_items(out.data(), arriving_count_, in.data(), leaving_count_, row);
-  unpack(in, packed_, rows, row);
+  copy_rows(in, {}, rows, packed_, row);
 }
 
 }  // namespace piola
