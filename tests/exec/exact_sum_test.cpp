@@ -129,47 +129,6 @@ TEST(ExactSum, SpecialValuesDecideAsIeeeHasIt) {
   EXPECT_TRUE(std::isnan(a.value()));
 }
 
-/// Rows that fit the levels are added up in folds of 42 bits, others one by one: levels that rise within a row of 64,
-/// sizes down to what the lowest fold rounds away, ties, and what is not finite.
-template <int N>
-void expect_rows_as_one_by_one(std::size_t rows, int low, int high, double special) {
-  std::mt19937_64 generator(rows + N);
-  auto x = numbers(generator, rows * N, low, high);
-  for (std::size_t k = 0; k < x.size(); k += 5) x[k] = std::ldexp(k % 2 == 0 ? 1 : -3, static_cast<int>(k % 90) - 60);
-  if (special != 0) x[x.size() / 2] = special;
-  ExactSums<N> one_by_one, many;
-  for (std::size_t k = 0; k < rows; ++k) one_by_one.add(x.data() + k * N);
-  many.add(x.data(), static_cast<std::ptrdiff_t>(rows));
-  for (int c = 0; c < N; ++c) {
-    double const expected = one_by_one.value(c);
-    if (std::isnan(expected))
-      EXPECT_TRUE(std::isnan(many.value(c)));
-    else
-      EXPECT_EQ(bits_of(many.value(c)), bits_of(expected)) << rows << " rows of " << N << ", sum " << c;
-  }
-}
-
-TEST(ExactSum, RowsAtOnceHaveTheBitsOfOneAfterTheOther) {
-  double const inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t const rows : {1, 3, 63, 64, 65, 700})
-    for (auto const& [low, high] : {std::pair{-3, 0}, {-60, 30}, {-1070, -920}, {-980, 980}, {20, 22}})
-      for (double const special : {0.0, inf, nan, 0x1p986, -0.0}) {
-        expect_rows_as_one_by_one<1>(rows, low, high, special);
-        expect_rows_as_one_by_one<15>(rows, low, high, special);
-        expect_rows_as_one_by_one<31>(rows, low, high, special);
-      }
-}
-
-/// The most that folds of 42 bits have to hold: rows of summands just below the limit.
-TEST(ExactSum, RowsJustBelowTheLimitAddUp) {
-  for (double const summand : {0x1.fffffffffffffp39, -0x1.fffffffffffffp39, 0x1.ffffffffffep39}) {
-    std::vector<double> const x(6400, summand);
-    ExactSums<1> sum;
-    sum.add(x.data(), 6400);
-    EXPECT_EQ(bits_of(sum.value()), bits_of(exact(x)));
-  }
-}
-
 TEST(ExactSum, ManySumsAtOnceAreTheOnesOfEach) {
   constexpr int N = 7;
   std::mt19937_64 generator(5);

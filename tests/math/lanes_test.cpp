@@ -5,11 +5,8 @@
 #undef PIOLA_MACHINE_IS_HOST
 #define PIOLA_MACHINE test_extremes
 #define PIOLA_MACHINE_IS_NATIVE 1
-#include "piola/math/lane_sums.hpp"
+#include "piola/math/lanes.hpp"
 #include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -52,33 +49,6 @@ TEST(Extremes, OfPacksAreThoseOfEachLane) {
       EXPECT_EQ(lane(maximum(first, second), 0), 1);
       EXPECT_EQ(lane(minimum(first, second), 0), 0.5);
     }
-}
-
-/// As many packs as fill groups and leave a rest, of numbers whose sum depends on the order, and zeros of both signs.
-template <int N>
-void expect_lanes_added_in_order() {
-  Lanes packs[N];
-  for (int c = 0; c < N; ++c) {
-    packs[c] = Lanes(c == 1 ? -0.0 : 0.1 * c);
-    for (int l = 0; l < lane_count && c > 1; ++l) packs[c][l] = std::sin(1.0 + c + 17 * l) * (l % 3 == 0 ? 1e8 : 1);
-  }
-  double out[N + 1];
-  out[N] = 7;
-  add_lanes_in_order(packs, out);
-  for (int c = 0; c < N; ++c) {
-    double sum = 0;
-    for (int l = 0; l < lane_count; ++l) sum += lane(packs[c], l);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(out[c]), std::bit_cast<std::uint64_t>(sum)) << c << " of " << N;
-  }
-  EXPECT_EQ(out[N], 7) << "nothing is written beyond";
-}
-
-TEST(LaneSums, HaveTheBitsOfAddingOneLaneAfterTheOther) {
-  expect_lanes_added_in_order<1>();
-  expect_lanes_added_in_order<7>();
-  expect_lanes_added_in_order<8>();
-  expect_lanes_added_in_order<15>();
-  expect_lanes_added_in_order<31>();
 }
 
 TEST(Select, TakesEachLaneByItsOwnCondition) {

@@ -3,7 +3,6 @@
 #include "piola/math/lanes.hpp"
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace piola::inline PIOLA_MACHINE {
@@ -24,9 +23,6 @@ __extension__ typedef __int128 Wide;
 template <int N>
 class ExactSums {
  public:
-  /// Rows of summands that are added up together: 2^41 times as many must be below 2^52.
-  static constexpr Index rows_at_once = 64;
-
   ExactSums() {
     for (int c = 0; c < N; ++c) set_level(c, lowest);
   }
@@ -39,15 +35,6 @@ class ExactSums {
     double made_to_fit[N];
     for (int c = 0; c < N; ++c) made_to_fit[c] = fit(c, x[c]);
     deposit(made_to_fit);
-  }
-  /// n summands for each sum, x[row][N]. Where they fit the levels, the two upper folds are one of 42 bits for so few
-  /// rows that it adds up without rounding, as the two lower ones are: half the work.
-  void add(double const* x, std::ptrdiff_t n) {
-    for (; n > 0; n -= rows_at_once, x += std::ptrdiff_t{rows_at_once} * N) {
-      std::ptrdiff_t const rows = n < rows_at_once ? n : rows_at_once;
-      if (!add_rows(x, rows))
-        for (std::ptrdiff_t k = 0; k < rows; ++k) add(x + k * N);
-    }
   }
   void add(ExactSums const& other) {
     for (int c = 0; c < N; ++c) {
@@ -107,58 +94,6 @@ class ExactSums {
       }
     }
   }
-
-  /// Whether all of them are below the limits; if not, none is added.
-  bool add_rows(double const* x, std::ptrdiff_t rows) {
-    static_assert(folds == 4);
-    double upper[N], lower[N];
-    if constexpr (N < lane_count) {
-      for (int c = 0; c < N; ++c)
-        if (!add_columns<double>(x + c, rows, c, upper, lower)) return false;
-    } else {
-      // The last pack is one that ends with the last sum: some are made twice.
-      for (int c = 0; c < N; c += lane_count) {
-        int const first = c + lane_count < N ? c : N - lane_count;
-        if (!add_columns<Lanes>(x + first, rows, first, upper, lower)) return false;
-      }
-    }
-    constexpr double finer = 1.0 / (std::int64_t{1} << bits), fine = finer * finer;
-    for (int c = 0; c < N; ++c) {
-      double const of_upper = (upper[c] + magnet_[c]) - magnet_[c];
-      fold_[0][c] += of_upper;
-      fold_[1][c] += upper[c] - of_upper;
-      double const of_lower = (lower[c] + magnet_[c] * fine) - magnet_[c] * fine;
-      fold_[2][c] += of_lower;
-      fold_[3][c] += lower[c] - of_lower;
-    }
-    return true;
-  }
-  template <class V>
-  bool add_columns(double const* x, std::ptrdiff_t rows, int first, double* upper, double* lower) const {
-    constexpr double finer = 1.0 / (std::int64_t{1} << bits);
-    V const magnet = load<V>(magnet_ + first) * finer, low_magnet = magnet * (finer * finer);
-    V of_upper(0.0), of_lower(0.0), largest(0.0);
-    for (std::ptrdiff_t k = 0; k < rows; ++k) {
-      V const summand = load<V>(x + k * N);
-      largest = larger_size(summand, largest);
-      V const part = (summand + magnet) - magnet;
-      of_upper += part;
-      of_lower += ((summand - part) + low_magnet) - low_magnet;
-    }
-    store(of_upper, upper + first);
-    store(of_lower, lower + first);
-    // What is not finite makes of_upper not a number.
-    return !any(largest >= load<V>(limit_ + first)) && !any(of_upper != of_upper);
-  }
-  [[gnu::always_inline]] static double larger_size(double x, double largest) {
-    double const size = std::fabs(x);
-    return size > largest ? size : largest;
-  }
-#if PIOLA_HAS_PACKS
-  [[gnu::always_inline]] static Lanes larger_size(Lanes const& x, Lanes const& largest) {
-    return std::experimental::max(std::experimental::abs(x), largest);
-  }
-#endif
 
   double fold_[folds][N]{};
   double magnet_[N]{};   ///< added and taken away again it rounds to the level's multiples

@@ -2,9 +2,8 @@
 #pragma once
 #include "piola/exec/exact_sum.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/math/lane_sums.hpp"
+#include "piola/math/lanes.hpp"
 #include <type_traits>
-#include <utility>
 
 namespace piola {
 
@@ -171,17 +170,14 @@ struct LeafSums {
     for (Index first = b.first; first < b.last; first += leaf_size, out += N) {
       Index const last = first + leaf_size < b.last ? first + leaf_size : b.last;
       Lanes sums[N];
-      clear(sums, std::make_integer_sequence<int, N>{});
+      for (int c = 0; c < N; ++c) sums[c] = Lanes(0.0);
       for (Index i = first; i < last; i += lane_count) pass(i, sums);
-      add_lanes_in_order(sums, out);
+      for (int c = 0; c < N; ++c) {
+        double total = 0;
+        for (int l = 0; l < lane_count; ++l) total += lane(sums[c], l);
+        out[c] = total;
+      }
     }
-  }
-
- private:
-  /// Store by store: what compilers make of a loop takes as long as adding the lanes up (perf).
-  template <int... c>
-  PIOLA_FN static void clear(Lanes (&sums)[N], std::integer_sequence<int, c...>) {
-    ((sums[c] = Lanes(0.0)), ...);
   }
 };
 
@@ -190,15 +186,13 @@ template <int N>
 ExactSums<N> sum_of_partials(double const* partial, Index n) {
   ExactSums<N> sums;
 #if defined(__CUDACC__)
-  sums.add(partial, n);
+  for (Index k = 0; k < n; ++k) sums.add(partial + static_cast<std::ptrdiff_t>(k) * N);
 #else
-  constexpr Index together = ExactSums<N>::rows_at_once;
 #pragma omp parallel num_threads(exec_host::team(n* leaf_size))
   {
     ExactSums<N> own;
 #pragma omp for schedule(static) nowait
-    for (Index k = 0; k < n; k += together)
-      own.add(partial + static_cast<std::ptrdiff_t>(k) * N, n - k < together ? n - k : together);
+    for (Index k = 0; k < n; ++k) own.add(partial + static_cast<std::ptrdiff_t>(k) * N);
 #pragma omp critical(piola_sums)
     sums.add(own);
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/math/lane_sums.hpp"
+#include "piola/math/lanes.hpp"
+#if defined(__AVX512F__) || defined(__AVX2__)
+#include <immintrin.h>
+#endif
 
 /// Gathering whole records of neighbours (load and transpose) and adding up lanes. A gather instruction costs as much
 /// as the scalar loads it replaces; loading each neighbour's record as a vector and transposing is two to four times
@@ -8,6 +11,25 @@
 namespace piola::inline PIOLA_MACHINE {
 
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
+namespace detail {
+inline void transpose(__m512d (&r)[8]) {
+  __m512d t[8], u[8];
+  for (int k = 0; k < 4; ++k) {
+    t[2 * k] = _mm512_unpacklo_pd(r[2 * k], r[2 * k + 1]);
+    t[2 * k + 1] = _mm512_unpackhi_pd(r[2 * k], r[2 * k + 1]);
+  }
+  for (int h = 0; h < 2; ++h)
+    for (int k = 0; k < 2; ++k) {
+      u[4 * h + k] = _mm512_shuffle_f64x2(t[4 * h + k], t[4 * h + k + 2], 0x88);
+      u[4 * h + k + 2] = _mm512_shuffle_f64x2(t[4 * h + k], t[4 * h + k + 2], 0xdd);
+    }
+  for (int k = 0; k < 4; ++k) {
+    r[k] = _mm512_shuffle_f64x2(u[k], u[k + 4], 0x88);
+    r[k + 4] = _mm512_shuffle_f64x2(u[k], u[k + 4], 0xdd);
+  }
+}
+}  // namespace detail
+
 /// f[c] = component c of the records base + index[l] * stride, l over the lanes. Reads whole groups of lane_count
 /// components: records are padded to a multiple of 8 doubles.
 template <int N>
@@ -40,10 +62,16 @@ PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
 template <int N>
 PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
   for (int first = 0; first < N; first += 4) {
-    __m256d r[4];
+    __m256d r[4], t[4];
     for (int l = 0; l < 4; ++l) r[l] = _mm256_loadu_pd(base + index[l] * stride + first);
-    detail::transpose(r);
-    for (int c = 0; c < 4 && first + c < N; ++c) f[first + c] = Lanes(r[c]);
+    for (int k = 0; k < 2; ++k) {
+      t[2 * k] = _mm256_unpacklo_pd(r[2 * k], r[2 * k + 1]);
+      t[2 * k + 1] = _mm256_unpackhi_pd(r[2 * k], r[2 * k + 1]);
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (first + k < N) f[first + k] = Lanes(_mm256_permute2f128_pd(t[k], t[k + 2], 0x20));
+      if (first + k + 2 < N) f[first + k + 2] = Lanes(_mm256_permute2f128_pd(t[k], t[k + 2], 0x31));
+    }
   }
 }
 
