@@ -60,15 +60,20 @@ TEST_P(RowWriterStores, RowsInOrderInASealedFile) {
 INSTANTIATE_TEST_SUITE_P(Rows, RowWriterStores,
                          ::testing::Values(Storage::contiguous, Storage::sequence, Storage::compressed));
 
-TEST(RowReader, ReadsWhatRowWriterWrote) {
-  testing::TemporaryFolder const folder;
-  Table const table(20'000, 2);
-  hdf5::Writer file(folder / "a.h5");
+/// A file with this table alone; returns where it stands there.
+std::uint64_t write(std::filesystem::path const& path, Table const& table) {
+  hdf5::Writer file(path);
   RowWriter rows(&file);
   rows.put<double>("/t", table.of(), table.shuffled, Storage::sequence);
   rows.end();
   file.finish();
-  std::uint64_t const at = hdf5::Reader(folder / "a.h5").place_of_doubles("/t").value();
+  return hdf5::Reader(path).place_of_doubles("/t").value();
+}
+
+TEST(RowReader, ReadsWhatRowWriterWrote) {
+  testing::TemporaryFolder const folder;
+  Table const table(20'000, 2);
+  std::uint64_t const at = write(folder / "a.h5", table);
   std::vector<double> values(table.shuffled.size());
   RowReader reader;
   EXPECT_TRUE(reader.read(PlaceInFile{folder / "a.h5", at}, table.of(), values));
@@ -81,12 +86,7 @@ TEST(RowReader, ReadsWhatRowWriterWrote) {
 TEST(RowWriter, DamageOfARowBreaksTheSeal) {
   testing::TemporaryFolder const folder;
   Table const table(10'000, 1);
-  hdf5::Writer file(folder / "a.h5");
-  RowWriter rows(&file);
-  rows.put<double>("/t", table.of(), table.shuffled, Storage::sequence);
-  rows.end();
-  file.finish();
-  std::uint64_t const at = hdf5::Reader(folder / "a.h5").place_of_doubles("/t").value();
+  std::uint64_t const at = write(folder / "a.h5", table);
   std::fstream(folder / "a.h5", std::ios::in | std::ios::out | std::ios::binary).seekp(static_cast<long>(at + 8000))
       << 'x';
   EXPECT_THROW(hdf5::Reader(folder / "a.h5"), FileError);

@@ -20,7 +20,6 @@ TEST(OwnSlots, OfOneRankStayAsTheyAre) {
   for (Index i = 0; i < 100; ++i)
     for (int c = 0; c < 2; ++c) field.at(i, c) = 2 * i + c;
   complete_slots(field.ref(), 2, {16, 80});
-  gather_slots(field.ref(), {0, 100}, 2);
   merge_slots(field.ref(), {0, 100}, std::vector<Index>{3, 99}, 2);
   for (Index i = 0; i < 100; ++i)
     for (int c = 0; c < 2; ++c) ASSERT_EQ(field.at(i, c), 2 * i + c);

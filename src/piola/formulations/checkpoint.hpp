@@ -20,6 +20,29 @@ void each_in_id_order(Body const& body, int components, F const& f) {
   });
 }
 
+/// value(slot, c) of the particles of this rank, in the order of slots.
+template <class Body, class F>
+std::vector<double> in_slot_order(Body const& body, int components, F const& value) {
+  auto const n = static_cast<std::size_t>(components);
+  Range const own = body.own();
+  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      mine[static_cast<std::size_t>(k) * n + c] = value(own.first + k, static_cast<int>(c));
+  });
+  return mine;
+}
+/// The way back: put(slot, c, value).
+template <class Body, class F>
+void from_slot_order(Body const& body, int components, std::span<double const> mine, F const& put) {
+  auto const n = static_cast<std::size_t>(components);
+  Range const own = body.own();
+  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    for (std::size_t c = 0; c < n; ++c)
+      put(own.first + k, static_cast<int>(c), mine[static_cast<std::size_t>(k) * n + c]);
+  });
+}
+
 /// value(slot, c) of all particles in the order of ids; on ranks that share the body on rank 0 alone, elsewhere
 /// nothing.
 template <class Body, class F>
@@ -30,12 +53,7 @@ std::vector<double> in_id_order(Body const& body, int components, F const& value
     each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { all[at] = value(i, c); });
     return all;
   }
-  Range const own = body.own();
-  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
-    for (std::size_t c = 0; c < n; ++c)
-      mine[static_cast<std::size_t>(k) * n + c] = value(own.first + k, static_cast<int>(c));
-  });
+  std::vector<double> mine = in_slot_order(body, components, value);
   SharedSlots{body.slots(), body.particles()}.collect(n, std::move(mine), [&](Range part, std::span<double const> of) {
     exec_host::for_each_in_set_up(part.last - part.first, [&](Index k) {
       auto const id = static_cast<std::size_t>(body.id(part.first + k) - body.body().first);
@@ -53,17 +71,13 @@ void from_id_order(Body const& body, int components, std::span<double const> all
     each_in_id_order(body, components, [&](std::size_t at, Index i, int c) { put(i, c, all[at]); });
     return;
   }
-  Range const own = body.own();
   auto const mine = SharedSlots{body.slots(), body.particles()}.deal(n, [&](Range part, std::span<double> of) {
     exec_host::for_each_in_set_up(part.last - part.first, [&](Index k) {
       auto const id = static_cast<std::size_t>(body.id(part.first + k) - body.body().first);
       for (std::size_t c = 0; c < n; ++c) of[static_cast<std::size_t>(k) * n + c] = all[id * n + c];
     });
   });
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
-    for (std::size_t c = 0; c < n; ++c)
-      put(own.first + k, static_cast<int>(c), mine[static_cast<std::size_t>(k) * n + c]);
-  });
+  from_slot_order(body, components, mine, put);
 }
 
 /// Of a body, of which ranks that share it have their own particles, the rows of those in the order of ids.
@@ -93,27 +107,15 @@ void save_own(StateWriter& writer, std::string const& name, Body const& body, Fi
   OwnRows const rows(body);
   auto const value = [&](Index i, int c) { return value_at(field, i, c); };
   if (!ranks::several()) return writer.put_rows(name, rows.of(components), in_id_order(body, components, value));
-  auto const n = static_cast<std::size_t>(components);
-  Range const own = body.own();
-  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
-    for (std::size_t c = 0; c < n; ++c)
-      mine[static_cast<std::size_t>(k) * n + c] = value(own.first + k, static_cast<int>(c));
-  });
-  writer.put_rows(name, rows.of(components), mine);
+  writer.put_rows(name, rows.of(components), in_slot_order(body, components, value));
 }
 template <class Body>
 void load_own(StateReader& reader, std::string const& name, Body const& body, FieldRef const& field, int components) {
-  auto const n = static_cast<std::size_t>(components);
-  Range const own = ranks::several() ? body.own() : Range{0, body.particles()};
-  std::vector<double> mine(static_cast<std::size_t>(own.last - own.first) * n);
+  Index const rows = ranks::several() ? body.own().last - body.own().first : body.particles();
+  std::vector<double> mine(static_cast<std::size_t>(rows) * static_cast<std::size_t>(components));
   reader.get_rows(name, OwnRows(body).of(components), mine);
-  if (!ranks::several())
-    return from_id_order(body, components, mine, [&](Index i, int c, double v) { value_at(field, i, c) = v; });
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
-    for (std::size_t c = 0; c < n; ++c)
-      value_at(field, own.first + k, static_cast<int>(c)) = mine[static_cast<std::size_t>(k) * n + c];
-  });
+  auto const put = [&](Index i, int c, double value) { value_at(field, i, c) = value; };
+  ranks::several() ? from_slot_order(body, components, mine, put) : from_id_order(body, components, mine, put);
 }
 
 /// Of what says its state in numbers, always as many, and takes it back.

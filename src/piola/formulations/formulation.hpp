@@ -97,10 +97,27 @@ class StateWriter {
   /// Of what ranks have rows of: `values` are those of this rank, row by row. Collective; here rank 0 gets all of them
   /// and puts them.
   virtual void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values);
-  /// Whether put_rows() has all ranks write to one file: end_rows() follows then. Collective.
-  virtual bool on_all_ranks() const { return false; }
-  virtual void end_rows() {}
+  /// What put_rows() does with the rows of other ranks: brings them to rank 0; writes them into one file, end_rows()
+  /// following then; nothing, since only the size matters.
+  enum class Rows { to_first, to_file, counted };
+  virtual Rows rows() const { return Rows::to_first; }
+  virtual void end_rows() {}  ///< collective
 };
+
+/// Counts what is saved.
+class StateSize : public StateWriter {
+ public:
+  void put(std::string_view, std::span<double const> values) override { numbers_ += values.size(); }
+  void put_rows(std::string_view, RowsOfRanks const& rows, std::span<double const>) override {
+    numbers_ += numbers_of(rows);
+  }
+  Rows rows() const override { return Rows::counted; }
+  std::size_t numbers() const { return numbers_; }
+
+ private:
+  std::size_t numbers_ = 0;
+};
+
 /// Where the numbers of a name stand, one after the other, as they are in memory.
 struct PlaceInFile {
   std::string path;
@@ -176,9 +193,6 @@ class Formulation {
 
   /// Of one body, if the formulation runs on ranks.
   virtual std::optional<Talk> talk(std::size_t /*body*/) const { return std::nullopt; }
-  /// Of formulations that do not say FormulationInfo::observed_by_share, where ranks share the particles: brings what
-  /// the others have to rank 0, which may then be asked for all of the state until the next step. Every rank calls it.
-  virtual void gather() {}
   /// How often ranks were cut anew, if the formulation can be.
   virtual std::optional<Recuts> recuts() const { return std::nullopt; }
 };

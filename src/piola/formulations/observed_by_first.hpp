@@ -5,9 +5,8 @@
 
 namespace piola {
 
-/// Of several ranks rank 0 observes the formulation alone, once it has got all of the state of the others: what
-/// Formulation asks of diagnose(), sample() and save() on ranks, for formulations that know gather() only. On one rank
-/// the formulation itself.
+/// Of several ranks rank 0 observes the formulation alone: what Formulation asks of diagnose(), sample() and save() on
+/// ranks, for formulations of which every rank has all. On one rank the formulation itself.
 std::unique_ptr<Formulation> observed_by_first(std::unique_ptr<Formulation> formulation);
 
 }  // namespace piola

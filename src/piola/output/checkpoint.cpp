@@ -30,7 +30,7 @@ class GroupWriter : public StateWriter {
     rows_.put(path, rows, values, hdf5::Storage::sequence);
     if (rows_.good()) file_.attribute(path, "name", name);
   }
-  bool on_all_ranks() const override { return true; }
+  Rows rows() const override { return Rows::to_file; }
   void end_rows() override { rows_.end(); }
 
  private:

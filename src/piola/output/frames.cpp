@@ -34,6 +34,8 @@ std::vector<Index> own_rows(Index count) {
   return rows;
 }
 
+std::string path_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
+
 /// Tables of a frame whose rows are dealt out alike.
 enum Set : int { of_particles, of_cells, of_offsets };
 
@@ -72,20 +74,15 @@ void FrameContent::put_cells(RowWriter& rows) const {
   rows.put<std::uint8_t>("/VTKHDF/Types", table(of_cells, n, cells), types, storage_);
 }
 
-namespace {
-
-RowsOfRanks rows_of(FieldCache const& cache, std::vector<Index> const& places, int columns) {
-  RowsOfRanks rows{of_particles, static_cast<Index>(cache.particles().size()), std::nullopt, columns};
-  if (cache.owned()) rows.places = places;
+RowsOfRanks FrameContent::rows_of(int columns) const {
+  RowsOfRanks rows{of_particles, static_cast<Index>(cache_.particles().size()), std::nullopt, columns};
+  if (cache_.owned()) rows.places = places_;
   return rows;
 }
-std::string path_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
-
-}  // namespace
 
 void FrameContent::put_field(RowWriter& rows, FieldInfo const& info) {
   std::span<double const> const values = cache_.values(info.name);
-  RowsOfRanks const table = rows_of(cache_, places_, info.components);
+  RowsOfRanks const table = rows_of(info.components);
   if (is_integer(info.name)) {  // a float would lose ids above 16 million
     std::vector<std::int64_t> const whole(values.begin(), values.end());
     rows.put<std::int64_t>(path_of(info.name), table, whole, storage_);
@@ -95,7 +92,7 @@ void FrameContent::put_field(RowWriter& rows, FieldInfo const& info) {
 }
 
 void FrameContent::put(RowWriter& rows) {
-  rows.put<float>("/VTKHDF/Points", rows_of(cache_, places_, 3), to_float(cache_.values("Position")), storage_);
+  rows.put<float>("/VTKHDF/Points", rows_of(3), to_float(cache_.values("Position")), storage_);
   put_cells(rows);
   for (FieldInfo const& info : chosen_) put_field(rows, info);
   auto const& volume = cache_.particles().volume;
@@ -104,7 +101,7 @@ void FrameContent::put(RowWriter& rows) {
     for (Index const id : places_) own.push_back(static_cast<float>(volume[static_cast<std::size_t>(id)]));
   else
     own = to_float(volume);
-  rows.put<float>(path_of("Volume"), rows_of(cache_, places_, 1), own, storage_);
+  rows.put<float>(path_of("Volume"), rows_of(1), own, storage_);
   rows.end();
 }
 

@@ -23,6 +23,7 @@ class FrameContent {
   void describe(hdf5::Writer& file) const;
 
  private:
+  RowsOfRanks rows_of(int columns) const;  ///< of particles
   void put_cells(RowWriter& rows) const;
   void put_field(RowWriter& rows, FieldInfo const& info);
   FieldCache& cache_;

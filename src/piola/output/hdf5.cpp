@@ -60,6 +60,12 @@ void Writer::group(std::string const& path) {
   Handle const made(H5Gcreate2(parts_->id(), path.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
 }
 
+WrittenPart part_of(std::uint64_t at, std::span<std::byte const> bytes) {
+  CheckSum sum;
+  sum.add(bytes);
+  return {at, bytes.size(), sum.value()};
+}
+
 std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes) {
   std::uint64_t const row = bytes * static_cast<std::uint64_t>(columns);
   return std::clamp<std::uint64_t>(chunk_bytes / row, 1, std::max<std::uint64_t>(rows, 1));
@@ -120,9 +126,7 @@ std::vector<std::uint64_t> Writer::reserve_chunks(std::string const& path, std::
 
 void Writer::put_at(std::uint64_t at, std::span<std::byte const> bytes) {
   parts_->disk.on_disk.write(at, bytes);
-  CheckSum sum;
-  sum.add(bytes);
-  note({at, bytes.size(), sum.value()});
+  note(part_of(at, bytes));
 }
 
 void Writer::note(WrittenPart part) {

@@ -35,6 +35,8 @@ class Handle {
   Close close_;
 };
 
+WrittenPart part_of(std::uint64_t at, std::span<std::byte const> bytes);
+
 /// Rows of a compressed chunk of a table with so many rows, of values of so many bytes.
 std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes);
 

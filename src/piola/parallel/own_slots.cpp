@@ -146,20 +146,6 @@ void FailuresOfRanks::put(FailureSlot& slot) const {
   }
 }
 
-void gather_slots(FieldRef const& field, Range own, int components) {
-  auto const n = static_cast<std::size_t>(components);
-  std::vector<double> values(static_cast<std::size_t>(own.last - own.first) * n);
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
-    for (std::size_t c = 0; c < n; ++c)
-      values[static_cast<std::size_t>(k) * n + c] = value_at(field, own.first + k, static_cast<int>(c));
-  });
-  std::vector<double> const all = ranks::gather(values);
-  exec_host::for_each_in_set_up(static_cast<Index>(all.size() / n), [&](Index i) {
-    for (std::size_t c = 0; c < n; ++c)
-      value_at(field, i, static_cast<int>(c)) = all[static_cast<std::size_t>(i) * n + c];
-  });
-}
-
 void merge_slots(FieldRef const& field, Range own, std::span<Index const> slots, int components) {
   if (!ranks::several()) return;
   std::vector<double> values;

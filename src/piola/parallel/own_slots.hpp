@@ -110,9 +110,6 @@ class FailuresOfRanks {
   std::vector<Said> said_;
 };
 
-/// Of a field that each rank has right in its own slots, a share of them as share_of() has it: rank 0 has all of it.
-void gather_slots(FieldRef const& field, Range own, int components);
-
 /// A body of which each rank has a share of the slots, as share_of() has it; the first `particles` of all slots hold
 /// one.
 struct SharedSlots {

@@ -36,14 +36,14 @@ RowPlan::RowPlan(RowsOfRanks const& rows, Index block) : count_(rows.count), blo
     leaving[rank].push_back(place - of(static_cast<int>(rank)).first);
   }
   for (auto const& part : of_rank) {
-    leaving_count_.push_back(static_cast<Index>(part.size()));
-    packed_.insert(packed_.end(), part.begin(), part.end());
+    scattered_.counts.push_back(static_cast<Index>(part.size()));
+    scattered_.rows.insert(scattered_.rows.end(), part.begin(), part.end());
   }
   for (auto const& part : ranks::deal(leaving)) {
-    arriving_count_.push_back(static_cast<Index>(part.size()));
-    arriving_.insert(arriving_.end(), part.begin(), part.end());
+    stretch_.counts.push_back(static_cast<Index>(part.size()));
+    stretch_.rows.insert(stretch_.rows.end(), part.begin(), part.end());
   }
-  PIOLA_ENSURES(static_cast<Index>(arriving_.size()) == own().last - own().first);
+  PIOLA_ENSURES(static_cast<Index>(stretch_.rows.size()) == own().last - own().first);
 }
 
 Range RowPlan::of(int rank) const {
@@ -55,22 +55,14 @@ Range RowPlan::of(int rank) const {
 }
 Range RowPlan::own() const { return of(ranks::own()); }
 
-void RowPlan::collect(std::span<std::byte const> rows, std::span<std::byte> whole, std::size_t row) const {
-  PIOLA_EXPECTS(rows.size() == packed_.size() * row && whole.size() == arriving_.size() * row);
-  if (!ranks::several()) return copy_rows(rows, packed_, whole, arriving_, row);
-  std::vector<std::byte> out(rows.size()), in(whole.size());
-  copy_rows(rows, packed_, out, {}, row);
-  ranks::deal_items(out.data(), leaving_count_, in.data(), arriving_count_, row);
-  copy_rows(in, {}, whole, arriving_, row);
-}
-
-void RowPlan::hand_out(std::span<std::byte const> whole, std::span<std::byte> rows, std::size_t row) const {
-  PIOLA_EXPECTS(rows.size() == packed_.size() * row && whole.size() == arriving_.size() * row);
-  if (!ranks::several()) return copy_rows(whole, arriving_, rows, packed_, row);
-  std::vector<std::byte> out(whole.size()), in(rows.size());
-  copy_rows(whole, arriving_, out, {}, row);
-  ranks::deal_items(out.data(), arriving_count_, in.data(), leaving_count_, row);
-  copy_rows(in, {}, rows, packed_, row);
+void RowPlan::move(std::span<std::byte const> from, Side const& there, std::span<std::byte> to, Side const& here,
+                   std::size_t row) const {
+  PIOLA_EXPECTS(from.size() == there.rows.size() * row && to.size() == here.rows.size() * row);
+  if (!ranks::several()) return copy_rows(from, there.rows, to, here.rows, row);
+  std::vector<std::byte> out(from.size()), in(to.size());
+  copy_rows(from, there.rows, out, {}, row);
+  ranks::deal_items(out.data(), there.counts, in.data(), here.counts, row);
+  copy_rows(in, {}, to, here.rows, row);
 }
 
 }  // namespace piola

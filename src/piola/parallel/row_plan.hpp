@@ -38,22 +38,26 @@ class RowPlan {
     static_assert(std::is_trivially_copyable_v<T>, "it travels as bytes");
     auto const width = static_cast<std::size_t>(columns);
     std::vector<T> whole(static_cast<std::size_t>(own().last - own().first) * width);
-    collect(std::as_bytes(values), std::as_writable_bytes(std::span(whole)), sizeof(T) * width);
+    move(std::as_bytes(values), scattered_, std::as_writable_bytes(std::span(whole)), stretch_, sizeof(T) * width);
     return whole;
   }
   /// The way back. Collective.
   template <class T>
   void hand_out(std::span<T const> whole, std::span<T> values, int columns) const {
-    hand_out(std::as_bytes(whole), std::as_writable_bytes(values), sizeof(T) * static_cast<std::size_t>(columns));
+    move(std::as_bytes(whole), stretch_, std::as_writable_bytes(values), scattered_,
+         sizeof(T) * static_cast<std::size_t>(columns));
   }
 
  private:
-  void collect(std::span<std::byte const> rows, std::span<std::byte> whole, std::size_t row) const;
-  void hand_out(std::span<std::byte const> whole, std::span<std::byte> rows, std::size_t row) const;
+  /// Rows in the order in which they go to, or come from, rank 0, rank 1, and so on.
+  struct Side {
+    std::vector<Index> rows, counts;  ///< counts: per rank
+  };
+  void move(std::span<std::byte const> from, Side const& there, std::span<std::byte> to, Side const& here,
+            std::size_t row) const;
   Index count_, block_;
-  std::vector<Index> packed_;                          ///< rows of this rank in the order in which they leave
-  std::vector<Index> arriving_;                        ///< rows of own(), from 0, in the order in which they come
-  std::vector<Index> leaving_count_, arriving_count_;  ///< per rank
+  Side scattered_;  ///< rows of this rank
+  Side stretch_;    ///< rows of own(), from 0
 };
 
 }  // namespace piola

@@ -143,12 +143,6 @@ bool is_set_up_by_share(CaseSpec const& spec, BodySpec const& body) {
                                               std::none_of(spec.supports.begin(), spec.supports.end(), holds));
 }
 
-/// Counts what a checkpoint holds.
-struct Counter : StateWriter {
-  double values = 0;
-  void put(std::string_view, std::span<double const> some) override { values += static_cast<double>(some.size()); }
-};
-
 /// What the parts of the output come to in number.
 struct Plan {
   double rows, frames, pictures, checkpoints;
@@ -298,11 +292,11 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
   e.steps = steps_of(e.rule, spec.run);
   e.threads = threads;
   auto const n = static_cast<double>(particles.size());
-  Counter counter;
-  formulation.save(counter);
+  StateSize saved;
+  formulation.save(saved);
   e.memory = static_cast<double>(formulation.memory_bytes());
-  e.disk = disk_of(spec, formulation, n, n > 0 ? counter.values / n : 0);
-  e.row_bytes = 8 * counter.values;
+  e.disk = disk_of(spec, formulation, n, n > 0 ? static_cast<double>(saved.numbers()) / n : 0);
+  e.row_bytes = 8 * static_cast<double>(saved.numbers());
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) e.talk.push_back(formulation.talk(b));
   count_work(spec, particles, formulation.stages_per_step(), probed_numbers(spec), e);
   return e;
@@ -356,13 +350,13 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     StepRule const rule = formulation->step_rule();
     if (b == 0 || rule.settled < e.rule.settled) e.rule = rule;
     stages = formulation->stages_per_step();
-    Counter counter;
-    formulation->save(counter);
+    StateSize saved;
+    formulation->save(saved);
     auto const all = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
     auto const some = static_cast<double>(a.particles.size());
     e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
-    e.disk += disk_of(spec, *formulation, all, counter.values / some);
-    e.row_bytes += 8 * counter.values * all / some;
+    e.disk += disk_of(spec, *formulation, all, static_cast<double>(saved.numbers()) / some);
+    e.row_bytes += 8 * static_cast<double>(saved.numbers()) * all / some;
     e.talk.push_back(formulation->talk(0));
     if (e.talk.back()) e.talk.back()->to_all *= all / some;
   }

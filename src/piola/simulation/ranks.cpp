@@ -173,10 +173,10 @@ class Conductor final : public Formulation {
   void save(StateWriter& writer) const override {
     Gathering const gathering;
     Aside const aside;
-    send({.what = Order::What::save, .code = writer.on_all_ranks() ? 1 : 0});
+    send({.what = Order::What::save, .code = static_cast<std::int64_t>(writer.rows())});
     LastingWriter lasting(writer);
     own().save(lasting);
-    if (writer.on_all_ranks()) lasting.end_rows();
+    if (writer.rows() == StateWriter::Rows::to_file) lasting.end_rows();
     lasting.raise();
   }
   void load(StateReader& reader) override {
@@ -206,6 +206,17 @@ bool is_for_observers(Order const& order) {
          order.what == save || order.what == load;
 }
 
+/// What this rank does for a writer of rank 0.
+void save_with_first(Formulation const& formulation, StateWriter::Rows rows) {
+  NoWriter nobody;
+  StateSize size;
+  PartOfWriter part;
+  StateWriter* const writers[]{&nobody, &part, &size};
+  StateWriter& writer = *writers[static_cast<std::size_t>(rows)];
+  formulation.save(writer);
+  writer.end_rows();
+}
+
 void obey(Formulation& formulation, Order const& order) {
   switch (order.what) {
     case Order::What::step: count_step(); return formulation.step(order.first, order.second);
@@ -214,15 +225,7 @@ void obey(Formulation& formulation, Order const& order) {
     case Order::What::kinetic_energy: return void(formulation.kinetic_energy());
     case Order::What::diagnose: return void(formulation.diagnose());
     case Order::What::sample: return formulation.sample(order.field, {});
-    case Order::What::save: {
-      if (order.code == 0) {
-        NoWriter nobody;
-        return formulation.save(nobody);
-      }
-      PartOfWriter part;
-      formulation.save(part);
-      return part.end_rows();
-    }
+    case Order::What::save: return save_with_first(formulation, static_cast<StateWriter::Rows>(order.code));
     case Order::What::load: {
       SharedReader shared(nullptr);
       try {

@@ -181,14 +181,9 @@ std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder
 
 /// Bytes of what a formulation saves.
 std::int64_t size_of_state(Formulation const& formulation) {
-  struct Counter : StateWriter {
-    std::int64_t bytes = 0;
-    void put(std::string_view, std::span<double const> values) override {
-      bytes += static_cast<std::int64_t>(values.size_bytes());
-    }
-  } counter;
-  formulation.save(counter);
-  return counter.bytes;
+  StateSize size;
+  formulation.save(size);
+  return static_cast<std::int64_t>(size.numbers() * sizeof(double));
 }
 
 /// A resumed run: everything as it was when the newest good checkpoint was written, but for the changes that the user

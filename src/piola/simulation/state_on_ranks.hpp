@@ -61,36 +61,32 @@ class LastingWriter final : public StateWriter {
  public:
   explicit LastingWriter(StateWriter& writer) : writer_(writer) {}
   void put(std::string_view name, std::span<double const> values) override {
-    if (!trouble_) try {
-        writer_.put(name, values);
-      } catch (...) {
-        trouble_ = std::current_exception();
-      }
+    if (!trouble_) keep_trouble([&] { writer_.put(name, values); });
   }
   void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
-    try {
-      writer_.put_rows(name, rows, values);
-    } catch (...) {
-      if (!trouble_) trouble_ = std::current_exception();
-    }
+    keep_trouble([&] { writer_.put_rows(name, rows, values); });
   }
   void end_rows() override {
-    try {
-      writer_.end_rows();
-    } catch (...) {
-      if (!trouble_) trouble_ = std::current_exception();
-    }
+    keep_trouble([&] { writer_.end_rows(); });
   }
   void raise() const {
     if (trouble_) std::rethrow_exception(trouble_);
   }
 
  private:
+  template <class F>
+  void keep_trouble(F const& f) {
+    try {
+      f();
+    } catch (...) {
+      if (!trouble_) trouble_ = std::current_exception();
+    }
+  }
   StateWriter& writer_;
   std::exception_ptr trouble_;
 };
 
-/// For ranks that take part in what rank 0 writes.
+/// For ranks that take part in what rank 0 puts.
 class NoWriter : public StateWriter {
  public:
   void put(std::string_view, std::span<double const>) override {}
@@ -102,7 +98,7 @@ class PartOfWriter final : public NoWriter {
   void put_rows(std::string_view, RowsOfRanks const& rows, std::span<double const> values) override {
     rows_.put("", rows, values);
   }
-  bool on_all_ranks() const override { return true; }
+  Rows rows() const override { return Rows::to_file; }
   void end_rows() override { rows_.end(); }
 
  private:
