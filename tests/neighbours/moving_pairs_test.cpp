@@ -30,7 +30,8 @@ struct Search {
     adaptle::Machine const& machine = *adaptle::find_machine(name.c_str());
     auto const n = static_cast<Index>(x.size());
     MovingGrid grid;
-    grid.sort(x[0].data(), 3, n, dimension, radius);
+    grid.find_cells(x[0].data(), 3, n, dimension, radius);
+    grid.sort({n});
     std::vector<std::int32_t> sorted_group(x.size() + 16);
     std::vector<Index> target;
     for (Index k = 0; k < n; ++k) {
@@ -187,7 +188,8 @@ TEST(MovingPairs, TellHowMuchRoomALongListNeeds) {
   Search s{2, cloud(2, 200, 9), 10};
   adaptle::Machine const& machine = *adaptle::find_machine("auto");
   MovingGrid grid;
-  grid.sort(s.x[0].data(), 3, 200, 2, s.radius);
+  grid.find_cells(s.x[0].data(), 3, 200, 2, s.radius);
+  grid.sort({200});
   std::vector<Index> list(32, -1), length(1), found(1);
   Index const target = 17;
   float const reach = 1.01F;
@@ -214,7 +216,8 @@ TEST(MovingPairs, TellHowMuchRoomALongListNeeds) {
 TEST(MovingGrid, StaysFineBesideAParticleFarAway) {
   auto const fullest = [](Points const& x) {
     MovingGrid grid;
-    grid.sort(x[0].data(), 3, static_cast<Index>(x.size()), 3, 0.05);
+    grid.find_cells(x[0].data(), 3, static_cast<Index>(x.size()), 3, 0.05);
+    grid.sort({static_cast<Index>(x.size())});
     Index most = 0;
     for (Index c = 0; c < grid.cell_count(); ++c) most = std::max(most, grid.begins()[c + 1] - grid.begins()[c]);
     EXPECT_LT(grid.slack(), 0.1);
@@ -232,7 +235,8 @@ TEST(MovingGrid, StaysFineBesideAParticleFarAway) {
 TEST(MovingGrid, SortsByCellsAndWithinACellByNumber) {
   Points const x = cloud(3, 400, 10);
   MovingGrid grid;
-  grid.sort(x[0].data(), 3, 400, 3, 0.3);
+  grid.find_cells(x[0].data(), 3, 400, 3, 0.3);
+  grid.sort({400});
   EXPECT_EQ(grid.begins()[grid.cell_count()], 400);
   for (Index k = 1; k < 400; ++k) {
     Index const before = grid.cells()[k - 1], cell = grid.cells()[k];
@@ -240,6 +244,47 @@ TEST(MovingGrid, SortsByCellsAndWithinACellByNumber) {
     EXPECT_TRUE(before < cell || grid.slots()[k - 1] < grid.slots()[k]);
     EXPECT_LE(grid.begins()[cell], k);
     EXPECT_GT(grid.begins()[cell + 1], k);
+  }
+}
+
+/// Of a part of the particles, in the cells and with the places of all: what a rank sorts.
+TEST(MovingGrid, SortsAPartAsItSortsAll) {
+  for (int const dimension : {2, 3}) {
+    Points x = cloud(dimension, 700, 12);
+    x.push_back({4e4, 5.5, 0});
+    x.push_back({0, -1e30, 0});
+    auto const n = static_cast<Index>(x.size());
+    std::array const origin{0.013, 5.2, 0.1};
+    MovingGrid all, some;
+    all.find_cells(x[0].data(), 3, n, dimension, 0.11, origin);
+    all.sort({n});
+    std::vector<Index> part;
+    for (Index i = 0; i < n; ++i)
+      if (i % 3 != 1) part.push_back(i);
+    SlotList const chosen{static_cast<Index>(part.size()), part.data()};
+    int asked = 0;
+    some.lay(bounds_of(x[0].data(), 3, {n}, dimension), n, dimension, 0.11, origin, [&](std::size_t axis) {
+      ++asked;
+      std::vector<double> along;
+      for (Index i = n - 1; i >= 0; --i) along.push_back(x[at(i)][axis]);
+      return along;
+    });
+    EXPECT_GT(asked, 0);
+    some.find_cells(x[0].data(), 3, chosen);
+    some.sort(chosen);
+    EXPECT_EQ(some.slack(), all.slack());
+    EXPECT_EQ(some.shape(), all.shape());
+    ASSERT_EQ(some.count(), chosen.count);
+    Index k = 0;
+    for (Index of_all = 0; of_all < n; ++of_all) {
+      Index const i = all.slots()[of_all];
+      if (i % 3 == 1) continue;
+      EXPECT_EQ(some.slots()[k], i);
+      EXPECT_EQ(some.cells()[k], all.cells()[of_all]);
+      EXPECT_EQ(some.sorted()[i], k);
+      for (int c = 0; c < dimension; ++c) EXPECT_EQ(some.place(c)[k], all.place(c)[of_all]);
+      ++k;
+    }
   }
 }
 

@@ -24,7 +24,7 @@ Estimate cost_of(ParticleSet const& set) {
   e.stages = 1;
   e.step_work = 300e-9 * static_cast<double>(set.size());
   e.row_bytes = 200 * static_cast<double>(set.size());
-  e.talk = {Talk{.messages = {{{2, 6}}, {{2, 12}}}, .collectives = 5}};
+  e.talk = {Talk{.messages = {{{2, 6}}, {{2, 12}}}, .near = {}, .collectives = 5}};
   return e;
 }
 

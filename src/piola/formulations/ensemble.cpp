@@ -186,6 +186,7 @@ std::optional<Talk> Ensemble::talk(std::size_t body) const {
     auto const here = parts_[k].body_in_part(body);
     if (!here) continue;
     auto talk = formulations_[k]->talk(*here);
+    if (talk && talk->near) talk->near->group = k;
     // Once in a step, of all bodies of the part.
     if (talk && meeting_ && *here == 0) {
       constexpr double position_and_velocity = 6;

@@ -83,8 +83,21 @@ struct Talk {
     int numbers;
   };
   std::vector<std::vector<Told>> messages;  ///< of a right-hand side, to each rank that reads any of it
-  double collectives = 0;                   ///< per step: what all ranks add, or take the largest of, or are told
-  double to_all = 0;                        ///< per step: numbers that all ranks are told of the particles of the body
+  /// What is told of particles that are near others in space, to each rank that reads any of it (CellMarks), after all
+  /// have told all of their cells.
+  struct Near {
+    struct Numbers {
+      int any, flow, touch;  ///< per particle, whatever is read of it and by kind of reading
+    };
+    std::vector<Numbers> messages;    ///< of a step
+    std::size_t group = 0;            ///< bodies with the same one have common cells, whose edge is the largest of all
+    double cell = 0;                  ///< edge [m]
+    bool touching = false;            ///< bodies of the group can touch
+    std::vector<std::uint8_t> flows;  ///< per particle of the body, or one for all
+  };
+  std::optional<Near> near;
+  double collectives = 0;  ///< per step: what all ranks add, or take the largest of, or are told
+  double to_all = 0;       ///< per step: numbers that all ranks are told of the particles of the body
   /// Of which each of so many ranks has its share.
   SlotOrder (*order)(ParticleSet const&, Body const&, int ranks) = &bisected_pencils;
 };

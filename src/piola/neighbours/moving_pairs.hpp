@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/part_filled.hpp"
 #include "piola/math/lanes.hpp"
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 /// Neighbours of particles that move: cells by counting sort in every step, then a search in single precision.
@@ -27,21 +29,55 @@ struct MovingSearch {
   Index* found = nullptr;   ///< without filling
 };
 
+/// Of the finite coordinates of points along each axis; none: low > high.
+struct CoordinateBounds {
+  std::array<double, 3> low, high;
+  CoordinateBounds();
+  void add(std::size_t axis, double at_least, double at_most) {
+    low[axis] = at_least < low[axis] ? at_least : low[axis];
+    high[axis] = at_most > high[axis] ? at_most : high[axis];
+  }
+  void add(CoordinateBounds const& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) add(axis, other.low[axis], other.high[axis]);
+  }
+};
+
+/// Some slots in an order; null: the first `count` of them.
+struct SlotList {
+  Index count = 0;
+  Index const* slot = nullptr;
+  Index operator[](Index k) const { return slot != nullptr ? slot[k] : k; }
+};
+
+/// x: positions, `stride` doubles apart.
+CoordinateBounds bounds_of(double const* x, std::ptrdiff_t stride, SlotList const& some, int dimension);
+
 /// Particles sorted by cubic cells, cell by cell with x fastest; within a cell in an order that is given.
 class MovingGrid {
  public:
-  /// x: positions, `stride` doubles apart. cell: edge [m], not below the largest search radius. origin: a corner of
-  /// cells [m]. With the same edge and origin the order does not depend on how far the particles reach, and pairs at
-  /// the edge of the search hardly do. Particles far outside of the others share cells at the border, which costs time
-  /// but loses no pair. order: where the first, second, ... particle of a cell stands in x; null: as in x.
-  void sort(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell,
-            std::array<double, 3> const& origin = {}, Index const* order = nullptr);
+  /// Coordinates of all particles along an axis: asked for where few of them are far from the others.
+  using Coordinates = std::function<std::vector<double>(std::size_t axis)>;
+  /// Where cells lie. all: bounds of so many particles. cell: edge [m], not below the largest search radius. origin: a
+  /// corner of cells [m]. With the same edge and origin the order does not depend on how far the particles reach, and
+  /// pairs at the edge of the search hardly do. Particles far outside of the others share cells at the border, which
+  /// costs time but loses no pair.
+  void lay(CoordinateBounds const& all, Index particles, int dimension, double cell,
+           std::array<double, 3> const& origin, Coordinates const& coordinates);
+  /// Finds the cells of some of the particles. x: positions, `stride` doubles apart, which stay until they are sorted.
+  void find_cells(double const* x, std::ptrdiff_t stride, SlotList const& some);
+  /// Both, of all particles.
+  void find_cells(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell,
+                  std::array<double, 3> const& origin = {});
+  /// Sorts some whose cells are found; in a cell they stay in this order.
+  void sort(SlotList const& some);
 
-  Index const* slots() const { return slot_.data(); }     ///< of each sorted particle
-  Index const* sorted() const { return sorted_.data(); }  ///< of each particle
-  Index const* cells() const { return cell_.data(); }     ///< of each sorted particle
+  Index const* keys() const { return key_.data(); }                 ///< of each particle: its cell
+  Index count() const { return static_cast<Index>(slot_.size()); }  ///< sorted particles
+  Index const* slots() const { return slot_.data(); }               ///< of each sorted particle
+  Index const* sorted() const { return sorted_.data(); }            ///< of each particle that is sorted
+  Index const* cells() const { return cell_.data(); }               ///< of each sorted particle
   Index const* begins() const { return begin_.data(); }
-  Index cell_count() const { return static_cast<Index>(begin_.size()) - 1; }
+  Index cell_count() const { return count_[0] * count_[1] * count_[2]; }
   std::array<Index, 3> shape() const { return count_; }
   float const* place(int axis) const { return place_[static_cast<std::size_t>(axis)].data(); }
   /// Largest error of a distance in `place`, in cells.
@@ -49,9 +85,26 @@ class MovingGrid {
   std::size_t bytes() const;
 
  private:
+  /// Cells [low, low + count) along an axis. Whole numbers; what lies outside falls into the cells at the border.
+  struct Span {
+    double low = 0, count = 1;
+  };
+  Span span(CoordinateBounds const& bounds, std::size_t axis) const;
+  void fit(CoordinateBounds const& bounds, Coordinates const& coordinates);
+  double in_cells(double x, std::size_t axis) const { return (x - origin_[axis]) / cell_edge_; }
+  double kept(double x, std::size_t axis) const;
+
+  double const* x_ = nullptr;
+  std::ptrdiff_t stride_ = 3;
+  Index particles_ = 0;
+  std::size_t dimension_ = 3;
+  double cell_edge_ = 1;
+  std::array<double, 3> origin_{}, base_{};  // base_: of places in single precision [cells]
+  std::array<Span, 3> span_;
   std::array<Index, 3> count_{};
   double slack_ = 0;
-  std::vector<Index> slot_, sorted_, cell_, begin_, key_;
+  std::vector<Index> slot_, cell_, begin_;
+  PartFilled<Index> sorted_, key_;  // per particle
   std::array<std::vector<float>, 3> place_;
 };
 

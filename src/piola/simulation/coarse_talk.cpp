@@ -32,6 +32,7 @@ ShapeSpec coarser(BodySpec const& body, double times) {
 
 struct Told {
   double particles, numbers, collectives;  ///< of a body
+  bool touching;                           ///< others of the same cells
 };
 
 std::vector<Told> told_of(CaseSpec spec, double times) {
@@ -42,7 +43,8 @@ std::vector<Told> told_of(CaseSpec spec, double times) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Body const& body = assembly.particles.bodies[b];
     Talk const talk = formulation->talk(b).value_or(Talk{});
-    all.push_back({static_cast<double>(body.last - body.first), talk.to_all, talk.collectives});
+    all.push_back(
+        {static_cast<double>(body.last - body.first), talk.to_all, talk.collectives, talk.near && talk.near->touching});
   }
   return all;
 }
@@ -75,6 +77,7 @@ void count_meetings(CaseSpec const& spec, ParticleSet const& particles, Estimate
     auto const n = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
     cost.talk[b]->to_all = continued(told[0][b], told[1][b], n);
     cost.talk[b]->collectives = told[1][b].collectives;
+    if (cost.talk[b]->near) cost.talk[b]->near->touching = told[1][b].touching;
   }
 }
 

@@ -43,7 +43,7 @@ Pace pace_of(std::string_view formulation) {
             {2 * us, 2 * us, 5 * us},
             {280, 280, 250},
             {},
-            118,
+            94,
             6};
   if (formulation == "taylor_sph")
     return {{10 * ns, 98 * ns, 590 * ns},
@@ -116,11 +116,11 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
          body.shape.arrangement == ShapeSpec::Arrangement::lattice;
 }
 
-/// Bytes of each particle of a body that every rank has. Of adaptle, where particles are in space, too: cells, where
-/// bodies may touch or something flows, and what others read of what does.
+/// Bytes of each particle of a body that every rank has. Of adaptle, where bodies may touch or something flows, which
+/// cells hold somebody, too.
 double bytes_everywhere(CaseSpec const& spec, BodySpec const& body, Pace const& pace) {
   if (body.formulation.name != "adaptle") return pace.everywhere;
-  constexpr double cells = 115, records = 330;
+  constexpr double cells = 40;
   auto const flows = [](BodySpec const& some) {
     auto const found = some.formulation.words.find("description");
     return found != some.formulation.words.end() && (found->second == "eulerian" || found->second == "patch");
@@ -130,7 +130,7 @@ double bytes_everywhere(CaseSpec const& spec, BodySpec const& body, Pace const& 
   bool const apart = spec.contact && (spec.contact->law == Law::none || spec.contact->law == Law::surface);
   bool const touching = !apart && std::count_if(spec.bodies.begin(), spec.bodies.end(), is_like) > 1;
   bool const sorted = touching || std::any_of(spec.bodies.begin(), spec.bodies.end(), flows);
-  return pace.everywhere + (sorted ? cells : 0) + (flows(body) ? records : 0);
+  return pace.everywhere + (sorted ? cells : 0);
 }
 
 /// Whether ranks that share a body share its set-up: nodal makes all of some on every rank (nodal::SetUp::is_shared).

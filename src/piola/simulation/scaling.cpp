@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/scaling.hpp"
 #include "piola/neighbours/halo_count.hpp"
+#include "piola/neighbours/moving_pairs.hpp"
+#include "piola/parallel/cell_marks.hpp"
 #include "piola/parallel/halo_plan.hpp"
 #include "piola/particles/ordering.hpp"
 #include <algorithm>
@@ -52,6 +54,85 @@ void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<R
   }
 }
 
+/// Bodies with common cells.
+struct InCells {
+  Owned all;
+  std::vector<Index> body;          ///< of each particle
+  std::vector<std::uint8_t> flows;  ///< whether it does
+  double cell = 0;
+  bool touching = false;
+};
+
+InCells in_cells(Estimate const& cost, std::vector<Owned> const& bodies, std::size_t group) {
+  InCells g;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    auto const& near = cost.talk[b]->near;
+    if (!near || near->group != group) continue;
+    std::size_t const n = bodies[b].owner.size();
+    g.cell = std::max(g.cell, near->cell);
+    g.touching = g.touching || near->touching;
+    g.all.X.insert(g.all.X.end(), bodies[b].X.begin(), bodies[b].X.end());
+    g.all.owner.insert(g.all.owner.end(), bodies[b].owner.begin(), bodies[b].owner.end());
+    g.body.insert(g.body.end(), n, static_cast<Index>(b));
+    bool const each = near->flows.size() == n;
+    bool const any = std::find(near->flows.begin(), near->flows.end(), 1) != near->flows.end();
+    for (std::size_t k = 0; k < n; ++k) g.flows.push_back(each ? near->flows[k] : any ? 1 : 0);
+  }
+  return g;
+}
+
+/// What ranks tell each other in a step of particles near in space: all of them about their cells, then those who read
+/// something. shift: of the cells [edges]; weight: what it counts for.
+void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, InCells const& g, double shift,
+              double weight, Scaling& s) {
+  auto const n = static_cast<Index>(g.body.size());
+  auto const ranks = static_cast<int>(s.shares.size());
+  std::array<double, 3> origin = g.all.X[0];
+  for (double& x : origin) x += shift * g.cell;
+  MovingGrid grid;
+  grid.find_cells(g.all.X[0].data(), 3, n, dimension, g.cell, origin);
+  CellMarks marks;
+  marks.start(grid.shape(), dimension, true);
+  std::set<std::pair<Index, int>> cells;
+  for (std::size_t k = 0; k < g.body.size(); ++k) {
+    Index const cell = grid.keys()[k];
+    marks.add({cell, 1, g.body[k], g.flows[k]}, g.all.owner[k]);
+    cells.insert({cell, g.all.owner[k]});
+  }
+  marks.finish(g.touching);
+  s.to_all += weight * static_cast<double>(ranks * sizeof(double) + cells.size() * sizeof(CellMarks::Cell));
+  std::vector<std::set<std::pair<int, int>>> pairs(messages.size());
+  for (std::size_t k = 0; k < g.body.size(); ++k) {
+    std::uint8_t const told = marks.told(grid.keys()[k]);
+    if (told == 0) continue;
+    int const from = g.all.owner[k];
+    marks.readers(grid.keys()[k]).each(ranks, [&](int to) {
+      if (to == from) return;
+      for (std::size_t m = 0; m < messages.size(); ++m) {
+        int const numbers = messages[m].any + ((told & CellMarks::flow) != 0 ? messages[m].flow : 0) +
+                            ((told & CellMarks::touch) != 0 ? messages[m].touch : 0);
+        s.shares[static_cast<std::size_t>(from)].bytes += weight * 8 * numbers;
+        if (numbers > 0) pairs[m].insert({from, to});
+      }
+    });
+  }
+  for (auto const& of_message : pairs)
+    for (auto const& [from, to] : of_message) s.shares[static_cast<std::size_t>(from)].messages += weight;
+}
+
+/// The same of all groups of bodies with common cells.
+void add_near(int dimension, Estimate const& cost, std::vector<Owned> const& bodies, Scaling& s) {
+  std::set<std::size_t> seen;
+  for (auto const& talk : cost.talk) {
+    if (!talk->near || !seen.insert(talk->near->group).second) continue;
+    InCells const g = in_cells(cost, bodies, talk->near->group);
+    if (!g.touching && std::find(g.flows.begin(), g.flows.end(), 1) == g.flows.end()) continue;
+    s.collectives += 2;
+    // Lattices start with particles on the borders of cells, which they leave to either side.
+    for (double const side : {-1e-6, 1e-6}) add_near(dimension, talk->near->messages, g, side, 0.5, s);
+  }
+}
+
 /// The most that a rank takes: in set-up, or, of rank 0, while it writes.
 double memory_of(RankShare const& share, Estimate const& cost, double all, int ranks, bool writes) {
   if (ranks == 1) return cost.memory;
@@ -72,13 +153,15 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   s.shares.resize(static_cast<std::size_t>(ranks));
   s.collectives = 1;  // what rank 0 tells the others to do
   double heaviest = 0;
+  std::vector<Owned> owned;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
     Talk const& talk = *cost.talk[b];
-    add_body(owned_of(particles, talk.order(particles, particles.bodies[b], ranks), ranks), talk, cost.stages,
-             s.shares);
+    owned.push_back(owned_of(particles, talk.order(particles, particles.bodies[b], ranks), ranks));
+    add_body(owned.back(), talk, cost.stages, s.shares);
     s.collectives += talk.collectives;
     s.to_all += ranks > 1 ? 8 * talk.to_all : 0;
   }
+  if (ranks > 1) add_near(particles.dimension, cost, owned, s);
   double const all = static_cast<double>(particles.size());
   StepTimes& t = s.times;
   for (RankShare& share : s.shares) {

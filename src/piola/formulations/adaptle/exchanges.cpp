@@ -2,6 +2,8 @@
 #include "piola/formulations/adaptle/exchanges.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/first_failure.hpp"
+#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
 
@@ -28,7 +30,6 @@ SpatialParts parts_of(System const& s) {
   return s.settings.corrected ? parts_of<3, true>(s.settings) : parts_of<3, false>(s.settings);
 }
 
-FieldRef positions(System const& s) { return {.data = s.position, .component_stride = 1, .particle_stride = 3}; }
 FieldRef spatial_records(System const& s) {
   return {.data = s.spatial.record, .component_stride = 1, .particle_stride = s.spatial.stride};
 }
@@ -59,8 +60,8 @@ SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
 
 }  // namespace
 
-Exchanges::Exchanges(System const& s, MaterialLists const& lists, std::vector<Shares> cuts)
-    : cuts_(std::move(cuts)), all_({}, [](Index) { return false; }), near_({}, [](Index) { return false; }) {
+Exchanges::Exchanges(System const& s, MaterialLists const& lists, std::vector<Shares> cuts, ParticleOrder const& order)
+    : near_(cuts, order), cuts_(std::move(cuts)) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(to_neighbours(s, lists, b));
 }
 
@@ -89,26 +90,35 @@ Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists 
   return told;
 }
 
-/// Failures travel with positions, where all ranks are told these.
+/// Failures travel with the bounds of all particles.
+SpatialLists::Others Exchanges::before_lists(System const& s) {
+  struct Said {
+    FirstFailure first;
+    CoordinateBounds bounds;
+    void add(Said const& other) {
+      first.add(other.first);
+      bounds.add(other.bounds);
+    }
+  } said{FirstFailure(*s.failure), {}};
+  if (SpatialLists::needed(s)) said.bounds = bounds_of(s.position, 3, near_.own(), s.dimension);
+  ranks::add(said);
+  said.first.put(*s.failure);
+  return {&near_, said.bounds};
+}
+
 void Exchanges::after_prediction(System const& s) {
-  FailuresOfRanks failures(*s.failure);
-  if (SpatialLists::needed(s) && all_.slots.empty()) all_ = SlotsOfRanks(cuts_, [](Index) { return true; });
-  std::array const with_positions{ToldToAll{{{positions(s), 0, 3}}, &all_}, failures.told()};
-  complete_slots(std::span(with_positions).subspan(SpatialLists::needed(s) ? 0 : 1));
-  failures.put(*s.failure);
   for (ToNeighbours& told : to_neighbours_)
     if (s.material.used) told.plan.exchange(told.motion);
 }
 
 /// Contacts read positions where steps have left them.
-void Exchanges::after_lists(System const& s, SpatialLists const& lists) {
-  for (Index i = 0; i < s.particles && SpatialLists::touching(s); ++i)
-    for (int c = 0; c < 3 && lists.meets(i); ++c) value_at(s.field.x, i, c) = s.position[std::ptrdiff_t{3} * i + c];
-  near_ = SlotsOfRanks(cuts_, [&](Index i) { return s.spatial.record != nullptr && lists.near(i); });
-  for (Index& slot : near_.slots) slot = s.spatial.sorted[slot];
+void Exchanges::after_lists(System const& s) {
+  near_.each_touched([&](Index i) {
+    for (int c = 0; c < 3; ++c) value_at(s.field.x, i, c) = s.position[std::ptrdiff_t{3} * i + c];
+  });
 }
 
-void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
+void Exchanges::after_half_state(System const& s) {
   for (ToNeighbours& told : to_neighbours_) {
     if (!s.material.used) break;
     std::vector<FieldRef> fields{told.stress};
@@ -116,14 +126,13 @@ void Exchanges::after_half_state(System const& s, SpatialLists const& lists) {
     told.plan.exchange(fields);
   }
   auto const [corrected, all] = parts_of(s);
-  SlotsOfRanks const meet(cuts_, [&](Index i) { return SpatialLists::touching(s) && lists.meets(i); });
-  complete_slots(std::array{ToldToAll{{{s.field.v_half, 0, 3}, {s.field.volume_half, 0, 1}}, &meet},
-                            ToldToAll{{{spatial_records(s), 0, s.settings.corrected ? corrected : all}}, &near_}});
+  near_.exchange({{{{spatial_records(s), 0, s.settings.corrected ? corrected : all}},
+                   {{s.field.v_half, 0, 3}, {s.field.volume_half, 0, 1}}}});
 }
 
 void Exchanges::after_correction(System const& s) {
   auto const [corrected, all] = parts_of(s);
-  complete_slots({{spatial_records(s), corrected, all - corrected}}, near_);
+  near_.exchange({{{{spatial_records(s), corrected, all - corrected}}, {}}});
 }
 
 Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
@@ -140,13 +149,14 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
     talk.messages = {{{2 * b.material_h, motion}}, {{2 * b.material_h, stress + (with_F ? 18 : 0)}}};
   }
   auto const [corrected, all] = parts_of(s);
-  bool meet = false;  // bodies that are not near each other have nothing to tell
-  for (Index i = 0; i < s.particles && touching && body == 0; ++i) meet = meet || lists.meets(i);
-  for (Index i = b.first; i < b.last && SpatialLists::needed(s); ++i)
-    talk.to_all += 3 + (flows && lists.near(i) ? all : 0) + (touching && lists.meets(i) ? 4 : 0);
-  if (body > 0) return talk;
-  // Failures with positions, what the step says; who is near, and what their correction leaves to be told.
-  talk.collectives = 2 + (meet || flows ? 1 : 0) + (flows && s.settings.corrected ? 1 : 0);
+  constexpr int slot_and_place = 4, of_contact = 4;
+  talk.near.emplace();
+  talk.near->messages = {{slot_and_place, 0, 0}, {0, s.settings.corrected ? corrected : all, of_contact}};
+  if (s.settings.corrected) talk.near->messages.push_back({0, all - corrected, 0});
+  talk.near->cell = lists.widest();
+  talk.near->touching = touching;
+  talk.near->flows.assign(s.eulerian + b.first, s.eulerian + b.last);
+  talk.collectives = body == 0 ? 2 : 0;  // failures with bounds, what the step says
   return talk;
 }
 

@@ -104,9 +104,7 @@ void Particles::start() {
   prepare_supports(0);
   prepare_loads(0);
   prepare_rigid(0, 0);
-  spatial_.build(system_, *machine_, balance_.busy());
-  spatial_.put_into(system_);
-  if (exchanges_) exchanges_->after_lists(system_, spatial_);
+  make_lists(exchanges_ ? exchanges_->before_lists(system_) : SpatialLists::Others{});
   books_.contact_energy = contact_energy(system_);
   // A pressure that acts for one step is an impulse of the step that waves allow.
   for (BodyOptions const& o : options_.bodies)
@@ -160,7 +158,8 @@ void Particles::set_particles(Assembly const& assembly) {
       for (Index slot = own_[k].first; slot < own_[k].last; ++slot) {
         std::size_t const i = order_.id(slot);
         for (int c = 0; c < 3; ++c) {
-          fields_.x.at(slot, c) = position_[3 * at(slot) + at(c)];
+          double const moved = assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][at(c)];
+          fields_.x.at(slot, c) = position_[3 * at(slot) + at(c)] = set_.X[i][at(c)] + moved;
           fields_.v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][at(c)];
         }
         fields_.rho.at(slot) = body_[k].rho0;
@@ -192,8 +191,8 @@ void Particles::set_contact(Assembly const& assembly) {
                                                                : 0;
 }
 
-/// Memory is taken where somebody writes: where a particle is, what it is and whether it lives is known to all ranks,
-/// other things to those that have it, and what neighbours read to them.
+/// Memory is taken where somebody writes: what a particle is and whether it lives is known to all ranks, other things
+/// to those that have it, and what neighbours read to them.
 void Particles::allocate(Assembly const& assembly) {
   auto const n = static_cast<std::size_t>(assembly.particles.size());
   System& s = system_;
@@ -218,12 +217,7 @@ void Particles::allocate(Assembly const& assembly) {
   s.correction = correction_.data();
   s.wish = wish_.data();
   s.position = position_.data();
-  for (Index i = 0; i < s.particles; ++i) {
-    std::size_t const id = order_.id(i);
-    auto const& moved = assembly.initial_displacement;
-    fields_.alive.at(i) = 1;
-    for (std::size_t c = 0; c < 3; ++c) position_[3 * at(i) + c] = set_.X[id][c] + (moved.empty() ? 0 : moved[id][c]);
-  }
+  for (Index i = 0; i < s.particles; ++i) fields_.alive.at(i) = 1;
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
   s.partial = partial_.data();
@@ -459,12 +453,19 @@ void Particles::sweep(double dt) {
   System& s = system_;
   if (lagrangian_) machine_->deform(s);
   machine_->half_state(s, dt);
-  if (exchanges_) exchanges_->after_half_state(s, spatial_);
+  if (exchanges_) exchanges_->after_half_state(s);
   if (s.settings.corrected) {
     if (s.spatial.targets > 0) machine_->correct(s);
     if (exchanges_) exchanges_->after_correction(s);
   }
   machine_->sweep(s);
+}
+
+/// Who is near whom in space.
+void Particles::make_lists(SpatialLists::Others const& others) {
+  spatial_.build(system_, others, *machine_, balance_.busy());
+  spatial_.put_into(system_);
+  if (exchanges_) exchanges_->after_lists(system_);
 }
 
 /// Drift, sums of half time, kick, drift.
@@ -475,13 +476,12 @@ void Particles::evaluate(double dt) {
     BusyWatch const work(balance_.busy());
     machine_->predict(s, dt);
   }
-  if (exchanges_) exchanges_->after_prediction(s);
+  SpatialLists::Others const others = exchanges_ ? exchanges_->before_lists(s) : SpatialLists::Others{};
   if (failure_.index != FailureSlot::none) return;
+  if (exchanges_) exchanges_->after_prediction(s);
   {
     Stopwatch const watch(seconds_.lists);
-    spatial_.build(s, *machine_, balance_.busy());
-    spatial_.put_into(s);
-    if (exchanges_) exchanges_->after_lists(s, spatial_);
+    make_lists(others);
   }
   sweep(dt);
   Measures m;

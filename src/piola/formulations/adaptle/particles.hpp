@@ -145,6 +145,7 @@ class Particles {
   void sum_actions(double time, double dt);
   void tell_failure();
   void start();
+  void make_lists(SpatialLists::Others const& others);
   void sweep(double dt);
   void evaluate(double dt);
   void convert(double dt);

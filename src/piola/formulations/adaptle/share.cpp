@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ranks: each works on its part of the slots of each body, from time to time on another one, and has memory for that
-// and for what its particles read of reference neighbours. Where particles are in space, and what they are, all ranks
-// know.
+// and for what its particles read of reference neighbours. What particles are all ranks know.
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -27,7 +26,7 @@ void Particles::take(std::vector<Shares> cuts) {
         set_, set_.bodies[b], SharedLines::Slots{ids != nullptr ? ids + first : nullptr, first, body_[b].last - first},
         Range{own_[b].first - first, own_[b].last - first}, cuts[b].from_zero()));
   }
-  exchanges_ = std::make_unique<Exchanges>(system_, material_, std::move(cuts));
+  exchanges_ = std::make_unique<Exchanges>(system_, material_, std::move(cuts), order_);
 }
 
 /// Relative to a total-Lagrangian particle: processor time of the cubes of `piola bench adaptle`. Of what is deleted

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/ranks.hpp"
 #include "piola/parallel/work_balance.hpp"
 #include <algorithm>
 
@@ -21,105 +22,94 @@ bool is_own(System const& s, Index slot) {
   return slot >= own.first && slot < own.last;
 }
 
-/// Calls f(cell) for the cells around one.
-template <class F>
-void each_cell_around(Index cell, std::array<Index, 3> const& shape, int dimension, F const& f) {
-  Index const row = shape[0], layer = shape[0] * shape[1];
-  for (Index dz = dimension == 3 ? -1 : 0; dz <= (dimension == 3 ? 1 : 0); ++dz)
-    for (Index dy = -1; dy <= 1; ++dy)
-      for (Index dx = -1; dx <= 1; ++dx) f(cell + dz * layer + dy * row + dx);
-}
-
 }  // namespace
 
-/// Which cells hold Eulerian particles, and of which bodies.
-void SpatialLists::mark_cells(System const& s) {
-  auto const cells = static_cast<std::size_t>(grid_.cell_count());
-  cell_has_eulerian_.assign(cells, 0);
-  cell_low_.assign(cells, s.bodies);
-  cell_high_.assign(cells, -1);
-  group_.resize(at(s.particles) + 16);
-  for (Index k = 0; k < s.particles; ++k) {
-    Index const i = grid_.slots()[k];
-    std::size_t const cell = at(grid_.cells()[k]);
-    group_[at(k)] = s.body_of[i];
-    if (s.eulerian[i] != 0) cell_has_eulerian_[cell] = 1;
-    cell_low_[cell] = std::min(cell_low_[cell], s.body_of[i]);
-    cell_high_[cell] = std::max(cell_high_[cell], s.body_of[i]);
-  }
+/// Cells of one rank, which has all particles. Where all flow, and none touches another body, it need not ask who is
+/// near.
+void SpatialLists::sort_all(System const& s) {
+  grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
+  grid_.sort({s.particles, s.slot_of});
+  everyone_ = s.eulerians == s.particles && !touching(s);
+  if (everyone_) return;
+  marks_.start(grid_.shape(), s.dimension, false);
+  for (Index i = 0; i < s.particles; ++i) marks_.add(grid_.keys()[i], s.body_of[i], s.eulerian[i] != 0);
+  marks_.finish(touching(s));
+}
+
+/// Cells of own particles and of those of other ranks that these read.
+void SpatialLists::sort_with_others(System const& s, Others const& others) {
+  NearExchange& near = *others.near;
+  grid_.lay(others.bounds, s.particles, s.dimension, widest_, origin_of_cells(s),
+            [&](std::size_t axis) { return near.coordinates(s, axis); });
+  grid_.find_cells(s.position, 3, near.own());
+  near.meet(s, grid_, marks_);
+  grid_.find_cells(s.position, 3, near.received());
+  grid_.sort(near.present());
+  near.choose(grid_, marks_);
 }
 
 void SpatialLists::choose_targets(System const& s) {
-  spatial_.target.clear();
-  contact_.target.clear();
-  cell_near_.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
-  meets_.assign(touching(s) ? at(s.particles) : 0, 0);
-  Index last = -1;
-  bool eulerian = false;
-  std::int32_t low = 0, high = 0;
-  for (Index k = 0; k < s.particles; ++k) {
-    Index const cell = grid_.cells()[k];
-    if (cell != last) {
-      last = cell;
-      eulerian = false;
-      low = s.bodies;
-      high = -1;
-      each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) {
-        eulerian = eulerian || cell_has_eulerian_[at(other)] != 0;
-        low = std::min(low, cell_low_[at(other)]);
-        high = std::max(high, cell_high_[at(other)]);
-      });
-      // Targets read the records of all particles around them.
-      if (eulerian) each_cell_around(cell, grid_.shape(), s.dimension, [&](Index other) { cell_near_[at(other)] = 1; });
+  if (near_.size() != at(s.particles)) near_ = PartFilled<std::uint8_t>(at(s.particles));
+  group_.resize(at(grid_.count()) + 16);
+  for (Index k = 0; k < grid_.count(); ++k) {
+    Index const slot = grid_.slots()[k], cell = grid_.cells()[k];
+    if (everyone_) {
+      spatial_.target.push_back(k);
+      continue;
     }
-    Index const slot = grid_.slots()[k];
-    bool const touches = s.contact.law > 0 && high > low;
-    if (touches) meets_[at(slot)] = 1;
+    group_[at(k)] = s.body_of[slot];
+    near_[at(slot)] = marks_.told(cell) & CellMarks::flow;
     if (!is_own(s, slot)) continue;
-    if (eulerian) spatial_.target.push_back(k);
-    if (touches) contact_.target.push_back(k);
+    if ((marks_.reads(cell) & CellMarks::flow) != 0) spatial_.target.push_back(k);
+    if ((marks_.reads(cell) & CellMarks::touch) != 0) contact_.target.push_back(k);
   }
-  near_.resize(at(s.particles));
-  for (Index k = 0; k < s.particles; ++k) near_[at(grid_.slots()[k])] = cell_near_[at(grid_.cells()[k])];
 }
 
-void SpatialLists::build(System const& s, Machine const& machine, double& busy) {
+void SpatialLists::build(System const& s, Others const& others, Machine const& machine, double& busy) {
   eulerian_ = s.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
-  if (!needed(s)) return;
   widest_ = 0;
   for (int b = 0; b < s.bodies; ++b) widest_ = std::max(widest_, 2 * s.body[b].h);
-  grid_.sort(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s), s.slot_of);
-  everyone_ = s.eulerians == s.particles && !touching(s);
-  if (everyone_) {
-    for (Index k = 0; k < s.particles; ++k)
-      if (is_own(s, grid_.slots()[k])) spatial_.target.push_back(k);
-  } else {
-    mark_cells(s);
-    choose_targets(s);
-  }
+  if (others.near != nullptr) others.near->forget();
+  if (!needed(s)) return;
+  if (others.near != nullptr)
+    sort_with_others(s, others);
+  else
+    sort_all(s);
+  choose_targets(s);
   {
     BusyWatch const watch(busy);
     search(s, machine, spatial_, false);
     if (touching(s)) search(s, machine, contact_, true);
   }
   if (!eulerian_) return;
-  if (record_room_ < s.particles + 1) {
-    record_room_ = s.particles + 1;
+  make_room(s);
+  place_results(s);
+}
+
+/// After the records and results of all that is sorted one is far away, and one zero.
+void SpatialLists::make_room(System const& s) {
+  Index const sorted = grid_.count();
+  if (record_room_ < sorted + 1) {
+    record_room_ = sorted + 1 + (s.shared ? sorted / 8 : 0);  // of ranks it changes from step to step
     // Loads of a part of a record reach beyond its end, of the last record by less than a pack of eight.
     records_ = Memory(static_cast<std::size_t>(record_room_) * static_cast<std::size_t>(s.spatial.stride) + 8);
-    double* filler = records_.data() + static_cast<std::ptrdiff_t>(s.particles) * s.spatial.stride;
-    for (int c = 0; c < s.dimension; ++c) filler[c] = far_away;
-    filler[2 * s.dimension + 1] = 1;  // density: it divides
     results_ = Memory(static_cast<std::size_t>(record_room_) * SpatialResult::stride);
   }
-  place_results(s);
+  double* const filler = records_.data() + static_cast<std::ptrdiff_t>(sorted) * s.spatial.stride;
+  std::fill_n(filler, s.spatial.stride, 0);
+  for (int c = 0; c < s.dimension; ++c) filler[c] = far_away;
+  filler[2 * s.dimension + 1] = 1;  // density: it divides
+  std::fill_n(results_.data() + static_cast<std::ptrdiff_t>(sorted) * SpatialResult::stride, SpatialResult::stride, 0);
 }
 
 /// Those without a list have the zeros after the last.
 void SpatialLists::place_results(System const& s) {
-  result_of_.assign(at(s.particles) + 16, s.particles);
+  constexpr Index beyond = 16;  // what groups of lanes read after the last particle
+  if (result_of_.size() != at(s.particles + beyond)) result_of_ = PartFilled<Index>(at(s.particles + beyond));
+  for (int b = 0; b < s.bodies; ++b)
+    std::fill(result_of_.begin() + s.part[b].first, result_of_.begin() + s.part[b].last + beyond, grid_.count());
   for (Index const t : spatial_.target) result_of_[at(grid_.slots()[t])] = t;
 }
 
@@ -137,7 +127,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
   }
   MovingSearch q;
   q.dimension = s.dimension;
-  q.sources = s.particles;
+  q.sources = grid_.count();
   for (int c = 0; c < 3; ++c) q.place[c] = grid_.place(c);
   q.group = touching(s) ? group_.data() : nullptr;
   q.across = across;
@@ -164,7 +154,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
 }
 
 void SpatialLists::put_into(System& s) {
-  s.spatial.sources = s.particles;
+  s.spatial.sources = grid_.count();
   s.spatial.slot = grid_.slots();
   s.spatial.sorted = grid_.sorted();
   s.spatial.targets = static_cast<Index>(spatial_.target.size());
@@ -196,7 +186,7 @@ std::size_t SpatialLists::bytes() const {
     return sizeof(Index) * (l.target.size() + l.entry.size() + l.length.size() + l.found.size());
   };
   return grid_.bytes() + of(spatial_) + of(contact_) + records_.bytes() + results_.bytes() +
-         sizeof(Index) * result_of_.size() + cell_has_eulerian_.size() * (1 + 2 * sizeof(std::int32_t));
+         sizeof(Index) * result_of_.size() + marks_.bytes();
 }
 
 }  // namespace piola::adaptle

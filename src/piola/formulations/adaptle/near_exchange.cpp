@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/near_exchange.hpp"
+#include "piola/exec/set_up_loop.hpp"
+#include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/ranks.hpp"
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+namespace piola::adaptle {
+namespace {
+
+/// A particle in a message: its slot, then its position.
+constexpr std::size_t of_position = 4;
+
+std::size_t width_of(std::vector<FieldPart> const& parts) {
+  std::size_t width = 0;
+  for (FieldPart const& part : parts) width += at(part.count);
+  return width;
+}
+
+/// How many numbers each rank has, as starts of what complete() takes.
+std::vector<std::size_t> starts_of(std::size_t own) {
+  auto const ranks = at(ranks::count());
+  std::vector<double> counts(ranks, 0);
+  std::vector<std::size_t> one_each(ranks + 1), starts{0};
+  for (std::size_t r = 0; r <= ranks; ++r) one_each[r] = r;
+  counts[at(ranks::own())] = static_cast<double>(own);
+  ranks::complete(counts, one_each);
+  for (double const count : counts) starts.push_back(starts.back() + static_cast<std::size_t>(count));
+  return starts;
+}
+
+}  // namespace
+
+NearExchange::NearExchange(std::span<Shares const> cuts, ParticleOrder const& order)
+    : order_(&order), sends_(at(ranks::count())), receives_(at(ranks::count())) {
+  for (Shares const& body : cuts)
+    for (Index i = body.own().first; i < body.own().last; ++i) own_.push_back(i);
+  if (order.dealt()) std::ranges::sort(own_, {}, [&](Index slot) { return order.id(slot); });
+}
+
+std::vector<double> NearExchange::coordinates(System const& s, std::size_t axis) const {
+  std::vector<std::size_t> const starts = starts_of(own_.size());
+  std::vector<double> all(starts.back());
+  double* to = all.data() + starts[at(ranks::own())];
+  for (Index const slot : own_) *to++ = s.position[3 * at(slot) + axis];
+  ranks::complete(all, starts);
+  return all;
+}
+
+void NearExchange::forget() {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) {
+      side.slots.clear();
+      for (auto& particles : side.particles) particles.clear();
+    }
+}
+
+void NearExchange::find_own_cells(System const& s, MovingGrid const& grid) {
+  constexpr Index none = -1;
+  number_of_.assign(at(grid.cell_count()), none);
+  mine_.clear();
+  for (Index const slot : own_) {
+    Index const cell = grid.keys()[slot];
+    Index& number = number_of_[at(cell)];
+    if (number == none) {
+      number = static_cast<Index>(mine_.size());
+      mine_.push_back({cell, 0, s.body_of[slot], 0});
+    }
+    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0);
+  }
+}
+
+/// Afterwards all ranks have the cells of all.
+void NearExchange::tell_cells() {
+  constexpr std::size_t width = sizeof(CellMarks::Cell) / sizeof(double);
+  static_assert(width * sizeof(double) == sizeof(CellMarks::Cell), "a cell travels as numbers");
+  starts_ = starts_of(mine_.size());
+  all_.resize(starts_.back());
+  std::vector<double> numbers(starts_.back() * width);
+  std::vector<std::size_t> starts;
+  for (std::size_t const start : starts_) starts.push_back(start * width);
+  std::memcpy(numbers.data() + starts[at(ranks::own())], mine_.data(), mine_.size() * sizeof(CellMarks::Cell));
+  ranks::complete(numbers, starts);
+  std::memcpy(all_.data(), numbers.data(), numbers.size() * sizeof(double));
+}
+
+/// Who is told what of own particles.
+void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) {
+  std::vector<RankSet> readers(mine_.size());
+  for (std::size_t k = 0; k < mine_.size(); ++k)
+    if (marks.told(mine_[k].cell) != 0) readers[k] = marks.readers(mine_[k].cell);
+  for (Index const slot : own_)
+    readers[at(number_of_[at(grid.keys()[slot])])].each(ranks::count(), [&](int rank) {
+      if (rank != ranks::own()) sends_[at(rank)].slots.push_back(slot);
+    });
+}
+
+/// How many particles others tell: their choice, made of the same marks.
+void NearExchange::expect(CellMarks const& marks) {
+  for (std::size_t rank = 0; rank < receives_.size(); ++rank) {
+    std::size_t count = 0;
+    for (std::size_t k = starts_[rank]; k < starts_[rank + 1] && rank != at(ranks::own()); ++k) {
+      CellMarks::Cell const& theirs = all_[k];
+      if (marks.told(theirs.cell) != 0 && marks.readers(theirs.cell).has(ranks::own())) count += at(theirs.particles);
+    }
+    receives_[rank].slots.resize(count);
+  }
+}
+
+/// The values of all sides, which have their sizes.
+void NearExchange::send() {
+  auto const messages = [](std::vector<Side>& sides) {
+    std::vector<ranks::Message> all;
+    for (std::size_t rank = 0; rank < sides.size(); ++rank)
+      if (std::vector<double>& values = sides[rank].values; !values.empty())
+        all.push_back({static_cast<int>(rank), values.data(), values.size()});
+    return all;
+  };
+  ranks::exchange(messages(receives_), messages(sends_));
+}
+
+void NearExchange::tell_positions(System const& s) {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) side.values.resize(side.slots.size() * of_position);
+  for (Side& side : sends_)
+    for (std::size_t k = 0; k < side.slots.size(); ++k) {
+      double* to = &side.values[k * of_position];
+      *to = side.slots[k];
+      std::copy_n(s.position + std::ptrdiff_t{3} * side.slots[k], 3, to + 1);
+    }
+  send();
+  received_.clear();
+  for (Side& side : receives_)
+    for (std::size_t k = 0; k < side.slots.size(); ++k) {
+      double const* from = &side.values[k * of_position];
+      side.slots[k] = static_cast<Index>(*from);
+      std::copy_n(from + 1, 3, s.position + std::ptrdiff_t{3} * side.slots[k]);
+      received_.push_back(side.slots[k]);
+    }
+}
+
+void NearExchange::meet(System const& s, MovingGrid const& grid, CellMarks& marks) {
+  forget();
+  find_own_cells(s, grid);
+  tell_cells();
+  marks.start(grid.shape(), s.dimension, true);
+  for (std::size_t rank = 0; rank < sends_.size(); ++rank)
+    for (std::size_t k = starts_[rank]; k < starts_[rank + 1]; ++k) marks.add(all_[k], static_cast<int>(rank));
+  marks.finish(SpatialLists::touching(s));
+  choose_sends(grid, marks);
+  expect(marks);
+  tell_positions(s);
+  auto const by_id = [&](Index slot) { return order_->id(slot); };
+  std::ranges::sort(received_, {}, by_id);
+  present_.clear();
+  std::ranges::merge(own_, received_, std::back_inserter(present_), {}, by_id, by_id);
+}
+
+void NearExchange::Side::choose(MovingGrid const& grid, CellMarks const& marks) {
+  for (Index const slot : slots) {
+    std::uint8_t const told = marks.told(grid.keys()[slot]);
+    if ((told & CellMarks::flow) != 0) particles[flow].push_back(grid.sorted()[slot]);
+    if ((told & CellMarks::touch) != 0) particles[touch].push_back(slot);
+  }
+}
+
+void NearExchange::choose(MovingGrid const& grid, CellMarks const& marks) {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) side.choose(grid, marks);
+}
+
+std::size_t NearExchange::Side::numbers(Told const& told) const {
+  std::size_t count = 0;
+  for (std::size_t kind = 0; kind < told.size(); ++kind) count += particles[kind].size() * width_of(told[kind]);
+  return count;
+}
+
+template <class F>
+void NearExchange::Side::each(Told const& told, F const& f) {
+  double* first = values.data();
+  for (std::size_t kind = 0; kind < told.size(); ++kind) {
+    std::size_t const width = width_of(told[kind]);
+    exec_host::for_each_in_set_up(static_cast<Index>(particles[kind].size()), [&](Index k) {
+      double* value = first + at(k) * width;
+      for (FieldPart const& part : told[kind])
+        for (int c = 0; c < part.count; ++c) f(*value++, value_at(part.field, particles[kind][at(k)], part.first + c));
+    });
+    first += particles[kind].size() * width;
+  }
+}
+
+void NearExchange::exchange(Told const& told) {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) side.values.resize(side.numbers(told));
+  for (Side& side : sends_) side.each(told, [](double& value, double& here) { value = here; });
+  send();
+  for (Side& side : receives_) side.each(told, [](double& value, double& here) { here = value; });
+}
+
+}  // namespace piola::adaptle
