@@ -151,6 +151,19 @@ void MovingGrid::sort(SlotList const& some) {
   });
 }
 
+std::array<double, 3> MovingGrid::where(Index slot) const {
+  std::array<double, 3> at{};
+  for (std::size_t c = 0; c < dimension_; ++c) at[c] = in_cells(x_[slot * stride_ + static_cast<std::ptrdiff_t>(c)], c);
+  return at;
+}
+
+std::array<double, 3> MovingGrid::corner(Index cell) const {
+  std::array<Index, 3> const at{cell % count_[0], cell / count_[0] % count_[1], cell / count_[0] / count_[1]};
+  std::array<double, 3> corner{};
+  for (std::size_t c = 0; c < dimension_; ++c) corner[c] = span_[c].low + at[c] - 1;
+  return corner;
+}
+
 std::size_t MovingGrid::bytes() const {
   return sizeof(Index) * (slot_.size() + sorted_.size() + cell_.size() + begin_.size() + key_.size()) +
          sizeof(float) * 3 * place_[0].size();

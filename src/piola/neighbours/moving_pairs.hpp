@@ -77,11 +77,23 @@ class MovingGrid {
   Index const* sorted() const { return sorted_.data(); }            ///< of each particle that is sorted
   Index const* cells() const { return cell_.data(); }               ///< of each sorted particle
   Index const* begins() const { return begin_.data(); }
+  /// Where a particle is, and a corner of a cell, in edges from the origin.
+  std::array<double, 3> where(Index slot) const;
+  std::array<double, 3> corner(Index cell) const;
+  /// The same of a particle from the corner of a cell.
+  std::array<double, 3> within(Index cell, Index slot) const {
+    std::array<double, 3> at = where(slot);
+    std::array<double, 3> const from = corner(cell);
+    for (std::size_t c = 0; c < 3; ++c) at[c] -= from[c];
+    return at;
+  }
   Index cell_count() const { return count_[0] * count_[1] * count_[2]; }
   std::array<Index, 3> shape() const { return count_; }
   float const* place(int axis) const { return place_[static_cast<std::size_t>(axis)].data(); }
   /// Largest error of a distance in `place`, in cells.
   double slack() const { return slack_; }
+  /// Whoever is farther from each other than this is not found, in cells.
+  double reach_of_cells() const { return (1 + slack_) * (1 + 1e-6); }
   std::size_t bytes() const;
 
  private:

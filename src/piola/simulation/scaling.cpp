@@ -82,42 +82,53 @@ InCells in_cells(Estimate const& cost, std::vector<Owned> const& bodies, std::si
 }
 
 /// What ranks tell each other in a step of particles near in space: all of them about their cells, then those who read
-/// something. shift: of the cells [edges]; weight: what it counts for.
-void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, InCells const& g, double shift,
-              double weight, Scaling& s) {
+/// something how many there are, and what `messages` say.
+void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, InCells const& g, Scaling& s) {
   auto const n = static_cast<Index>(g.body.size());
-  auto const ranks = static_cast<int>(s.shares.size());
-  std::array<double, 3> origin = g.all.X[0];
-  for (double& x : origin) x += shift * g.cell;
   MovingGrid grid;
-  grid.find_cells(g.all.X[0].data(), 3, n, dimension, g.cell, origin);
+  grid.find_cells(g.all.X[0].data(), 3, n, dimension, g.cell, g.all.X[0]);
+  std::map<std::pair<Index, int>, CellMarks::Cell> cells;  // by cell and rank
+  for (std::size_t k = 0; k < g.body.size(); ++k) {
+    auto const i = static_cast<Index>(k);
+    Index const key = grid.keys()[i];
+    cells.try_emplace({key, g.all.owner[k]}, CellMarks::Cell{key, g.body[k]})
+        .first->second.add(g.body[k], g.flows[k] != 0, grid.within(key, i));
+  }
   CellMarks marks;
-  marks.start(grid.shape(), dimension, true);
-  std::set<std::pair<Index, int>> cells;
-  for (std::size_t k = 0; k < g.body.size(); ++k) {
-    Index const cell = grid.keys()[k];
-    marks.add({cell, 1, g.body[k], g.flows[k]}, g.all.owner[k]);
-    cells.insert({cell, g.all.owner[k]});
-  }
+  marks.start(grid.shape(), dimension);
+  for (auto const& [place, cell] : cells) marks.add(cell, place.second);
   marks.finish(g.touching);
-  s.to_all += weight * static_cast<double>(ranks * sizeof(double) + cells.size() * sizeof(CellMarks::Cell));
-  std::vector<std::set<std::pair<int, int>>> pairs(messages.size());
-  for (std::size_t k = 0; k < g.body.size(); ++k) {
-    std::uint8_t const told = marks.told(grid.keys()[k]);
-    if (told == 0) continue;
-    int const from = g.all.owner[k];
-    marks.readers(grid.keys()[k]).each(ranks, [&](int to) {
-      if (to == from) return;
-      for (std::size_t m = 0; m < messages.size(); ++m) {
-        int const numbers = messages[m].any + ((told & CellMarks::flow) != 0 ? messages[m].flow : 0) +
-                            ((told & CellMarks::touch) != 0 ? messages[m].touch : 0);
-        s.shares[static_cast<std::size_t>(from)].bytes += weight * 8 * numbers;
-        if (numbers > 0) pairs[m].insert({from, to});
-      }
-    });
+  s.collectives += 2;
+  s.to_all += static_cast<double>(s.shares.size() * sizeof(double) + cells.size() * sizeof(CellMarks::Cell));
+  std::map<std::pair<Index, int>, std::vector<CellMarks::Reader>> readers;
+  std::set<std::pair<int, int>> meet;
+  for (auto const& [place, cell] : cells) {
+    auto const& those = readers[place] = marks.readers(place.first, place.second);
+    for (CellMarks::Reader const& reader : those) meet.insert({place.second, reader.rank});
   }
+  std::vector<std::set<std::pair<int, int>>> pairs(messages.size());
+  double const reach = grid.reach_of_cells();
+  for (std::size_t k = 0; k < g.body.size(); ++k) {
+    Index const key = grid.keys()[k];
+    int const from = g.all.owner[k];
+    int told = from;
+    for (CellMarks::Reader const& reader : readers[{key, from}]) {
+      if (reader.rank == told) continue;
+      if (reader.box.square_from(grid.within(reader.cell, static_cast<Index>(k))) > reach * reach) continue;
+      told = reader.rank;
+      std::uint8_t const kinds = marks.told(key);
+      for (std::size_t m = 0; m < messages.size(); ++m) {
+        int const numbers = messages[m].any + ((kinds & CellMarks::flow) != 0 ? messages[m].flow : 0) +
+                            ((kinds & CellMarks::touch) != 0 ? messages[m].touch : 0);
+        s.shares[static_cast<std::size_t>(from)].bytes += 8 * numbers;
+        if (numbers > 0) pairs[m].insert({from, told});
+      }
+    }
+  }
+  for (auto const& [from, to] : meet) s.shares[static_cast<std::size_t>(from)].bytes += 8;
+  pairs.push_back(std::move(meet));
   for (auto const& of_message : pairs)
-    for (auto const& [from, to] : of_message) s.shares[static_cast<std::size_t>(from)].messages += weight;
+    for (auto const& [from, to] : of_message) s.shares[static_cast<std::size_t>(from)].messages += 1;
 }
 
 /// The same of all groups of bodies with common cells.
@@ -127,9 +138,7 @@ void add_near(int dimension, Estimate const& cost, std::vector<Owned> const& bod
     if (!talk->near || !seen.insert(talk->near->group).second) continue;
     InCells const g = in_cells(cost, bodies, talk->near->group);
     if (!g.touching && std::find(g.flows.begin(), g.flows.end(), 1) == g.flows.end()) continue;
-    s.collectives += 2;
-    // Lattices start with particles on the borders of cells, which they leave to either side.
-    for (double const side : {-1e-6, 1e-6}) add_near(dimension, talk->near->messages, g, side, 0.5, s);
+    add_near(dimension, talk->near->messages, g, s);
   }
 }
 

@@ -53,6 +53,7 @@ std::vector<double> NearExchange::coordinates(System const& s, std::size_t axis)
 void NearExchange::forget() {
   for (auto* sides : {&sends_, &receives_})
     for (Side& side : *sides) {
+      side.meets = false;
       side.slots.clear();
       for (auto& particles : side.particles) particles.clear();
     }
@@ -67,9 +68,9 @@ void NearExchange::find_own_cells(System const& s, MovingGrid const& grid) {
     Index& number = number_of_[at(cell)];
     if (number == none) {
       number = static_cast<Index>(mine_.size());
-      mine_.push_back({cell, 0, s.body_of[slot], 0});
+      mine_.push_back({cell, s.body_of[slot]});
     }
-    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0);
+    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0, grid.within(cell, slot));
   }
 }
 
@@ -84,30 +85,37 @@ void NearExchange::tell_cells() {
   for (std::size_t const start : starts_) starts.push_back(start * width);
   std::memcpy(numbers.data() + starts[at(ranks::own())], mine_.data(), mine_.size() * sizeof(CellMarks::Cell));
   ranks::complete(numbers, starts);
-  std::memcpy(all_.data(), numbers.data(), numbers.size() * sizeof(double));
+  std::memcpy(static_cast<void*>(all_.data()), numbers.data(), numbers.size() * sizeof(double));
 }
 
-/// Who is told what of own particles.
+/// Who is told which of own particles: those who have somebody that reads within the edge of a cell of it.
 void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) {
-  std::vector<RankSet> readers(mine_.size());
-  for (std::size_t k = 0; k < mine_.size(); ++k)
-    if (marks.told(mine_[k].cell) != 0) readers[k] = marks.readers(mine_[k].cell);
-  for (Index const slot : own_)
-    readers[at(number_of_[at(grid.keys()[slot])])].each(ranks::count(), [&](int rank) {
-      if (rank != ranks::own()) sends_[at(rank)].slots.push_back(slot);
-    });
+  int const own = ranks::own();
+  readers_.clear();
+  for (CellMarks::Cell const& mine : mine_) {
+    readers_.push_back(marks.readers(mine.cell, own));
+    for (CellMarks::Reader const& reader : readers_.back()) sends_[at(reader.rank)].meets = true;
+    if (marks.reads(mine.cell) != 0)
+      marks.each_other(mine.cell, own, [&](int rank) { receives_[at(rank)].meets = true; });
+  }
+  double const reach = grid.reach_of_cells();
+  for (Index const slot : own_) {
+    int told = own;
+    for (CellMarks::Reader const& reader : readers_[at(number_of_[at(grid.keys()[slot])])]) {
+      // Written so that what is not a number is told.
+      if (reader.rank == told || reader.box.square_from(grid.within(reader.cell, slot)) > reach * reach) continue;
+      told = reader.rank;
+      sends_[at(told)].slots.push_back(slot);
+    }
+  }
 }
 
-/// How many particles others tell: their choice, made of the same marks.
-void NearExchange::expect(CellMarks const& marks) {
-  for (std::size_t rank = 0; rank < receives_.size(); ++rank) {
-    std::size_t count = 0;
-    for (std::size_t k = starts_[rank]; k < starts_[rank + 1] && rank != at(ranks::own()); ++k) {
-      CellMarks::Cell const& theirs = all_[k];
-      if (marks.told(theirs.cell) != 0 && marks.readers(theirs.cell).has(ranks::own())) count += at(theirs.particles);
-    }
-    receives_[rank].slots.resize(count);
-  }
+/// How many particles each will tell, between those whose cells meet.
+void NearExchange::tell_counts() {
+  for (Side& side : sends_) side.values.assign(side.meets ? 1 : 0, static_cast<double>(side.slots.size()));
+  for (Side& side : receives_) side.values.assign(side.meets ? 1 : 0, 0);
+  send();
+  for (Side& side : receives_) side.slots.resize(side.meets ? static_cast<std::size_t>(side.values.front()) : 0);
 }
 
 /// The values of all sides, which have their sizes.
@@ -146,12 +154,12 @@ void NearExchange::meet(System const& s, MovingGrid const& grid, CellMarks& mark
   forget();
   find_own_cells(s, grid);
   tell_cells();
-  marks.start(grid.shape(), s.dimension, true);
+  marks.start(grid.shape(), s.dimension);
   for (std::size_t rank = 0; rank < sends_.size(); ++rank)
     for (std::size_t k = starts_[rank]; k < starts_[rank + 1]; ++k) marks.add(all_[k], static_cast<int>(rank));
   marks.finish(SpatialLists::touching(s));
   choose_sends(grid, marks);
-  expect(marks);
+  tell_counts();
   tell_positions(s);
   auto const by_id = [&](Index slot) { return order_->id(slot); };
   std::ranges::sort(received_, {}, by_id);

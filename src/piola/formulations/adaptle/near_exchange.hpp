@@ -49,6 +49,7 @@ class NearExchange {
   static constexpr std::size_t flow = 0, touch = 1;
   /// Of one other rank.
   struct Side {
+    bool meets = false;                           ///< cells of both are near each other
     std::vector<Index> slots;                     ///< in the order in which they are told
     std::array<std::vector<Index>, 2> particles;  ///< of these by kind of reading
     std::vector<double> values;                   ///< of a message, kept between steps
@@ -62,16 +63,17 @@ class NearExchange {
   void find_own_cells(System const& system, MovingGrid const& grid);
   void tell_cells();
   void choose_sends(MovingGrid const& grid, CellMarks const& marks);
-  void expect(CellMarks const& marks);
+  void tell_counts();
   void send();
   void tell_positions(System const& system);
 
   ParticleOrder const* order_;
   std::vector<Index> own_, received_, present_;
-  std::vector<CellMarks::Cell> mine_, all_;  ///< cells; all_: rank after rank
-  std::vector<std::size_t> starts_;          ///< in all_
-  std::vector<Index> number_of_;             ///< per cell: which of mine_
-  std::vector<Side> sends_, receives_;       ///< per rank
+  std::vector<CellMarks::Cell> mine_, all_;              ///< cells; all_: rank after rank
+  std::vector<std::size_t> starts_;                      ///< in all_
+  std::vector<Index> number_of_;                         ///< per cell: which of mine_
+  std::vector<std::vector<CellMarks::Reader>> readers_;  ///< of each of mine_
+  std::vector<Side> sends_, receives_;                   ///< per rank
 };
 
 }  // namespace piola::adaptle

@@ -31,7 +31,7 @@ void SpatialLists::sort_all(System const& s) {
   grid_.sort({s.particles, s.slot_of});
   everyone_ = s.eulerians == s.particles && !touching(s);
   if (everyone_) return;
-  marks_.start(grid_.shape(), s.dimension, false);
+  marks_.start(grid_.shape(), s.dimension);
   for (Index i = 0; i < s.particles; ++i) marks_.add(grid_.keys()[i], s.body_of[i], s.eulerian[i] != 0);
   marks_.finish(touching(s));
 }
