@@ -351,14 +351,19 @@ struct CheckArguments {
   int ranks = 0;  ///< 0: not asked for
 };
 
+CaseSpec read(CaseOptions const& options, ParticleSet& particles) {
+  PackingLine line(false);
+  return read_case(case_file(options.file), options.overrides(), {.packing = std::ref(line)}, &particles);
+}
+
 int check(CheckArguments const& arguments) {
   CaseOptions const& options = arguments.from;
   ParticleSet particles;
-  PackingLine line(false);
-  CaseSpec const spec =
-      read_case(case_file(options.file), options.overrides(), {.packing = std::ref(line)}, &particles);
-  std::vector<BodyFacts> const facts = body_facts(spec, particles);
-  Look const look = look_at(spec, particles);
+  CaseSpec const spec = read(options, particles);
+  auto const [facts, look] = [&] {
+    WaitingLine const line(fmt::format("looking at {} particles", count_text(particles.size())));
+    return std::pair(body_facts(spec, particles), look_at(spec, particles));
+  }();
   say("{}\n", spec.title);
   say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
       quantity_text(spec.run.end, "s"));

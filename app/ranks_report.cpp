@@ -3,10 +3,11 @@
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
 #include "piola/simulation/build.hpp"
-#include "piola/simulation/coarse_talk.hpp"
 #include "piola/simulation/estimate.hpp"
 #include "piola/simulation/ranks.hpp"
 #include "piola/simulation/scaling.hpp"
+#include "piola/simulation/talk_between.hpp"
+#include "run_support.hpp"
 #include "streams.hpp"
 #include <algorithm>
 #include <cmath>
@@ -32,34 +33,30 @@ std::string mean(double n) {
 }
 std::string size(double bytes) { return size_text(bytes); }
 
-/// Counts what is not known yet of what the case would send. Throws InputError if that cannot be.
-void complete_talk(CaseSpec const& spec, ParticleSet const& particles, int ranks, Estimate& cost) {
-  auto const unknown = [&](std::string const& why) {
-    return InputError(fmt::format(
-        "--ranks {}: what this case would send is not known before it runs ({}) - run some steps with mpirun, and look "
-        "at \"ranks\" in summary.json",
-        ranks, why));
-  };
-  if (!runs_on_ranks(cost)) throw unknown("bodies that ranks do not share were not counted");
-  if (particles.size() >= large_case && may_meet(spec)) {
-    try {
-      count_meetings(spec, particles, cost);
-    } catch (InputError const& error) {
-      throw unknown(
-          fmt::format("it has more than {} particles, and a coarser copy, which is counted in its place, "
-                      "was refused: {}",
-                      large_case, error.what()));
-    }
-  }
+struct Counted {
+  Scaling on_ranks;
+  int paying;  ///< the most ranks that pay, up to `most`
+};
+constexpr int most = 1024;
+
+/// Throws InputError for what does not run on ranks.
+Counted counted(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
+  WaitingLine const line(fmt::format("counting what {} particles tell each other", count_text(particles.size())));
+  Assembly const assembly = assemble(spec, particles);
+  refuse_on_ranks(assembly, ranks);
+  if (!runs_on_ranks(cost))
+    throw InputError(fmt::format(
+        "--ranks {}: what this case would send is not known before it runs (bodies that ranks do not share were not "
+        "counted) - run some steps with mpirun, and look at \"ranks\" in summary.json",
+        ranks));
+  if (particles.size() >= large_case) count_talk_between(assembly, cost);
+  return {scale(particles, cost, ranks), ranks_that_pay(particles, cost, most)};
 }
 
 }  // namespace
 
-void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
-  Assembly const assembly = assemble(spec, particles);
-  refuse_on_ranks(assembly, ranks);
-  complete_talk(spec, particles, ranks, cost);
-  Scaling const s = scale(particles, cost, ranks);
+void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks) {
+  auto const [s, paying] = counted(spec, particles, cost, ranks);
   say("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
       cost.threads == 1 ? "thread" : "threads");
   say("  of a rank: {} particles, and {} of others that it reads; it sends {} messages, {} in a step; {} of memory\n",
@@ -78,8 +75,6 @@ void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cost
   auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
   say("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n", time(t.total()),
       time(t.sweeps), time(t.messages), mean(s.collectives), time(t.collectives), time(t.rows));
-  constexpr int most = 1024;
-  int const paying = ranks_that_pay(particles, cost, most);
   say("  efficiency {:.0f} %; {}\n", 100 * s.efficiency,
       paying >= most
           ? fmt::format("{} ranks still pay", most)

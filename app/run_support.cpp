@@ -80,6 +80,28 @@ void PackingLine::operator()(std::string const& body, double share) {
   line_.show(fmt::format("packing {}: {}, {} left", body, percent(share), duration_text(spent * (1 - share) / share)));
 }
 
+WaitingLine::WaitingLine(std::string what) {
+  if (::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this, what = std::move(what)] { keep_saying(what); });
+}
+
+WaitingLine::~WaitingLine() {
+  {
+    std::lock_guard const lock(mutex_);
+    is_over_ = true;
+  }
+  over_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void WaitingLine::keep_saying(std::string const& what) {
+  constexpr std::chrono::seconds first{3}, every{1};
+  StatusLine line;
+  std::unique_lock lock(mutex_);
+  for (auto waited = first; !over_.wait_for(lock, waited == first ? first : every, [&] { return is_over_; });
+       waited += every)
+    line.show(fmt::format("{}: {} so far", what, duration_text(static_cast<double>(waited.count()))));
+}
+
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
   std::string text =
       fmt::format("{}\n{} in {}D, {} particles, {} thread{}\n", s.spec.title, s.formulation_name, s.particles.dimension,

@@ -3,8 +3,11 @@
 #include "piola/simulation/run_case.hpp"
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 #include <system_error>
+#include <thread>
 
 namespace piola::app {
 
@@ -48,6 +51,23 @@ class PackingLine {
   StatusLine line_;
   std::string body_;
   std::chrono::steady_clock::time_point begun_;
+};
+
+/// Says what takes so long, on a terminal, from the third second of its life on. Nobody else may write meanwhile.
+class WaitingLine {
+ public:
+  explicit WaitingLine(std::string what);
+  ~WaitingLine();
+  WaitingLine(WaitingLine const&) = delete;
+  WaitingLine& operator=(WaitingLine const&) = delete;
+
+ private:
+  void keep_saying(std::string const& what);
+
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool is_over_ = false;
+  std::thread thread_;  ///< what is waited for has no time to say it
 };
 
 /// What is about to run, in a few lines.

@@ -2,11 +2,14 @@
 #include "piola/simulation/estimate.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
+#include "piola/simulation/part_of_case.hpp"
 #include "piola/simulation/run_case.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace piola {
 namespace {
@@ -91,6 +94,47 @@ TEST(Estimate, APartTellsAboutTheWhole) {
     EXPECT_NEAR(part.step, whole.step, 0.1 * whole.step);
     EXPECT_NEAR(part.memory - program, whole.memory - program, 0.1 * (whole.memory - program));
     EXPECT_NEAR(part.disk, whole.disk, 0.1 * whole.disk);
+  }
+}
+
+// Of taylor_sph every rank has all, so that nobody sends anything for a row.
+TEST(Estimate, RowsTakeBytesOfWhatRanksShare) {
+  std::string const text =
+      "title = \"Plate\"\n[run]\nend = 1\n[[body]]\nname = \"plate\"\nshape = { box = { min = [0, 0], max = [1, 1] }, "
+      "particles = [20, 20] }\nmaterial = { law = \"linear_elastic\", density = 1000, youngs_modulus = 1e7, "
+      "poissons_ratio = 0.3 }\nformulation = { name = \"NAME\" }\ninitial_velocity = [\"Y\", 0]\n"
+      "[[probe]]\nname = \"shards\"\nkind = \"fragment\"\nbody = \"plate\"\nquantities = [\"piece_count\"]\n";
+  auto const of = [&](std::string_view name) {
+    std::string own = text;
+    own.replace(own.find("NAME"), 4, name);
+    return estimate_of(own);
+  };
+  EXPECT_EQ(of("taylor_sph").row_bytes, 0);
+  EXPECT_EQ(of("nodal").row_bytes, 8 * 6 * 400);
+  EXPECT_GT(of("taylor_sph").row_work_of_first, 0);
+  EXPECT_EQ(of("nodal").row_work_of_first, 0);
+}
+
+// What one body takes because another one flows, or is there at all.
+TEST(Estimate, PartsTellWhatBodiesTakeBesideOthers) {
+  auto const halves = [](std::string_view description) {
+    std::string text = "title = \"Halves\"\n[run]\nend = \"1 us\"\n";
+    for (auto const& [name, low, word] :
+         {std::tuple{"low", 0.0, std::string_view("total_lagrangian")}, std::tuple{"high", 6.1, description}})
+      text += fmt::format(
+          "[[body]]\nname = \"{}\"\nshape.box = {{ min = [\"0 mm\", \"{} mm\"], max = [\"12 mm\", \"{} mm\"] }}\n"
+          "shape.spacing = \"0.1 mm\"\nshape.placement = \"cell_centred\"\n"
+          "material = {{ name = \"aluminium_perfectly_plastic\" }}\n"
+          "formulation = {{ name = \"adaptle\", description = \"{}\" }}\n",
+          name, low, low + 6, word);
+    return text;
+  };
+  constexpr double program = 31e6;
+  for (char const* description : {"total_lagrangian", "eulerian"}) {
+    Simulation const s = build(read_case_text(halves(description), "case.toml"));
+    Estimate const whole = estimate(s.spec, s.particles, *s.formulation, s.threads);
+    Estimate const parts = estimate_from_parts(s.spec, s.particles, s.threads);
+    EXPECT_NEAR(parts.memory - program, whole.memory - program, 0.07 * (whole.memory - program)) << description;
   }
 }
 

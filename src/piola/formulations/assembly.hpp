@@ -81,6 +81,9 @@ struct Assembly {
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;                                ///< on ranks
+  /// For estimates: nobody works on any particle, so that what is made is what every rank knows of those of others.
+  /// Only of formulations whose FormulationInfo says `tells_of_space`.
+  bool only_known = false;
 };
 
 /// The materials of a body: its own, then those of its parts, as ParticleSet::part counts them.

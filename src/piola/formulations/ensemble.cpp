@@ -186,14 +186,13 @@ std::optional<Talk> Ensemble::talk(std::size_t body) const {
     auto const here = parts_[k].body_in_part(body);
     if (!here) continue;
     auto talk = formulations_[k]->talk(*here);
-    if (talk && talk->near) talk->near->group = k;
-    // Once in a step, of all bodies of the part.
-    if (talk && meeting_ && *here == 0) {
-      constexpr double position_and_velocity = 6;
-      std::size_t const read = meeting_->read_of(k);
-      talk->collectives += read > 0 ? 1 : 0;
-      talk->to_all += position_and_velocity * static_cast<double>(read);
-    }
+    if (!talk) return talk;
+    if (talk->near) talk->near->group = k;
+    StepRule const own = formulations_[k]->step_rule();
+    if (talk->stages == 0) talk->stages = formulations_[k]->stages_per_step() + own.more_stages;
+    double const step = least(&Formulation::settled_time_step);
+    talk->take_shorter_steps(own.settled, meeting_ ? meeting_->limit(step) : step);
+    if (meeting_ && *here == 0) talk->read_motion_of(meeting_->read_of(k));
     return talk;
   }
   return std::nullopt;
@@ -365,6 +364,14 @@ std::vector<std::int64_t> Ensemble::owned_of(std::size_t part) const {
 }
 
 }  // namespace
+
+std::vector<std::size_t> read_between_bodies(Assembly const& whole, std::vector<EnsemblePart> const& parts) {
+  std::vector<std::size_t> read(parts.size(), 0);
+  if (whole.surfaces.empty()) return read;
+  Meeting const meeting(whole, parts);
+  for (std::size_t k = 0; k < parts.size(); ++k) read[k] = meeting.read_of(k);
+  return read;
+}
 
 std::unique_ptr<Formulation> make_ensemble(Assembly const& whole, std::vector<EnsemblePart> parts,
                                            std::vector<std::unique_ptr<Formulation>> formulations) {

@@ -36,6 +36,9 @@ struct EnsemblePart {
 /// whose formulation knows contact; if surfaces are to push its bodies instead, each is a part for itself without them.
 std::vector<EnsemblePart> split_by_formulation(Assembly const& whole);
 
+/// Of each part: the particles that what acts between bodies reads in every step.
+std::vector<std::size_t> read_between_bodies(Assembly const& whole, std::vector<EnsemblePart> const& parts);
+
 /// The formulations of all parts as one. Each step is taken by all of them, the shortest that one of them bears.
 /// Totals are sums (pressure_oscillation is the largest); columns of history.csv that several of them have, too.
 /// Fields are all that one of them has; bodies whose formulation has no such field show zero.

@@ -95,11 +95,23 @@ struct Talk {
     bool touching = false;            ///< bodies of the group can touch
     std::vector<std::uint8_t> flows;  ///< per particle of the body, or one for all
   };
-  std::optional<Near> near;
-  double collectives = 0;  ///< per step: what all ranks add, or take the largest of, or are told
-  double to_all = 0;       ///< per step: numbers that all ranks are told of the particles of the body
+  std::optional<Near> near{};
+  double stages = 0;             ///< right-hand sides of a step; 0: as step_rule() says of all bodies
+  double collectives = 0;        ///< per step: what all ranks add, or take the largest of, or are told
+  double more_if_shortened = 0;  ///< of these in steps that others make shorter than the formulation would
+  double to_all = 0;             ///< per step: numbers that all ranks are told of the particles of the body
   /// Of which each of so many ranks has its share.
   SlotOrder (*order)(ParticleSet const&, Body const&, int ranks) = &bisected_pencils;
+
+  /// The formulation would take steps `own`, all take `step` [s].
+  void take_shorter_steps(double own, double step) {
+    if (step < own) collectives += std::exchange(more_if_shortened, 0.0);
+  }
+  /// What pushes bodies reads so many of its particles in every step: positions and velocities, at once.
+  void read_motion_of(std::size_t particles) {
+    collectives += particles > 0 ? 1 : 0;
+    to_all += 6 * static_cast<double>(particles);
+  }
 };
 
 /// Receives or returns the evolved state by name, in Id order; bit-exact doubles.

@@ -50,7 +50,7 @@ class Meeting {
   bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
-  /// Particles of a part that it reads in every step.
+  /// Particles of a part that it reads in every step, which it knows before it looks.
   std::size_t read_of(std::size_t part) const {
     std::size_t n = 0;
     for (Share const& share : shares_) n += share.part == part ? share.local.size() : 0;

@@ -44,6 +44,7 @@ struct FormulationInfo {
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their cells
   bool surface_supports = false;  ///< whether supports can hold a patch itself, where particles lie inside
   bool on_ranks = false;          ///< whether several ranks share its bodies; else each computes all of them
+  bool tells_of_space = false;    ///< whether what ranks tell depends on who is near whom in space
   /// Whether on ranks each looks at its own particles for observers; else rank 0 gets all of the state before.
   bool observed_by_share = false;
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas

@@ -4,6 +4,7 @@
 #include "piola/formulations/doubts.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/simulation/part_of_case.hpp"
 #include "piola/simulation/probes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -238,11 +239,10 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
   auto const D = static_cast<std::size_t>(particles.dimension - 1);
   double const slow = slowness(spec.run.machine), all = static_cast<double>(particles.size());
   double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
-  double const of_formulation = e.memory, state = e.row_bytes;
+  double const of_formulation = e.memory;
   e.memory_in_steps = e.memory + program_bytes;
   e.memory_everywhere = e.everywhere_in_set_up = program_bytes + messages_bytes;
   e.memory_in_set_up = program_bytes;
-  e.row_bytes = 0;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Pace const pace = pace_of(spec.bodies[b].formulation.name);
     auto const n = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
@@ -261,8 +261,7 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
       e.memory_everywhere += n * bytes_everywhere(spec, spec.bodies[b], pace);
       e.memory_of_first = std::max(e.memory_of_first, output_bytes) + n * pace.of_first;
     } else {
-      e.row_work_of_first += row_stages * here;
-      e.row_bytes += state * n / all;
+      e.row_work_of_first += row_stages * here;  // all ranks have all of it
       e.memory_everywhere += of_formulation * n / all + for_a_while;
     }
   }
@@ -296,41 +295,14 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
   formulation.save(saved);
   e.memory = static_cast<double>(formulation.memory_bytes());
   e.disk = disk_of(spec, formulation, n, n > 0 ? static_cast<double>(saved.numbers()) / n : 0);
-  e.row_bytes = 8 * static_cast<double>(saved.numbers());
-  for (std::size_t b = 0; b < particles.bodies.size(); ++b) e.talk.push_back(formulation.talk(b));
   count_work(spec, particles, formulation.stages_per_step(), probed_numbers(spec), e);
+  for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
+    e.talk.push_back(formulation.talk(b));
+    if (!e.talk[b]) continue;
+    if (e.talk[b]->stages == 0) e.talk[b]->stages = e.stages;
+    e.talk[b]->take_shorter_steps(e.rule.settled, e.step);
+  }
   return e;
-}
-
-ShapeSpec part_of(ShapeSpec const& shape, int particles) {
-  ShapeSpec part = shape;
-  if (shape.kind == ShapeSpec::Kind::solid || shape.kind == ShapeSpec::Kind::points) {
-    // A shaken box stands for it.
-    part.kind = ShapeSpec::Kind::box;
-    part.jitter = shape.arrangement == ShapeSpec::Arrangement::packed ? 0.2 : 0;
-    part.arrangement = ShapeSpec::Arrangement::lattice;
-    auto const n = static_cast<double>(count_particles(shape));
-    int const across = std::clamp(static_cast<int>(std::pow(n, 1.0 / shape.dimension)), 3, particles);
-    for (std::size_t d = 0; d < static_cast<std::size_t>(shape.dimension); ++d) {
-      part.particles[d] = across;
-      part.max[d] = across * shape.spacing;
-    }
-    return part;
-  }
-  auto const spacing = spacing_of(shape);
-  bool const cells = shape.placement == ShapeSpec::Placement::cell_centred;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(shape.dimension); ++d) {
-    if (shape.particles[d] <= particles || shape.kind != ShapeSpec::Kind::box) continue;
-    part.particles[d] = particles;
-    part.max[d] = shape.min[d] + (cells ? particles : particles - 1) * spacing[d];
-  }
-  if (shape.kind == ShapeSpec::Kind::box) return part;
-  double const reach = particles * shape.spacing;
-  part.length = std::min(shape.length, reach);
-  part.radius = std::min(shape.radius, 0.5 * reach);
-  if (part.radius < shape.radius) part.inner_radius = std::max(0.0, part.radius - (shape.radius - shape.inner_radius));
-  if (part.inner_radius < 0.05 * part.radius) part.inner_radius = 0;
-  return part;
 }
 
 Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles, int threads) {
@@ -338,16 +310,12 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
   Estimate e;
   e.threads = threads;
   double stages = 1;
+  std::vector<double> own_steps;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    Assembly a;
-    a.cfl = spec.run.cfl;
-    a.machine = spec.run.machine;
-    a.materials = {spec.bodies[b].material};
-    a.formulations = {spec.bodies[b].formulation};
-    int const size = part_size[static_cast<std::size_t>(particles.dimension - 1)];
-    fill(part_of(spec.bodies[b].shape, size), spec.bodies[b].name, a.particles);
+    Assembly const a = part_of_case(spec, b, part_size[static_cast<std::size_t>(particles.dimension - 1)]);
     auto const formulation = make_formulation(a);
     StepRule const rule = formulation->step_rule();
+    own_steps.push_back(rule.settled);
     if (b == 0 || rule.settled < e.rule.settled) e.rule = rule;
     stages = formulation->stages_per_step();
     StateSize saved;
@@ -356,12 +324,14 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     auto const some = static_cast<double>(a.particles.size());
     e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
     e.disk += disk_of(spec, *formulation, all, static_cast<double>(saved.numbers()) / some);
-    e.row_bytes += 8 * static_cast<double>(saved.numbers()) * all / some;
     e.talk.push_back(formulation->talk(0));
     if (e.talk.back()) e.talk.back()->to_all *= all / some;
+    if (e.talk.back()) e.talk.back()->stages = stages + rule.more_stages;
   }
   e.steps = steps_of(e.rule, spec.run);
   count_work(spec, particles, stages, probed_numbers(spec), e);
+  for (std::size_t b = 0; b < e.talk.size(); ++b)
+    if (e.talk[b]) e.talk[b]->take_shorter_steps(own_steps[b], e.step);
   return e;
 }
 

@@ -20,7 +20,7 @@ struct Estimate {
   double memory = 0;         ///< largest resident memory [bytes], with set-up and output
   double disk = 0;           ///< frames, pictures, checkpoints and history [bytes]
   int threads = 1;
-  double stages = 0;                      ///< right-hand sides of a step
+  double stages = 0;                      ///< right-hand sides of a step, on average
   double step_work = 0;                   ///< processor time of a step [s]
   double row_work = 0;                    ///< of a row of the history [s]
   double row_work_of_first = 0;           ///< of it what rank 0 does alone [s]
@@ -46,8 +46,5 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
 
 /// From this many particles on a case is estimated from parts.
 inline constexpr std::int64_t large_case = 200'000;
-
-/// The same shape with the same spacing, cut down to about this many particles along each direction.
-ShapeSpec part_of(ShapeSpec const& shape, int particles);
 
 }  // namespace piola

@@ -31,7 +31,7 @@ Owned owned_of(ParticleSet const& particles, SlotOrder const& order, int ranks) 
   return owned;
 }
 
-void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<RankShare>& shares) {
+void add_body(Owned const& owned, Talk const& talk, std::vector<RankShare>& shares) {
   auto const ranks = static_cast<int>(shares.size());
   for (int const r : owned.owner) shares[static_cast<std::size_t>(r)].particles += 1;
   std::map<double, HaloCounts> halos;  // by reach
@@ -46,10 +46,10 @@ void add_body(Owned const& owned, Talk const& talk, double stages, std::vector<R
       std::set<int> senders;
       for (auto const& told : message)
         for (auto const& [s, count] : halos[told.reach][r]) {
-          shares[static_cast<std::size_t>(s)].bytes += stages * told.numbers * 8 * static_cast<double>(count);
+          shares[static_cast<std::size_t>(s)].bytes += talk.stages * told.numbers * 8 * static_cast<double>(count);
           senders.insert(s);
         }
-      for (int const s : senders) shares[static_cast<std::size_t>(s)].messages += stages;
+      for (int const s : senders) shares[static_cast<std::size_t>(s)].messages += talk.stages;
     }
   }
 }
@@ -166,7 +166,7 @@ Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Net
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
     Talk const& talk = *cost.talk[b];
     owned.push_back(owned_of(particles, talk.order(particles, particles.bodies[b], ranks), ranks));
-    add_body(owned.back(), talk, cost.stages, s.shares);
+    add_body(owned.back(), talk, s.shares);
     s.collectives += talk.collectives;
     s.to_all += ranks > 1 ? 8 * talk.to_all : 0;
   }

@@ -285,7 +285,7 @@ FormulationInfo info() {
   info.mirrors = false;
   info.contact = true;
   info.pushable = true;
-  info.on_ranks = info.observed_by_share = true;
+  info.on_ranks = info.observed_by_share = info.tells_of_space = true;
   info.formulas = formulas;
   return info;
 }

@@ -86,6 +86,8 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
   set_descriptions();
   std::vector<Shares> equal;
   for (BodyConstants const& b : body_) equal.emplace_back(Range{b.first, b.last});
+  for (Shares& cut : equal)
+    if (assembly.only_known) cut = Shares(cut.whole(), {0, 0});  // all is of a rank that there is not
   take(std::move(equal));
   set_particles(assembly);
   set_boundaries();

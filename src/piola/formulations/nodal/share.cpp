@@ -44,9 +44,7 @@ Talk NodalBody::talk() const {
   double const reach = usual_reach * *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D_);
   int const used = with_dimension(D_, [](auto dimension) { return Records<dimension>::used; });
   talk.messages = {{{reach, D_}}, {{reach, D_ * used}}};
-  // The first failure with the largest change of a strain; sums of the unrest in every fourth step of calm motion and
-  // in all before the first measurement; and what is measured.
-  talk.collectives = 1.9;
+  talk.collectives = 1;  // the first failure with the largest change of a strain
   talk.order = [](ParticleSet const& set, Body const& body, int) { return slot_order(set, body); };
   return talk;
 }

@@ -139,8 +139,12 @@ class Solver final : public Formulation {
   int stages_per_step() const override { return 1; }
   std::optional<Talk> talk(std::size_t body) const override {
     Talk talk = bodies_[body]->talk();
-    // What others, or contact, make shorter than it wants is looked at in every step.
-    if (pushed_) talk.collectives += 0.75;
+    if (monitors_[body]->is_given()) return talk;
+    talk.collectives += StabilityMonitor::collectives_per_step;
+    talk.more_if_shortened = StabilityMonitor::more_if_shortened;
+    double least = monitors_[body]->step();
+    for (auto const& monitor : monitors_) least = std::min(least, monitor->step());
+    talk.take_shorter_steps(monitors_[body]->step(), least);
     return talk;
   }
   std::vector<std::pair<std::string, double>> costs() const override;

@@ -13,6 +13,10 @@ class StabilityMonitor {
  public:
   /// Right-hand sides for the measurement at the start, and for later ones per step of calm motion.
   static constexpr double setup_stages = 25, stages_per_step = 0.1;
+  /// What all ranks add in a step: sums of the unrest in every fourth step of calm motion and in all before the first
+  /// measurement, and those of measurements. In steps that others make shorter the unrest is looked at each time, but
+  /// measurements are further apart.
+  static constexpr double collectives_per_step = 0.9, more_if_shortened = 0.3;
 
   /// B dt^2 may take this of the tolerance for the energy. As steps become shorter while B grows from B_0, B dt^2 / 6
   /// ln(B / B_0) comes on top.
