@@ -18,13 +18,13 @@ TEST(CellBox, IsAsFarAsItsNearestPlace) {
   CellBox box;
   box.add({0.25, 0.5, 0});
   box.add({0.75, 0.5, 0});
-  EXPECT_EQ(box.square_from({0.5, 0.5, 0}), 0);
-  EXPECT_NEAR(box.square_from({-0.75, 0.5, 0}), 1, 1e-12);
+  EXPECT_EQ(box.bounds({}).square_from({0.5, 0.5, 0}), 0);
+  EXPECT_NEAR(box.bounds({}).square_from({-0.75, 0.5, 0}), 1, 1e-12);
   // A 256th more than the farthest place, at most.
-  EXPECT_NEAR(box.square_from({1.75, 1.5, 0}), 2, 0.02);
-  EXPECT_LE(box.square_from({1.75, 1.5, 0}), 2);
+  EXPECT_NEAR(box.bounds({}).square_from({1.75, 1.5, 0}), 2, 0.02);
+  EXPECT_LE(box.bounds({}).square_from({1.75, 1.5, 0}), 2);
   box.add({1.5, 0.5, 0});  // shares a cell at the border, which it lies outside of
-  EXPECT_EQ(box.square_from({100, 0, 0}), 0);
+  EXPECT_EQ(box.bounds({}).square_from({100, 0, 0}), 0);
 }
 
 /// Particles of two bodies, of which some of the second flow, dealt to ranks.
@@ -75,7 +75,8 @@ TEST(CellMarks, TellThoseWithinReachAndNobodyFarAway) {
       std::uint8_t const kinds = marks.told(grid.keys()[i]);
       std::set<int> by_flow, by_touch, possible, readers;
       for (CellMarks::Reader const& reader : marks.readers(grid.keys()[i], c.owner[at(i)]))
-        if (reader.box.square_from(grid.within(reader.cell, i)) <= reach * reach) readers.insert(reader.rank);
+        if (reader.box.bounds(grid.corner(reader.cell)).square_from(grid.where(i)) <= reach * reach)
+          readers.insert(reader.rank);
       for (Index j = 0; j < n; ++j) {
         double const r = c.distance(at(i), at(j));
         if (c.owner[at(j)] == c.owner[at(i)]) continue;

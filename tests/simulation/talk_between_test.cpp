@@ -3,6 +3,7 @@
 #include "piola/formulations/make.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"
+#include "piola/simulation/scaling.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -41,6 +42,13 @@ void expect_same_talk(std::string const& text) {
     EXPECT_DOUBLE_EQ(counted.talk[b]->collectives, whole.talk[b]->collectives);
     EXPECT_DOUBLE_EQ(counted.talk[b]->to_all, whole.talk[b]->to_all);
     EXPECT_DOUBLE_EQ(counted.talk[b]->stages, whole.talk[b]->stages);
+    ASSERT_EQ(counted.talk[b]->near.has_value(), whole.talk[b]->near.has_value());
+    if (whole.talk[b]->near) {
+      EXPECT_EQ(counted.talk[b]->near->group, whole.talk[b]->near->group);
+      EXPECT_EQ(counted.talk[b]->near->touching, whole.talk[b]->near->touching);
+      EXPECT_EQ(counted.talk[b]->near->flows, whole.talk[b]->near->flows);
+      EXPECT_DOUBLE_EQ(counted.talk[b]->near->cell, whole.talk[b]->near->cell);
+    }
     ASSERT_EQ(counted.talk[b]->messages.size(), whole.talk[b]->messages.size());
     for (std::size_t m = 0; m < whole.talk[b]->messages.size(); ++m)
       for (std::size_t k = 0; k < whole.talk[b]->messages[m].size(); ++k) {
@@ -65,16 +73,17 @@ TEST(TalkBetween, IsThatOfBodiesThatAreBuilt) {
 
 // Where bodies stand decides, not how many particles they have: at the same distance in space that is more spacings.
 TEST(TalkBetween, OfBodiesThatAreApartHasNoContact) {
-  auto const collectives = [](double spacing) {
-    CaseSpec const spec =
-        read_case_text(case_of({{"low", 0, 4, spacing, lagrangian}, {"high", 5, 8, spacing, lagrangian}}), "case.toml");
+  auto const messages = [](double spacing, std::string const& contact) {
+    CaseSpec const spec = read_case_text(
+        case_of({{"low", 0, 4, spacing, lagrangian}, {"high", 4.5, 7.5, spacing, lagrangian}}, contact), "case.toml");
     Assembly const assembly = assemble(spec);
     Estimate cost = estimate_from_parts(spec, assembly.particles, 1);
     count_talk_between(assembly, cost);
-    return cost.talk[0]->collectives;
+    return scale(assembly.particles, cost, 2).shares[0].messages;
   };
-  EXPECT_EQ(collectives(0.5), 3);
-  EXPECT_EQ(collectives(0.1), 2);
+  std::string const none = "[contact]\nlaw = \"none\"\n";
+  EXPECT_EQ(messages(0.5, "") - messages(0.5, none), 3) << "how many, where, and what contact reads";
+  EXPECT_EQ(messages(0.1, ""), messages(0.1, none));
 }
 
 // A body of nodal that has to follow shorter steps looks at its own in each of them.

@@ -2,6 +2,7 @@
 #include "piola/parallel/cell_marks.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -22,14 +23,14 @@ void CellBox::add(std::array<double, 3> const& place) {
   }
 }
 
-double CellBox::square_from(std::array<double, 3> const& place) const {
-  double sum = 0;
-  for (std::size_t c = 0; c < 3 && anywhere_ == 0; ++c) {
-    double const low = low_[c] / parts, high = (high_[c] + 1) / parts;
-    double const outside = place[c] < low ? low - place[c] : place[c] > high ? place[c] - high : 0;
-    sum += outside * outside;
+CellBox::Bounds CellBox::bounds(std::array<double, 3> const& corner) const {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  Bounds here;
+  for (std::size_t c = 0; c < 3; ++c) {
+    here.low[c] = anywhere_ != 0 ? -endless : corner[c] + low_[c] / parts;
+    here.high[c] = anywhere_ != 0 ? endless : corner[c] + (high_[c] + 1) / parts;
   }
-  return sum;
+  return here;
 }
 
 template <class F>
@@ -60,19 +61,16 @@ void CellMarks::add(Cell const& of_rank, int rank) {
 
 void CellMarks::finish(bool touching) {
   each_occupied([&](Index cell) {
-    bool flows = false, meets = false;
     Index const mine = body_[static_cast<std::size_t>(cell)];
-    each_around(cell, [&](std::size_t other) {
-      flows = flows || flows_[other] != 0;
-      meets = meets || (body_[other] != nobody && body_[other] != mine) || body_[other] == several;
-    });
-    reads_[static_cast<std::size_t>(cell)] =
-        static_cast<std::uint8_t>((flows ? flow : 0) | (touching && meets ? touch : 0));
+    bool const flows = any_around(cell, [&](std::size_t other) { return flows_[other] != 0; });
+    bool const meets = touching && any_around(cell, [&](std::size_t other) {
+                         return body_[other] == several || (body_[other] != nobody && body_[other] != mine);
+                       });
+    reads_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>((flows ? flow : 0) | (meets ? touch : 0));
   });
   // Bodies touch from both sides, so that those who are read of read, too; beside what flows they need not.
   each_occupied([&](Index cell) {
-    bool flows = false;
-    each_around(cell, [&](std::size_t other) { flows = flows || (reads_[other] & flow) != 0; });
+    bool const flows = any_around(cell, [&](std::size_t other) { return (reads_[other] & flow) != 0; });
     int const told = (reads_[static_cast<std::size_t>(cell)] & touch) | (flows ? flow : 0);
     told_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(told);
   });
@@ -80,6 +78,7 @@ void CellMarks::finish(bool touching) {
 
 std::vector<CellMarks::Reader> CellMarks::readers(Index cell, int own) const {
   std::vector<Reader> all;
+  if (told(cell) == 0) return all;
   each_around(cell, [&](std::size_t other) {
     if (reads_[other] == 0) return;
     for (Index k = first_[other]; k != none; k = said_[static_cast<std::size_t>(k)].next) {

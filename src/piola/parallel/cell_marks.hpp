@@ -12,8 +12,21 @@ class CellBox {
  public:
   /// place: seen from the corner of the cell [edges]; outside of 0 to 1, or not a number: they may be anywhere.
   void add(std::array<double, 3> const& place);
-  /// Square of the least distance from a place, which may be outside [edges].
-  double square_from(std::array<double, 3> const& place) const;
+  /// Seen from where places are counted from; corner: of the cell [edges].
+  struct Bounds {
+    std::array<double, 3> low, high;
+    /// Square of the least distance from a place [edges].
+    double square_from(std::array<double, 3> const& place) const {
+      double sum = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        double const below = low[c] - place[c], above = place[c] - high[c];
+        double const outside = below > 0 ? below : above > 0 ? above : 0;
+        sum += outside * outside;
+      }
+      return sum;
+    }
+  };
+  Bounds bounds(std::array<double, 3> const& corner) const;
 
  private:
   std::array<std::uint8_t, 3> low_{255, 255, 255}, high_{0, 0, 0};
@@ -87,13 +100,23 @@ class CellMarks {
     Index next;  ///< of the same cell
   };
 
-  /// f(cell) for a cell and those around it.
+  /// Whether is(cell) for a cell or one around it.
   template <class F>
-  void each_around(Index cell, F const& f) const {
+  bool any_around(Index cell, F const& is) const {
     Index const row = shape_[0], layer = shape_[0] * shape_[1], deep = dimension_ == 3 ? 1 : 0;
     for (Index dz = -deep; dz <= deep; ++dz)
       for (Index dy = -1; dy <= 1; ++dy)
-        for (Index dx = -1; dx <= 1; ++dx) f(static_cast<std::size_t>(cell + dz * layer + dy * row + dx));
+        for (Index dx = -1; dx <= 1; ++dx)
+          if (is(static_cast<std::size_t>(cell + dz * layer + dy * row + dx))) return true;
+    return false;
+  }
+  /// f(cell) for a cell and those around it.
+  template <class F>
+  void each_around(Index cell, F const& f) const {
+    any_around(cell, [&](std::size_t other) {
+      f(other);
+      return false;
+    });
   }
   /// f(cell), at once, for those that hold a particle.
   template <class F>

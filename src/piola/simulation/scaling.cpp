@@ -112,9 +112,10 @@ void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, I
     Index const key = grid.keys()[k];
     int const from = g.all.owner[k];
     int told = from;
+    std::array<double, 3> const place = grid.where(static_cast<Index>(k));
     for (CellMarks::Reader const& reader : readers[{key, from}]) {
       if (reader.rank == told) continue;
-      if (reader.box.square_from(grid.within(reader.cell, static_cast<Index>(k))) > reach * reach) continue;
+      if (reader.box.bounds(grid.corner(reader.cell)).square_from(place) > reach * reach) continue;
       told = reader.rank;
       std::uint8_t const kinds = marks.told(key);
       for (std::size_t m = 0; m < messages.size(); ++m) {

@@ -63,14 +63,18 @@ void NearExchange::find_own_cells(System const& s, MovingGrid const& grid) {
   constexpr Index none = -1;
   number_of_.assign(at(grid.cell_count()), none);
   mine_.clear();
+  std::vector<std::array<double, 3>> corner;
   for (Index const slot : own_) {
     Index const cell = grid.keys()[slot];
     Index& number = number_of_[at(cell)];
     if (number == none) {
       number = static_cast<Index>(mine_.size());
       mine_.push_back({cell, s.body_of[slot]});
+      corner.push_back(grid.corner(cell));
     }
-    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0, grid.within(cell, slot));
+    std::array<double, 3> place = grid.where(slot);
+    for (std::size_t c = 0; c < 3; ++c) place[c] -= corner[at(number)][c];
+    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0, place);
   }
 }
 
@@ -92,19 +96,26 @@ void NearExchange::tell_cells() {
 void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) {
   int const own = ranks::own();
   readers_.clear();
+  first_reader_.assign(1, 0);
   for (CellMarks::Cell const& mine : mine_) {
-    readers_.push_back(marks.readers(mine.cell, own));
-    for (CellMarks::Reader const& reader : readers_.back()) sends_[at(reader.rank)].meets = true;
+    for (CellMarks::Reader const& reader : marks.readers(mine.cell, own)) {
+      readers_.push_back({reader.rank, reader.box.bounds(grid.corner(reader.cell))});
+      sends_[at(reader.rank)].meets = true;
+    }
+    first_reader_.push_back(readers_.size());
     if (marks.reads(mine.cell) != 0)
       marks.each_other(mine.cell, own, [&](int rank) { receives_[at(rank)].meets = true; });
   }
   double const reach = grid.reach_of_cells();
   for (Index const slot : own_) {
+    auto const number = at(number_of_[at(grid.keys()[slot])]);
+    if (first_reader_[number] == first_reader_[number + 1]) continue;
+    std::array<double, 3> const place = grid.where(slot);
     int told = own;
-    for (CellMarks::Reader const& reader : readers_[at(number_of_[at(grid.keys()[slot])])]) {
+    for (std::size_t k = first_reader_[number]; k < first_reader_[number + 1]; ++k) {
       // Written so that what is not a number is told.
-      if (reader.rank == told || reader.box.square_from(grid.within(reader.cell, slot)) > reach * reach) continue;
-      told = reader.rank;
+      if (readers_[k].rank == told || readers_[k].where.square_from(place) > reach * reach) continue;
+      told = readers_[k].rank;
       sends_[at(told)].slots.push_back(slot);
     }
   }

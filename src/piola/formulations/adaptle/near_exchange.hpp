@@ -59,6 +59,11 @@ class NearExchange {
     template <class F>
     void each(Told const& told, F const& f);
   };
+  /// Somebody of another rank who reads, and where [edges].
+  struct Reader {
+    int rank;
+    CellBox::Bounds where;
+  };
   static SlotList of(std::vector<Index> const& slots) { return {static_cast<Index>(slots.size()), slots.data()}; }
   void find_own_cells(System const& system, MovingGrid const& grid);
   void tell_cells();
@@ -69,11 +74,12 @@ class NearExchange {
 
   ParticleOrder const* order_;
   std::vector<Index> own_, received_, present_;
-  std::vector<CellMarks::Cell> mine_, all_;              ///< cells; all_: rank after rank
-  std::vector<std::size_t> starts_;                      ///< in all_
-  std::vector<Index> number_of_;                         ///< per cell: which of mine_
-  std::vector<std::vector<CellMarks::Reader>> readers_;  ///< of each of mine_
-  std::vector<Side> sends_, receives_;                   ///< per rank
+  std::vector<CellMarks::Cell> mine_, all_;  ///< cells; all_: rank after rank
+  std::vector<std::size_t> starts_;          ///< in all_
+  std::vector<Index> number_of_;             ///< per cell: which of mine_
+  std::vector<Reader> readers_;              ///< of mine_[0], then those of mine_[1], and so on, rank by rank
+  std::vector<std::size_t> first_reader_;    ///< of each of mine_, one more at the end
+  std::vector<Side> sends_, receives_;       ///< per rank
 };
 
 }  // namespace piola::adaptle
