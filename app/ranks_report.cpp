@@ -63,7 +63,7 @@ void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate cons
       between(
           s, [](RankShare const& r) { return static_cast<double>(r.particles); }, count),
       between(
-          s, [](RankShare const& r) { return static_cast<double>(r.halo); }, count),
+          s, [](RankShare const& r) { return static_cast<double>(r.halo + r.near); }, count),
       between(
           s, [](RankShare const& r) { return r.messages; }, mean),
       between(

@@ -117,6 +117,7 @@ void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, I
       if (reader.rank == told) continue;
       if (reader.box.bounds(grid.corner(reader.cell)).square_from(place) > reach * reach) continue;
       told = reader.rank;
+      s.shares[static_cast<std::size_t>(told)].near += 1;
       std::uint8_t const kinds = marks.told(key);
       for (std::size_t m = 0; m < messages.size(); ++m) {
         int const numbers = messages[m].any + ((kinds & CellMarks::flow) != 0 ? messages[m].flow : 0) +

@@ -11,7 +11,8 @@ namespace piola {
 /// One rank's part of a run.
 struct RankShare {
   std::int64_t particles = 0;
-  std::int64_t halo = 0;           ///< particles of other ranks that it reads
+  std::int64_t halo = 0;           ///< particles of other ranks that it reads as neighbours of its own for good
+  std::int64_t near = 0;           ///< and because they are near in space, at the start
   double messages = 0, bytes = 0;  ///< that it sends to others in a step, on average
   double memory = 0;               ///< the most that it takes at a time [bytes]
 };
