@@ -405,6 +405,21 @@ formulation = { name = "jst_sph" }
 initial_velocity = ["20*Z*Z", "5*X*Y", "-20*X"]
 """
 
+# Cuts lie behind the surfaces that meet, along them: ranks whose cells are beside others that read have nothing to tell.
+COLUMNS = """title = "Columns of AdapTLE that meet end to end"
+[run]
+end = "2 us"
+""" + "".join(f"""[[body]]
+name = "{name}"
+shape.box = {{ min = ["0 mm", "0 mm", "{low} mm"], max = ["8 mm", "8 mm", "{low + 10} mm"] }}
+shape.spacing = "1 mm"
+shape.placement = "cell_centred"
+material = {{ name = "copper_ofhc", damage = "none" }}
+formulation = {{ name = "adaptle", description = "{description}" }}
+initial_velocity = ["0 m/s", "0 m/s", "{speed} m/s"]
+""" for name, low, speed, description in (("low", 0, 0, "total_lagrangian"), ("high", 11.2, -300, "total_lagrangian"),
+                                          ("flowing", -13, 200, "eulerian"), ("far", 1e7, 0, "eulerian")))
+
 OWN_CASES = {name: text + OUTPUT for name, text in {
     "touching bodies": TOUCHING,
     "glued to a plate": GLUED,
@@ -428,6 +443,7 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "deleted disc": TORN.replace("convert_strain = 0.05", 'description = "total_lagrangian", failed = "delete", '
                                                           "convert_strain = 0.05"),
     "rubbing bar of AdapTLE": RUBBING,
+    "columns end to end": COLUMNS,
     "large files": LARGE,
 }.items()}
 

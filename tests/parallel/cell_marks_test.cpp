@@ -99,6 +99,28 @@ TEST(CellMarks, TellThoseWithinReachAndNobodyFarAway) {
   }
 }
 
+/// Whoever tells knows whom, and those know by whom, also where cells behind a surface that touches tell nothing.
+TEST(CellMarks, LetBothSidesKnowWhoMeets) {
+  for (bool const touching : {false, true}) {
+    CellMarks marks;
+    marks.start({9, 5, 1}, 2);
+    // Along x: three cells of one body, each of another rank, then two of the other body.
+    for (Index k = 0; k < 5; ++k)
+      for (Index row : {9, 18, 27}) marks.add({row + k + 1, k < 3 ? 0 : 1}, k < 3 ? static_cast<int>(k) : 3);
+    marks.finish(touching);
+    using Pairs = std::set<std::pair<int, int>>;  // who tells, who is told
+    Pairs by_sender, by_receiver;
+    for (Index k = 0; k < 5; ++k)
+      for (Index row : {9, 18, 27}) {
+        int const own = k < 3 ? static_cast<int>(k) : 3;
+        for (CellMarks::Reader const& reader : marks.readers(row + k + 1, own)) by_sender.insert({own, reader.rank});
+        marks.each_teller(row + k + 1, own, [&](int rank) { by_receiver.insert({rank, own}); });
+      }
+    EXPECT_EQ(by_sender, by_receiver);
+    EXPECT_EQ(by_sender, touching ? (Pairs{{2, 3}, {3, 2}}) : Pairs{});
+  }
+}
+
 TEST(CellMarks, TellNothingWhereNothingFlowsOrTouches) {
   CellMarks marks;
   marks.start({4, 4, 1}, 2);
@@ -112,7 +134,7 @@ TEST(CellMarks, TellNothingWhereNothingFlowsOrTouches) {
   ASSERT_EQ(marks.readers(5, 0).size(), 1);
   EXPECT_EQ(marks.readers(5, 0).front().rank, 1);
   std::set<int> others;
-  marks.each_other(6, 1, [&](int rank) { others.insert(rank); });
+  marks.each_teller(6, 1, [&](int rank) { others.insert(rank); });
   EXPECT_EQ(others, std::set{0});
 }
 

@@ -21,7 +21,7 @@ from on_ranks import (ENVIRONMENT, QUICK, SOURCE, checkpoint, contents, differen
 
 STEPS = 20
 QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
-              "damped patch", "deleted", "large files", "restarts", "words"]
+              "damped patch", "deleted", "columns", "large files", "restarts", "words"]
 OFTEN = "run.repartition=3"  # steps
 SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",
          "torn plate with probes": "converted_particles",  # columns above zero at the end

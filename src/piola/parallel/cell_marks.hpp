@@ -82,10 +82,12 @@ class CellMarks {
   std::uint8_t told(Index cell) const { return told_[static_cast<std::size_t>(cell)]; }
   /// Those of other ranks than `own` that may read what lies in a cell, rank by rank.
   std::vector<Reader> readers(Index cell, int own) const;
-  /// f(rank) for the other ranks with particles in a cell or around.
+  /// The other way: f(rank) for the ranks whose readers() of some cell has one of rank `own` in this cell.
   template <class F>
-  void each_other(Index cell, int own, F const& f) const {
+  void each_teller(Index cell, int own, F const& f) const {
+    if (reads(cell) == 0) return;
     each_around(cell, [&](std::size_t other) {
+      if (told_[other] == 0) return;
       for (Index k = first_[other]; k != none; k = said_[static_cast<std::size_t>(k)].next)
         if (int const rank = said_[static_cast<std::size_t>(k)].rank; rank != own) f(rank);
     });

@@ -22,11 +22,6 @@ Range own_part(Range whole);
 /// Of values per slot, `size` of slot i at data[i * size], that each rank has right in its own part of a range: all
 /// ranks have all of them.
 void complete_slots(double* data, std::ptrdiff_t size, Range whole);
-/// Of a field that is not tiled.
-void complete_slots(FieldRef const& field, int components, Shares const& body);
-inline void complete_slots(FieldRef const& field, int components, Range whole) {
-  complete_slots(field, components, Shares(whole));
-}
 
 /// `size` values per slot, of slot i at data[i * size], of the slots of a range.
 struct SlotArray {
@@ -54,61 +49,6 @@ void complete_slots_and_add(std::span<SlotArray const> arrays, T& sum) {
       sum.add(std::bit_cast<T>(said));
   }
 }
-
-/// Some of the slots of several bodies, which all ranks name alike: those of rank 0, then those of rank 1, and so on.
-struct SlotsOfRanks {
-  std::vector<Index> slots;
-  std::vector<std::size_t> starts{0};  ///< per rank, one more at the end
-  /// One of each rank, which has its number.
-  SlotsOfRanks() {
-    for (int rank = 0; rank < ranks::count(); ++rank) {
-      slots.push_back(rank);
-      starts.push_back(slots.size());
-    }
-  }
-  /// bodies: who has what of each. wanted(slot): whether it is one of them.
-  template <class F>
-  SlotsOfRanks(std::span<Shares const> bodies, F const& wanted) {
-    for (int rank = 0; rank < ranks::count(); ++rank) {
-      for (Shares const& body : bodies) {
-        Range const part = body.of(rank);
-        for (Index i = part.first; i < part.last; ++i)
-          if (wanted(i)) slots.push_back(i);
-      }
-      starts.push_back(slots.size());
-    }
-  }
-};
-
-/// Components [first, first + count) of a field.
-struct FieldPart {
-  FieldRef field;
-  int first, count;
-};
-/// Fields that each rank has right in its own slots, and of which all ranks are told these.
-struct ToldToAll {
-  std::vector<FieldPart> parts;
-  SlotsOfRanks const* some;
-};
-/// All of it in one message.
-void complete_slots(std::span<ToldToAll const> told);
-inline void complete_slots(std::vector<FieldPart> parts, SlotsOfRanks const& some) {
-  complete_slots(std::array{ToldToAll{std::move(parts), &some}});
-}
-
-/// What share_failure() does, beside other things that all ranks are told.
-class FailuresOfRanks {
- public:
-  explicit FailuresOfRanks(FailureSlot const& own);
-  ToldToAll told();
-  /// After it was told: the first failure of all.
-  void put(FailureSlot& slot) const;
-
- private:
-  using Said = std::array<double, 3>;  // id, slot, code
-  SlotsOfRanks each_;
-  std::vector<Said> said_;
-};
 
 /// A body of which each rank has a share of the slots, as share_of() has it; the first `particles` of all slots hold
 /// one.

@@ -14,12 +14,6 @@ namespace {
 /// A particle in a message: its slot, then its position.
 constexpr std::size_t of_position = 4;
 
-std::size_t width_of(std::vector<FieldPart> const& parts) {
-  std::size_t width = 0;
-  for (FieldPart const& part : parts) width += at(part.count);
-  return width;
-}
-
 /// How many numbers each rank has, as starts of what complete() takes.
 std::vector<std::size_t> starts_of(std::size_t own) {
   auto const ranks = at(ranks::count());
@@ -103,8 +97,7 @@ void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) 
       sends_[at(reader.rank)].meets = true;
     }
     first_reader_.push_back(readers_.size());
-    if (marks.reads(mine.cell) != 0)
-      marks.each_other(mine.cell, own, [&](int rank) { receives_[at(rank)].meets = true; });
+    marks.each_teller(mine.cell, own, [&](int rank) { receives_[at(rank)].meets = true; });
   }
   double const reach = grid.reach_of_cells();
   for (Index const slot : own_) {
@@ -189,6 +182,12 @@ void NearExchange::Side::choose(MovingGrid const& grid, CellMarks const& marks) 
 void NearExchange::choose(MovingGrid const& grid, CellMarks const& marks) {
   for (auto* sides : {&sends_, &receives_})
     for (Side& side : *sides) side.choose(grid, marks);
+}
+
+std::size_t NearExchange::width_of(std::vector<FieldPart> const& parts) {
+  std::size_t width = 0;
+  for (FieldPart const& part : parts) width += at(part.count);
+  return width;
 }
 
 std::size_t NearExchange::Side::numbers(Told const& told) const {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/field.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/state.hpp"
 #include "piola/parallel/cell_marks.hpp"
-#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/shares.hpp"
 #include <array>
 #include <span>
@@ -35,6 +35,11 @@ class NearExchange {
   /// What there is to do if nothing is near anything.
   void forget();
 
+  /// Components [first, first + count) of a field.
+  struct FieldPart {
+    FieldRef field;
+    int first, count;
+  };
   /// What is told per kind of reading; fields of `flow` go by sorted number, those of `touch` by slot.
   using Told = std::array<std::vector<FieldPart>, 2>;
   void exchange(Told const& told);
@@ -65,6 +70,7 @@ class NearExchange {
     CellBox::Bounds where;
   };
   static SlotList of(std::vector<Index> const& slots) { return {static_cast<Index>(slots.size()), slots.data()}; }
+  static std::size_t width_of(std::vector<FieldPart> const& parts);
   void find_own_cells(System const& system, MovingGrid const& grid);
   void tell_cells();
   void choose_sends(MovingGrid const& grid, CellMarks const& marks);

@@ -3,6 +3,7 @@
 // and for what its particles read of reference neighbours. What particles are all ranks know.
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <array>
