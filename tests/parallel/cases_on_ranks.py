@@ -405,7 +405,7 @@ formulation = { name = "jst_sph" }
 initial_velocity = ["20*Z*Z", "5*X*Y", "-20*X"]
 """
 
-# Cuts lie behind the surfaces that meet, along them: ranks whose cells are beside others that read have nothing to tell.
+# Cuts lie behind the surfaces that meet, along them, too: ranks whose cells are beside readers have nothing to tell.
 COLUMNS = """title = "Columns of AdapTLE that meet end to end"
 [run]
 end = "2 us"
