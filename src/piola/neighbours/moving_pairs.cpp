@@ -8,7 +8,7 @@
 namespace piola {
 namespace {
 
-/// SlotList further outside of the box than this are there [cells]: single precision has enough digits up to it.
+/// Places further outside of the box than this are there [cells]: single precision has enough digits up to it.
 constexpr double farthest = 1e5;
 
 /// So far from the origin places are counted from a multiple of it [cells].

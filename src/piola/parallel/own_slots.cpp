@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/parallel/own_slots.hpp"
-#include "piola/base/contracts.hpp"
-#include "piola/exec/set_up_loop.hpp"
 #include "piola/parallel/first_failure.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 namespace piola {
