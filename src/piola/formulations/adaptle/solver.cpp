@@ -44,7 +44,7 @@ void check(Assembly const& assembly) {
     if (load.follows)
       problems.add({},
                    "adaptle: a pressure follows the deformed face (allowed: pressures along the normal of the start) - "
-                   "remove follows, or take jst_sph or taylor_sph");
+                   "remove follows, or take nodal, jst_sph or taylor_sph");
   problems.raise_if_any();
 }
 
