@@ -5,7 +5,10 @@ namespace piola::app {
 
 void CaseOptions::add_to(CLI::App& command, bool with_file) {
   if (with_file) command.add_option("case", file, "The case file, or a folder that holds case.toml")->required();
-  command.add_option("--set", set, "Change a value of the case: key=value, e.g. run.end=\"0.1 s\"; may be repeated")
+  command
+      .add_option("--set", set,
+                  "Change a value of the case: key=value, in quotes if it has a space (--set \"run.end=0.1 s\"); may "
+                  "be repeated")
       ->type_size(1)
       ->allow_extra_args(false);
   command.add_option(

@@ -31,7 +31,8 @@ int resume(ResumeArguments const& options) {
   }
   ParticleSet particles;
   PackingLine line(options.quiet);
-  CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
+  CaseSpec spec =
+      read_case(file, options.from.overrides(), {.of_results = true, .packing = std::ref(line)}, &particles);
   Simulation simulation = build(std::move(spec), std::move(particles));
   if (ranks::own() != 0) return follow(simulation);
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},

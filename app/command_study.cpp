@@ -33,10 +33,11 @@ struct StudyArguments {
 
 /// Runs this very program; what it says goes to a file. Returns its exit status, or 1 if it ended otherwise.
 int run_program(std::vector<std::string> words, fs::path const& says) {
+  write_whole_file(says, "");  // replaces a link, which is never written through
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, says.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, says.c_str(), O_WRONLY | O_NOFOLLOW | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -29,7 +29,8 @@ int watch(WatchArguments const& options) {
   report::Watch run(options.folder, options.column);
   for (;;) {
     auto const [text, over] = run.look(width_of_terminal());
-    write_out((terminal && !options.once ? "\x1b[H\x1b[2J" : "") + text);
+    if (terminal && !options.once) clear_terminal();
+    write_out(text);
     if (over || options.once) return with_output(completed);
     if (!wait_unless_stopped(options.every)) return completed;  // whoever has seen enough leaves so
   }

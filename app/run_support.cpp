@@ -7,6 +7,7 @@
 #include "signals.hpp"
 #include "streams.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -133,14 +134,15 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
   std::string text =
       fmt::format("{} at t = {} after {} steps, {} of wall time, {}\n", s.status, quantity_text(s.end_time, "s"),
                   count_text(s.steps), duration_text(s.wall_seconds), rate_text(s.stages_per_second));
-  text += fmt::format("  energy: {} at start, {} at end, largest rise {:.2g} of it{}\n",
-                      quantity_text(s.energy_initial, "J"), quantity_text(s.energy_final, "J"), s.energy_max_increase,
-                      dissipation_text(s));
+  text +=
+      fmt::format("  energy: {} at start, {} at end, largest rise {} of it{}\n", quantity_text(s.energy_initial, "J"),
+                  quantity_text(s.energy_final, "J"), number_text(s.energy_max_increase, 2), dissipation_text(s));
   if (s.linear_drift && s.angular_drift)
-    text += fmt::format("  momentum drift: linear {:.2g}, angular {:.2g} of its scale\n", *s.linear_drift,
-                        *s.angular_drift);
+    text += fmt::format("  momentum drift: linear {}, angular {} of its scale\n", number_text(*s.linear_drift, 2),
+                        number_text(*s.angular_drift, 2));
   for (MeasuredQuantity const& q : s.quantities)
-    text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value), q.unit == "1" ? "" : " " + q.unit);
+    text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value),
+                        q.unit == "1" || std::isnan(q.value) ? "" : " " + q.unit);
   if (!s.warnings.empty())
     text += fmt::format(
         "  {}: see log.txt\n",

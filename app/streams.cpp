@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "streams.hpp"
+#include "piola/base/controls.hpp"
 #include "commands.hpp"
 #include <cerrno>
 #include <csignal>
@@ -49,14 +50,18 @@ void be_silent(bool wish) { silent = wish; }
 
 void write_out(std::string_view text) {
   if (silent) return;
-  int const error = write_all(STDOUT_FILENO, text, -1);
+  int const error = write_all(STDOUT_FILENO, without_controls(text), -1);
   if (out_error == 0) out_error = error;
+}
+
+void clear_terminal() {
+  if (!silent) write_all(STDOUT_FILENO, "\x1b[H\x1b[2J", -1);
 }
 
 void write_err(std::string_view text) {
   constexpr int patience = 1000;
   if (silent) return;
-  write_all(STDERR_FILENO, text, patience);
+  write_all(STDERR_FILENO, without_controls(text), patience);
 }
 
 int with_output(int code) {

@@ -14,10 +14,13 @@ void secure_streams();
 /// From now on nothing is written, or it is again: of ranks that share a run the first one speaks.
 void be_silent(bool silent);
 
-/// Writes to standard output, and to standard error. Neither throws, nor ends the program: a run goes on whether
-/// anybody listens or not.
+/// Writes to standard output, and to standard error; control characters (base/controls.hpp) are escaped. Neither
+/// throws, nor ends the program: a run goes on whether anybody listens or not.
 void write_out(std::string_view text);
 void write_err(std::string_view text);
+
+/// Empties the terminal that is the standard output.
+void clear_terminal();
 
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {

@@ -10,7 +10,7 @@
 namespace piola::python {
 
 ReadCase read(std::string const& file, std::string const& text, std::string const& name,
-              std::vector<std::string> const& overrides) {
+              std::vector<std::string> const& overrides, bool of_results) {
   py::gil_scoped_release const others_may_run;
   ReadCase from;
   from.file = file;
@@ -24,7 +24,7 @@ ReadCase read(std::string const& file, std::string const& text, std::string cons
   if (!std::filesystem::exists(path, error))
     throw InputError(fmt::format("{}: there is no such case file - check the path", path.string()));
   from.file = path.string();
-  from.spec = read_case(path, overrides, {}, &from.particles);
+  from.spec = read_case(path, overrides, {.of_results = of_results}, &from.particles);
   return from;
 }
 
@@ -69,7 +69,8 @@ double seconds(std::string const& text) {
 }  // namespace
 
 void add_case(py::module_& m) {
-  m.def("read", &read, py::arg("file"), py::arg("text"), py::arg("name"), py::arg("overrides"));
+  m.def("read", &read, py::arg("file"), py::arg("text"), py::arg("name"), py::arg("overrides"),
+        py::arg("of_results") = false);
   m.def("warnings", &warnings_for, py::arg("case"));
   m.def("seconds", &seconds, py::arg("text"));
   py::class_<ReadCase>(m, "ReadCase")

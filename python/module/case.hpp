@@ -23,7 +23,7 @@ struct ReadCase {
 
 /// Reads a file (`file` not empty) or a text. Throws InputError with all that is wrong.
 ReadCase read(std::string const& file, std::string const& text, std::string const& name,
-              std::vector<std::string> const& overrides);
+              std::vector<std::string> const& overrides, bool of_results);
 
 /// What warnings `piola check` has for a case. Builds its formulation. Throws InputError.
 std::vector<std::string> warnings_for(ReadCase const& from);

@@ -61,6 +61,7 @@ class Case:
         self._text = source if isinstance(source, str) else document_text(dict(source))
         self._settings: dict = {}
         self._read = None
+        self._of_results = False  # the files that it names are those that a results folder keeps
         self.body = _Named("body", Body)
         self.support = _Named("support", Support)
         for key, value in (set or {}).items():
@@ -128,7 +129,7 @@ class Case:
 
     def _case(self):
         if self._read is None:
-            self._read = _piola.read(self._file, self._text, "case", self.overrides())
+            self._read = _piola.read(self._file, self._text, "case", self.overrides(), self._of_results)
         return self._read
 
     def _has_functions(self) -> bool:

@@ -55,8 +55,9 @@ class Run:
         """
         folder = os.fspath(folder)
         run = cls.__new__(cls)
-        case = case or Case.read(os.path.join(folder, "case.toml"))
-        run._start(case.copy(set) if set else case, folder, True, False)
+        case = (case or Case.read(os.path.join(folder, "case.toml"))).copy(set)
+        case._of_results, case._read = True, None
+        run._start(case, folder, True, False)
         return run
 
     def _start(self, case: Case, folder: str, resume: bool, force: bool) -> None:

@@ -86,16 +86,23 @@ def _work() -> None:
     job, folder = json.load(sys.stdin), sys.argv[1]
     case = _piola.read(job["file"], job["text"], "case", job["settings"])
     session = _piola.Session(case, folder, False, False, {}, {}, {})
-    with open(os.path.join(folder, _JOB), "w", encoding="utf-8") as file:
+    with _new_file(os.path.join(folder, _JOB)) as file:
         json.dump(job, file)
     session.advance(float("inf"), -1, False)
     session.finish()
 
 
+def _new_file(path: str):
+    """Opens a file to write in place of the one of its name; a link there is replaced, never followed."""
+    if os.path.lexists(path):
+        os.unlink(path)
+    return open(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), "w", newline="", encoding="utf-8")
+
+
 def _write(path: str, rows: List[Dict[str, Any]]) -> None:
     columns = list(dict.fromkeys(key for row in rows for key in row))
     part = path + ".part"
-    with open(part, "w", newline="", encoding="utf-8") as file:
+    with _new_file(part) as file:
         writer = csv.DictWriter(file, columns)
         writer.writeheader()
         writer.writerows(rows)

@@ -148,7 +148,7 @@ check cmp bar.toml here/case.toml
 check test "$(ls here)" = case.toml
 
 # A file without end is not read to its end.
-expect 2 "more than 4 MB" "$program" run /dev/zero
+expect 2 "is a device (a regular file is needed)" "$program" run /dev/zero
 
 # A folder that cannot be written, a disk that is full.
 expect 1 "cannot be written" "$program" run bar.toml --out /proc/piola

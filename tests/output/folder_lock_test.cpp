@@ -25,6 +25,30 @@ TEST(FolderLock, NamesTheProcessThatHoldsIt) {
   }
 }
 
+TEST(FolderLock, NeverWritesToWhatIsNoLock) {
+  testing::TemporaryFolder const folder;
+  auto const refusal = [&]() -> std::string {
+    try {
+      FolderLock const lock(folder.path());
+    } catch (std::runtime_error const& error) {
+      return error.what();
+    }
+    return "";
+  };
+  auto const lock = folder / "lock";
+  std::ofstream(folder / "precious") << "precious";
+  std::filesystem::create_symlink(folder / "precious", lock);
+  EXPECT_NE(refusal().find("a link stands there"), std::string::npos) << refusal();
+  std::filesystem::remove(lock);
+  std::filesystem::create_hard_link(folder / "precious", lock);
+  EXPECT_NE(refusal().find("is not a lock of Piola"), std::string::npos) << refusal();
+  std::filesystem::remove(lock);
+  std::ofstream(lock) << "my lock";
+  EXPECT_NE(refusal().find("is not a lock of Piola"), std::string::npos) << refusal();
+  EXPECT_EQ(testing::text_of(folder / "precious"), "precious");
+  EXPECT_EQ(testing::text_of(lock), "my lock");
+}
+
 TEST(FolderLock, LeavesNothingBehindAndCanBeTakenAgain) {
   testing::TemporaryFolder const folder;
   for (int k = 0; k < 3; ++k) {

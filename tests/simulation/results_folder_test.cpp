@@ -61,6 +61,52 @@ TEST(ResultsFolder, LosesOnlyFilesWithNamesOfResults) {
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));
 }
 
+TEST(ResultsFolder, LosesNoFilesOfOthersInFoldersOfResults) {
+  testing::TemporaryFolder const folder;
+  std::vector<std::string> const results{"frames/000012.hdf",
+                                         "frames/1000000.hdf",
+                                         "frames/000013.hdf.part",
+                                         "pictures/Pressure-000000.png",
+                                         "pictures/Velocity-x-000001.png",
+                                         "pictures/Pressure-Damage-000001.png",
+                                         "pictures/Pressure-times.png",
+                                         "pictures/Pressure-000002.values",
+                                         "checkpoints/000000012.h5",
+                                         "checkpoints/failed.h5",
+                                         "checkpoints/wall_times.txt",
+                                         "case-files/files.toml",
+                                         "case-files/packed-0123456789abcdef.cloud"};
+  std::vector<std::string> const others{"frames/000012.hdf5",
+                                        "frames/notes.txt",
+                                        "pictures/figure-3.png",
+                                        "pictures/photo-000001.png",
+                                        "pictures/Pressure-annotated.png",
+                                        "pictures/Pressure.png",
+                                        "pictures/Pressure-000000.svg",
+                                        "pictures/mine/Pressure-000000.png",
+                                        "checkpoints/000000012.h5.bak",
+                                        "checkpoints/12.h5",
+                                        "case-files/cloud.csv"};
+  for (auto const* list : {&results, &others})
+    for (std::string const& name : *list) write_case(folder / name);
+  std::ofstream(folder / "case-files/files.toml") << "[[file]]\nkept = \"1-mesh.stl\"\n";
+  write_case(folder / "case-files/1-mesh.stl");
+  clear_results(folder.path());
+  for (std::string const& name : results) EXPECT_FALSE(fs::exists(folder / name)) << name;
+  for (std::string const& name : others) EXPECT_TRUE(fs::exists(folder / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "case-files/1-mesh.stl")) << "the list says that it is a copy of Piola's";
+}
+
+TEST(ResultsFolder, LosesLinksToFoldersAndNotWhatIsInThem) {
+  testing::TemporaryFolder const folder;
+  write_case(folder / "archive/000012.hdf");
+  fs::create_directories(folder / "results");
+  fs::create_directory_symlink(folder / "archive", folder / "results/frames");
+  clear_results(folder / "results");
+  EXPECT_FALSE(fs::exists(folder / "results/frames"));
+  EXPECT_TRUE(fs::exists(folder / "archive/000012.hdf"));
+}
+
 TEST(ResultsFolder, EmptyLogOfAKilledRunDoesNotMakeItForeign) {
   testing::TemporaryFolder const folder;
   std::ofstream(folder / "log.txt").flush();

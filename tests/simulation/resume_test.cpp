@@ -67,6 +67,22 @@ TEST(Resume, GivesTheSameBytesFromTheOlderCheckpointWhereverTheNewestIsDamaged) 
   }
 }
 
+TEST(Resume, RefusesParticlesThatAreNotThoseOfTheCheckpoint) {
+  TemporaryFolder const folder;
+  run_half(folder / "half");
+  Simulation other = make_springs();
+  other.particles.X[1][0] += 1e-12;
+  other.particles.volume[2] *= 2;
+  try {
+    run(other, folder / "half", true);
+    FAIL();
+  } catch (InputError const& error) {
+    std::string const said = error.what();
+    EXPECT_NE(said.find("positions and volumes of its"), std::string::npos) << said;
+  }
+  EXPECT_TRUE(warnings_of_resume(folder / "half").empty()) << "the run can go on with its own";
+}
+
 TEST(Resume, FallsBackWhenTheFormulationCannotLoadTheNewestState) {
   TemporaryFolder const folder;
   Simulation whole = make_springs();

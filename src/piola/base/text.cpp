@@ -108,7 +108,9 @@ bool is_name(std::string_view text) {
 
 std::vector<std::string> to_strings(std::span<std::string_view const> words) { return {words.begin(), words.end()}; }
 
-std::string number_text(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+std::string number_text(double value, int digits) {
+  return std::isnan(value) ? "not a number" : fmt::format("{:.{}g}", value, digits);
+}
 
 std::string exact_text(double value) {
   std::array<char, 40> buffer{};
@@ -124,7 +126,7 @@ std::string count_text(std::int64_t count) {
 }
 
 std::string quantity_text(double value, std::string_view si_unit, int digits) {
-  if (si_unit == "1") return number_text(value, digits);
+  if (si_unit == "1" || std::isnan(value)) return number_text(value, digits);
   constexpr std::array<std::string_view, 7> prefixed{"Pa", "s", "m", "J", "N", "W", "Hz"};
   constexpr std::array<std::string_view, 9> prefixes{"p", "n", "u", "m", "", "k", "M", "G", "T"};
   bool const usual = std::find(prefixed.begin(), prefixed.end(), si_unit) != prefixed.end();

@@ -1,20 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/problems.hpp"
+#include "piola/input/document.hpp"
+#include "piola/input/section.hpp"
 #include "piola/setup/shapes.hpp"
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace piola {
 
-/// The folder of a results folder in which the files lie that the case names, so that it can be resumed anywhere.
+struct CaseSpec;
+
+/// The folder of a results folder with copies of the files that the case names and a list of them, so that the run can
+/// be resumed anywhere.
 inline constexpr char const* kept_files = "case-files";
+inline constexpr char const* kept_list = "files.toml";  ///< the list in it
 
-/// Where a file is that a case names: in `case-files` beside the case, as a run keeps it there, else at its path, which
-/// is relative to the case file.
-CaseFile case_file(Place const& place, std::string const& given);
+/// A file that the case names, as an entry of that list.
+struct KeptFile {
+  std::string given;           ///< as the case names it
+  std::string kept;            ///< name of the copy in `case-files`; empty: too large to copy
+  std::filesystem::path from;  ///< where it was when the run began, absolute
+  std::uint64_t bytes = 0;
+  std::string hash;  ///< of its content
+};
 
-/// What it is called there: its path in one name.
-std::string kept_name(std::string const& given);
+/// Where the file is that the key `file` of a section names: where use_kept_files found it, else at its path, which is
+/// relative to the case file.
+CaseFile case_file(Section const& section, std::string const& given);
+
+/// Hash of what is in a file, 16 hexadecimal digits (math/digest.hpp). Throws FileError if it cannot be read.
+std::string content_hash(std::filesystem::path const& path);
+
+/// All files that a case reads, each once, in the order of the case.
+std::vector<CaseFile> files_of(CaseSpec const& spec);
+
+/// The copy's name in `case-files`: different for each `number`, whatever the paths are.
+std::string kept_name(std::size_t number, std::string const& given);
+
+/// Writes and reads the list. No list, no entries. Throws FileError, InputError.
+std::string text_of_list(std::vector<KeptFile> const& files);
+std::vector<KeptFile> read_kept_list(std::filesystem::path const& results);
+
+/// For the case.toml of a results folder: every value of a key `file` that is in the list points to the copy, or else
+/// to the file where it was. A problem for each that is missing or has another content than when the run began.
+void use_kept_files(Node& root, std::filesystem::path const& results, Problems& problems);
+
+/// A problem for each file of the case that is not the one that the run in a results folder began with.
+void compare_with_kept_list(CaseSpec const& spec, std::filesystem::path const& results, Problems& problems);
 
 }  // namespace piola

@@ -137,7 +137,7 @@ std::string unquoted_quantity(std::string_view line) {
     }
     if (c == '#') return {};
     if (c != '=' && c != ',' && c != '[') continue;
-    std::string_view value = line.substr(i + 1, line.find_first_of(",]}#\"'", i + 1) - i - 1);
+    std::string_view value = line.substr(i + 1, line.find_first_of("=,[]{}#\"'", i + 1) - i - 1);
     value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
     value = value.substr(0, value.find_last_not_of(" \t\r") + 1);
     bool const has_unit = value.find_first_not_of("0123456789+-._eE") != std::string_view::npos;
@@ -160,11 +160,18 @@ std::optional<Document> parse_document(std::string_view text, std::string const&
   try {
     toml::table const table = toml::parse(text);
     Document document{Converter(text, name).node(table), std::string(text)};
-    refuse_long_texts(document.root, problems);
+    refuse_unusable_texts(document.root, problems);
     if (problems.count() > before) return std::nullopt;
     return document;
   } catch (toml::parse_error const& error) {
     auto const& begin = error.source().begin;
+    auto const quote = find_open_quote(text, name);
+    if (quote && quote->line <= static_cast<int>(begin.line)) {
+      problems.add(*quote,
+                   "this is not TOML: the quoted text that begins here does not end - close it with the same "
+                   "quote, or put the whole value in quotes");
+      return std::nullopt;
+    }
     std::string const quantity = unquoted_quantity(line_of(text, begin.line));
     std::string const what = "this is not TOML: " + lower_start(error.description());
     problems.add({name, static_cast<int>(begin.line), static_cast<int>(begin.column)},

@@ -19,6 +19,7 @@ struct Node {
   Place place;
   std::string text;            ///< text; date: as it is written
   int text_offset = 0;         ///< columns from `place` to the first character of a text; 0 if it cannot be told
+  std::string found_at;        ///< text that names a file: where a results folder keeps it; empty: see case_file
   std::int64_t integer = 0;    ///< integer
   double real = 0;             ///< real
   bool flag = false;           ///< flag

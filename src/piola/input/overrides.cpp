@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/document.hpp"
+#include "piola/input/document_guard.hpp"
 #include <algorithm>
 #include <charconv>
 
@@ -88,6 +89,7 @@ std::optional<Setting> setting_of(std::string const& text, Problems& problems) {
   auto value = value_of(trimmed(std::string_view(text).substr(equals + 1)), place, problems);
   if (!value) return std::nullopt;
   set_place(*value, place);
+  refuse_unusable_texts(*value, problems);
   return Setting{place, std::move(path), std::move(*value)};
 }
 

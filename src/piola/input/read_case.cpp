@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/read_case.hpp"
+#include "piola/base/read_file.hpp"
 #include "piola/base/text.hpp"
+#include "piola/input/case_files.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/document_guard.hpp"
 #include "piola/input/sections.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <unistd.h>
 
 namespace piola {
 namespace {
+
+constexpr std::size_t longest_title = 500;  // of which pictures show what has room
 
 /// The tables of a list such as [[body]]; a problem if it is no such list.
 std::vector<Section> tables_of(Section const& top, std::string_view key) {
@@ -168,11 +171,19 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
   check_size(sections, spec, limits);
 }
 
+void read_title(Section const& top, std::string& title) {
+  top.read("title", title);
+  if (title.size() <= longest_title) return;
+  top.problems().add(top.place_of("title"),
+                     fmt::format("the title has {} characters (allowed: at most {}) - shorten it",
+                                 count_text(static_cast<std::int64_t>(title.size())), longest_title));
+}
+
 CaseSpec read_document(Document const& document, Problems& problems, ReadLimits const& limits) {
   Section const top(document.root, "", problems);
   CaseSpec spec;
   spec.source = document.source;
-  top.read("title", spec.title);
+  read_title(top, spec.title);
   if (auto const run = top.table("run")) read_run(*run, spec.run);
   std::vector<BodyNames> names;
   std::map<std::string, double> constants;
@@ -208,15 +219,6 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   return spec;
 }
 
-std::string content_of(std::filesystem::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": cannot be read - check the name and the permissions");
-  std::string text(most_case_bytes + 1, '\0');  // one more than is allowed tells that there are more
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
-
 }  // namespace
 
 CaseSpec read_case_text(std::string_view text, std::string const& name, std::vector<std::string> const& overrides,
@@ -227,6 +229,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
     // Places that only say "somewhere in the file" are better without a position.
     document->root.place = {name, 0, 0};
     apply_overrides(*document, overrides, problems);
+    if (limits.of_results) use_kept_files(document->root, std::filesystem::path(name).parent_path(), problems);
   }
   problems.raise_if_any();
   CaseSpec spec = read_document(*document, problems, limits);
@@ -243,7 +246,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides,
                    ReadLimits const& limits, ParticleSet* made) {
   std::filesystem::path const file = std::filesystem::is_directory(path) ? path / "case.toml" : path;
-  return read_case_text(content_of(file), file.string(), overrides, limits, made);
+  return read_case_text(read_input_file(file, most_case_bytes), file.string(), overrides, limits, made);
 }
 
 }  // namespace piola

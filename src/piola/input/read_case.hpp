@@ -15,6 +15,8 @@ namespace piola {
 struct ReadLimits {
   std::int64_t particles = 2147483647;  ///< of all bodies together; Ids fit in 32 bits
   bool memory = true;                   ///< refuse cases that cannot fit into the memory of this machine
+  /// The case is that of a results folder: the files that it names are those that its run began with.
+  bool of_results = false;
   /// Told the name of a body that is being packed and the share of it that is done.
   std::function<void(std::string const&, double)> packing = {};
 };

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/read_solid.hpp"
+#include "piola/base/read_file.hpp"
 #include "piola/base/text.hpp"
 #include "piola/geometry/combined.hpp"
 #include "piola/geometry/measure.hpp"
 #include "piola/geometry/mesh.hpp"
 #include "piola/geometry/placed.hpp"
 #include "piola/input/case_files.hpp"
-#include "piola/setup/packing_file.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
-#include <iterator>
 
 namespace piola {
 namespace {
@@ -91,7 +89,7 @@ class SolidReader {
     section.refuse_unknown();
     if (!given || !unit) return nullptr;
     options.scale = *unit;
-    shape_.files.push_back(case_file(section.place_of("file"), file));
+    shape_.files.push_back(case_file(section, file));
     geometry::MeshReport report;
     SolidPtr solid = geometry::read_mesh(shape_.files.back().path.string(), options, report);
     for (std::string const& problem : report.problems) section.problems().add(section.place_of("file"), problem);
@@ -222,9 +220,8 @@ void measure(Section const& section, ShapeSpec& shape) {
 std::string key_of(std::vector<CaseFile> const& files) {
   std::string key;
   for (CaseFile const& file : files) {
-    std::ifstream content(file.path, std::ios::binary);
-    std::string const bytes{std::istreambuf_iterator<char>(content), {}};
-    key += "\n" + file.given + " " + std::to_string(digest_of(bytes));
+    bool const readable = FileToRead(file.path).problem().empty();
+    key += "\n" + file.given + " " + (readable ? content_hash(file.path) : "");
   }
   return key;
 }

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <new>
+#include <sstream>
 
 namespace piola {
 namespace {
 
-constexpr std::int64_t layout_version = 4;
+constexpr std::int64_t layout_version = 5;
 
 /// Puts arrays into a group of a file.
 class GroupWriter : public StateWriter {
@@ -115,7 +115,8 @@ std::filesystem::path durations_path(std::filesystem::path const& results) {
 
 /// Nothing of a file that is not there or not whole: no number of a run depends on it.
 std::vector<Duration> read_durations(std::filesystem::path const& results) {
-  std::ifstream file(durations_path(results));
+  auto const path = durations_path(results);
+  std::istringstream file(FileToRead(path).problem().empty() ? read_text_file(path) : "");
   std::string headline;
   std::getline(file, headline);
   std::vector<Duration> list;
@@ -174,6 +175,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
   file.attribute("/", "first_dt", c.first_dt);
   file.attribute("/", "cut_to_end", std::array<std::int64_t, 1>{c.cut_to_end ? 1 : 0});
   file.dataset<char>("/case", std::span<char const>(c.source));
+  file.dataset<char>("/particles", std::span<char const>(c.particles));
   GroupWriter state(file, "/state");
   if (save)
     save(state);
@@ -201,8 +203,9 @@ Checkpoint read_words(hdf5::Reader const& file, std::filesystem::path const& pat
   c.dt = file.number("/", "dt");
   c.first_dt = file.number("/", "first_dt");
   c.cut_to_end = file.integer("/", "cut_to_end") != 0;
-  auto const source = file.dataset<char>("/case");
+  auto const source = file.dataset<char>("/case"), particles = file.dataset<char>("/particles");
   c.source.assign(source.begin(), source.end());
+  c.particles.assign(particles.begin(), particles.end());
   c.observers = get_state(file, "/observers");
   return c;
 }

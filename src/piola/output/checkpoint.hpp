@@ -37,6 +37,7 @@ struct Checkpoint {
   std::string version;                            ///< of the program that wrote it
   std::string machine;                            ///< instruction sets used and available when it was written
   std::string source;                             ///< the case as run
+  std::string particles;                          ///< particle_record of them in reference configuration
   NamedState state;                               ///< of the formulation
   std::shared_ptr<StateReader> in_file;           ///< has it in place of `state`, and reads it array by array
   NamedState observers;                           ///< next output times, twist angles, times of frames

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/files.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/base/text.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fstream>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -23,6 +21,9 @@ std::string advice(int error) {
     case EACCES:
     case EPERM:
     case EROFS: return "give a folder that you may write to with --out";
+    case ELOOP: return "a link stands there, and results are never written through links: remove it";
+    case ENOENT:
+      return "the file or its folder was removed, or never was there; give another folder or run the case again";
     case ENOTDIR: return "a file stands where a folder is needed; give another folder with --out";
     default: return "give another folder with --out; what was written before is intact";
   }
@@ -72,6 +73,12 @@ std::span<std::byte> read_at(int fd, std::uint64_t at, std::span<std::byte> byte
   return bytes;
 }
 
+/// Whether it is a regular file without another name.
+bool is_ours_alone(int fd) {
+  struct stat found {};
+  return ::fstat(fd, &found) == 0 && S_ISREG(found.st_mode) && found.st_nlink <= 1;
+}
+
 }  // namespace
 
 std::string cannot_write(std::filesystem::path const& path, int error) {
@@ -79,10 +86,37 @@ std::string cannot_write(std::filesystem::path const& path, int error) {
                      advice(error));
 }
 
+int open_result(std::filesystem::path const& path, Opening how) {
+  int const flags = how == Opening::replace  ? O_RDWR | O_CREAT | O_EXCL
+                    : how == Opening::append ? O_WRONLY | O_APPEND
+                                             : O_RDWR;
+  auto const opened = [&] { return ::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666); };
+  if (how == Opening::replace) ::unlink(path.c_str());
+  int const fd = opened();
+  if (fd < 0) throw FileError(cannot_write(path, errno));
+  if (how == Opening::replace || is_ours_alone(fd)) return fd;
+  ::close(fd);
+  write_whole_file(path, read_text_file(path));  // other names of the file keep what they have
+  int const own = opened();
+  if (own < 0) throw FileError(cannot_write(path, errno));
+  return own;
+}
+
+ResultFile open_result_file(std::filesystem::path const& path, Opening how) {
+  int const fd = open_result(path, how);
+  return {::fdopen(fd, how == Opening::append ? "a" : "w"), &std::fclose};
+}
+
+bool still_there(int fd, std::filesystem::path const& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(fd, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
 NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
   part_ += ".part";
-  fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd_ < 0) throw FileError(cannot_write(path_, errno));
+  fd_ = open_result(part_, Opening::replace);
 }
 
 NewFile::~NewFile() { remove(); }
@@ -123,7 +157,7 @@ std::uint64_t JoinedFile::number(std::filesystem::path const& path) {
 }
 
 JoinedFile::JoinedFile(std::filesystem::path const& path, std::uint64_t number, To to)
-    : fd_(::open(path.c_str(), (to == To::write ? O_WRONLY : O_RDONLY) | O_CLOEXEC)), to_(to) {
+    : fd_(::open(path.c_str(), (to == To::write ? O_WRONLY | O_NOFOLLOW : O_RDONLY) | O_CLOEXEC)), to_(to) {
   struct stat found {};
   if (fd_ < 0 || (::fstat(fd_, &found) == 0 && static_cast<std::uint64_t>(found.st_ino) == number)) return;
   ::close(std::exchange(fd_, -1));
@@ -156,9 +190,11 @@ void write_whole_file(std::filesystem::path const& path, std::string_view conten
 
 bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::uint64_t old_end,
                    std::string_view text) {
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  Descriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat now {};
-  if (file.get() < 0 || ::fstat(file.get(), &now) != 0 || static_cast<std::uint64_t>(now.st_size) != size) return false;
+  if (file.get() < 0 || !is_ours_alone(file.get()) || ::fstat(file.get(), &now) != 0 ||
+      static_cast<std::uint64_t>(now.st_size) != size)
+    return false;
   auto const from = static_cast<::off_t>(size - old_end);
   std::string before(old_end, '\0');
   if (::pread(file.get(), before.data(), old_end, from) != static_cast<::ssize_t>(old_end)) return false;
@@ -169,27 +205,6 @@ bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::u
   bool const restored = ::pwrite(file.get(), before.data(), old_end, from) == static_cast<::ssize_t>(old_end) &&
                         ::ftruncate(file.get(), static_cast<::off_t>(size)) == 0;
   throw FileError(cannot_write(path, error) + (restored ? "" : " (its end is torn)"));
-}
-
-std::string read_text_file(std::filesystem::path const& path, std::uint64_t most) {
-  constexpr std::size_t block = std::size_t{1} << 16;
-  std::ifstream in(path, std::ios::binary);
-  std::string text;
-  while (in && text.size() <= most) {
-    std::size_t const before = text.size();
-    text.resize(before + block);
-    in.read(text.data() + before, block);
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
-  }
-  if (!in.is_open() || in.bad()) {
-    throw FileError(
-        fmt::format("{}: cannot be read - check that the file exists and that you may read it", path.string()));
-  }
-  if (text.size() > most) {
-    throw FileError(fmt::format("{}: holds more than {} - is this the right file?", path.string(),
-                                size_text(static_cast<double>(most))));
-  }
-  return text;
 }
 
 void make_folder(std::filesystem::path const& path) {

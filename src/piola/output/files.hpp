@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/read_file.hpp"
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace piola {
+
+/// How a file of a results folder is opened: `replace` makes a new one in its place, `append` and
+/// `change` need it to exist.
+enum class Opening { replace, append, change };
+
+/// Opens a file of a results folder to write: the only way to do so. A link at the end of the path is never followed:
+/// `replace` removes it, the others refuse it. A file with several names (hard links) is copied before it is changed.
+/// Returns a descriptor that the caller closes. Throws FileError.
+int open_result(std::filesystem::path const& path, Opening how);
+
+/// A stream of open_result(). Null if there is no memory for one.
+using ResultFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+ResultFile open_result_file(std::filesystem::path const& path, Opening how);
+
+/// Whether the open file is still the one with that name.
+bool still_there(int fd, std::filesystem::path const& path);
 
 /// A file of which a reader sees either the old content or all of the new one: it is "PATH.part" until finish(), and is
 /// removed if that is never called or fails. Other files are untouched.
@@ -71,12 +90,6 @@ void write_whole_file(std::filesystem::path const& path, std::string_view conten
 /// the disk. Returns false, with nothing changed, if there is no file of that size. Throws FileError if it cannot be
 /// written; the file is then as before.
 bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::uint64_t old_end, std::string_view text);
-
-inline constexpr std::uint64_t most_text_bytes = 4'000'000'000;  ///< what a text file may hold at most
-
-/// The whole content of a text file. Throws FileError if it cannot be read or holds more than `most` bytes; no more
-/// than that is read.
-std::string read_text_file(std::filesystem::path const& path, std::uint64_t most = most_text_bytes);
 
 /// Makes a folder with its parents. Throws FileError if that is impossible.
 void make_folder(std::filesystem::path const& path);

@@ -88,14 +88,17 @@ class Mp4Maker : public Film::Maker {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
+    close(open_result(part_, Opening::replace));  // no link that stands there is followed
+    int const complaint = open_result(complaints_, Opening::replace);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 2, complaints_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_adddup2(&actions, complaint, 2);
     int const error = posix_spawn(&child_, arguments[0], &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
+    close(complaint);
     if (error != 0) child_ = -1;
     if (error != 0) fail();
   }

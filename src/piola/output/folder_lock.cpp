@@ -11,6 +11,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace piola {
 namespace {
@@ -23,19 +24,20 @@ std::string holder_text() {
                      fmt::localtime(std::time(nullptr)));
 }
 
+constexpr char const* no_holder = "another process";
+
 std::string holder_of(int descriptor) {
   std::array<char, 400> text{};
   ::ssize_t const count = ::pread(descriptor, text.data(), text.size(), 0);
   std::string const holder(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
-  return holder.starts_with("process ") ? holder.substr(0, holder.find('\n')) : "another process";
+  return holder.starts_with("process ") ? holder.substr(0, holder.find('\n')) : no_holder;
 }
 
-/// Whether the file that was opened is still the one with that name: its holder removes it in the end.
-bool still_there(int descriptor, std::filesystem::path const& path) {
-  struct stat opened {};
-  struct stat named {};
-  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-         opened.st_dev == named.st_dev;
+/// Whether the open file may be overwritten: a regular file with one name, empty or with the text of a lock.
+bool is_lock_file(int descriptor) {
+  struct stat found {};
+  return ::fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && found.st_nlink <= 1 &&
+         (found.st_size == 0 || holder_of(descriptor) != no_holder);
 }
 
 }  // namespace
@@ -56,8 +58,15 @@ FolderLock::FolderLock(std::filesystem::path const& folder) : file_(folder / loc
 
 /// Returns false if the file was removed between opening and locking it.
 bool FolderLock::take() {
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw FileError(cannot_write(file_, errno));
+  if (!is_lock_file(descriptor_)) {
+    ::close(std::exchange(descriptor_, -1));
+    throw InputError(
+        fmt::format("{}: is not a lock of Piola (a results folder has no other file of this name) - "
+                    "remove or rename it, or give another folder with --out",
+                    file_.string()));
+  }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
     held_ = still_there(descriptor_, file_);
     if (!held_) ::close(descriptor_);

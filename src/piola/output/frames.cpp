@@ -143,12 +143,20 @@ std::vector<std::string> FrameWriter::continue_after(std::vector<double> times) 
   std::error_code ignored;
   for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k), ignored); ++k) {
   }
-  std::vector<std::string> missing;
+  missing_.clear();
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    if (!std::filesystem::exists(folder_ / frame_name(k), ignored)) missing.push_back(frame_name(k));
+    if (!std::filesystem::exists(folder_ / frame_name(k), ignored)) missing_.push_back(frame_name(k));
   }
   if (!times_.empty()) write_index();
-  return missing;
+  return missing_;
+}
+
+std::vector<std::filesystem::path> FrameWriter::files() const {
+  std::vector<std::filesystem::path> list;
+  if (!times_.empty()) list.push_back(folder_ / index_name);
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    if (!std::binary_search(missing_.begin(), missing_.end(), frame_name(k))) list.push_back(folder_ / frame_name(k));
+  return list;
 }
 
 namespace {

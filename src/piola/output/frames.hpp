@@ -49,6 +49,8 @@ class FrameWriter {
   /// Continues after the frames with these times; later files on the disk are removed. Returns the names of frames that
   /// should be there and are not.
   std::vector<std::string> continue_after(std::vector<double> times);
+  /// The frames and their index, but for frames that were missing when they were continued.
+  std::vector<std::filesystem::path> files() const;
 
  private:
   void write_index();
@@ -56,6 +58,7 @@ class FrameWriter {
   std::vector<std::string> fields_;
   bool compress_;
   std::vector<double> times_;
+  std::vector<std::string> missing_;  ///< names of frames, sorted
   FrameIndex index_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
+#include "piola/base/read_file.hpp"
 #include "piola/output/hdf5.hpp"
 #include "piola/output/hdf5_types.hpp"
 #include "piola/output/seal.hpp"
@@ -17,6 +18,8 @@ constexpr std::size_t longest_text = 65536;  // HDF5 itself allows no longer att
 
 Handle open_file(std::filesystem::path const& path) {
   silence();
+  if (FileToRead const file(path); !file.problem().empty())  // HDF5 would wait for who writes to a pipe
+    throw FileError(path.string() + ": " + file.problem());
   hid_t const id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw FileError(fmt::format("{}: is no HDF5 file or is cut off - write it again", path.string()));
   return {id, H5Fclose, path.string()};

@@ -2,14 +2,12 @@
 #include "piola/output/history.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/formulations/quantity_names.hpp"
-#include "piola/output/files.hpp"
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -69,7 +67,9 @@ std::vector<double> HistoryTable::values(std::string_view column) const {
 
 HistoryTable read_history(std::filesystem::path const& path) {
   HistoryTable table;
-  std::ifstream file(path);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return table;
+  std::istringstream file(read_text_file(path));
   std::string line;
   if (!std::getline(file, line)) return table;
   std::istringstream names(line);
@@ -163,7 +163,7 @@ std::vector<double> diagnostic_values(double time, std::int64_t step, double dt,
 
 HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns) : path_(std::move(path)) {
   table_.columns = std::move(columns);
-  open("w");
+  open(Opening::replace);
   put(header(table_.columns));
 }
 
@@ -188,7 +188,7 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> 
                              table_.rows.size(), time, mark->rows,
                              there ? "rows are missing or were changed" : "the file was missing and begins anew");
   }
-  open("a");
+  open(Opening::append);
 }
 
 void HistoryFile::take_rows(std::string_view text, double time) {
@@ -208,14 +208,15 @@ void HistoryFile::sync() {
   if (::fsync(::fileno(file_.get())) != 0) throw FileError(cannot_write(path_, errno));
 }
 
-void HistoryFile::open(char const* mode) {
+void HistoryFile::open(Opening how) {
   if (path_.empty()) return;
-  file_.reset(std::fopen(path_.c_str(), mode));
+  file_ = open_result_file(path_, how);
   if (!file_) throw FileError(cannot_write(path_, errno));
 }
 
 void HistoryFile::put(std::string const& line) {
   if (!file_) return;
+  if (!still_there(::fileno(file_.get()), path_)) throw FileError(cannot_write(path_, ENOENT));
   bool const written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
   if (!written || std::fflush(file_.get()) != 0) throw FileError(cannot_write(path_, errno));
   bytes_ += line.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/formulation.hpp"
+#include "piola/output/files.hpp"
 #include "piola/output/seal.hpp"
 #include <cstdint>
 #include <cstdio>
@@ -61,14 +62,14 @@ class HistoryFile {
 
  private:
   void take_rows(std::string_view text, double time);
-  void open(char const* mode);
+  void open(Opening how);
   void put(std::string const& line);
   std::filesystem::path path_;
   HistoryTable table_;
   std::uint64_t bytes_ = 0;
   CheckSum sum_;
   std::string complaint_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
+  ResultFile file_{nullptr, &std::fclose};
 };
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/plot.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/output/files.hpp"
 #include "piola/output/ticks.hpp"
 #include <algorithm>
 #include <array>
@@ -236,12 +237,19 @@ class Paper {
   Scale x_, y_;
 };
 
-DrawingSurface surface_for(std::filesystem::path const& path, Plot const& plot) {
+cairo_status_t append_to(void* text, unsigned char const* data, unsigned int length) {
+  static_cast<std::string*>(text)->append(data, data + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+/// `content` takes what a vector format writes; it must outlive the surface.
+DrawingSurface surface_for(std::filesystem::path const& path, Plot const& plot, std::string& content) {
   auto const extension = path.extension();
   if (extension == ".svg")
-    return {cairo_svg_surface_create(path.c_str(), plot.width, plot.height), &cairo_surface_destroy};
+    return {cairo_svg_surface_create_for_stream(&append_to, &content, plot.width, plot.height), &cairo_surface_destroy};
   if (extension == ".pdf") {
-    DrawingSurface pdf(cairo_pdf_surface_create(path.c_str(), plot.width, plot.height), &cairo_surface_destroy);
+    DrawingSurface pdf(cairo_pdf_surface_create_for_stream(&append_to, &content, plot.width, plot.height),
+                       &cairo_surface_destroy);
     cairo_pdf_surface_set_metadata(pdf.get(), CAIRO_PDF_METADATA_TITLE, plot.title.c_str());
     return pdf;
   }
@@ -249,11 +257,6 @@ DrawingSurface surface_for(std::filesystem::path const& path, Plot const& plot) 
     return {cairo_image_surface_create(CAIRO_FORMAT_RGB24, 2 * plot.width, 2 * plot.height), &cairo_surface_destroy};
   throw InputError(
       fmt::format("{}: cannot be drawn (allowed: names that end in .svg, .png or .pdf) - choose one", path.string()));
-}
-
-cairo_status_t append_to(void* text, unsigned char const* data, unsigned int length) {
-  static_cast<std::string*>(text)->append(data, data + length);
-  return CAIRO_STATUS_SUCCESS;
 }
 
 }  // namespace
@@ -281,34 +284,28 @@ PlotText plot_text(Plot const& plot) {
 }
 
 void write_plot(std::filesystem::path const& path, Plot const& plot) {
-  std::filesystem::path part = path.parent_path() / (".part-" + path.filename().string());
-  auto const failed = [&](char const* why) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    return FileError(fmt::format("{}: cannot be written ({}) - check the folder and the space", path.string(), why));
-  };
+  std::string content;
   {
-    DrawingSurface const surface = surface_for(part, plot);
+    DrawingSurface const surface = surface_for(path, plot, content);
     Context const context(cairo_create(surface.get()), &cairo_destroy);
     bool const pixels = path.extension() == ".png";
     if (pixels) cairo_scale(context.get(), 2, 2);
     try {
       Paper(context.get(), plot).draw();
     } catch (...) {
-      cairo_surface_finish(surface.get());
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
+      cairo_surface_finish(surface.get());  // while there is a text to write to
       throw;
     }
-    auto status = pixels ? cairo_surface_write_to_png(surface.get(), part.c_str()) : CAIRO_STATUS_SUCCESS;
+    auto status =
+        pixels ? cairo_surface_write_to_png_stream(surface.get(), &append_to, &content) : CAIRO_STATUS_SUCCESS;
     cairo_surface_finish(surface.get());
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_status(context.get());
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
-    if (status != CAIRO_STATUS_SUCCESS) throw failed(cairo_status_to_string(status));
+    if (status != CAIRO_STATUS_SUCCESS)
+      throw FileError(
+          fmt::format("{}: cannot be drawn ({}) - make it smaller", path.string(), cairo_status_to_string(status)));
   }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) throw failed(error.message().c_str());
+  write_whole_file(path, content);
 }
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/seal.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/read_file.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
@@ -67,30 +68,29 @@ void append_seal(std::vector<std::byte>& file) {
 }
 
 bool ends_with_seal(std::filesystem::path const& path) {
-  std::ifstream file(path, std::ios::binary);
   std::string seal(seal_length, '\0');
+  if (!FileToRead(path).problem().empty()) return false;
+  std::ifstream file(path, std::ios::binary);
   file.seekg(-static_cast<std::streamoff>(seal_length), std::ios::end);
   file.read(seal.data(), static_cast<std::streamsize>(seal_length));
   return file && seal.starts_with(seal_start);
 }
 
 void verify_seal(std::filesystem::path const& path) {
-  std::error_code error;
-  auto const size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || error || size == 0)
+  FileToRead file(path);
+  if (file.size() == 0)
     throw FileError(fmt::format("{}: cannot be read - it is missing, empty or not a file", path.string()));
-  auto const content = size - std::min<std::uintmax_t>(size, seal_length);
+  auto const content = file.size() - std::min<std::uint64_t>(file.size(), seal_length);
   CheckSum sum;
-  std::vector<char> buffer(std::min<std::uintmax_t>(content, block));
-  for (std::uintmax_t left = content; left > 0 && file; left -= std::min<std::uintmax_t>(left, block)) {
-    auto const part = std::min<std::uintmax_t>(left, block);
-    file.read(buffer.data(), static_cast<std::streamsize>(part));
+  std::vector<char> buffer(std::min<std::uint64_t>(content, block));
+  for (std::uint64_t left = content; left > 0;) {
+    auto const part = file.read(std::span(buffer).first(std::min<std::uint64_t>(left, block)));
+    if (part == 0) break;
     sum.add(std::string_view(buffer.data(), part));
+    left -= part;
   }
   std::string seal(seal_length, '\0');
-  file.read(seal.data(), static_cast<std::streamsize>(seal_length));
-  if (!file || !seal.starts_with(seal_start)) {
+  if (file.read(seal) < seal_length || !seal.starts_with(seal_start)) {
     throw FileError(fmt::format(
         "{}: does not end with its check sum - the file is cut off or was written by another program", path.string()));
   }

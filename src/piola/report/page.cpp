@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/page.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
 #include <cerrno>
 #include <fmt/format.h>
 
@@ -29,7 +28,7 @@ void require_page_name(std::filesystem::path const& path) {
 }
 
 PageFile::PageFile(std::filesystem::path path, std::string const& title)
-    : path_(std::move(path)), part_(path_.string() + ".part"), file_(std::fopen(part_.c_str(), "w"), &std::fclose) {
+    : path_(std::move(path)), part_(path_.string() + ".part"), file_(open_result_file(part_, Opening::replace)) {
   if (!file_) throw FileError(cannot_write(path_, errno));
   put("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "

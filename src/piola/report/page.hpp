@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/files.hpp"
 #include "piola/report/about.hpp"
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string_view>
 
 namespace piola::report {
@@ -32,7 +31,7 @@ class PageFile {
   void put(std::string_view text);
   [[noreturn]] void fail();
   std::filesystem::path path_, part_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  ResultFile file_;
   double size_ = 0;
 };
 

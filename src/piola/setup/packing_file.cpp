@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/packing_file.hpp"
-#include "piola/math/hash.hpp"
+#include "piola/math/digest.hpp"
 #include "piola/output/files.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <type_traits>
 
 namespace piola {
@@ -47,15 +46,9 @@ class Bytes {
 }  // namespace
 
 std::uint64_t digest_of(std::string_view text) {
-  std::uint64_t sum = mixed(text.size());
-  while (!text.empty()) {
-    std::uint64_t word = 0;
-    std::size_t const some = std::min(text.size(), sizeof(word));
-    std::memcpy(&word, text.data(), some);
-    sum = mixed(sum ^ word) + 0x9E3779B97F4A7C15U;
-    text.remove_prefix(some);
-  }
-  return sum;
+  Digest digest(text.size());
+  digest.add(text);
+  return digest.value();
 }
 
 std::string packing_name(std::string const& key) { return fmt::format("packed-{:016x}.cloud", digest_of(key)); }
@@ -74,11 +67,9 @@ void write_packing(std::filesystem::path const& path, std::string const& key, ge
 }
 
 std::optional<geometry::Packing> read_packing(std::filesystem::path const& path, std::string const& key) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code error;
-  if (!file || !std::filesystem::is_regular_file(path, error)) return {};
-  std::string content(static_cast<std::size_t>(std::filesystem::file_size(path, error)), '\0');
-  if (error || !file.read(content.data(), static_cast<std::streamsize>(content.size()))) return {};
+  FileToRead file(path);
+  std::string content(static_cast<std::size_t>(file.size()), '\0');
+  if (file.read(content) < content.size()) return {};
   std::uint64_t seal = 0, length = 0, count = 0;
   std::int64_t sweeps = 0;
   if (content.size() < sizeof(seal)) return {};

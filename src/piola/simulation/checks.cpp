@@ -286,7 +286,7 @@ std::string folder_of(std::string variant) {
 CheckFile read_checks(std::filesystem::path const& path) {
   Problems problems;
   CheckFile file;
-  auto const document = parse_document(read_text_file(path, most_checks_bytes), path.string(), problems);
+  auto const document = parse_document(read_input_file(path, most_checks_bytes), path.string(), problems);
   problems.raise_if_any();
   for (Node::Entry const& e : document->root.entries) {
     if (e.key != "variant" && e.key != "check")

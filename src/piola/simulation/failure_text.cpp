@@ -9,7 +9,7 @@ namespace piola {
 namespace {
 
 std::string point_text(std::array<double, 3> const& p) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", p[0], p[1], p[2]);
+  return fmt::format("({}, {}, {}) m", number_text(p[0], 4), number_text(p[1], 4), number_text(p[2], 4));
 }
 
 std::string subject(Failure const& f) {
@@ -21,7 +21,7 @@ std::string subject(Failure const& f) {
 std::string values_text(Failure const& f) {
   std::string text;
   for (auto const& [name, value] : f.values)
-    text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", name, value);
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, number_text(value, 4));
   return text;
 }
 

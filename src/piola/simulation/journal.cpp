@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/journal.hpp"
+#include "piola/base/controls.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
 #include <cerrno>
 #include <cstdio>
-#include <memory>
+#include <utility>
 
 namespace piola {
 
-void Journal::write(std::string const& line, char const* mode) {
+void Journal::write(std::string const& line, Opening how) {
   if (file_.empty()) return;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(file_.c_str(), mode), &std::fclose);
-  std::string const text = line + "\n";
+  std::error_code error;
+  // The log of a run that is resumed may have been removed; one that this run began may not.
+  if (!std::exchange(begun_, true) && !std::filesystem::exists(std::filesystem::symlink_status(file_, error)))
+    how = Opening::replace;
+  ResultFile const file = open_result_file(file_, how);
+  std::string const text = without_controls(line) + "\n";
   bool const good =
       file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() && std::fflush(file.get()) == 0;
   if (!good) throw FileError(cannot_write(file_, errno));
 }
 
-void Journal::start(std::string const& first_line) { write(first_line, "w"); }
+void Journal::start(std::string const& first_line) { write(first_line, Opening::replace); }
 
-void Journal::note(std::string const& line) { write(line, "a"); }
+void Journal::note(std::string const& line) { write(line, Opening::append); }
 
 void Journal::tell(std::string const& text) {
   note("warning: " + text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/files.hpp"
 #include "piola/simulation/moment.hpp"
 #include <filesystem>
 #include <set>
@@ -40,8 +41,9 @@ class Journal {
   std::vector<std::string> const& warnings() const { return warnings_; }
 
  private:
-  void write(std::string const& line, char const* mode);
+  void write(std::string const& line, Opening how);
   std::filesystem::path file_;
+  bool begun_ = false;  ///< something was written
   Listener& listener_;
   std::vector<std::string> warnings_;
   std::set<std::string> known_;

@@ -5,6 +5,7 @@
 #include "piola/exec/instruction_sets.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/output/files.hpp"
+#include "piola/particles/particle_record.hpp"
 #include "piola/simulation/ranks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -130,7 +131,8 @@ CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> o
     : results_(std::move(results)),
       schedule_(results_.spec.output.checkpoints_every),
       others_(std::move(others)),
-      orders_(orders) {
+      orders_(orders),
+      particles_(results_.folder.empty() ? "" : particle_record(results_.particles)) {
   schedule_.due(0);  // the state at the start is the case itself
 }
 
@@ -145,6 +147,7 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
                std::string(version()),
                exec_host::machine_text(results_.spec.run.machine),
                results_.spec.source,
+               particles_,
                {},
                {},
                {}};
@@ -155,6 +158,7 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
 void CheckpointObserver::keep(Formulation const& formulation, Moment const& moment) {
   auto const start = WallLimit::Clock::now();
   for (Observer* other : others_) other->sync();
+  last_ = checkpoint_path(results_.folder, moment.step);
   keep_checkpoint(results_.folder, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
   exec_host::give_back_free_memory();
   if (orders_.wall != nullptr)
@@ -172,8 +176,8 @@ void CheckpointObserver::before_cut(Formulation const& formulation, Moment const
 
 void CheckpointObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
   if (ending == Ending::failed) {
-    write_checkpoint(results_.folder / failed_checkpoint, take(moment),
-                     [&](StateWriter& writer) { formulation.save(writer); });
+    last_ = results_.folder / failed_checkpoint;
+    write_checkpoint(last_, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
   } else {
     keep(formulation, moment);
   }

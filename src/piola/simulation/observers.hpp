@@ -36,6 +36,8 @@ class Observer {
   virtual void sync() {}
   /// Set once the answer is not to be believed: the run then stops as failed.
   virtual std::optional<Objection> objection() const { return std::nullopt; }
+  /// Files of the results folder that this run wrote, or found when it was resumed, and that must be there in the end.
+  virtual std::vector<std::filesystem::path> files() const { return {}; }
   /// What a resumed run needs to continue; names are unique among observers.
   virtual void save(StateWriter&) const {}
   virtual void load(NamedState&, Moment const&) {}
@@ -58,6 +60,7 @@ class HistoryObserver : public Observer {
   void save(StateWriter& writer) const override;
   void load(NamedState& reader, Moment const& moment) override;
   void sync() override { file_->sync(); }
+  std::vector<std::filesystem::path> files() const override { return {results_.folder / "history.csv"}; }
   /// Opens the file anew, or cut off after `resume_time` (after load). Called before the first step.
   void open(Formulation const& formulation, std::optional<double> resume_time);
   HistoryTable const& table() const { return file_->table(); }
@@ -85,6 +88,7 @@ class FrameObserver : public Observer {
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void save(StateWriter& writer) const override;
   void load(NamedState& reader, Moment const& moment) override;
+  std::vector<std::filesystem::path> files() const override { return writer_.files(); }
 
  private:
   void write(Formulation const& formulation, double time);
@@ -109,6 +113,7 @@ class CheckpointObserver : public Observer {
   void before_cut(Formulation const& formulation, Moment const& moment) override;
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void load(NamedState& reader, Moment const& moment) override;
+  std::vector<std::filesystem::path> files() const override { return {last_}; }
 
  private:
   /// All but the state of the formulation.
@@ -118,6 +123,8 @@ class CheckpointObserver : public Observer {
   Schedule schedule_;
   std::vector<Observer*> others_;
   CheckpointOrders orders_;
+  std::string particles_;       ///< record of them for checkpoints
+  std::filesystem::path last_;  ///< the newest checkpoint of this run
 };
 
 /// Tells the listener how far the run is, a few times per second.

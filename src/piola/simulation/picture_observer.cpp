@@ -354,6 +354,12 @@ void PictureObserver::save(StateWriter& writer) const {
   }
 }
 
+std::vector<std::filesystem::path> PictureObserver::files() const {
+  std::vector<std::filesystem::path> list;
+  for (auto const& drawn : drawn_) list.push_back(path(drawn.first));
+  return list;
+}
+
 void PictureObserver::load(NamedState& reader, Moment const& moment) {
   if (reader.has("picture_torn")) torn_ = unflattened(reader.all("picture_torn"));
   schedule_.start_after(moment.time);

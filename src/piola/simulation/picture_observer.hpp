@@ -19,6 +19,7 @@ class PictureObserver : public Observer {
   void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
   void save(StateWriter& writer) const override;
   void load(NamedState& reader, Moment const& moment) override;
+  std::vector<std::filesystem::path> files() const override;
   std::filesystem::path const& last() const { return last_; }
 
  private:

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/results_folder.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/read_file.hpp"
 #include "piola/base/version.hpp"
 #include "piola/input/case_files.hpp"
+#include "piola/input/history_names.hpp"
 #include "piola/input/read_case.hpp"
+#include "piola/output/checkpoint.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <fstream>
 #include <optional>
+#include <set>
 
 namespace piola {
 namespace {
@@ -20,15 +23,82 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_headline = 20000;  // of a log: version and title
 
 // frames.xmf was written by earlier versions.
-constexpr std::array own_names{"history.csv", "summary.json", "frames",  "frames.hdf.series", "frames.xmf", "pictures",
-                               "checkpoints", "case.toml",    "log.txt", "report.html",       kept_files};
+constexpr std::array own_files{"history.csv", "summary.json", "frames.hdf.series", "frames.xmf",
+                               "case.toml",   "log.txt",      "report.html"};
+constexpr std::array own_folders{"frames", "pictures", "checkpoints", kept_files};
+
+bool is_number(std::string_view text, std::size_t digits) {
+  return text.size() >= digits && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// FIELD-000012, FIELD-xx-OTHER-000012, FIELD-times: a field, its component or other fields, and a number.
+bool is_picture(std::string_view stem) {
+  auto const is_field = [](std::string_view word) {
+    auto const names = field_names();
+    return std::any_of(names.begin(), names.end(), [&](FieldName const& field) { return field.name == word; });
+  };
+  std::size_t words = 0;
+  for (;; ++words) {
+    std::size_t const end = stem.find('-');
+    if (end == std::string_view::npos) break;
+    std::string_view const word = stem.substr(0, end);
+    constexpr std::size_t longest_component = 9;  // magnitude
+    if (!is_field(word) && (words == 0 || word.size() > longest_component)) return false;
+    stem.remove_prefix(end + 1);
+  }
+  return words > 0 && (stem == "times" || is_number(stem, 6));
+}
+
+/// Whether Piola gives this name to files in that folder of its results; "NAME.part" while it writes them.
+bool is_own_name(std::string_view folder, fs::path name) {
+  if (name.extension() == ".part") name = name.stem();
+  std::string const text = name.string(), stem = name.stem().string(), ending = name.extension().string();
+  if (folder == "frames") return ending == ".hdf" && is_number(stem, 6);
+  if (folder == "pictures") return (ending == ".png" || ending == ".values") && is_picture(stem);
+  if (folder == "checkpoints")
+    return (ending == ".h5" && (stem == "failed" || is_number(stem, 9))) || text == durations_name;
+  return text == kept_list || text.starts_with("packed-");
+}
+
+void remove_file(fs::path const& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw FileError(cannot_write(path, error.value()));
+}
+
+/// The list of copies; one that cannot be read lists none.
+std::vector<KeptFile> listed_copies(fs::path const& results) {
+  try {
+    return read_kept_list(results);
+  } catch (std::runtime_error const&) {
+    return {};
+  }
+}
+
+/// Removes what Piola wrote, and the folder if nothing is left in it. A link is removed, not what it leads to.
+void clear_folder(fs::path const& results, char const* name) {
+  fs::path const folder = results / name;
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return remove_file(folder);
+  std::vector<fs::path> own;
+  std::set<std::string> copies;
+  if (name == std::string_view(kept_files))
+    for (KeptFile const& file : listed_copies(results)) copies.insert(file.kept);
+  for (auto const& entry : fs::directory_iterator(folder)) {
+    fs::path const file = entry.path().filename();
+    bool const ours = is_own_name(name, file) || copies.contains(file.string());
+    if (ours && !fs::is_directory(entry.symlink_status())) own.push_back(entry.path());
+  }
+  for (fs::path const& file : own) remove_file(file);
+  if (fs::is_empty(folder)) remove_file(folder);
+}
 
 /// Title of the run whose results lie in a folder; nothing if there are none.
 std::optional<std::string> title_in(fs::path const& folder) {
-  std::ifstream log(folder / "log.txt");
+  FileToRead log(folder / "log.txt");
   std::string line(longest_headline, '\0');
-  log.read(line.data(), static_cast<std::streamsize>(line.size()));
-  line.resize(std::min(static_cast<std::size_t>(log.gcount()), line.find('\n')));
+  line.resize(log.read(line));
+  line.resize(std::min(line.size(), line.find('\n')));
   auto const colon = line.find(": ");
   if (!line.starts_with("Piola ") || colon == std::string::npos) return std::nullopt;
   return line.substr(colon + 2);
@@ -53,7 +123,9 @@ bool lies_in(fs::path const& inner, fs::path const& outer) {
 /// Another name of the same file (a link of either kind) counts too.
 void protect_case(fs::path const& folder, fs::path const& case_file) {
   if (case_file.empty()) return;
-  for (char const* name : own_names) {
+  std::vector<char const*> names(own_files.begin(), own_files.end());
+  names.insert(names.end(), own_folders.begin(), own_folders.end());
+  for (char const* name : names) {
     std::error_code not_there;
     if (!fs::equivalent(folder / name, case_file, not_there) && !lies_in(case_file, folder / name)) continue;
     throw InputError(
@@ -69,7 +141,7 @@ std::optional<CaseSpec> case_in_results(fs::path const& folder, ParticleSet* par
   std::error_code error;
   if (!fs::exists(folder / "case.toml", error)) return std::nullopt;
   try {
-    return read_case(folder / "case.toml", {}, {}, particles);
+    return read_case(folder / "case.toml", {}, {.of_results = true}, particles);
   } catch (std::runtime_error const&) {  // pictures and pages do without
     return std::nullopt;
   }
@@ -95,11 +167,8 @@ void check_results(fs::path const& folder, ResultsOf const& run) {
 }
 
 void clear_results(fs::path const& folder) {
-  for (char const* name : own_names) {
-    std::error_code error;
-    fs::remove_all(folder / name, error);
-    if (error) throw FileError(cannot_write(folder / name, error.value()));
-  }
+  for (char const* name : own_folders) clear_folder(folder, name);
+  for (char const* name : own_files) remove_file(folder / name);
 }
 
 fs::path default_results(fs::path const& case_file) {

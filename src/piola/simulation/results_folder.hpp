@@ -20,7 +20,8 @@ struct ResultsOf {
 /// never taken. Throws InputError (refused) or FileError (cannot be made).
 void check_results(std::filesystem::path const& folder, ResultsOf const& run);
 
-/// Removes the results of an earlier run, files and folders with Piola's names only. Throws FileError.
+/// Removes the results of an earlier run: files with the names that Piola gives them, and its folders if nothing else
+/// is in them. Links are removed, never followed. Throws FileError.
 void clear_results(std::filesystem::path const& folder);
 
 /// The case that the run in a folder was started with, and its particles if these are wanted; nothing if it is not

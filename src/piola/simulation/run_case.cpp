@@ -8,6 +8,7 @@
 #include "piola/input/case_files.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
+#include "piola/particles/particle_record.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/failure_text.hpp"
 #include "piola/simulation/guard_observer.hpp"
@@ -64,33 +65,35 @@ std::string start_text(Simulation const& s) {
                      count_text(s.particles.size()), s.threads, s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
 }
 
-void keep_file(CaseFile const& file, std::filesystem::path const& folder, Journal& journal) {
-  constexpr std::uintmax_t most = 50'000'000;
-  namespace fs = std::filesystem;
-  fs::path const to = folder / kept_files / kept_name(file.given);
-  std::error_code error;
-  if (fs::equivalent(file.path, to, error)) return;
-  if (fs::file_size(file.path, error) > most) {
+/// Copies a file unless it is too large.
+KeptFile keep_file(CaseFile const& file, std::size_t number, std::filesystem::path const& folder, Journal& journal) {
+  constexpr std::uint64_t most = 50'000'000;
+  KeptFile kept{file.given, "", std::filesystem::absolute(file.path), FileToRead(file.path).size(),
+                content_hash(file.path)};
+  if (kept.bytes > most) {
     journal.warn(fmt::format("{} is larger than 50 MB and is not copied to the results: a resumed run reads it from {}",
-                             file.given, file.path.string()));
-    return;
+                             file.given, kept.from.string()));
+    return kept;
   }
-  fs::create_directories(folder / kept_files, error);
-  if (!fs::copy_file(file.path, to, fs::copy_options::overwrite_existing, error))
-    journal.warn(fmt::format("{} could not be copied to {}: {}", file.given, to.string(), error.message()));
+  kept.kept = kept_name(number, file.given);
+  write_whole_file(folder / kept.kept, read_text_file(file.path));
+  return kept;
 }
 
-/// Copies of the files that the case names, without which it could not be resumed elsewhere.
-void keep_files(CaseSpec const& spec, std::filesystem::path const& folder, Journal& journal) {
-  for (BodySpec const& body : spec.bodies) {
+/// Copies of the files that the case names, without which it could not be resumed elsewhere, and the list of them.
+void keep_files(CaseSpec const& spec, std::filesystem::path const& results, Journal& journal) {
+  auto const folder = results / kept_files;
+  for (BodySpec const& body : spec.bodies)
     if (body.shape.solid && body.shape.arrangement == ShapeSpec::Arrangement::packed) {
-      make_folder(folder / kept_files);
-      SolidParticles::of(body.shape).save(folder / kept_files);
+      make_folder(folder);
+      SolidParticles::of(body.shape).save(folder);
     }
-    for (CaseFile const& file : body.shape.files) keep_file(file, folder, journal);
+  std::vector<KeptFile> list;
+  for (CaseFile const& file : files_of(spec)) {
+    make_folder(folder);
+    list.push_back(keep_file(file, list.size() + 1, folder, journal));
   }
-  for (RegionSpec const& region : spec.regions)
-    for (CaseFile const& file : region.files) keep_file(file, folder, journal);
+  if (!list.empty()) write_whole_file(folder / kept_list, text_of_list(list));
 }
 
 /// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.
@@ -146,6 +149,16 @@ std::vector<std::string> accepted_changes(Checkpoint const& c, CaseSpec const& s
   return accepted;
 }
 
+/// Throws InputError if the bodies are not those of the checkpoint.
+void refuse_other_particles(Checkpoint const& c, ParticleSet const& particles, std::filesystem::path const& folder) {
+  std::string const differs = particle_difference(c.particles, particle_record(particles));
+  if (differs.empty()) return;
+  throw InputError(
+      fmt::format("{}: the particles are not those of its checkpoint (needed: the same bodies from the same "
+                  "files) - bring back the files of the case, or run it again with 'piola run'; what differs: {}",
+                  folder.string(), differs));
+}
+
 /// Brings everything to the newest good checkpoint. One that was reached by a step cut to an earlier end of the run is
 /// taken only if `cut_too`.
 std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder, Journal& journal, Watch& watch,
@@ -155,6 +168,7 @@ std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder
   Moment moment;
   bool const found = use_newest_checkpoint(folder, warnings, [&](Checkpoint& c) {
     changes = accepted_changes(c, s.spec, folder);
+    refuse_other_particles(c, s.particles, folder);
     if (c.cut_to_end && c.time < s.spec.run.end && !cut_too) {
       abandoned.push_back(checkpoint_path(folder, c.step));
       return false;
@@ -189,6 +203,9 @@ std::int64_t size_of_state(Formulation const& formulation) {
 /// A resumed run: everything as it was when the newest good checkpoint was written, but for the changes that the user
 /// wants and that leave the state at each time as it is.
 Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
+  Problems problems;
+  compare_with_kept_list(s.spec, options.folder, problems);
+  problems.raise_if_any();
   auto moment = restore(s, options.folder, journal, watch, false);
   if (!moment) {
     moment = restore(s, options.folder, journal, watch, true);
@@ -209,8 +226,8 @@ Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, W
 void report_rest(Simulation const& s, Relaxation const& relaxation, Ending ending, Journal& journal) {
   if (!relaxation.active() || ending != Ending::completed) return;
   Rest const& rest = relaxation.rest();
-  std::string const share =
-      fmt::format("forces out of balance are {:.2g} of the largest (limit {})", rest.residual, s.spec.run.rest);
+  std::string const share = fmt::format("forces out of balance are {} of the largest (limit {})",
+                                        number_text(rest.residual, 2), s.spec.run.rest);
   if (rest.reached)
     journal.note(fmt::format("at rest after {} stops: {}", rest.stops, share));
   else
@@ -220,6 +237,28 @@ void report_rest(Simulation const& s, Relaxation const& relaxation, Ending endin
                     rest.stops, share));
 }
 
+/// What is not there any more of what the run wrote, in one sentence; empty if all of it is.
+std::string missing_results(std::filesystem::path const& folder, Watch& watch) {
+  constexpr std::size_t few = 5;
+  std::vector<std::filesystem::path> all{folder / "case.toml", folder / "log.txt"};
+  for (Observer* observer : watch.all()) {
+    auto const files = observer->files();
+    all.insert(all.end(), files.begin(), files.end());
+  }
+  std::vector<std::string> missing;
+  for (auto const& file : all) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) missing.push_back(file.lexically_relative(folder).string());
+  }
+  if (missing.empty()) return "";
+  std::string const more = missing.size() > few ? fmt::format(" and {} more", missing.size() - few) : "";
+  return fmt::format(
+      "{}: {}{} {} removed while the run went on (needed: all that it wrote) - run the case again, and "
+      "leave its folder alone until it ends",
+      folder.string(), joined(std::span(missing).first(std::min(few, missing.size()))), more,
+      missing.size() == 1 ? "was" : "were");
+}
+
 /// How often particles were shared out among ranks anew.
 std::string recuts_text(Recuts const& recuts) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
@@ -227,6 +266,17 @@ std::string recuts_text(Recuts const& recuts) {
   for (std::size_t k = 0; k < recuts.imbalance.size() && k < 5; ++k)
     text += (k == 0 ? "; before, the busiest was above the mean by " : ", ") + percent(recuts.imbalance[k]);
   return text + "; at the end by " + percent(recuts.last);
+}
+
+/// What observers and ranks know of the whole run.
+void add_watched(Summary& summary, Simulation const& s, Watch const& watch, Journal& journal) {
+  summary.guards = watch.guards.report();
+  summary.ranks = traffic_on_ranks();
+  if (!summary.ranks.empty()) summary.recuts = s.formulation->recuts();
+  if (auto const& recuts = summary.recuts; recuts && !recuts->imbalance.empty()) journal.note(recuts_text(*recuts));
+  if (!watch.relaxation.active()) return;
+  Rest const& rest = watch.relaxation.rest();
+  summary.relaxation = {rest.reached, rest.residual, rest.stops};
 }
 
 /// Makes sure that the folder may be used, and keeps others out of it.
@@ -309,20 +359,18 @@ CaseOutcome CaseRun::finish() {
                       .out_of_time = p.last.out_of_time,
                       .last_picture = p.watch.pictures.last(),
                       .index = {}};
-  outcome.summary.guards = p.watch.guards.report();
-  outcome.summary.ranks = traffic_on_ranks();
-  if (!outcome.summary.ranks.empty()) outcome.summary.recuts = s.formulation->recuts();
-  if (auto const& recuts = outcome.summary.recuts; recuts && !recuts->imbalance.empty())
-    p.journal.note(recuts_text(*recuts));
+  add_watched(outcome.summary, s, p.watch, p.journal);
   auto const& folder = p.options.folder;
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
-  if (p.watch.relaxation.active()) {
-    Rest const& rest = p.watch.relaxation.rest();
-    outcome.summary.relaxation = {rest.reached, rest.residual, rest.stops};
-  }
   if (folder.empty()) return outcome;
+  std::string const missing = missing_results(folder, p.watch);
+  if (!missing.empty()) {
+    outcome.summary.status = "incomplete";
+    outcome.summary.warnings.push_back(missing);
+  }
   if (std::filesystem::exists(folder / "frames.hdf.series")) outcome.index = folder / "frames.hdf.series";
   write_summary(folder / "summary.json", outcome.summary);
+  if (!missing.empty()) throw FileError(missing);
   p.journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, p.moment.step,
                              p.moment.time, duration_text(p.moment.wall_seconds)));
   if (p.last.failure) p.journal.note(outcome.failure);

@@ -62,7 +62,7 @@ nlohmann::json summary_of(std::filesystem::path const& results) {
 
 StudySpec read_study(std::filesystem::path const& path) {
   Problems problems;
-  auto const document = parse_document(read_text_file(path), path.string(), problems);
+  auto const document = parse_document(read_input_file(path), path.string(), problems);
   problems.raise_if_any();
   Node const& root = document->root;
   StudySpec study;

@@ -57,9 +57,7 @@ std::string keep_picture(fs::path const& folder, std::string const& case_name, V
                          std::set<std::string>& taken) {
   if (run.picture.empty()) return "";
   std::string const name = new_name(case_name + " " + run.variant, ".png", taken);
-  std::error_code error;
-  fs::copy_file(run.picture, folder / name, fs::copy_options::overwrite_existing, error);
-  if (error) throw FileError(fmt::format("{}: cannot be written ({})", (folder / name).string(), error.message()));
+  write_whole_file(folder / name, read_text_file(run.picture));
   return name;
 }
 
