@@ -236,10 +236,10 @@ TEST(Warnings, RigidShapesNarrowerThanASpacing) {
     return "[[rigid]]\nname = \"tool\"\nbox = { min = " + min + ", max = " + max + " }\n";
   };
   std::string const needle = box("[0.5, -2]", "[0.54, -0.5]"), sheet = box("[-5, -2]", "[5, -1.96]");
-  std::string const told = about("pushes as if", warnings(two_cubes("jst_sph", 1, needle)));
-  EXPECT_NE(told.find("\"tool\" is 40 mm wide, less than the spacing of body \"left\", 100 mm"), std::string::npos)
-      << told;
-  EXPECT_NE(told.find("take a spacing of 20 mm or less"), std::string::npos) << told;
+  std::string const text = about("contact takes it for one spacing wide", warnings(two_cubes("jst_sph", 1, needle)));
+  EXPECT_NE(text.find("\"tool\" is 40 mm wide, less than the spacing of body \"left\", 100 mm"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("take a spacing of 20 mm or less"), std::string::npos) << text;
   EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, sheet)).empty()) << "its face is wide";
   EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, box("[0.5, -2]", "[0.61, -0.5]"))).empty());
   std::string const shot = "[[rigid]]\nname = \"shot\"\nsphere = { centre = [0.5, -2], radius = 0.03 }\n";

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-/// Blocks of rubber with a spacing of 1 mm that meet rigid shapes narrower than that, or so thin that points of the
+/// Blocks of rubber with a spacing of 1 mm that hit rigid shapes narrower than that, or so thin that points of the
 /// block could get past their middle.
 namespace piola {
 namespace {
@@ -21,7 +21,7 @@ using testing::TemporaryFolder;
 constexpr double block_mass = 1100 * 0.02 * 0.008;  // [kg/m]
 
 std::string case_of(double milliseconds, double speed, std::string const& rest) {
-  return fmt::format(R"toml(title = "A block meets a thin shape"
+  return fmt::format(R"toml(title = "A block hits a thin shape"
 [run]
 end = "{} ms"
 [[body]]

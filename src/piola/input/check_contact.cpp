@@ -40,7 +40,7 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
   std::vector<std::string> known;
   std::vector<std::size_t> bodies;
   int rigids = 0;
-  bool left_alone = false;  // by what surfaces alone would meet
+  bool left_alone = false;  // a shape in contact with surfaces only, switched off
   for (BodySpec const& body : spec.bodies) known.push_back(body.name);
   for (RigidSpec const& rigid : spec.rigids) known.push_back(rigid.name);
   for (std::string const& name : pair.between) {

@@ -40,9 +40,9 @@ bool stands_before_end(RigidShape const& rigid, BodySpec const& spec, ParticleSe
 void warn_of_tool(RigidSpec const& rigid, BodySpec const& body, double width, double spacing, Problems& found) {
   found.add(
       place_of(rigid.places, ""),
-      fmt::format("the rigid shape {} is {} wide, less than the spacing of body {}, {}: it pushes as if it were a "
-                  "spacing wide, and pierces the body or not as that says - take a spacing of {} or less where "
-                  "this matters",
+      fmt::format("the rigid shape {} is {} wide, less than the spacing of body {}, {}: contact takes it for "
+                  "one spacing wide, so that piercing and stress around it are not resolved - take a spacing of {} or "
+                  "less where these matter",
                   in_quotes(rigid.name), quantity_text(width, "m"), in_quotes(body.name), quantity_text(spacing, "m"),
                   quantity_text(0.5 * width, "m", 2)));
 }

@@ -90,7 +90,7 @@ void System::note_spring_by(ShapeRun const& run, double area) {
       spring * (rubs ? rigid.mobility(run.plane.y) : rigid.mobility(run.plane.y, run.plane.n));
 }
 
-/// What one point of a shape does to the planes that it touches, and they to it.
+/// Forces between one point of a shape and the planes in its range.
 void System::push_by(ShapeRun const& run) {
   ShapePass const& pass = shape_passes_[run.pass];
   PairRule const& rule = pass.rule;

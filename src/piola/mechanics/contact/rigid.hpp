@@ -60,7 +60,7 @@ Distance distance_from(RigidSurface const& shape, Vec<3> const& x);
 /// The face of a thin shape by which a point came in, as a sign along one of its axes: the edges of a box, first the
 /// axis of a cylinder. 0: the nearer face counts.
 using Sides = std::array<int, 3>;
-/// The same for a point that is kept on its side: behind the face by which it came in it is inside, however deep.
+/// Signed distance of a point that is kept on its side: it is inside behind the face by which it came in, however deep.
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x, Sides const& sides);
 
 /// Whether a shape is thinner than a length [m], along each of these axes. Spheres are not, and neither are cylinders

@@ -64,8 +64,8 @@ void System::book_lost_springs() {
   }
 }
 
-/// How far the planes before a target at y have moved is taken from its jump, and their mean normal is found; keeps
-/// their shares.
+/// Subtracts the mean motion of the planes at a target from its jump [m] and finds their mean unit normal. Stores the
+/// weights of the planes for rub_back().
 void System::slide_over(std::size_t first, std::size_t last, double weight, Vec<3> const& y, Vec<3>& jump, Vec<3>& n) {
   rubbed_.clear();
   for (std::size_t s = first; s < last; ++s) {

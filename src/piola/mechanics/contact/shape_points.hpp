@@ -34,7 +34,7 @@ class ShapePoints {
   bool any() const;
   /// Whether they cover a sphere or a cylinder that is thin: the body need not test its own points against the shape.
   bool cover() const { return thin_round_; }
-  /// Those in a range, in the order of their keys.
+  /// Points within a range, ordered by key.
   std::vector<ShapePoint> within(ShapeRange const& range) const;
 
  private:

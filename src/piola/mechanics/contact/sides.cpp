@@ -65,7 +65,7 @@ void System::note_deep(std::int64_t point, std::size_t with, double depth, Vec<3
   if (depth > watched) deep_.push_back({point, with, normal, depth > counted});
 }
 
-/// Who was deep behind a surface, and is now before it or out of its reach, has gone through.
+/// Counts points that were deep behind a surface and are now in front of it or out of its range: they went through.
 void System::count_passed() {
   std::sort(deep_.begin(), deep_.end());
   for (Deep const& last : last_deep_) {

@@ -54,7 +54,7 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
   frequencies_.resize(rigids_.size());
 }
 
-/// Whether a body rubs on something, and what its points do not feel of rigid shapes.
+/// Sets up friction of a body, and its contact with thin or narrow rigid shapes.
 void System::look_at_others(std::size_t body) {
   for (Touch const& touch : setting_[body]) rubs_ = rubs_ || (touch.meets && touch.friction.any());
   Surface const& surface = surfaces_[body];
@@ -71,7 +71,7 @@ void System::look_at_others(std::size_t body) {
     ShapePoints const points(rigids_[r], dp);
     if (!points.any()) continue;
     covered_[body][r] = points.cover() ? 1 : 0;
-    // Where a shape is resolved its edges are tested besides, as one of two passes.
+    // The edges of a resolved shape get the weight of one of two passes, in addition to the points of the body.
     double const q = any || points.cover() ? 1 : 0.5;
     shape_passes_.push_back(
         {body,

@@ -195,7 +195,7 @@ class System {
   bool is_met(Index point, std::size_t rigid) const {
     return with_rigid(points_[at(point)].body, rigid).meets && !is_left_out(at(point), surfaces_.size() + rigid);
   }
-  /// The same where the point itself is tested, and not the shape's points against its body.
+  /// Whether the point itself is tested against the shape, too; not where points of the shape cover all of it.
   bool is_tested(Index point, std::size_t rigid) const {
     return is_met(point, rigid) && covered_[points_[at(point)].body][rigid] == 0;
   }
