@@ -105,6 +105,17 @@ TEST(RigidMessages, FreeShapesNeedSurfacesAndPartners) {
   EXPECT_NE(message_of(sample_case() + stone + "[contact]\nlaw = \"none\"\n")
                 .find("nothing keeps the free rigid shape \"stone\" apart from body \"column\" " + surfaces),
             std::string::npos);
+  // Contact between the two may be switched off if another body can touch the shape.
+  std::string const other =
+      "[[body]]\nname = \"plate\"\nshape = { box = { min = [-9, -3, -9], max = [9, -1, 9] }, "
+      "particles = [9, 3, 9] }\nmaterial = { law = \"elastic\", density = 1000, youngs_modulus = "
+      "1e7, poissons_ratio = 0.3 }\nformulation = { name = \"nodal\" }\n";
+  EXPECT_NE(message_of(text + other + stone).find("or say law = \"none\" in [[contact]] between them, for no contact"),
+            std::string::npos);
+  std::string const alone = "[[contact]]\nbetween = [\"column\", \"stone\"]\nlaw = \"none\"\n";
+  EXPECT_EQ(message_of(text + other + stone + alone), "");
+  EXPECT_NE(message_of(text + stone + alone).find("nothing keeps the free rigid shape"), std::string::npos)
+      << "the shape would touch no body";
   EXPECT_EQ(message_of(sample_case() + replaced(stone, "stone", "column")),
             "case.toml:24:8: the name \"column\" is taken by a body (allowed: one name for one of them, whose columns "
             "are alike) - choose another name");

@@ -230,6 +230,26 @@ TEST(Warnings, SurfacesThatOverlapAtTheStart) {
   EXPECT_NE(text.find("by 0.3 spacings; contact holds "), std::string::npos) << text;
 }
 
+// The spacing is 0.1.
+TEST(Warnings, RigidShapesNarrowerThanASpacing) {
+  auto const box = [](std::string const& min, std::string const& max) {
+    return "[[rigid]]\nname = \"tool\"\nbox = { min = " + min + ", max = " + max + " }\n";
+  };
+  std::string const needle = box("[0.5, -2]", "[0.54, -0.5]"), sheet = box("[-5, -2]", "[5, -1.96]");
+  std::string const text = about("contact takes it for one spacing wide", warnings(two_cubes("jst_sph", 1, needle)));
+  EXPECT_NE(text.find("\"tool\" is 40 mm wide, less than the spacing of body \"left\", 100 mm"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("take a spacing of 20 mm or less"), std::string::npos) << text;
+  EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, sheet)).empty()) << "its face is wide";
+  EXPECT_TRUE(warnings(two_cubes("jst_sph", 1, box("[0.5, -2]", "[0.61, -0.5]"))).empty());
+  std::string const shot = "[[rigid]]\nname = \"shot\"\nsphere = { centre = [0.5, -2], radius = 0.03 }\n";
+  EXPECT_NE(
+      about("\"shot\" is 60 mm wide, less than the spacing of body \"right\"", warnings(two_cubes("jst_sph", 1, shot))),
+      "");
+  EXPECT_NE(about("is 40 mm thick, less than the spacing of body \"left\"", warnings(two_cubes("adaptle", 1, sheet))),
+            "");
+}
+
 TEST(Warnings, SettingsOfTheOtherContact) {
   EXPECT_NE(about("contact.law has no effect", warnings(two_cubes("jst_sph", 1, "[contact]\nlaw = \"linear\"\n"))), "");
   EXPECT_NE(about("contact.friction has no effect",

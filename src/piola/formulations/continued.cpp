@@ -145,6 +145,9 @@ Continued::Continued(Assembly const& whole) : assembly(whole) {
     body.first = first;
     body.last = static_cast<std::int64_t>(origins.size());
     assembly.surfaces[b] = surface_of(whole, b, images.all(), first);
+    mirrors.emplace_back();
+    for (SymmetryPlane const& plane : planes_of(whole, b))
+      mirrors.back().push_back({static_cast<int>(plane.axis), plane.at, plane.upper ? -1.0 : 1.0});
     for (SymmetryPlane const& plane : planes_of(whole, b))
       for (auto id = from.first; id < from.last; ++id)
         if (std::fabs(particles.X[static_cast<std::size_t>(id)][plane.axis] - plane.at) <

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/mechanics/contact/surface_mirror.hpp"
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -33,6 +34,7 @@ struct Continued {
   Assembly assembly;
   std::vector<Origin> origins;  ///< by id in `assembly`; empty: no mirrors, all as in the run
   std::vector<OnPlane> on_planes;
+  std::vector<std::vector<contact::SurfaceMirror>> mirrors;  ///< by body; empty: none
 };
 
 }  // namespace piola

@@ -34,6 +34,13 @@ struct BodyShare {
   std::array<double, 3> linear_momentum{};       ///< kg m/s
 };
 
+/// Surface points that went through another surface since the start: they were deep behind it, and left at its far
+/// side.
+struct Passage {
+  std::string of, through;  ///< of what, through what, e.g. body "plate"
+  std::int64_t points = 0;
+};
+
 /// Integral quantities of the whole system at one time, SI units.
 struct Diagnostics {
   double kinetic_energy = 0;                 ///< J
@@ -51,6 +58,7 @@ struct Diagnostics {
   std::vector<BodyShare> bodies;
   std::vector<Action> actions;
   std::vector<RigidState> rigids;  ///< shapes that are free or turn
+  std::vector<Passage> passages;
   double total_energy() const { return kinetic_energy + strain_energy; }
 };
 

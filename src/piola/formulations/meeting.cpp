@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/meeting.hpp"
+#include "piola/base/text.hpp"
 #include "piola/math/places.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
@@ -291,6 +292,11 @@ void Meeting::report(Diagnostics& sum) const {
   column("contact_dissipation") = chatter_loss_;
   column("contact_points") = static_cast<double>(now.touched) + between.touched + colours_.totals().touched;
   ties_.report(sum);
+  auto const named = [&](std::size_t k) {
+    return k < names_.size() ? "body " + in_quotes(names_[k])
+                             : "the rigid shape " + in_quotes(shapes_[k - names_.size()].name);
+  };
+  for (contact::Passed const& p : system_.passed()) sum.passages.push_back({named(p.of), named(p.through), p.points});
 }
 
 std::vector<FieldInfo> Meeting::fields() { return field_infos(offered_by_contact); }

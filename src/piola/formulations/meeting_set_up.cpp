@@ -117,6 +117,7 @@ Meeting::Meeting(Assembly const& whole, Continued const& continued, std::vector<
       ties_(continued.assembly, system_) {
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
   motion_.place(system_.rigids());
+  for (std::size_t b = 0; b < continued.mirrors.size(); ++b) system_.set_mirrors(b, continued.mirrors[b]);
   system_.damp_chatter(chatter_shares(whole));
   find_particles(continued);
   find_coloured(whole);

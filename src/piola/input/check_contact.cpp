@@ -40,6 +40,7 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
   std::vector<std::string> known;
   std::vector<std::size_t> bodies;
   int rigids = 0;
+  bool left_alone = false;  // a shape in contact with surfaces only, switched off
   for (BodySpec const& body : spec.bodies) known.push_back(body.name);
   for (RigidSpec const& rigid : spec.rigids) known.push_back(rigid.name);
   for (std::string const& name : pair.between) {
@@ -50,22 +51,24 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
                               advice_for_name(name, known));
     else if (k < spec.bodies.size())
       bodies.push_back(k);
-    else
+    else {
       ++rigids;
+      left_alone = pair.off && spec.rigids[k - spec.bodies.size()].turns();
+    }
   }
   if (bodies.size() + static_cast<std::size_t>(rigids) < 2) return;
   if (bodies.empty()) problems.add(place, "contact.between names two rigid shapes (allowed: one) - name a body");
   bool const coloured =
       bodies.size() == 2 && (pair.off || pushed_by_colour(spec, bodies[0], bodies[1])) && !pair.friction.any();
   for (std::size_t const body : bodies)
-    if (!has_surface(spec, body) && !coloured)
+    if (!has_surface(spec, body) && !coloured && !left_alone)
       problems.add(place, "contact.between: body " + in_quotes(spec.bodies[body].name) +
                               " has no surface by which others could push it, " + why_without_surface(spec, body) +
                               std::string(who_has_one) + " - change the body, or remove " +
                               (pair.friction.any() ? "friction" : "the table"));
   bool const own = std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return knows_contact(spec, b); });
   bool const self = bodies.size() == 2 && bodies[0] == bodies[1];
-  if (own && !bodies.empty() && !self)
+  if (own && !bodies.empty() && !self && !left_alone)
     problems.add(place,
                  "contact.between names what adaptle keeps apart by a contact of its own (allowed: pairs with a "
                  "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
@@ -106,11 +109,6 @@ void check_surface_settings(CaseSpec const& spec, Problems& problems) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) able = able || meets_rigids(spec, b);
   for (std::size_t b = 0; able && b < spec.bodies.size(); ++b)
     if (!has_surface(spec, b)) refuse_setting(spec, key, b, problems);
-}
-
-bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b) {
-  ContactPairSpec const* const pair = find_pair(spec.contact_pairs, a, b);
-  return pair != nullptr && pair->off;
 }
 
 /// Bodies that nothing keeps apart from other bodies or rigid shapes.

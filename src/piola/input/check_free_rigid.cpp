@@ -14,16 +14,20 @@ std::string shape_words(RigidSpec const& rigid) {
 }
 
 void check_bodies(CaseSpec const& spec, RigidSpec const& rigid, Problems& problems) {
+  bool any = false;  // body that can touch the shape
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) any = any || has_surface(spec, b);
   std::vector<std::string> without;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
-    if (!has_surface(spec, b)) without.push_back(in_quotes(spec.bodies[b].name));
+    if (!has_surface(spec, b) && !(any && is_off(spec, spec.bodies[b].name, rigid.name)))
+      without.push_back(in_quotes(spec.bodies[b].name));
   if (!without.empty())
     problems.add(place_of(rigid.places, "motion"),
                  "nothing keeps " + shape_words(rigid) + " apart from " + (without.size() > 1 ? "bodies " : "body ") +
                      joined(without) +
                      " (allowed: bodies with a surface: nodal, jst_sph, taylor_sph, or adaptle with description = "
                      "\"total_lagrangian\", without skew mirrors, with a contact.law) - change the body, or "
-                     "let the shape be fixed or driven without turning");
+                     "let the shape be fixed or driven without turning" +
+                     (any ? "; or say law = \"none\" in [[contact]] between them, for no contact" : ""));
   if (!spec.mirrors.empty())
     problems.add(place_of(rigid.places, "motion"),
                  shape_words(rigid) + " meets body " + in_quotes(spec.mirrors.front().body) +

@@ -31,6 +31,11 @@ bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
   return knows_contact(spec, a) && knows_contact(spec, b) && !contact::is_tied(spec.ties, a, b);
 }
 
+bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b) {
+  ContactPairSpec const* const pair = find_pair(spec.contact_pairs, a, b);
+  return pair != nullptr && pair->off;
+}
+
 bool has_surface(CaseSpec const& spec, std::size_t body) {
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   return !off && can_have_surface(spec, body);

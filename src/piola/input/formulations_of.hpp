@@ -17,6 +17,9 @@ bool knows_contact(CaseSpec const& spec, std::size_t body);
 /// Whether any body's formulation has.
 bool knows_contact(CaseSpec const& spec);
 
+/// Whether the case says of two, bodies or rigid shapes, by name, that nothing keeps them apart.
+bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b);
+
 /// Whether a body has a surface by which others and rigid shapes can push it: a body without skew mirrors whose
 /// formulation can be pushed, and which does not turn Eulerian.
 bool has_surface(CaseSpec const& spec, std::size_t body);

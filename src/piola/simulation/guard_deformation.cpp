@@ -125,21 +125,51 @@ class LargestGuard : public Guard {
   double seen_ = 0, largest_ = 0, time_ = 0;
 };
 
+/// Depth of contacts, and points that have gone through a surface.
 class OverlapGuard : public LargestGuard {
  public:
   explicit OverlapGuard(GuardLimits const& limits)
       : LargestGuard("overlap", "contact_overlap"), limit_(limits.overlap) {}
+  void look(Look const& look) override {
+    LargestGuard::look(look);
+    passages_ = look.now.passages;
+    looked_at_ = look.moment.time;
+  }
   std::string words() const override {
-    if (!(largest() > limit_)) return "";
-    return fmt::format(
-        "contact overlap reached {:.3g} spacings (limit {}) at t = {:.6g} s: a particle is behind the face of a body "
-        "or "
-        "a rigid shape - try a stiffer contact (scale, closing_speed) or a smaller run.cfl",
-        largest(), limit_, time());
+    std::string const deep = words_of_depth(), through = words_of_passages();
+    return deep.empty() || through.empty() ? deep + through : through + "; " + deep;
+  }
+  std::optional<GuardNumbers> numbers() const override {
+    std::optional<GuardNumbers> n = LargestGuard::numbers();
+    double points = 0;
+    for (Passage const& p : passages_) points += static_cast<double>(p.points);
+    if (n && points > 0) n->values.emplace_back("points_through", points);
+    return n;
   }
 
  private:
-  double limit_;
+  std::string words_of_depth() const {
+    if (!(largest() > limit_)) return "";
+    return fmt::format(
+        "contact overlap reached {:.3g} spacings (limit {}) at t = {:.6g} s: a particle is behind the face of a body "
+        "or a rigid shape - try a stiffer contact (scale, closing_speed) or a smaller run.cfl",
+        largest(), limit_, time());
+  }
+  std::string words_of_passages() const {
+    if (!std::isfinite(limit_)) return "";
+    std::string all;
+    for (Passage const& p : passages_)
+      all += fmt::format("{}{} surface point{} of {} went through the surface of {}", all.empty() ? "" : ", ", p.points,
+                         p.points == 1 ? "" : "s", p.of, p.through);
+    if (all.empty()) return "";
+    return fmt::format(
+        "{} by t = {:.6g} s (allowed: none): what follows is no answer - take particles as fine as the sharper of the "
+        "two, a stiffer contact (scale) or less speed",
+        all, looked_at_);
+  }
+
+  double limit_, looked_at_ = 0;
+  std::vector<Passage> passages_;
 };
 
 /// Strain of the cells between particles that their stress does not have (Taylor-SPH).

@@ -6,6 +6,7 @@
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/setup/solid_bodies.hpp"
+#include "piola/simulation/warn_of_narrow.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -166,6 +167,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   warn_of_other_contact(spec, found);
   warn_of_ties(spec, assembly.particles, found);
   warn_of_touch(spec, assembly.particles, prospect.start, found);
+  warn_of_narrow_shapes(spec, assembly.particles, found);
   found.sort_by_place();
   return found.lines();
 }

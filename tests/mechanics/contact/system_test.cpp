@@ -107,6 +107,29 @@ TEST_P(InDimensions, MomentaAreKept) {
   expect_balance(system, x);
 }
 
+// Pressed in against all force, points lose sight of the face that they went through.
+TEST_P(InDimensions, PointsThatGoThroughABodyAreCounted) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0, 0.7, 1);
+  System system = blocks.system();
+  auto x = places(system, blocks.set);
+  system.start(x);
+  for (double depth = 0; depth < 3; depth += 0.1) {
+    EXPECT_TRUE(depth > 1 || system.passed().empty()) << depth;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (system.ids()[k] >= blocks.set.bodies[1].first) x[k][D - 1] -= 0.1;
+    system.evaluate(x, 1e-3);
+  }
+  ASSERT_EQ(system.passed().size(), 2U);
+  for (Passed const& passed : system.passed()) {
+    EXPECT_EQ(passed.of + passed.through, 1U);
+    EXPECT_GE(passed.points, 2);
+  }
+  System resumed = blocks.system();
+  resumed.restore(x, system.state());
+  EXPECT_EQ(resumed.passed().size(), 2U);
+}
+
 TEST_P(InDimensions, RigidShapesTakeTheReaction) {
   int const D = GetParam();
   Blocks const blocks(D, -50);

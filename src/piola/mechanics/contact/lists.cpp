@@ -87,10 +87,10 @@ double System::stored_at(std::size_t body, std::size_t point, std::size_t other)
   if (other >= surfaces_.size()) {
     std::size_t const r = other - surfaces_.size();
     Surface const& own = surfaces_[body];
-    if (!is_met(static_cast<Index>(target), r)) return 0;
+    if (!is_tested(static_cast<Index>(target), r)) return 0;
     double const k = layer_stiffness(1, with_rigid(body, r).factor, own.modulus, own.spacing);
     return points_[target].area *
-           layer(distance_from(rigids_[r], planes_[target].y).value, k, 0.5 * own.spacing).energy;
+           layer(distance_on_side(static_cast<Index>(target), r).value, k, 0.5 * own.spacing).energy;
   }
   for (std::size_t k = 0; k < runs_.size(); ++k) {
     if (at(runs_[k].target) != target || runs_[k].body != other || !gaps_[k].seen()) continue;
@@ -104,11 +104,12 @@ double System::stored_at(std::size_t body, std::size_t point, std::size_t other)
 void System::list_points_near_rigids() {
   near_rigid_.clear();
   for (std::size_t k = 0; k < points_.size(); ++k) {
+    auto const point = static_cast<Index>(k);
     double const reach = skin_ + near * surfaces_[points_[k].body].spacing;
     bool any = false;
     for (std::size_t r = 0; r < rigids_.size() && !any && !points_[k].image; ++r)
-      any = is_met(static_cast<Index>(k), r) && distance_from(rigids_[r], planes_[k].y).value < reach;
-    if (any) near_rigid_.push_back(static_cast<Index>(k));
+      any = is_tested(point, r) && (kept(point, r) != nullptr || distance_from(rigids_[r], planes_[k].y).value < reach);
+    if (any) near_rigid_.push_back(point);
   }
 }
 
@@ -139,6 +140,7 @@ void System::make_lists(std::vector<Vec<3>> const& x) {
   for (std::size_t b = 0; b < surfaces_.size(); ++b)
     if (!of_body[b].empty()) list_sources(b, of_body[b], boxes[b].low, boxes[b].high);
   list_points_near_rigids();
+  list_shape_points(of_body);
 
   std::vector<char> active(points_.size(), 0);
   for (Run const& run : runs_) active[at(run.target)] = 1;

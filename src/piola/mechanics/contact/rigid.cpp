@@ -26,26 +26,61 @@ Distance from_faces(double const* q, Vec<3> const* d, int count) {
   return {length_of(sum), unit(sum, d[nearest])};
 }
 
-Distance from_cylinder(RigidSurface const& shape, Vec<3> const& r) {
+int side_of(double along, int side) { return side != 0 ? side : along < 0 ? -1 : 1; }
+
+Distance from_cylinder(RigidSurface const& shape, Vec<3> const& r, Sides const& sides) {
   double const along = dot(r, shape.axis);
   Vec<3> const across = r - along * shape.axis;
   Vec<3> const other = std::fabs(shape.axis[0]) < 0.9 ? Vec<3>{{1, 0, 0}} : Vec<3>{{0, 1, 0}};
   Vec<3> const d[2] = {unit(across, unit(other - dot(other, shape.axis) * shape.axis, other)),
-                       (along < 0 ? -1.0 : 1.0) * shape.axis};
-  double const q[2] = {length_of(across) - shape.radius, std::fabs(along) - shape.half_lengths[0]};
+                       side_of(along, sides[0]) * shape.axis};
+  double const q[2] = {length_of(across) - shape.radius, side_of(along, sides[0]) * along - shape.half_lengths[0]};
   return from_faces(q, d, 2);
 }
 
-Distance from_box(RigidSurface const& shape, Vec<3> const& r) {
+Distance from_box(RigidSurface const& shape, Vec<3> const& r, Sides const& sides) {
   double q[3];
   Vec<3> d[3];
   Vec<3> const along = transpose(shape.turn) * r;
   for (int c = 0; c < shape.dimension; ++c) {
-    double const side = along[c] < 0 ? -1 : 1;
-    q[c] = std::fabs(along[c]) - shape.half_lengths[c];
+    double const side = side_of(along[c], sides[static_cast<std::size_t>(c)]);
+    q[c] = side * along[c] - shape.half_lengths[c];
     d[c] = {{side * shape.turn(0, c), side * shape.turn(1, c), side * shape.turn(2, c)}};
   }
   return from_faces(q, d, shape.dimension);
+}
+
+/// Coordinates along the edges of a box, or along the axis of a cylinder and from it.
+Vec<3> in_axes(RigidSurface const& shape, Vec<3> const& x) {
+  Vec<3> const r = x - shape.centre;
+  if (shape.kind != RigidSurface::Kind::cylinder) return transpose(shape.turn) * r;
+  double const along = dot(r, shape.axis);
+  return {{along, length_of(r - along * shape.axis), 0}};
+}
+
+/// The half extents along those coordinates; infinite where there is none.
+Vec<3> extents(RigidSurface const& shape) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (shape.kind == RigidSurface::Kind::cylinder) return {{shape.half_lengths[0], shape.radius, none}};
+  Vec<3> half = shape.half_lengths;
+  for (int c = shape.dimension; c < 3; ++c) half[c] = none;
+  return half;
+}
+
+Sides one_side(int axis, int side) {
+  Sides sides{};
+  sides[static_cast<std::size_t>(axis)] = side;
+  return sides;
+}
+
+/// Whether the way from one place to another crosses the face of a side along axis c.
+bool crosses(Vec<3> const& from, Vec<3> const& to, int c, int side, Vec<3> const& half) {
+  double const start = side * from[c] - half[c], end = side * to[c] - half[c];
+  if (!(start >= 0 && end < 0)) return false;
+  Vec<3> const there = from + (start / (start - end)) * (to - from);
+  for (int k = 0; k < 3; ++k)
+    if (k != c && !(std::fabs(there[k]) <= half[k])) return false;
+  return true;
 }
 
 }  // namespace
@@ -91,16 +126,53 @@ double travel_from(RigidPose const& last, RigidSurface const& now) {
   return size > 0 ? way + size * reach_of(now) : way;
 }
 
-Distance distance_from(RigidSurface const& shape, Vec<3> const& x) {
+Distance distance_from(RigidSurface const& shape, Vec<3> const& x) { return distance_from(shape, x, {}); }
+
+Distance distance_from(RigidSurface const& shape, Vec<3> const& x, Sides const& sides) {
   Vec<3> r = x - shape.centre;
   for (int c = shape.dimension; c < 3; ++c) r[c] = 0;
   switch (shape.kind) {
     case RigidSurface::Kind::plane: return {dot(r, shape.axis), shape.axis};
     case RigidSurface::Kind::sphere: return {length_of(r) - shape.radius, unit(r, {{1, 0, 0}})};
-    case RigidSurface::Kind::cylinder: return from_cylinder(shape, r);
+    case RigidSurface::Kind::cylinder: return from_cylinder(shape, r, sides);
     case RigidSurface::Kind::box: break;
   }
-  return from_box(shape, r);
+  return from_box(shape, r, sides);
+}
+
+std::array<bool, 3> thin_along(RigidSurface const& shape, double length) {
+  std::array<bool, 3> thin{};
+  if (shape.kind == RigidSurface::Kind::box)
+    for (int c = 0; c < shape.dimension; ++c) thin[static_cast<std::size_t>(c)] = 2 * shape.half_lengths[c] < length;
+  if (shape.kind == RigidSurface::Kind::cylinder)
+    thin[0] = 2 * shape.half_lengths[0] < length && !(2 * shape.radius < length);
+  return thin;
+}
+
+double beyond(RigidSurface const& shape, Vec<3> const& x, Sides const& sides) {
+  Vec<3> const at = in_axes(shape, x), half = extents(shape);
+  for (int c = 0; c < 3; ++c)
+    if (int const side = sides[static_cast<std::size_t>(c)]; side != 0) return -side * at[c] - half[c];
+  return -std::numeric_limits<double>::infinity();
+}
+
+std::optional<Sides> entered(RigidSurface const& shape, Vec<3> const& x, RigidPose const& last, Vec<3> const& before,
+                             std::array<bool, 3> const& thin) {
+  RigidSurface then = shape;
+  then.centre = last.centre;
+  then.turn = last.turn;
+  then.axis = last.turn * (transpose(shape.turn) * shape.axis);
+  Vec<3> const from = in_axes(then, before), to = in_axes(shape, x), half = extents(shape);
+  int nearest = 0;  // of the faces around a point that is inside: by rounding it may have been inside before
+  bool inside = true;
+  for (int c = 0; c < 3; ++c) {
+    int const side = side_of(from[c], 0);
+    if (thin[static_cast<std::size_t>(c)] && crosses(from, to, c, side, half)) return one_side(c, side);
+    inside = inside && std::fabs(to[c]) < half[c];
+    if (std::fabs(to[c]) - half[c] > std::fabs(to[nearest]) - half[nearest]) nearest = c;
+  }
+  if (!inside || !thin[static_cast<std::size_t>(nearest)]) return std::nullopt;
+  return one_side(nearest, side_of(to[nearest], 0));
 }
 
 }  // namespace piola::contact

@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/math/tensor.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
+#include <array>
+#include <optional>
 
 namespace piola::contact {
 
@@ -54,5 +56,21 @@ struct Distance {
   Vec<3> normal;
 };
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x);
+
+/// The face of a thin shape by which a point came in, as a sign along one of its axes: the edges of a box, first the
+/// axis of a cylinder. 0: the nearer face counts.
+using Sides = std::array<int, 3>;
+/// Signed distance of a point that is kept on its side: it is inside behind the face by which it came in, however deep.
+Distance distance_from(RigidSurface const& shape, Vec<3> const& x, Sides const& sides);
+
+/// Whether a shape is thinner than a length [m], along each of these axes. Spheres are not, and neither are cylinders
+/// whose diameter is less.
+std::array<bool, 3> thin_along(RigidSurface const& shape, double length);
+/// How far behind the far face of a thin shape a point is that is kept on its side [m]; negative before it.
+double beyond(RigidSurface const& shape, Vec<3> const& x, Sides const& sides);
+/// The side on which a point has gone into a thin shape, or through it, by one of its wide faces since the shape was
+/// `last` and the point at `before`; nothing: it has not.
+std::optional<Sides> entered(RigidSurface const& shape, Vec<3> const& x, RigidPose const& last, Vec<3> const& before,
+                             std::array<bool, 3> const& thin);
 
 }  // namespace piola::contact

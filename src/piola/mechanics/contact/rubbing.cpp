@@ -36,23 +36,22 @@ ChatterDamping const& System::chatter(std::vector<Vec<3>> const& x, std::vector<
   return chatter_;
 }
 
-/// Follows the spring of a point; a new contact starts without one.
-System::Rubbed System::drag(Press const& press, Vec<3> const& jump, Vec<3> const& n) {
+/// Follows the spring of a point; a new contact starts without one. frame: what turns with the point's surface.
+System::Rubbed System::drag(Press const& press, FrictionLaw const& law, Mat<3> const& frame, Vec<3> const& jump,
+                            Vec<3> const& n) {
   Stuck const key{press.point, press.with, {}, {}, 0};
   auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), key);
   bool const known = last != last_stuck_.end() && last->point == press.point && last->with == press.with;
-  Mat<3> const& F = F_[at(points_[at(press.point)].carrier)];
-  FrictionLaw const& law = setting_[points_[at(press.point)].body][press.with].friction;
-  Spring const before = known ? Spring{F * last->stretch, last->force} : Spring{};
+  Spring const before = known ? Spring{frame * last->stretch, last->force} : Spring{};
   Rubbing const now = rubbing(known ? &before : nullptr, jump, n, press.stiffness, law, press.force, press.area, dt_);
   sums_.spring_energy += now.energy;
   sums_.friction_work += now.work;
-  stuck_.push_back({press.point, press.with, inverse(F) * now.spring.stretch, now.spring.force, now.energy});
-  if (!known) return {now.spring.force, 0};
+  stuck_.push_back({press.point, press.with, inverse(frame) * now.spring.stretch, now.spring.force, now.energy});
+  if (!known) return {now.spring.force, 0, 0};
   // What the spring did not take up.
   Vec<3> const along = jump - dot(n, jump) * n;
-  trace(press.point, std::sqrt(square_of(before.stretch + along - now.spring.stretch)), 0);
-  return {now.spring.force, now.work + last->energy - now.energy};
+  return {now.spring.force, now.work + last->energy - now.energy,
+          std::sqrt(square_of(before.stretch + along - now.spring.stretch))};
 }
 
 /// Springs of contacts that have opened leave their energy as heat.
@@ -60,20 +59,19 @@ void System::book_lost_springs() {
   auto kept = stuck_.begin();
   for (Stuck const& last : last_stuck_) {
     kept = std::lower_bound(kept, stuck_.end(), last);
-    if (kept == stuck_.end() || last < *kept) trace(last.point, 0, last.energy);
+    bool const of_body = last.with < others();
+    if (of_body && (kept == stuck_.end() || last < *kept)) trace(static_cast<Index>(last.point), 0, last.energy);
   }
 }
 
-/// Friction of a target on the planes that it touches. The jump is zero for any rigid motion of all.
-void System::rub(Run const& run, Gap const& gap, Press const& press) {
-  if (!setting_[points_[at(run.target)].body][run.body].friction.any()) return;
-  Plane const& a = planes_[at(run.target)];
-  Vec<3> jump = moved(run.target), n;
+/// Subtracts the mean motion of the planes at a target from its jump [m] and finds their mean unit normal. Stores the
+/// weights of the planes for rub_back().
+void System::slide_over(std::size_t first, std::size_t last, double weight, Vec<3> const& y, Vec<3>& jump, Vec<3>& n) {
   rubbed_.clear();
-  for (std::size_t s = run.first; s < run.last; ++s) {
+  for (std::size_t s = first; s < last; ++s) {
     Plane const& b = planes_[at(sources_[s])];
-    Vec<3> const r = a.y - b.y;
-    double const share = weights_[s] / gap.weight;
+    Vec<3> const r = y - b.y;
+    double const share = weights_[s] / weight;
     Index const carrier = points_[at(sources_[s])].carrier;
     rubbed_.emplace_back(share, share > 0 ? inverse(F_[at(carrier)]) * r : Vec<3>{});
     if (!(share > 0)) continue;
@@ -82,28 +80,41 @@ void System::rub(Run const& run, Gap const& gap, Press const& press) {
     n = n + share * b.n;
   }
   n = (1 / std::sqrt(square_of(n))) * n;
-  Rubbed const rubbed = drag(press, jump, n);
-  Vec<3> const& f = rubbed.force;
-  add_load(run.target, {f, {}, {}});
-  trace(run.target, 0, 0.5 * rubbed.heat);
+}
+
+/// The planes that were slid over take the reaction and their half of the heat.
+void System::rub_back(std::size_t first, Rubbed const& rubbed) {
   for (std::size_t k = 0; k < rubbed_.size(); ++k) {
     auto const& [share, arm] = rubbed_[k];
     if (!(share > 0)) continue;
-    add_load(sources_[run.first + k], {-share * f, {}, share * outer(f, arm)});
-    trace(sources_[run.first + k], 0, 0.5 * share * rubbed.heat);
+    add_load(sources_[first + k], {-share * rubbed.force, {}, share * outer(rubbed.force, arm)});
+    trace(sources_[first + k], 0, 0.5 * share * rubbed.heat);
   }
-  add_between(run, f);
+}
+
+/// Friction of a target on the planes that it touches. The jump is zero for any rigid motion of all.
+void System::rub(Run const& run, Gap const& gap, Press const& press) {
+  FrictionLaw const& law = setting_[points_[at(run.target)].body][run.body].friction;
+  if (!law.any()) return;
+  Vec<3> jump = moved(run.target), n;
+  slide_over(run.first, run.last, gap.weight, planes_[at(run.target)].y, jump, n);
+  Rubbed const rubbed = drag(press, law, F_[at(points_[at(run.target)].carrier)], jump, n);
+  add_load(run.target, {rubbed.force, {}, {}});
+  trace(run.target, rubbed.slid, 0.5 * rubbed.heat);
+  rub_back(run.first, rubbed);
+  add_between(run, rubbed.force);
 }
 
 void System::rub_on_rigid(Press const& press, std::size_t r, Vec<3> const& n) {
-  Index const k = press.point;
-  if (!with_rigid(points_[at(k)].body, r).friction.any()) return;
+  auto const k = static_cast<Index>(press.point);
+  FrictionLaw const& law = with_rigid(points_[at(k)].body, r).friction;
+  if (!law.any()) return;
   Vec<3> const& y = planes_[at(k)].y;
   Vec<3> const jump = moved(k) - moved_from(last_pose_[r], rigids_[r], y);
-  Rubbed const rubbed = drag(press, jump, n);
+  Rubbed const rubbed = drag(press, law, F_[at(points_[at(k)].carrier)], jump, n);
   Vec<3> const& f = rubbed.force;
   add_load(k, {f, {}, {}});
-  trace(k, 0, 0.5 * rubbed.heat);
+  trace(k, rubbed.slid, 0.5 * rubbed.heat);
   sums_.on_rigid[r].add(-1.0 * f, -1.0 * cross(y - rigids_[r].centre, f));
 }
 

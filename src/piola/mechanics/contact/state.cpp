@@ -23,14 +23,47 @@ void put_some(std::vector<double>& all, std::size_t n, Holds const& holds, Put c
 
 }  // namespace
 
+/// Sides of points, and what went through what.
+void System::put_sides(std::vector<double>& all) const {
+  all.push_back(static_cast<double>(kept_.size()));
+  for (Kept const& k : kept_) {
+    all.insert(all.end(), {static_cast<double>(k.point), static_cast<double>(k.rigid)});
+    all.insert(all.end(), k.sides.begin(), k.sides.end());
+  }
+  all.push_back(static_cast<double>(deep_.size()));
+  for (Deep const& d : deep_) {
+    all.insert(all.end(), {static_cast<double>(d.point), static_cast<double>(d.with), d.counts ? 1.0 : 0.0});
+    put(all, d.normal);
+  }
+  all.push_back(static_cast<double>(passed_.size()));
+  for (Passed const& p : passed_)
+    all.insert(all.end(), {static_cast<double>(p.of), static_cast<double>(p.through), static_cast<double>(p.points)});
+}
+
+void System::take_sides(Numbers& from) {
+  kept_.clear();
+  for (auto n = from.count(); n > 0; --n) {
+    Kept k{static_cast<Index>(from.next()), from.count(), {}};
+    for (int& side : k.sides) side = static_cast<int>(from.next());
+    kept_.push_back(k);
+  }
+  deep_.clear();
+  for (auto n = from.count(); n > 0; --n) {
+    Deep d{static_cast<std::int64_t>(from.next()), from.count(), {}, from.next() > 0};
+    from.take(d.normal);
+    deep_.push_back(d);
+  }
+  passed_.clear();
+  for (auto n = from.count(); n > 0; --n)
+    passed_.push_back({from.count(), from.count(), static_cast<std::int64_t>(from.next())});
+}
+
 std::vector<double> System::state() const {
-  std::vector<double> all{totals_.energy,
-                          totals_.deepest,
-                          totals_.frequency2,
-                          totals_.spring_energy,
-                          totals_.friction_work,
-                          static_cast<double>(totals_.touched),
-                          static_cast<double>(pushed_.size())};
+  std::vector<double> all;
+  put_sides(all);
+  all.insert(all.end(),
+             {totals_.energy, totals_.deepest, totals_.frequency2, totals_.spring_energy, totals_.friction_work,
+              static_cast<double>(totals_.touched), static_cast<double>(pushed_.size())});
   for (Index const k : pushed_) {
     all.push_back(k);
     put(all, forces_[at(k)]);
@@ -70,8 +103,9 @@ void System::place_anew(std::vector<Vec<3>> const& x) {
 }
 
 void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
-  place_anew(x);
   Numbers from(state);
+  take_sides(from);
+  place_anew(x);
   auto const next = [&] { return from.next(); };
   totals_ = {next(), next(), next(), next(), next(), static_cast<std::int64_t>(next())};
   for (auto n = from.count(); n > 0; --n) {
@@ -97,7 +131,7 @@ void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& st
   }
   stuck_.clear();
   while (from.any()) {
-    Stuck s{static_cast<Index>(next()), from.count(), {}, {}, 0};
+    Stuck s{static_cast<std::int64_t>(next()), from.count(), {}, {}, 0};
     from.take(s.stretch);
     from.take(s.force);
     s.energy = next();

@@ -33,7 +33,7 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
                                         surfaces_[o].spacing));
     own_.emplace_back();
     if (setting_[b][b].meets) own_.back() = OwnNeighbours(particles, b, carriers_, surface.spacing);
-    for (Touch const& touch : setting_[b]) rubs_ = rubs_ || (touch.meets && touch.friction.any());
+    look_at_others(b);
   }
   F_.resize(at(carriers_.count()));
   if (rubs_) {
@@ -52,6 +52,33 @@ System::System(ParticleSet const& particles, std::vector<Surface> surfaces, std:
   inverse_mass_.resize(ids().size());
   on_rigid_.resize(rigids_.size());
   frequencies_.resize(rigids_.size());
+}
+
+/// Sets up friction of a body, and its contact with thin or narrow rigid shapes.
+void System::look_at_others(std::size_t body) {
+  for (Touch const& touch : setting_[body]) rubs_ = rubs_ || (touch.meets && touch.friction.any());
+  Surface const& surface = surfaces_[body];
+  covered_.emplace_back(rigids_.size());
+  thin_.emplace_back(rigids_.size());
+  for (std::size_t r = 0; r < rigids_.size(); ++r) {
+    Touch const& touch = with_rigid(body, r);
+    if (surface.points.empty() || !touch.meets) continue;
+    double const dp = surface.spacing;
+    std::array<bool, 3>& is_thin = thin_[body][r];
+    is_thin = thin_along(rigids_[r], thin * dp);
+    bool const any = is_thin[0] || is_thin[1] || is_thin[2];
+    any_thin_ = any_thin_ || any;
+    ShapePoints const points(rigids_[r], dp);
+    if (!points.any()) continue;
+    covered_[body][r] = points.cover() ? 1 : 0;
+    // The edges of a resolved shape get the weight of one of two passes, in addition to the points of the body.
+    double const q = any || points.cover() ? 1 : 0.5;
+    shape_passes_.push_back(
+        {body,
+         r,
+         points,
+         {2 * dp, layer_stiffness(q, touch.factor, surface.modulus, dp), 0.5 * dp, 0.7 * dp, 1.1 * dp}});
+  }
 }
 
 void System::set_masses(std::vector<double> const& masses) {
@@ -136,6 +163,7 @@ void System::push_bodies() {
     note(run.target, gap.gap, 2 * rule.stiffness, rule.length, dp,
          largest_inverse_mass(run) + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;
+    note_deep(run.target, run.body, -gap.gap / dp, planes_[at(run.target)].n);
     Layer const psi = layer(gap.gap, rule.stiffness, rule.length);
     sums_.energy += target.area * psi.energy * seen;
     ++totals_.touched;
@@ -161,21 +189,28 @@ void System::note_spring(std::size_t r, Index point, Vec<3> const& n, double sti
       stiffness * (with_rigid(points_[at(point)].body, r).friction.any() ? rigid.mobility(y) : rigid.mobility(y, n));
 }
 
-void System::push_from_rigids() {
+void System::push_from_rigids(std::vector<Vec<3>> const& x) {
+  std::vector<Kept> kept_now;
+  for (Index const k : near_rigid_)
+    for (std::size_t r = 0; any_thin_ && r < rigids_.size(); ++r)
+      if (std::array<bool, 3> const& t = thin_[points_[at(k)].body][r]; (t[0] || t[1] || t[2]) && is_tested(k, r))
+        keep_on_side(k, r, x, kept_now);
+  std::swap(kept_, kept_now);
   for (Index const k : near_rigid_) {
     Point const& point = points_[at(k)];
     Surface const& surface = surfaces_[point.body];
     double const length = 0.5 * surface.spacing;
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
-      if (!is_met(k, r)) continue;
+      if (!is_tested(k, r)) continue;
       double const layer_modulus =
           layer_stiffness(1, with_rigid(point.body, r).factor, surface.modulus, surface.spacing);
-      Distance const d = distance_from(rigids_[r], planes_[at(k)].y);
+      Distance const d = distance_on_side(k, r);
       if (!(d.value < near * surface.spacing)) continue;
       double const in_lengths = std::min(d.value, 0.0) / length;
       note_spring(r, k, d.normal, layer_modulus * point.area * (1 + 3 * in_lengths * in_lengths));
       note(k, d.value, layer_modulus, length, surface.spacing, inverse_mass_of(k));
       if (!(d.value < 0)) continue;
+      note_deep(k, surfaces_.size() + r, -d.value / surface.spacing, d.normal);
       Layer const psi = layer(d.value, layer_modulus, length);
       Vec<3> const f = (-point.area * psi.slope) * d.normal;
       sums_.energy += point.area * psi.energy;
@@ -217,8 +252,11 @@ void System::evaluate(std::vector<Vec<3>> const& x, double dt) {
   if (!lists_hold(x)) make_lists(x);
   dt_ = dt;
   std::swap(stuck_, last_stuck_);
+  std::swap(deep_, last_deep_);
   stuck_.clear();
+  deep_.clear();
   push_all(x);
+  count_passed();
   std::sort(stuck_.begin(), stuck_.end());
   book_lost_springs();
   remember(x);
@@ -264,7 +302,8 @@ void System::push_all(std::vector<Vec<3>> const& x) {
   if (active_points_.empty()) return;
   place_points(x);
   push_bodies();
-  push_from_rigids();
+  push_from_rigids(x);
+  push_from_shape_points();
   add_up();
   std::sort(loaded_points_.begin(), loaded_points_.end());
   for (Index const k : loaded_points_) {
@@ -284,7 +323,7 @@ void System::push_all(std::vector<Vec<3>> const& x) {
 }
 
 double System::closing_step(std::vector<Vec<3>> const& v) const {
-  double step = std::numeric_limits<double>::infinity();
+  double step = std::min(closing_step_of_shapes(v), crossing_step(v));
   auto const velocity = [&](Index point) { return v[at(carriers_.self(points_[at(point)].carrier))]; };
   for (Run const& run : runs_) {
     PairRule const& rule = rules_[points_[at(run.target)].body][run.body];
@@ -298,8 +337,8 @@ double System::closing_step(std::vector<Vec<3>> const& v) const {
   for (Index const k : near_rigid_)
     for (std::size_t r = 0; r < rigids_.size(); ++r) {
       RigidSurface const& rigid = rigids_[r];
-      if (!is_met(k, r)) continue;
-      Distance const d = distance_from(rigid, planes_[at(k)].y);
+      if (!is_tested(k, r)) continue;
+      Distance const d = distance_on_side(k, r);
       double const spacing = surfaces_[points_[at(k)].body].spacing;
       if (!(d.value < near * spacing)) continue;
       double const speed = -dot(velocity(k) - rigid.velocity_at(planes_[at(k)].y), d.normal);

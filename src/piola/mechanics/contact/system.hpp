@@ -6,13 +6,17 @@
 #include "piola/mechanics/contact/own_neighbours.hpp"
 #include "piola/mechanics/contact/planes.hpp"
 #include "piola/mechanics/contact/rigid.hpp"
+#include "piola/mechanics/contact/shape_points.hpp"
 #include "piola/mechanics/contact/surface.hpp"
+#include "piola/mechanics/contact/surface_mirror.hpp"
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace piola::contact {
+
+class Numbers;
 
 inline double square_of(Vec<3> const& a) { return dot(a, a); }
 
@@ -27,6 +31,13 @@ struct Totals {
   double spring_energy = 0;  ///< of friction that sticks [J]
   double friction_work = 0;  ///< what friction took since the evaluation before, stored or turned into heat [J]
   std::int64_t touched = 0;  ///< surface points that are pushed
+};
+
+/// Points of one surface that went through another one: they were deeper than a spacing behind it and left at the far
+/// side. Numbers of bodies; those of rigid shapes follow.
+struct Passed {
+  std::size_t of = 0, through = 0;
+  std::int64_t points = 0;
 };
 
 /// Contact between bodies, and between bodies and rigid shapes, by blended planes on oriented surface points. It sees
@@ -48,6 +59,8 @@ class System {
   Carriers const& carriers() const { return carriers_; }
   /// Inverse masses by index into ids() [1/kg].
   void set_masses(std::vector<double> const& masses);
+  /// Mirror planes of a body, whose images are among its surface points.
+  void set_mirrors(std::size_t body, std::vector<SurfaceMirror> mirrors) { mirrors_[body] = std::move(mirrors); }
   /// Whether body b pushes body a here.
   bool meets(std::size_t a, std::size_t b) const { return setting_[a][b].meets; }
   /// Body `other`, or a rigid shape, whose number follows those of the bodies, does not push this surface point of a
@@ -72,6 +85,7 @@ class System {
   /// Indices of ids() that have a force, ascending.
   std::vector<Index> const& pushed() const { return pushed_; }
   Totals const& totals() const { return totals_; }
+  std::vector<Passed> const& passed() const { return passed_; }  ///< since the start
   using Between = contact::Between;
   /// What ties do to a rigid shape beside contact; the moment about its centre. springs: as in Frequencies [1/s2].
   void tie_rigid(std::size_t k, Between const& load, double springs) { ties_on_rigid_[k] = {load, springs}; }
@@ -127,17 +141,46 @@ class System {
 
   /// What pushes a point on something.
   struct Press {
-    Index point;
+    std::int64_t point;
     std::size_t with;  ///< see Stuck
     double force;      ///< along the normal [N]
     double stiffness;  ///< [N/m]
     double area;       ///< share of this pass [m2]
   };
   struct Rubbed {
-    Vec<3> force;     ///< on the point [N]
-    double heat = 0;  ///< [J]
+    Vec<3> force;               ///< on the point [N]
+    double heat = 0, slid = 0;  ///< [J], [m]
   };
 
+  /// Points of a rigid shape that are tested against the planes of a body, where its own points are too far apart.
+  struct ShapePass {
+    std::size_t body, rigid;
+    ShapePoints points;
+    PairRule rule;
+  };
+  struct ShapeRun {
+    std::size_t pass;
+    ShapePoint point;
+    std::size_t first, last;  ///< of its sources
+    Plane plane = {};
+    Gap gap = {};
+  };
+  /// A point that is kept on its side of a thin shape.
+  struct Kept {
+    Index point;
+    std::size_t rigid;
+    Sides sides;
+  };
+  /// A point deep behind a surface.
+  struct Deep {
+    std::int64_t point;
+    std::size_t with;  ///< see Stuck
+    Vec<3> normal;
+    bool counts;  ///< it is deeper than a spacing
+    bool operator<(Deep const& o) const { return with != o.with ? with < o.with : point < o.point; }
+  };
+
+  void look_at_others(std::size_t body);
   void make_lists(std::vector<Vec<3>> const& x);
   void list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<3> const& low, Vec<3> const& high);
   bool may_touch(Index target, Index source) const;
@@ -152,7 +195,29 @@ class System {
   bool is_met(Index point, std::size_t rigid) const {
     return with_rigid(points_[at(point)].body, rigid).meets && !is_left_out(at(point), surfaces_.size() + rigid);
   }
+  /// Whether the point itself is tested against the shape, too; not where points of the shape cover all of it.
+  bool is_tested(Index point, std::size_t rigid) const {
+    return is_met(point, rigid) && covered_[points_[at(point)].body][rigid] == 0;
+  }
   void list_points_near_rigids();
+  void list_shape_points(std::vector<std::vector<Index>> const& of_body);
+  std::vector<ShapePoint> shape_points_near(ShapePass const& pass, std::vector<Index> const& of_body) const;
+  double share_before_mirrors(ShapeRun const& run) const;
+  void push_from_shape_points();
+  void push_by(ShapeRun const& run);
+  void note_spring_by(ShapeRun const& run, double area);
+  void rub_by(ShapeRun const& run, double normal_force, double area);
+  void note_shape_springs();
+  double closing_step_of_shapes(std::vector<Vec<3>> const& v) const;
+  double crossing_step(std::vector<Vec<3>> const& v) const;
+  Kept const* kept(Index point, std::size_t rigid) const;
+  Distance distance_on_side(Index point, std::size_t rigid) const;
+  void keep_on_side(Index point, std::size_t rigid, std::vector<Vec<3>> const& x, std::vector<Kept>& now);
+  void note_deep(std::int64_t point, std::size_t with, double depth, Vec<3> const& normal);
+  void count_passed();
+  void pass(std::size_t of, std::size_t through);
+  void put_sides(std::vector<double>& all) const;
+  void take_sides(Numbers& from);
   void activate(std::vector<char> const& points);
   bool lists_hold(std::vector<Vec<3>> const& x) const;
   Touch const& with_rigid(std::size_t body, std::size_t rigid) const {
@@ -164,7 +229,7 @@ class System {
   void place_anew(std::vector<Vec<3>> const& x);
   void remember(std::vector<Vec<3>> const& x);
   void push_bodies();
-  void push_from_rigids();
+  void push_from_rigids(std::vector<Vec<3>> const& x);
   void add_up();
   double largest_inverse_mass(Run const& run) const;
   void note_spring(std::size_t rigid, Index point, Vec<3> const& n, double stiffness);
@@ -172,7 +237,9 @@ class System {
   void rub_on_rigid(Press const& press, std::size_t rigid, Vec<3> const& n);
   Mat<3> const& last_F(Index carrier);
   Vec<3> moved(Index point);
-  Rubbed drag(Press const& press, Vec<3> const& jump, Vec<3> const& n);
+  void slide_over(std::size_t first, std::size_t last, double weight, Vec<3> const& y, Vec<3>& jump, Vec<3>& n);
+  void rub_back(std::size_t first, Rubbed const& rubbed);
+  Rubbed drag(Press const& press, FrictionLaw const& law, Mat<3> const& frame, Vec<3> const& jump, Vec<3> const& n);
   void book_lost_springs();
   void trace(Index point, double slid, double heat);
   void add_load(Index point, PointLoad const& load);
@@ -202,6 +269,16 @@ class System {
   std::vector<Gap> gaps_;          ///< by run
   std::vector<double> weights_;    ///< of sources
   std::vector<Index> near_rigid_;  ///< points near a rigid shape
+  std::vector<std::vector<SurfaceMirror>> mirrors_ = std::vector<std::vector<SurfaceMirror>>(surfaces_.size());
+  std::vector<ShapePass> shape_passes_;
+  std::vector<ShapeRun> shape_runs_;
+  std::vector<double> shape_springs_;                   ///< by point: of points of shapes [N/m]
+  std::vector<std::vector<char>> covered_;              ///< [body][rigid]: see ShapePoints::cover()
+  std::vector<std::vector<std::array<bool, 3>>> thin_;  ///< [body][rigid]: along which axes the shape is thin
+  bool any_thin_ = false;
+  std::vector<Kept> kept_;  ///< by point and shape
+  std::vector<Deep> deep_, last_deep_;
+  std::vector<Passed> passed_;
   std::vector<Index> active_points_, active_carriers_;
   std::vector<Mat<3>> F_;         ///< of active carriers, by carrier
   std::vector<Plane> planes_;     ///< of active points, by point
@@ -211,8 +288,8 @@ class System {
   /// Springs of touched points, with a body, or with a rigid shape whose number follows those of the bodies; in the
   /// order of contacts, which is that of the runs, then of near_rigid_.
   struct Stuck {
-    Index point;
-    std::size_t with;
+    std::int64_t point;     ///< of a shape: its key
+    std::size_t with;       ///< of a shape's points: the number of their pass, which follows those of the shapes
     Vec<3> stretch, force;  ///< [m] in the reference configuration of the point, [N]
     double energy;          ///< [J]
     bool operator<(Stuck const& o) const { return with != o.with ? with < o.with : point < o.point; }
