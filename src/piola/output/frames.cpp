@@ -51,7 +51,7 @@ FrameContent::FrameContent(std::vector<std::string> const& fields, bool compress
   for (FieldInfo const& info : cache.fields()) {
     bool const always = info.name == "Id" || info.name == "Body";
     bool const asked = std::find(fields.begin(), fields.end(), info.name) != fields.end();
-    bool const wanted = fields.empty() ? !is_derived(info.name) : asked;  // what follows from others only if asked for
+    bool const wanted = fields.empty() ? find_derived(info.name) == nullptr : asked;  // what follows from others only if asked for
     if (info.name != "Position" && (always || wanted)) chosen_.push_back(info);
   }
   if (cache.owned()) places_.assign(cache.owned()->begin(), cache.owned()->end());
@@ -106,7 +106,12 @@ void FrameContent::put(RowWriter& rows) {
 }
 
 void FrameContent::describe(hdf5::Writer& file) const {
-  for (FieldInfo const& info : chosen_) file.attribute(path_of(info.name), "unit", info.unit);
+  for (FieldInfo const& info : chosen_) {
+    file.attribute(path_of(info.name), "unit", info.unit);
+    int const first_normal = info.components > 1 ? 0 : whole_field;
+    if (auto const sign = sign_of(info.name, first_normal); !sign.empty())
+      file.attribute(path_of(info.name), "sign", sign);
+  }
 }
 
 void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all) {
@@ -164,6 +169,14 @@ void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame
   if (frame.values.size() != frame.points.size() * columns) file.fail(data, "has not one value per point");
 }
 
+/// Replaces the field that was read by one that follows from it.
+void derive(Frame& frame, DerivedField const& derived) {
+  std::vector<double> made(frame.points.size() * static_cast<std::size_t>(derived.components));
+  derived.put_all(frame.values, made);
+  frame.info = {std::string(derived.name), std::string(derived.unit), derived.components};
+  frame.values = std::move(made);
+}
+
 /// A field of one component if the frame has it.
 std::vector<double> read_if_there(hdf5::Reader const& file, Frame const& frame, std::string const& field) {
   auto const& names = frame.field_names;
@@ -185,11 +198,13 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   frame.points.resize(points.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
   frame.field_names = file.names("/VTKHDF/PointData");
-  if (std::find(frame.field_names.begin(), frame.field_names.end(), field) == frame.field_names.end()) {
+  std::string const stored = stored_field(field, frame.field_names);
+  if (stored.empty()) {
     throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field",
                                  path.string(), field, fmt::join(frame.field_names, ", ")));
   }
-  read_field(file, field, frame);
+  read_field(file, stored, frame);
+  if (stored != field) derive(frame, *find_derived(field));
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
   frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
   frame.damage = read_if_there(file, frame, "Damage");

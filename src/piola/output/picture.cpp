@@ -221,10 +221,12 @@ std::string component_word(std::string const& field, int components, int compone
 
 std::string picture_label(std::string const& field, int components, int component) {
   std::string const words = field_words(field);
-  if (component != whole_field) return words + " " + component_word(field, components, component);
+  std::string_view const sign = sign_of(field, component);
+  std::string const signed_by = sign.empty() ? "" : fmt::format(", {}", sign);
+  if (component != whole_field) return words + " " + component_word(field, components, component) + signed_by;
   if (components == 3) return words + " magnitude";
   if (components == 6) return "von Mises of " + words;
-  return components == 1 ? words : "largest " + words;
+  return components == 1 ? words + signed_by : "largest " + words;
 }
 
 std::string picture_name(std::string const& field, int components, int component, std::size_t number) {
