@@ -67,26 +67,9 @@ void put_principal_strain(double const* F, double* out) {
 
 void put_negative(double const* value, double* out) { *out = 0 - *value; }  // no -0 of a pressure of zero
 
-constexpr std::array derived{DerivedField{"PrincipalStress", "CauchyStress", "Pa", 3, &put_principal_stress},
-                             DerivedField{"PrincipalStrain", "DeformationGradient", "1", 3, &put_principal_strain},
-                             DerivedField{"CompressivePressure", "Pressure", "Pa", 1, &put_negative}};
-
-/// The sign convention of a field, and of which of its components.
-struct FieldSign {
-  std::string_view field, sign;
-  std::span<int const> components;
-};
-constexpr std::array<int, 1> scalar{whole_field};
-constexpr std::array<int, 3> normal_of_symmetric{0, 1, 2}, normal_of_tensor{0, 4, 8};
-constexpr std::array signs{FieldSign{"Pressure", "tension positive", scalar},
-                           FieldSign{"CellPressure", "tension positive", scalar},
-                           FieldSign{"CompressivePressure", "compression positive", scalar},
-                           FieldSign{"ContactPressure", "compression positive", scalar},
-                           FieldSign{"ContactGap", "overlap negative", scalar},
-                           FieldSign{"CauchyStress", "tension positive", normal_of_symmetric},
-                           FieldSign{"PrincipalStress", "tension positive", normal_of_symmetric},
-                           FieldSign{"PrincipalStrain", "extension positive", normal_of_symmetric},
-                           FieldSign{"FirstPiolaStress", "tension positive", normal_of_tensor}};
+constexpr std::array derived{DerivedField{"PrincipalStress", "CauchyStress", "Pa", &put_principal_stress},
+                             DerivedField{"PrincipalStrain", "DeformationGradient", "1", &put_principal_strain},
+                             DerivedField{"CompressivePressure", "Pressure", "Pa", &put_negative}};
 
 std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;
@@ -103,23 +86,8 @@ std::vector<FieldQuantity> make_table() {
 }  // namespace
 
 std::span<DerivedField const> derived_fields() { return derived; }
-void DerivedField::put_all(std::span<double const> values, std::span<double> out) const {
-  auto const width = static_cast<std::size_t>(components), count = out.size() / width;
-  for (std::size_t i = 0; i < count; ++i) put(&values[i * (values.size() / count)], &out[i * width]);
-}
-
-DerivedField const* find_derived(std::string_view field) {
-  auto const found = std::find_if(derived.begin(), derived.end(), [&](auto const& d) { return d.name == field; });
-  return found == derived.end() ? nullptr : &*found;
-}
-
-std::string stored_field(std::string const& field, std::span<std::string const> in_frame) {
-  auto const there = [&](std::string_view name) {
-    return std::find(in_frame.begin(), in_frame.end(), name) != in_frame.end();
-  };
-  if (there(field)) return field;
-  DerivedField const* const made = find_derived(field);
-  return made != nullptr && there(made->from) ? std::string(made->from) : "";
+bool is_derived(std::string_view field) {
+  return std::any_of(derived.begin(), derived.end(), [&](DerivedField const& d) { return d.name == field; });
 }
 
 std::span<PartQuantity const> action_quantities() { return actions; }
@@ -147,14 +115,6 @@ std::optional<int> find_component(std::string_view word, int components) {
   for (std::size_t c = 0; components == 3 && c < of_principals.size(); ++c)
     if (word == of_principals[c]) return static_cast<int>(c);
   return std::nullopt;
-}
-
-std::string_view sign_of(std::string_view field, int component) {
-  auto const found = std::find_if(signs.begin(), signs.end(), [&](FieldSign const& s) { return s.field == field; });
-  if (found == signs.end()) return {};
-  auto const& of = found->components;
-  int const asked = of.size() == 1 ? whole_field : component;  // a scalar's only component has no name
-  return std::find(of.begin(), of.end(), asked) != of.end() ? found->sign : std::string_view{};
 }
 
 std::optional<FieldQuantity> find_quantity(std::string_view name) {

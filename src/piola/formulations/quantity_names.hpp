@@ -24,22 +24,16 @@ std::optional<FieldQuantity> find_quantity(std::string_view name);
 /// Every known quantity name, for suggestions and the manual.
 std::vector<FieldQuantity> const& all_quantities();
 
-/// A field that follows from another one, whatever the formulation.
+/// A field that follows from another one, whatever the formulation: its values in falling order.
 struct DerivedField {
   std::string_view name, from;
   std::string_view unit;
-  int components;
   void (*put)(double const* from, double* out);  ///< one particle
-  /// All particles; `out` has `components` values of each.
-  void put_all(std::span<double const> values, std::span<double> out) const;
 };
-/// "PrincipalStress" [Pa]: eigenvalues of the Cauchy stress, in falling order. "PrincipalStrain": principal logarithmic
-/// (Hencky) strains ln(lambda), in falling order, with the principal stretches lambda of the deformation gradient; in
-/// plane strain one of them is zero. "CompressivePressure" [Pa]: -Pressure.
+/// "PrincipalStress" [Pa]: eigenvalues of the Cauchy stress. "PrincipalStrain": principal logarithmic (Hencky) strains
+/// ln(lambda), with the principal stretches lambda of the deformation gradient; in plane strain one of them is zero.
 std::span<DerivedField const> derived_fields();
-DerivedField const* find_derived(std::string_view field);  ///< nullptr: it follows from no other one
-/// The field of a frame from which `field` is read or made: itself, or what it follows from. Empty: neither is there.
-std::string stored_field(std::string const& field, std::span<std::string const> in_frame);
+bool is_derived(std::string_view field);
 
 /// A number of history.csv that belongs to a named part of the case, as NAME.word.
 struct PartQuantity {
@@ -61,10 +55,6 @@ std::span<std::string_view const> component_words(int components);
 /// values); whole_field for "" and, of a vector, "magnitude". Nothing if the field has no such component.
 inline constexpr int whole_field = -1;
 std::optional<int> find_component(std::string_view word, int components);
-
-/// The sign convention of a component of a field, e.g. "tension positive", for legends, axes and frames. Empty where
-/// there is none to choose: magnitudes, shear stresses, fields that are never negative.
-std::string_view sign_of(std::string_view field, int component = whole_field);
 
 /// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
 /// "stress_intensity" [Pa m^0.5].

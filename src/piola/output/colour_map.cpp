@@ -100,11 +100,6 @@ Palette palette_for(std::string_view field, Palette asked) {
   return asked == Palette::automatic && mostly_zero ? Palette::heat_on_grey : asked;
 }
 
-std::optional<std::array<double, 2>> whole_range(std::string_view field) {
-  if (field == "Damage" || field == "KernelType") return std::array{0.0, 1.0};
-  return std::nullopt;
-}
-
 ColourMap::ColourMap(double low, double high, Palette palette) : low_(low), high_(high) {
   if (!std::isfinite(low_) || !std::isfinite(high_)) low_ = high_ = 0;
   double const size = std::max(std::abs(low_), std::abs(high_));
@@ -142,7 +137,7 @@ std::string field_words(std::string_view field) {
 ShownUnit shown_unit(double largest, std::string_view si_unit) {
   std::string const unit = si_unit == "1" ? "" : with_powers(si_unit);
   if (!(largest > 0) || !std::isfinite(largest) || unit.empty()) return {1, unit};  // a damage of 0.003 is no 3
-  bool const nearly_one = largest < 1 && largest >= 0.5;  // 0.6 m rather than 600 mm
+  bool const nearly_one = largest < 1 && largest >= 0.5;                            // 0.6 m rather than 600 mm
   if (takes_prefix(si_unit)) {
     auto const prefix = prefix_for(nearly_one ? 1 : largest, si_unit);
     return {prefix.factor, std::string(prefix.word) + unit};

@@ -2,7 +2,6 @@
 #pragma once
 #include "piola/output/image.hpp"
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +19,6 @@ inline constexpr std::array<std::string_view, 8> palette_words{"auto", "viridis"
 std::array<Colour, 256> palette_colours(Palette palette);
 /// What `automatic` means for a field: heat_on_grey for plastic strain and damage, else still automatic.
 Palette palette_for(std::string_view field, Palette asked);
-/// The range of a field whose ends mean something, as 0 (whole) and 1 (failed) of a damage: what a legend shows unless
-/// another range is asked for.
-std::optional<std::array<double, 2>> whole_range(std::string_view field);
 
 /// From numbers to colours over a range.
 class ColourMap {
@@ -43,7 +39,7 @@ class ColourMap {
 std::string field_words(std::string_view field);
 
 /// The decimal prefix for showing values of this size: {1e6, "MPa"} for 3e7 and "Pa"; a unit that takes no prefix gets
-/// {1e6, "10\u2076 kg/m\u00b3"}; a pure number ("1") is shown as it is. Powers are written as such (UTF-8).
+/// {1e6, "10\u2076 kg/m\u00b3"}. Powers are written as such (UTF-8).
 struct ShownUnit {
   double factor = 1;
   std::string text;

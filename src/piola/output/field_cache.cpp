@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/field_cache.hpp"
-#include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/derived_fields.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& partic
   };
   if (knows("Displacement")) add({"Position", "m", 3});
   for (DerivedField const& derived : derived_fields())
-    if (knows(derived.from)) add({std::string(derived.name), std::string(derived.unit), derived.components});
+    if (knows(derived.from)) add({std::string(derived.name), std::string(derived.unit), components_of(derived)});
   add({"Body", "1", 1});
   add({"Id", "1", 1});
 }
@@ -37,7 +37,7 @@ std::vector<double> FieldCache::make(std::string_view field, std::size_t compone
     auto const displacement = values("Displacement");
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = particles_.X[id_of(i / 3)][i % 3] + displacement[i];
   } else if (DerivedField const* const derived = find_derived(field)) {
-    derived->put_all(values(derived->from), out);
+    derive(*derived, values(derived->from), out);
   } else if (of_ == Of::owned) {
     formulation_.sample_owned(field, out);
   } else {

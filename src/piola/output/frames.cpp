@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/derived_fields.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -51,7 +52,7 @@ FrameContent::FrameContent(std::vector<std::string> const& fields, bool compress
   for (FieldInfo const& info : cache.fields()) {
     bool const always = info.name == "Id" || info.name == "Body";
     bool const asked = std::find(fields.begin(), fields.end(), info.name) != fields.end();
-    bool const wanted = fields.empty() ? find_derived(info.name) == nullptr : asked;  // what follows from others only if asked for
+    bool const wanted = fields.empty() ? !is_derived(info.name) : asked;  // what follows from others only if asked for
     if (info.name != "Position" && (always || wanted)) chosen_.push_back(info);
   }
   if (cache.owned()) places_.assign(cache.owned()->begin(), cache.owned()->end());
@@ -170,10 +171,11 @@ void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame
 }
 
 /// Replaces the field that was read by one that follows from it.
-void derive(Frame& frame, DerivedField const& derived) {
-  std::vector<double> made(frame.points.size() * static_cast<std::size_t>(derived.components));
-  derived.put_all(frame.values, made);
-  frame.info = {std::string(derived.name), std::string(derived.unit), derived.components};
+void derive_field(Frame& frame, DerivedField const& derived) {
+  int const components = components_of(derived);
+  std::vector<double> made(frame.points.size() * static_cast<std::size_t>(components));
+  derive(derived, frame.values, made);
+  frame.info = {std::string(derived.name), std::string(derived.unit), components};
   frame.values = std::move(made);
 }
 
@@ -204,7 +206,7 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
                                  path.string(), field, fmt::join(frame.field_names, ", ")));
   }
   read_field(file, stored, frame);
-  if (stored != field) derive(frame, *find_derived(field));
+  if (stored != field) derive_field(frame, *find_derived(field));
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
   frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
   frame.damage = read_if_there(file, frame, "Damage");

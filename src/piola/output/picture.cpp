@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/picture.hpp"
 #include "piola/base/version.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/output/colour_map.hpp"
 #include "piola/output/draw_bodies.hpp"
 #include "piola/output/seal.hpp"
@@ -88,14 +89,15 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
 /// What flew out of the window, or lies beyond it where a picture is enlarged, must not lie under letters.
 void clear_for_letters(Image& image, Layout const& layout, std::optional<Colour> background) {
   double const air = 8 * layout.unit;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      if (x > layout.right + air || y < layout.top - air || y > layout.bottom + air) {
-        image.set(x, y, background.value_or(Colour{}));
-        if (!background)
-          image.alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                      static_cast<std::size_t>(x)] = 0;
-      }
+  for (int y = 0; y < image.height; ++y) {
+    bool const beside = !(y < layout.top - air || y > layout.bottom + air);
+    for (int x = beside ? static_cast<int>(layout.right + air) + 1 : 0; x < image.width; ++x) {
+      image.set(x, y, background.value_or(Colour{}));
+      if (!background)
+        image.alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)] =
+            0;
+    }
+  }
 }
 
 /// What tells where a picture comes from.

@@ -2,7 +2,7 @@
 #include "piola/report/survey.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
-#include "piola/output/colour_map.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/output/picture.hpp"
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "piola/simulation/history_plot.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/history_names.hpp"

@@ -16,8 +16,8 @@ struct HistoryPlotOptions {
 };
 
 /// Columns of history.csv of a run, and of others beside it. Columns that hold nothing but round-off
-/// (rounding_levels.hpp) are drawn as zero, with a remark, unless an axis of values is logarithmic. Throws InputError for folders without a history and for
-/// columns that it does not have; FileError if one cannot be read.
+/// (rounding_levels.hpp) are drawn as zero, with a remark, unless an axis of values is logarithmic. Throws InputError
+/// for folders without a history and for columns that it does not have; FileError if one cannot be read.
 Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const& options);
 
 /// What is wrong with asking a history for a column that it does not have; "" if it has it. `folder`: of the run.

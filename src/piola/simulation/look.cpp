@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/look.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/output/colour_map.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
