@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/colour_map.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -119,6 +120,11 @@ TEST(ColourMap, TakesAnyRange) {
   }
 }
 
+TEST(ColourMap, ShowsDamageFromWholeToFailed) {
+  EXPECT_EQ(whole_range("Damage"), (std::array{0.0, 1.0}));
+  EXPECT_FALSE(whole_range("EquivalentPlasticStrain"));
+}
+
 TEST(ColourMap, ShowsUnitsWithPrefix) {
   EXPECT_EQ(shown_unit(3e7, "Pa").text, "MPa");
   EXPECT_EQ(shown_unit(3e7, "Pa").factor, 1e6);
@@ -128,7 +134,8 @@ TEST(ColourMap, ShowsUnitsWithPrefix) {
   EXPECT_EQ(shown_unit(0.6, "m").text, "m");
   EXPECT_EQ(shown_unit(600, "m/s").text, "m/s");
   EXPECT_EQ(shown_unit(2, "1").text, "");
-  EXPECT_EQ(shown_unit(2e-6, "1").text, "10\u207b\u2076");
+  EXPECT_EQ(shown_unit(2e-6, "1").text, "");
+  EXPECT_EQ(shown_unit(0.003, "1").factor, 1) << "a damage of 0.003 does not read 3";
   EXPECT_EQ(shown_unit(7850, "kg/m^3").text, "kg/m\u00b3");
   EXPECT_EQ(shown_unit(3e9, "kg/m^3").text, "10\u2079 kg/m\u00b3");
   EXPECT_EQ(shown_unit(3, "Pa m^0.5").text, "Pa m^0.5");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/field_cache.hpp"
-#include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/derived_fields.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "formulations/small_bodies.hpp"
 
 namespace piola {
@@ -38,6 +39,34 @@ TEST(DerivedFields, PrincipalStrainsAreLogarithmsOfTheStretches) {
   FieldQuantity const third = find_quantity("principal_strain_3").value();
   EXPECT_NEAR(component_values(cache, third.field, third.component)[7], -expected, 1e-12);
   EXPECT_FALSE(find_quantity("principal_strain_x") || find_quantity("principal_strain_magnitude"));
+}
+
+TEST(DerivedFields, CompressivePressureIsPressureWithTheOtherSign) {
+  Assembly a = assemble(unit_box(2, 6));
+  displace(a, [](Point const& X) { return Point{-0.01 * X[0], 0, 0}; });
+  auto const f = make_formulation(a);
+  FieldCache cache(*f, a.particles);
+  auto const pressure = cache.values("Pressure"), compressive = cache.values("CompressivePressure");
+  ASSERT_EQ(pressure.size(), compressive.size());
+  for (std::size_t i = 0; i < pressure.size(); ++i) EXPECT_EQ(compressive[i], 0 - pressure[i]);
+  EXPECT_GT(compressive[0], 0) << "it is compressed";
+  EXPECT_EQ(find_quantity("compressive_pressure")->field, "CompressivePressure");
+}
+
+TEST(Signs, AreThoseOfNormalComponents) {
+  EXPECT_EQ(sign_of("Pressure"), "tension positive");
+  EXPECT_EQ(sign_of("Pressure", 0), "tension positive") << "a scalar has one component";
+  EXPECT_EQ(sign_of("FirstPiolaStress", 4), "tension positive");
+  EXPECT_EQ(sign_of("FirstPiolaStress", 3), "");
+  EXPECT_EQ(sign_of("ContactGap"), "overlap negative");
+  EXPECT_EQ(sign_of("VonMisesStress"), "");
+}
+
+TEST(DerivedFields, AreMadeOfFieldsThatFramesHold) {
+  std::vector<std::string> const stored{"Damage", "Pressure"};
+  EXPECT_EQ(stored_field("Damage", stored), "Damage");
+  EXPECT_EQ(stored_field("CompressivePressure", stored), "Pressure");
+  EXPECT_EQ(stored_field("PrincipalStress", stored), "");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "piola/output/frames.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/output/files.hpp"
+#include "piola/output/frame_reader.hpp"
+#include "piola/output/hdf5.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"
@@ -97,6 +99,26 @@ TEST(Frames, NameTheFieldsThereAreWhenOneIsMissing) {
     EXPECT_NE(std::string(error.what()).find("has no field 'Presure' (it has Body, CauchyStress,"), std::string::npos)
         << error.what();
   }
+}
+
+TEST(Frames, GiveTheCompressivePressureOfThePressureTheyHold) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  write_frames(writer, testing::make_plate(3), {0});
+  Frame const stored = read_frame(folder / "frames/000000.hdf", "Pressure"),
+              made = read_frame(folder / "frames/000000.hdf", "CompressivePressure");
+  EXPECT_EQ(made.info.name, "CompressivePressure");
+  EXPECT_EQ(made.info.unit, "Pa");
+  ASSERT_EQ(made.values.size(), stored.values.size());
+  FrameReader const reader(folder / "frames/000000.hdf");
+  auto const single = reader.values("CompressivePressure");
+  for (std::size_t i = 0; i < made.values.size(); ++i) {
+    EXPECT_EQ(made.values[i], -stored.values[i]);
+    EXPECT_EQ(static_cast<double>(single[i]), -stored.values[i]);
+  }
+  hdf5::Reader const file(folder / "frames/000000.hdf");
+  EXPECT_EQ(file.text("/VTKHDF/PointData/Pressure", "sign"), "tension positive");
+  EXPECT_FALSE(file.has_attribute("/VTKHDF/PointData/VonMisesStress", "sign"));
 }
 
 /// In a child, because the limit cannot be lifted again. Exit status 0: as it should be.

@@ -234,7 +234,12 @@ TEST(PictureValues, AreTheComponentAskedFor) {
   EXPECT_FALSE(find_component("yx", 6)) << "symmetric tensors have xy alone";
   EXPECT_FALSE(find_component("x", 1));
   EXPECT_FALSE(find_component("magnitude", 6));
-  EXPECT_EQ(picture_label("CauchyStress", 6, 0), "Cauchy stress xx");
+  EXPECT_EQ(picture_label("CauchyStress", 6, 0), "Cauchy stress xx, tension positive");
+  EXPECT_EQ(picture_label("CauchyStress", 6, 3), "Cauchy stress xy");
+  EXPECT_EQ(picture_label("CauchyStress", 6), "von Mises of Cauchy stress");
+  EXPECT_EQ(picture_label("Pressure", 1), "pressure, tension positive");
+  EXPECT_EQ(picture_label("CompressivePressure", 1), "compressive pressure, compression positive");
+  EXPECT_EQ(picture_label("ContactPressure", 1), "contact pressure, compression positive");
   EXPECT_EQ(picture_name("Velocity", 3, 2, 7), "Velocity-z-000007.png");
   EXPECT_EQ(picture_name("PrincipalStress", 3, *find_component("1", 3), 7), "PrincipalStress-1-000007.png");
 }

@@ -52,6 +52,40 @@ TEST(HistoryPlots, CompareRunsAndKnowUnits) {
   EXPECT_EQ(unit_of_column("anything"), "");
 }
 
+TEST(HistoryPlots, NameTheSignOnTheAxis) {
+  EXPECT_EQ(sign_of_column("pressure_min"), "tension positive");
+  EXPECT_EQ(sign_of_column("tip.compressive_pressure"), "compression positive");
+  EXPECT_EQ(sign_of_column("tip.cauchy_stress_xx"), "tension positive");
+  EXPECT_EQ(sign_of_column("tip.cauchy_stress_xy"), "");
+  EXPECT_EQ(sign_of_column("pressure_oscillation"), "");
+  TemporaryFolder folder;
+  write_whole_file(folder / "history.csv", std::string("time,pressure_min,pressure_max\n0,0,0\n1,-5,7\n"));
+  EXPECT_EQ(history_plot(folder.path(), {.columns = {"pressure_max"}}).y.name, "pressure max, tension positive");
+  EXPECT_EQ(history_plot(folder.path(), {.columns = {"pressure_min", "pressure_max"}}).y.name,
+            "value, tension positive");
+}
+
+TEST(HistoryPlots, DrawRoundOffAsZeroAndSaySo) {
+  TemporaryFolder folder;
+  write_whole_file(folder / "history.csv",
+                   std::string("time,kinetic_energy,damping_loss,linear_momentum_x,linear_momentum_y,tip.velocity_x,"
+                               "tip.velocity_y,pressure_max\n"
+                               "0,50,0,1e-14,0,2,1e-16,1e-5\n1,40,-3e-15,-4e-13,2e-14,3,-2e-16,2e-5\n"));
+  auto const plot = [&](std::vector<std::string> columns, bool log_y = false) {
+    return history_plot(folder.path(), {.columns = std::move(columns), .log_y = log_y});
+  };
+  EXPECT_EQ(plot({"linear_momentum_x"}).remark, "") << "nothing is known to compare it with";
+  write_whole_file(folder / "summary.json", std::string(R"({"scales": {"kg m/s": 10, "Pa": 2e11}})"));
+  for (char const* name : {"damping_loss", "linear_momentum_x", "tip.velocity_y", "pressure_max"}) {
+    Plot const flat = plot({name});
+    EXPECT_EQ(flat.curves[0].y, (std::vector<double>{0, 0})) << name;
+    EXPECT_NE(flat.remark.find("zero to rounding (below "), std::string::npos) << name;
+  }
+  EXPECT_EQ(plot({"tip.velocity_x"}).remark, "");
+  EXPECT_EQ(plot({"tip.velocity_x", "tip.velocity_y"}).curves[1].y[1], -2e-16) << "beside what is none";
+  EXPECT_EQ(plot({"pressure_max"}, true).curves[0].y[1], 2e-5) << "a logarithmic axis shows what there is";
+}
+
 TEST(HistoryPlots, SayWhatIsWrong) {
   TemporaryFolder folder;
   EXPECT_THROW(history_plot(folder / "nowhere", {}), InputError);

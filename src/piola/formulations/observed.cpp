@@ -51,6 +51,7 @@ constexpr std::array table{
     ObservedField{"kernel_type", "KernelType", "1", 1, [](P const& p, double* out) { *out = p.kernel_type; }},
     ObservedField{"cell_pressure", "CellPressure", "Pa", 1, [](P const& p, double* out) { *out = p.cell_pressure; }},
     ObservedField{"least_jacobian", "LeastJacobian", "1", 1, [](P const& p, double* out) { *out = p.least_J; }},
+    ObservedField{"compressive_pressure", "CompressivePressure", "Pa", 1, not_stored},
     ObservedField{"principal_stress", "PrincipalStress", "Pa", 3, not_stored},
     ObservedField{"principal_strain", "PrincipalStrain", "1", 3, not_stored},
     ObservedField{"parting", "Parting", "1", 1, [](P const& p, double* out) { *out = p.parting; }},

@@ -65,8 +65,11 @@ void put_principal_strain(double const* F, double* out) {
   for (int c = 0; c < 3; ++c) out[c] = 0.5 * std::log(out[c]);
 }
 
+void put_negative(double const* value, double* out) { *out = 0 - *value; }  // no -0 of a pressure of zero
+
 constexpr std::array derived{DerivedField{"PrincipalStress", "CauchyStress", "Pa", &put_principal_stress},
-                             DerivedField{"PrincipalStrain", "DeformationGradient", "1", &put_principal_strain}};
+                             DerivedField{"PrincipalStrain", "DeformationGradient", "1", &put_principal_strain},
+                             DerivedField{"CompressivePressure", "Pressure", "Pa", &put_negative}};
 
 std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;

@@ -52,6 +52,7 @@ constexpr std::array fields{
     FieldName{"Slip", "m", 1},
     FieldName{"FrictionHeat", "J/m^2", 1},
     FieldName{"Neighbours", "1", 1},
+    FieldName{"CompressivePressure", "Pa", 1},
     FieldName{"PrincipalStress", "Pa", 3},
     FieldName{"PrincipalStrain", "1", 3},
     FieldName{"Body", "1", 1},

@@ -55,6 +55,11 @@ std::uint32_t premultiplied(Colour const& colour, unsigned alpha) {
   return alpha << 24 | part(0) << 16 | part(1) << 8 | part(2);
 }
 
+/// What was multiplied by its opacity, back again.
+std::uint32_t opaque_part(std::uint32_t part, std::uint32_t alpha) {
+  return alpha == 0 ? 0 : std::min<std::uint32_t>(255, (255 * part + alpha / 2) / alpha);
+}
+
 }  // namespace
 
 /// An image as Cairo holds it: one number per pixel, colours multiplied by their opacity.
@@ -69,12 +74,8 @@ struct Canvas::Drawing {
         height(below.height),
         transparent(!below.alpha.empty()),
         surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height)) {
-    for (int y = 0; y < height && row_of(y); ++y)
-      for (int x = 0; x < width; ++x) {
-        auto const at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        std::uint32_t const pixel = premultiplied(below.at(x, y), transparent ? below.alpha[at] : 255u);
-        std::memcpy(row_of(y) + 4 * x, &pixel, sizeof pixel);
-      }
+    for (int y = 0; y < height; ++y)
+      if (unsigned char* const row = row_of(y)) put_row(below, y, row);
     cairo_surface_mark_dirty(surface);
     context = cairo_create(surface);
     // Letters then have the same shapes and places at any size and on any screen.
@@ -98,6 +99,16 @@ struct Canvas::Drawing {
   unsigned char* row_of(int y) const {
     unsigned char* const data = cairo_image_surface_get_data(surface);
     return data ? data + static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface) : nullptr;
+  }
+  void put_row(Image const& below, int y, unsigned char* row) const {
+    auto const columns = static_cast<std::size_t>(width), first = static_cast<std::size_t>(y) * columns;
+    for (std::size_t x = 0; x < columns; ++x) {
+      std::uint8_t const* const c = &below.rgb[3 * (first + x)];
+      std::uint32_t const pixel = transparent
+                                      ? premultiplied({c[0], c[1], c[2]}, below.alpha[first + x])
+                                      : 255U << 24 | std::uint32_t{c[0]} << 16 | std::uint32_t{c[1]} << 8 | c[2];
+      std::memcpy(row + 4 * x, &pixel, sizeof pixel);
+    }
   }
   void paint_with(Colour const& c) const { cairo_set_source_rgb(context, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0); }
   void path(std::span<std::array<double, 2> const> points) const {
@@ -158,17 +169,20 @@ Image Canvas::image() const {
                                 cairo_status_to_string(status)));
   Image out(d.width, d.height, {0, 0, 0});
   if (d.transparent) out.alpha.resize(out.rgb.size() / 3);
-  for (std::size_t i = 0; i < out.rgb.size() / 3; ++i) {
-    auto const columns = static_cast<std::size_t>(d.width);
-    std::uint32_t pixel = 0;
-    std::memcpy(&pixel, d.row_of(static_cast<int>(i / columns)) + 4 * (i % columns), sizeof pixel);
-    std::uint32_t const alpha = pixel >> 24;
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      std::uint32_t const part = pixel >> (16 - 8 * c) & 255u;
-      out.rgb[3 * i + c] =
-          static_cast<std::uint8_t>(alpha == 0 ? 0 : std::min<std::uint32_t>(255, (255 * part + alpha / 2) / alpha));
+  auto const columns = static_cast<std::size_t>(d.width);
+  for (int y = 0; y < d.height; ++y) {
+    unsigned char const* const row = d.row_of(y);
+    for (std::size_t x = 0; x < columns; ++x) {
+      std::size_t const i = static_cast<std::size_t>(y) * columns + x;
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+      std::uint32_t const alpha = pixel >> 24;
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        std::uint32_t const part = pixel >> (16 - 8 * c) & 255u;
+        out.rgb[3 * i + c] = static_cast<std::uint8_t>(alpha == 255 ? part : opaque_part(part, alpha));
+      }
+      if (d.transparent) out.alpha[i] = static_cast<std::uint8_t>(alpha);
     }
-    if (d.transparent) out.alpha[i] = static_cast<std::uint8_t>(alpha);
   }
   return out;
 }

@@ -136,8 +136,8 @@ std::string field_words(std::string_view field) {
 
 ShownUnit shown_unit(double largest, std::string_view si_unit) {
   std::string const unit = si_unit == "1" ? "" : with_powers(si_unit);
-  if (!(largest > 0) || !std::isfinite(largest)) return {1, unit};
-  bool const nearly_one = largest < 1 && largest >= 0.5;  // 0.6 m rather than 600 mm
+  if (!(largest > 0) || !std::isfinite(largest) || unit.empty()) return {1, unit};  // a damage of 0.003 is no 3
+  bool const nearly_one = largest < 1 && largest >= 0.5;                            // 0.6 m rather than 600 mm
   if (takes_prefix(si_unit)) {
     auto const prefix = prefix_for(nearly_one ? 1 : largest, si_unit);
     return {prefix.factor, std::string(prefix.word) + unit};

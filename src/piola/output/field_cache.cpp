@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/field_cache.hpp"
-#include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/derived_fields.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& partic
   };
   if (knows("Displacement")) add({"Position", "m", 3});
   for (DerivedField const& derived : derived_fields())
-    if (knows(derived.from)) add({std::string(derived.name), std::string(derived.unit), 3});
+    if (knows(derived.from)) add({std::string(derived.name), std::string(derived.unit), components_of(derived)});
   add({"Body", "1", 1});
   add({"Id", "1", 1});
 }
@@ -36,12 +36,8 @@ std::vector<double> FieldCache::make(std::string_view field, std::size_t compone
   } else if (field == "Position") {
     auto const displacement = values("Displacement");
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = particles_.X[id_of(i / 3)][i % 3] + displacement[i];
-  } else if (auto const derived = std::find_if(derived_fields().begin(), derived_fields().end(),
-                                               [&](DerivedField const& d) { return d.name == field; });
-             derived != derived_fields().end()) {
-    auto const width = static_cast<std::size_t>(info(derived->from).components);
-    auto const from = values(derived->from);
-    for (std::size_t i = 0; i < count; ++i) derived->put(&from[i * width], &out[i * components]);
+  } else if (DerivedField const* const derived = find_derived(field)) {
+    derive(*derived, values(derived->from), out);
   } else if (of_ == Of::owned) {
     formulation_.sample_owned(field, out);
   } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frame_reader.hpp"
+#include "piola/formulations/derived_fields.hpp"
 #include "piola/output/hdf5.hpp"
 #include <fmt/format.h>
 
@@ -30,7 +31,12 @@ std::vector<float> FrameReader::points() const { return file_->reader.dataset<fl
 
 std::vector<std::string> FrameReader::fields() const { return file_->reader.names("/VTKHDF/PointData"); }
 
+bool FrameReader::knows(std::string const& field) const { return !stored_field(field, fields()).empty(); }
+
 FieldInfo FrameReader::info(std::string const& field) const {
+  if (stored_field(field, fields()) != field)
+    if (DerivedField const* const made = find_derived(field))
+      return {field, std::string(made->unit), components_of(*made)};
   std::uint64_t const columns = file_->reader.columns(data_of(field));
   if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
     file_->reader.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
@@ -39,6 +45,13 @@ FieldInfo FrameReader::info(std::string const& field) const {
 }
 
 std::vector<float> FrameReader::values(std::string const& field) const {
+  std::string const stored = stored_field(field, fields());
+  if (DerivedField const* const made = find_derived(field); made != nullptr && stored == made->from) {
+    auto const from = file_->reader.dataset<double>(data_of(stored), file_->reader.columns(data_of(stored)));
+    std::vector<double> out(points().size() / 3 * static_cast<std::size_t>(components_of(*made)));
+    derive(*made, from, out);
+    return {out.begin(), out.end()};
+  }
   return file_->reader.dataset<float>(data_of(field), file_->reader.columns(data_of(field)));
 }
 

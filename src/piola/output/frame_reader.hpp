@@ -19,7 +19,9 @@ class FrameReader {
   double time() const { return time_; }         ///< s
   int dimension() const { return dimension_; }  ///< 2 or 3 (1 for bars)
   std::vector<float> points() const;            ///< m, three per particle
-  std::vector<std::string> fields() const;      ///< names, sorted
+  std::vector<std::string> fields() const;      ///< names of what is stored, sorted
+  /// Whether a field is stored, or follows from one that is.
+  bool knows(std::string const& field) const;
   FieldInfo info(std::string const& field) const;
   /// values[i * components + c], SI
   std::vector<float> values(std::string const& field) const;

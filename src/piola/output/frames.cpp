@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
 #include "piola/base/problems.hpp"
-#include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/derived_fields.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -106,7 +107,12 @@ void FrameContent::put(RowWriter& rows) {
 }
 
 void FrameContent::describe(hdf5::Writer& file) const {
-  for (FieldInfo const& info : chosen_) file.attribute(path_of(info.name), "unit", info.unit);
+  for (FieldInfo const& info : chosen_) {
+    file.attribute(path_of(info.name), "unit", info.unit);
+    int const first_normal = info.components > 1 ? 0 : whole_field;
+    if (auto const sign = sign_of(info.name, first_normal); !sign.empty())
+      file.attribute(path_of(info.name), "sign", sign);
+  }
 }
 
 void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all) {
@@ -172,6 +178,15 @@ void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame
   if (frame.values.size() != frame.points.size() * columns) file.fail(data, "has not one value per point");
 }
 
+/// Replaces the field that was read by one that follows from it.
+void derive_field(Frame& frame, DerivedField const& derived) {
+  int const components = components_of(derived);
+  std::vector<double> made(frame.points.size() * static_cast<std::size_t>(components));
+  derive(derived, frame.values, made);
+  frame.info = {std::string(derived.name), std::string(derived.unit), components};
+  frame.values = std::move(made);
+}
+
 /// A field of one component if the frame has it.
 std::vector<double> read_if_there(hdf5::Reader const& file, Frame const& frame, std::string const& field) {
   auto const& names = frame.field_names;
@@ -193,11 +208,13 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   frame.points.resize(points.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
   frame.field_names = file.names("/VTKHDF/PointData");
-  if (std::find(frame.field_names.begin(), frame.field_names.end(), field) == frame.field_names.end()) {
+  std::string const stored = stored_field(field, frame.field_names);
+  if (stored.empty()) {
     throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field",
                                  path.string(), field, fmt::join(frame.field_names, ", ")));
   }
-  read_field(file, field, frame);
+  read_field(file, stored, frame);
+  if (stored != field) derive_field(frame, *find_derived(field));
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
   frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
   frame.damage = read_if_there(file, frame, "Damage");

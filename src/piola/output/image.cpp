@@ -67,7 +67,7 @@ void take_apart(std::vector<std::uint8_t> const& mixed, Image& image) {
 
 Image::Image(int columns, int rows, Colour background) : width(columns), height(rows) {
   rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = background[i % 3];
+  for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy(background.begin(), background.end(), &rgb[i]);
 }
 
 Colour Image::at(int x, int y) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/picture.hpp"
 #include "piola/base/version.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/output/colour_map.hpp"
 #include "piola/output/draw_bodies.hpp"
 #include "piola/output/seal.hpp"
@@ -88,14 +89,15 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
 /// What flew out of the window, or lies beyond it where a picture is enlarged, must not lie under letters.
 void clear_for_letters(Image& image, Layout const& layout, std::optional<Colour> background) {
   double const air = 8 * layout.unit;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      if (x > layout.right + air || y < layout.top - air || y > layout.bottom + air) {
-        image.set(x, y, background.value_or(Colour{}));
-        if (!background)
-          image.alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                      static_cast<std::size_t>(x)] = 0;
-      }
+  for (int y = 0; y < image.height; ++y) {
+    bool const beside = !(y < layout.top - air || y > layout.bottom + air);
+    for (int x = beside ? static_cast<int>(layout.right + air) + 1 : 0; x < image.width; ++x) {
+      image.set(x, y, background.value_or(Colour{}));
+      if (!background)
+        image.alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)] =
+            0;
+    }
+  }
 }
 
 /// What tells where a picture comes from.
@@ -221,10 +223,12 @@ std::string component_word(std::string const& field, int components, int compone
 
 std::string picture_label(std::string const& field, int components, int component) {
   std::string const words = field_words(field);
-  if (component != whole_field) return words + " " + component_word(field, components, component);
+  std::string_view const sign = sign_of(field, component);
+  std::string const signed_by = sign.empty() ? "" : fmt::format(", {}", sign);
+  if (component != whole_field) return words + " " + component_word(field, components, component) + signed_by;
   if (components == 3) return words + " magnitude";
   if (components == 6) return "von Mises of " + words;
-  return components == 1 ? words : "largest " + words;
+  return components == 1 ? words + signed_by : "largest " + words;
 }
 
 std::string picture_name(std::string const& field, int components, int component, std::size_t number) {

@@ -230,6 +230,7 @@ class Paper {
       set_pen(*label.curve);
       write(label.curve->label, x_.to + 8, label.y);
     }
+    write(plot_.remark, (x_.from + x_.to) / 2, (y_.from + y_.to) / 2 - 12, 0.5);
   }
 
   cairo_t* c_;

@@ -23,6 +23,7 @@ struct PlotAxis {
 /// Curves over one axis, with their names at their ends.
 struct Plot {
   std::string title, note;  ///< the note stands at the right, above the frame
+  std::string remark = {};  ///< in the middle of the frame
   PlotAxis x, y;
   std::vector<Curve> curves;
   int width = 800, height = 500;  ///< pixels; points in PDF

@@ -112,6 +112,75 @@ std::vector<std::array<Index, 2>> drawn_out_edges(ReferenceMesh const& mesh, Con
   return edges;
 }
 
+/// How far the skin goes on beyond a particle at a tear: half a cell across each side that is torn off.
+class TornEdges {
+ public:
+  TornEdges(ReferenceMesh const& mesh, std::vector<std::uint8_t> const& whole) : mesh_(mesh) {
+    if (mesh.cells.count() == 0 || mesh.dimension == 1) return;
+    FacetTable const table = facets_of(mesh.cells);
+    for (std::size_t f = 0; f < mesh.across.size(); ++f) {
+      Index const other = mesh.across[f];
+      std::size_t const cell = f / table.facet.size();
+      if (other >= 0 && whole[cell] != 0 && whole[static_cast<std::size_t>(other)] == 0)
+        add(mesh.cells.of(static_cast<Index>(cell)), table.facet[f % table.facet.size()], table.corners);
+    }
+    sum_up();
+  }
+
+  /// In the reference configuration [m]. Both sides of a layer that is one particle thick leave it where it is.
+  Place3 beyond(std::size_t particle) const { return beyond_.empty() ? Place3{} : beyond_[particle]; }
+
+ private:
+  struct Side {
+    Index particle;
+    int number;  ///< of boxes: twice the axis, and one more at its upper end
+    Place3 way;
+  };
+
+  bool simplices() const { return mesh_.cells.corners == mesh_.dimension + 1; }
+
+  void add(std::span<Index const> cell, std::array<int, 4> const& facet, int corners) {
+    auto const at = [&](int c) { return cell[static_cast<std::size_t>(c)]; };
+    auto const between = [&](int from, int to) {
+      return minus(mesh_.X[static_cast<std::size_t>(at(to))], mesh_.X[static_cast<std::size_t>(at(from))]);
+    };
+    std::span const own(facet.data(), static_cast<std::size_t>(corners));
+    if (simplices()) {
+      Place3 const along = between(own[0], own[1]);
+      Place3 const normal = corners == 2 ? Place3{along[1], -along[0], 0} : cross(along, between(own[0], own[2]));
+      for (int const c : own) sides_.push_back({at(c), 0, unit(normal)});
+      return;
+    }
+    for (int axis = 0; axis < mesh_.dimension; ++axis) {
+      int const bit = 1 << axis, end = own[0] & bit;
+      if (!std::all_of(own.begin(), own.end(), [&](int c) { return (c & bit) == end; })) continue;
+      for (int const c : own) sides_.push_back({at(c), 2 * axis + (end != 0 ? 1 : 0), between(c ^ bit, c)});
+    }
+  }
+
+  void sum_up() {
+    if (sides_.empty()) return;
+    std::stable_sort(sides_.begin(), sides_.end(), [](Side const& a, Side const& b) {
+      return std::pair(a.particle, a.number) < std::pair(b.particle, b.number);
+    });
+    beyond_.assign(mesh_.count, Place3{});
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      auto const& [particle, number, way] = sides_[k];
+      Place3& sum = beyond_[static_cast<std::size_t>(particle)];
+      bool const again = k > 0 && sides_[k - 1].particle == particle && sides_[k - 1].number == number;
+      Place3 const& outward = mesh_.outward[static_cast<std::size_t>(particle)];
+      bool const reaches_out = dot(outward, way) > 0.25 * dot(way, way);  // the surface of the shape is there, too
+      if (simplices() || (!again && !reaches_out)) sum = plus(sum, simplices() ? 1 : 0.5, way);
+    }
+    for (Place3& way : beyond_)
+      if (simplices()) way = plus({}, 0.5 * mesh_.spacing, unit(way));
+  }
+
+  ReferenceMesh const& mesh_;
+  std::vector<Side> sides_;
+  std::vector<Place3> beyond_;
+};
+
 void add_triangles(std::span<Index const> corner, std::vector<SkinFacet>& facets) {
   facets.push_back({{corner[0], corner[1], corner[2]}});
   if (corner.size() == 4) facets.push_back({{corner[0], corner[2], corner[3]}});
@@ -286,9 +355,10 @@ Skin make_skin(ReferenceMesh const& mesh, Configuration const& now) {
   skin.reference = mesh.X;
   auto const drawn_out = drawn_out_edges(mesh, now, skin.whole);
   Configuration const with_drawn_out{now.x, now.loose, now.torn, drawn_out};
+  TornEdges const edges(mesh, skin.whole);
   exec_host::for_each_in_set_up(static_cast<Index>(mesh.count), [&](Index k) {
     auto const i = static_cast<std::size_t>(k);
-    Place3 const& S = mesh.outward[i];
+    Place3 const S = plus(mesh.outward[i], 1, edges.beyond(i));
     if (dot(S, S) == 0 || skin.inside[i] == 0) return;
     Vec<3> const s = fitted_gradient(mesh, with_drawn_out, i) * Vec<3>{{S[0], S[1], S[2]}};
     skin.place[i] = plus(skin.place[i], 1, {s[0], s[1], s[2]});

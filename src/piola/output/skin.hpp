@@ -63,8 +63,9 @@ struct Skin {
   std::vector<SkinFacet> facets;
 };
 
-/// The surface of what hangs together: outer facets of the cells that are not torn; in 2D all of these cells. A torn
-/// cell leaves a ragged hole with its own thickness.
+/// The surface of what hangs together: outer facets of the cells that are not torn; in 2D all of these cells. At a tear
+/// the skin ends half a cell beyond its last particles, carried by F, as material does: a gap is as wide as it has
+/// opened, and cells that count as torn but have not opened (damage, conversion) leave no gap.
 Skin make_skin(ReferenceMesh const& mesh, Configuration const& now);
 
 /// The section of a body of three dimensions with the surface on which `beyond`, one value per particle, is zero:

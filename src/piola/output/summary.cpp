@@ -53,6 +53,7 @@ std::string to_json(Summary const& s) {
   add_ranks(s, document);
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
+  for (auto const& [unit, value] : s.scales) document["scales"][unit] = value;
   if (s.relaxation) {
     document["relaxation"] = {
         {"at_rest", s.relaxation->at_rest}, {"residual", s.relaxation->residual}, {"stops", s.relaxation->stops}};

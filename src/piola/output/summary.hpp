@@ -56,6 +56,8 @@ struct Summary {
   double energy_max_decrease = 0;
   /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
   std::optional<double> linear_drift, angular_drift;
+  /// What values of a unit are large or small beside: "kg m/s", "kg m^2/s", "Pa".
+  std::vector<std::pair<std::string, double>> scales;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation tells
   std::optional<RelaxationReport> relaxation;
   std::vector<MeasuredQuantity> quantities;

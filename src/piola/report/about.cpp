@@ -8,6 +8,7 @@
 #include "piola/output/picture.hpp"
 #include "piola/simulation/history_plot.hpp"
 #include "piola/simulation/look.hpp"
+#include "piola/simulation/rounding_levels.hpp"
 #include "piola/simulation/scene.hpp"
 #include <algorithm>
 #include <cmath>
@@ -197,7 +198,10 @@ Json about_plots(RunFolder const& run, std::size_t most, std::size_t& left) {
   HistoryTable const table = read_history(run.path / "history.csv");
   if (table.columns.empty() || table.rows.empty()) return plots;
   if (auto plot = one_plot(run, {})) plots.push_back(std::move(*plot));
-  auto const columns = worthy_columns(run, table);
+  auto columns = worthy_columns(run, table);
+  RoundingLevels const levels(table, run.path);
+  std::stable_partition(columns.begin(), columns.end(),
+                        [&](std::string const& column) { return !levels.is_rounding(column); });
   for (std::string const& column : columns) {
     if (plots.size() >= most)
       ++left;

@@ -62,12 +62,26 @@ std::optional<BodyShapes> BodyShapes::of(RunFolder const& run, int dimension, st
   return BodyShapes(reference_meshes(particles));
 }
 
+void BodyShapes::follow(RunFolder const& run) {
+  std::vector<std::vector<Index>> before;
+  for (auto const& [time, path] : run.frames) {
+    FrameReader const frame(path);
+    ParticlesNow const now = particles_in(frame);
+    before = torn_now(meshes_, now.x, now.loose, before);
+    torn_[frame.time()] = before;
+  }
+}
+
 BodySurfaces BodyShapes::surfaces(FrameReader const& frame) const {
   ParticlesNow const now = particles_in(frame);
+  auto const torn = torn_.find(frame.time());
   BodySurfaces all{now.x, {}, std::vector<std::uint8_t>(now.x.size(), 1)};
-  for (ReferenceMesh const& mesh : meshes_) {
+  for (std::size_t body = 0; body < meshes_.size(); ++body) {
+    ReferenceMesh const& mesh = meshes_[body];
     if (mesh.cells.count() == 0 || mesh.dimension == 1) continue;
-    Skin const skin = make_skin(mesh, now.of(mesh));
+    Configuration configuration = now.of(mesh);
+    if (torn != torn_.end()) configuration.torn = torn->second[body];
+    Skin const skin = make_skin(mesh, configuration);
     for (std::size_t i = 0; i < mesh.count; ++i) {
       if (skin.inside[i] == 0) continue;
       all.place[mesh.first + i] = skin.place[i];

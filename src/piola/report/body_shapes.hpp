@@ -6,6 +6,7 @@
 #include "piola/report/run_folder.hpp"
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,9 @@ class BodyShapes {
   /// other particles.
   static std::optional<BodyShapes> of(RunFolder const& run, int dimension, std::vector<std::uint16_t> const& body);
 
+  /// Finds which cells are torn in each frame of the run, in the order of time, as pictures of all frames have it.
+  void follow(RunFolder const& run);
+  /// What pictures show of a frame that was followed; of another one, as if it were the first.
   BodySurfaces surfaces(FrameReader const& frame) const;
   /// V of F = V R for each `every`-th particle, XX YY ZZ XY YZ XZ: what makes an ellipsoid of a ball. Stretches are
   /// bounded as in pictures; particles whose F is unknown have V = I.
@@ -37,6 +41,7 @@ class BodyShapes {
  private:
   explicit BodyShapes(std::vector<ReferenceMesh> meshes) : meshes_(std::move(meshes)) {}
   std::vector<ReferenceMesh> meshes_;
+  std::map<double, std::vector<std::vector<Index>>> torn_;  ///< by the time of a frame: of each body, see torn_cells
 };
 
 }  // namespace piola::report

@@ -36,7 +36,10 @@ void shape(RunFolder const& run, ReportOptions const& options, Shown& shown) {
   shown.shaping.shapes = BodyShapes::of(run, survey.dimension, survey.body);
   shown.plan.stretched = !options.surface && shown.shaping.shapes;
   if (!options.surface) return;
-  if (shown.shaping.shapes) shown.shaping.surfaces = find_surfaces(run, *shown.shaping.shapes, survey);
+  if (shown.shaping.shapes) {
+    shown.shaping.shapes->follow(run);
+    shown.shaping.surfaces = find_surfaces(run, *shown.shaping.shapes, survey);
+  }
   auto const triangles = [](auto const& list) { return !list.empty(); };
   if (!shown.shaping.surfaces ||
       std::none_of(shown.shaping.surfaces->lists.begin(), shown.shaping.surfaces->lists.end(), triangles))

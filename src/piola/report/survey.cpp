@@ -2,6 +2,7 @@
 #include "piola/report/survey.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/output/picture.hpp"
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,7 @@ Survey begin(FrameReader const& first, std::vector<std::string> const& fields, s
   auto const known = first.fields();
   Problems problems;
   for (std::string const& name : fields) {
-    if (std::find(known.begin(), known.end(), name) != known.end())
+    if (first.knows(name))
       survey.fields.push_back({first.info(name), label_of(first.info(name)), {}, {}});
     else
       problems.add({path.string()}, fmt::format("has no field {} (known: {}) - {}", in_quotes(name), joined(known),
@@ -150,7 +151,7 @@ std::vector<std::string> usual_fields(FrameReader const& frame, std::string cons
   for (std::string const& name : order) {
     bool const plain = name == "Id" || name == "Body" || name == "Volume" || holds(chosen, name);
     bool const twice = name == "CauchyStress" && holds(chosen, "VonMisesStress");
-    if (chosen.size() < most && holds(known, name) && !plain && !twice && frame.info(name).components != 9)
+    if (chosen.size() < most && frame.knows(name) && !plain && !twice && frame.info(name).components != 9)
       chosen.push_back(name);
   }
   return chosen;
@@ -198,7 +199,10 @@ Survey survey_frames(RunFolder const& run, std::vector<std::size_t> const& frame
           ranges[f].include(values.size(), [&](std::size_t i) { return static_cast<double>(values[i]); }));
     }
   }
-  for (std::size_t f = 0; f < fields.size(); ++f) survey.fields[f].scale = scale_of_values(ranges[f]);
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    auto const whole = whole_range(fields[f]);
+    survey.fields[f].scale = whole ? ByteScale{(*whole)[0], (*whole)[1]} : scale_of_values(ranges[f]);
+  }
   bool cut = false;
   for (std::size_t c = 0; c < 3; ++c) {
     auto const ends = ends_of_axis(axes[c]);

@@ -94,6 +94,7 @@ void add_plots(std::vector<Plot>& plots, CaseVerification const& c, std::vector<
     curve.colour = curve_colours[drawn.size()];
     if (drawn.empty()) {
       plot = std::move(*own);
+      plot.remark.clear();
       plot.curves.clear();
     }
     plot.curves.push_back(std::move(curve));

@@ -70,9 +70,10 @@ std::string plot_lines(HistoryTable const& table, std::string const& column, std
   for (double const v : values)
     if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
   if (!(low <= high)) return column_words(column) + " has no value yet\n";
-  std::string const unit = unit_of_column(column);
-  return fmt::format("{} from {} to {}\n{}\n", column_words(column), quantity_text(low, unit),
-                     quantity_text(high, unit), line_plot(table.values("time"), values, width));
+  std::string const unit = unit_of_column(column), sign = sign_of_column(column);
+  return fmt::format("{}{}{} from {} to {}\n{}\n", column_words(column), sign.empty() ? "" : ", ", sign,
+                     quantity_text(low, unit), quantity_text(high, unit),
+                     line_plot(table.values("time"), values, width));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include "piola/exec/exact_sum.hpp"
 #include "piola/exec/free_memory.hpp"
 #include "piola/exec/threads.hpp"
+#include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/make.hpp"
-#include "piola/formulations/quantity_names.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/formula_loop.hpp"
 #include "piola/input/formulations_of.hpp"
@@ -180,8 +180,7 @@ void check_fields(CaseSpec const& spec, Formulation const& formulation, std::str
                             ? all_fields
                             : formulation.fields_of(static_cast<std::size_t>(body - spec.bodies.begin()));
     auto const has = [&](std::string_view field) {
-      for (DerivedField const& derived : derived_fields())
-        if (derived.name == field) field = derived.from;
+      if (DerivedField const* const derived = find_derived(field)) field = derived->from;
       return field == "Position" ||
              std::any_of(fields.begin(), fields.end(), [&](FieldInfo const& info) { return info.name == field; });
     };

@@ -2,11 +2,13 @@
 #include "piola/simulation/history_plot.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/history_names.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/history.hpp"
+#include "piola/simulation/rounding_levels.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,6 +80,33 @@ std::string common_unit(std::vector<std::string> const& columns) {
       fmt::format("the columns {} have different units and share no axis - draw them one by one", joined(columns)));
 }
 
+/// The sign convention that all columns have; "" if they differ.
+std::string common_sign(std::vector<std::string> const& columns) {
+  std::string const sign = sign_of_column(columns.front());
+  bool const same = std::all_of(columns.begin(), columns.end(),
+                                [&](std::string const& name) { return sign_of_column(name) == sign; });
+  return same ? sign : "";
+}
+
+std::string axis_name(std::vector<std::string> const& columns, bool as_ledger) {
+  if (as_ledger) return "energy";
+  std::string const name = columns.size() == 1 ? column_words(columns.front()) : "value", sign = common_sign(columns);
+  return sign.empty() ? name : fmt::format("{}, {}", name, sign);
+}
+
+/// Curves of columns that hold nothing but round-off become zero.
+void flatten_round_off(Plot& plot, RoundingLevels const& levels, std::vector<std::string> const& columns) {
+  double level = 0;
+  for (std::string const& name : columns) {
+    if (!levels.is_rounding(name)) return;
+    level = std::max(level, levels.of(name));
+  }
+  for (Curve& curve : plot.curves)
+    for (double& y : curve.y)
+      if (std::isfinite(y)) y = 0;
+  plot.remark = fmt::format("zero to rounding (below {})", quantity_text(level, plot.y.unit, 2));
+}
+
 std::string run_name(std::filesystem::path folder) {
   if (!folder.has_filename()) folder = folder.parent_path();
   return folder.filename().string();
@@ -115,6 +144,12 @@ std::string unit_of_column(std::string const& name) {
   return "";
 }
 
+std::string sign_of_column(std::string const& name) {
+  if (name == "pressure_min" || name == "pressure_max") return std::string(sign_of("Pressure"));
+  auto const quantity = find_quantity(name.substr(name.rfind('.') + 1));
+  return quantity ? std::string(sign_of(quantity->field, quantity->component)) : "";
+}
+
 std::string missing_column(HistoryTable const& table, std::string const& column, std::filesystem::path const& folder) {
   if (table.find(column)) return "";
   auto const known = names_of(table);
@@ -147,11 +182,9 @@ Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const&
   plot.title = title_of(folder);
   if (others.empty()) plot.note = run_name(folder);
   plot.x = {column_words(options.against), unit_of_column(options.against), options.log_x};
-  plot.y = {columns.size() == 1       ? column_words(columns.front())
-            : options.columns.empty() ? "energy"
-                                      : "value",
-            common_unit(columns), options.log_y};
+  plot.y = {axis_name(columns, options.columns.empty()), common_unit(columns), options.log_y};
   add_curves(plot, table, others.empty() ? "" : run_name(folder), 0, options.against, columns);
+  if (others.empty() && !options.log_y) flatten_round_off(plot, RoundingLevels(table, folder), columns);
   for (std::size_t k = 0; k < others.size(); ++k)
     add_curves(plot, others[k], run_name(options.with[k]), static_cast<int>(k) + 1, options.against, columns);
   return plot;

@@ -15,8 +15,9 @@ struct HistoryPlotOptions {
   bool log_x = false, log_y = false;
 };
 
-/// Columns of history.csv of a run, and of others beside it. Throws InputError for folders without a history and for
-/// columns that it does not have; FileError if one cannot be read.
+/// Columns of history.csv of a run, and of others beside it. Columns that hold nothing but round-off
+/// (rounding_levels.hpp) are drawn as zero, with a remark, unless an axis of values is logarithmic. Throws InputError
+/// for folders without a history and for columns that it does not have; FileError if one cannot be read.
 Plot history_plot(std::filesystem::path const& folder, HistoryPlotOptions const& options);
 
 /// What is wrong with asking a history for a column that it does not have; "" if it has it. `folder`: of the run.
@@ -24,6 +25,9 @@ std::string missing_column(HistoryTable const& table, std::string const& column,
 
 /// A column in words: "kinetic energy".
 std::string column_words(std::string name);
+
+/// The sign convention of a column, see sign_of; "" if there is none to choose.
+std::string sign_of_column(std::string const& name);
 
 /// The unit of a column of history.csv in SI, "" if its name does not tell.
 std::string unit_of_column(std::string const& name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/look.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/field_signs.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ PictureStyle style_of(PictureSpec const& picture, Camera const& camera, Window c
   return {.width = size[0],
           .height = size[1],
           .view = camera.view,
-          .range = picture.range,
+          .range = picture.range ? picture.range : whole_range(picture.field),
           .theme = static_cast<Theme>(number_of(picture.theme, theme_words, "theme")),
           .labels = picture.labels,
           .palette = palette_for(picture.field, static_cast<Palette>(number_of(picture.map, palette_words, "map")))};

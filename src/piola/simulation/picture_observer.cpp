@@ -203,6 +203,19 @@ void PictureObserver::draw(std::size_t number, Kept const& kept) {
   drawn_[number] = look();
 }
 
+/// While a run goes on pictures are drawn for those who watch it; at the end those are drawn again whose window or
+/// range has changed since.
+void PictureObserver::draw_if_cheap(std::size_t number, Kept const& kept) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds pause(1);
+  constexpr int work_between = 50;  // times what the last one took
+  auto const now = Clock::now();
+  if (now < next_drawn_) return;
+  draw(number, kept);
+  auto const drawn = Clock::now();
+  next_drawn_ = drawn + std::max<Clock::duration>(pause, work_between * (drawn - now));
+}
+
 /// What is drawn; false if the formulation has no such field.
 bool PictureObserver::prepare(Formulation const& formulation) {
   if (impossible_ || !panels_.front().field.name.empty()) return !impossible_;
@@ -254,12 +267,7 @@ void PictureObserver::see_now(Formulation const& formulation, double time) {
   make_folder(results_.folder / "pictures");
   auto const number = static_cast<std::size_t>(count_);
   keep(number, kept);
-  constexpr std::chrono::seconds pause(1);
-  auto const now = std::chrono::steady_clock::now();
-  if (now - last_drawn_ >= pause) {
-    last_drawn_ = now;
-    draw(number, kept);
-  }
+  draw_if_cheap(number, kept);
   last_ = path(number);
   count_ += 1;
   last_time_ = time;

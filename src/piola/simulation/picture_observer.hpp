@@ -42,6 +42,7 @@ class PictureObserver : public Observer {
                       std::span<RigidShape const> shapes) const;
   Image picture(Kept const& kept) const;
   void make_meshes();
+  void draw_if_cheap(std::size_t number, Kept const& kept);
   bool prepare(Formulation const& formulation);
   bool drawn_as_now(std::size_t number) const;
   void draw_all();
@@ -78,8 +79,8 @@ class PictureObserver : public Observer {
   Look look() const;
   Subject subject(std::vector<std::array<double, 3>> const& points) const;
   std::map<std::size_t, Look> drawn_;
-  std::chrono::steady_clock::time_point last_drawn_{};
-  bool impossible_ = false;  ///< the formulation has no such field, and the user was told
+  std::chrono::steady_clock::time_point next_drawn_{};  ///< a picture may be drawn while the run goes on
+  bool impossible_ = false;                             ///< the formulation has no such field, and the user was told
   double count_ = 0, last_time_ = -1;
   std::filesystem::path last_;
 };

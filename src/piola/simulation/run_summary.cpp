@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_summary.hpp"
 #include "piola/base/version.hpp"
+#include "piola/input/case_facts.hpp"
 #include "piola/simulation/quantities.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace piola {
 namespace {
@@ -58,6 +60,19 @@ bool is_left_alone(RigidSpec const& rigid) {
   return rigid.free && weightless && rigid.can_turn && rigid.held == std::array<bool, 3>{};
 }
 
+/// The largest rho c^2 of the bodies, with the speed c of pressure waves at rest [Pa].
+double wave_modulus(Simulation const& s) {
+  double modulus = 0;
+  auto const facts = body_facts(s.spec, s.particles);
+  for (std::size_t b = 0; b < facts.size(); ++b) {
+    Body const& body = s.particles.bodies[b];
+    double const volume =
+        std::accumulate(s.particles.volume.begin() + body.first, s.particles.volume.begin() + body.last, 0.0);
+    if (volume > 0) modulus = std::max(modulus, facts[b].mass / volume * facts[b].p_wave * facts[b].p_wave);
+  }
+  return modulus;
+}
+
 void add_conservation(Summary& summary, HistoryTable const& history, Simulation const& s) {
   if (history.rows.empty()) return;
   auto const energy = history.values("total_energy");
@@ -65,12 +80,13 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.energy_final = energy.back();
   summary.energy_max_increase = energy_increase(history);
   summary.energy_max_decrease = energy_decrease(history);
-  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() &&
-                    std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
-  if (!free) return;
   // sqrt(2 M E_kin) is the momentum of the whole mass at the root mean square speed.
   double const momentum = std::sqrt(2 * s.mass * largest(history.values("kinetic_energy")));
   double const arm = half_diagonal(s.particles);
+  summary.scales = {{"kg m/s", momentum}, {"kg m^2/s", momentum * arm}, {"Pa", wave_modulus(s)}};
+  bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() &&
+                    std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
+  if (!free) return;
   summary.linear_drift = momentum > 0 ? drift(history, "linear_momentum") / momentum : 0;
   summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;
 }

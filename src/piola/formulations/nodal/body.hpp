@@ -67,6 +67,10 @@ class NodalBody {
   /// Over the points of a cell, of one number of their histories (SolidPlaces); 0 for bodies without.
   double mean_of_points(Index slot, int number) const;
   void set_damping_loss(double loss) { damping_loss_ = loss; }
+  /// Whether the fields for observers belong to the present state, so that a second look costs no sweep. Whoever
+  /// changes the state from outside says so.
+  bool observed() const { return observed_; }
+  void set_observed(bool observed) { observed_ = observed; }
   double next_release(double time) const { return boundary_->next_release(time); }
 
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
@@ -124,6 +128,7 @@ class NodalBody {
   std::vector<MaterialRange> materials_;  ///< of the body and of its parts
   std::vector<double> partial_;
   double damping_loss_ = 0, largest_change_ = 0;
+  bool observed_ = false;
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles

@@ -61,6 +61,7 @@ class Solver final : public Formulation {
   void step(double time, double dt) override {
     actions_.begin_step(bodies_, dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      bodies_[k]->set_observed(false);
       int const halvings = bodies_[k]->step(machine_, time, dt);
       repeated_ += halvings;
       monitors_[k]->update(dt, halvings);
@@ -72,7 +73,10 @@ class Solver final : public Formulation {
   }
 
   void damp(double factor) override {
-    for (auto const& body : bodies_) body->damp(factor);
+    for (auto const& body : bodies_) {
+      body->set_observed(false);
+      body->damp(factor);
+    }
   }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
@@ -83,6 +87,7 @@ class Solver final : public Formulation {
   }
   void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     push_all(bodies_, set_.dimension, slots_, ids, change);
+    for (auto const& body : bodies_) body->set_observed(false);
     std::vector<char> moved(bodies_.size(), 0);
     slots_.visit(ids, [&](std::size_t, std::size_t body, Index slot) {
       if (bodies_[body]->boundary().moves_surface(slot)) moved[body] = 1;
@@ -126,7 +131,7 @@ class Solver final : public Formulation {
   }
 
   void sample_owned(std::string_view field, std::span<double> values) const override {
-    sample_of_own(*this, bodies_, field, values, [&](auto const& body, int number, std::span<double> own) {
+    sample_of_own(*this, bodies_, field, values, [&](auto& body, int number, std::span<double> own) {
       refresh(body);
       sample_own(body, number, field, own);
     });
@@ -158,7 +163,9 @@ class Solver final : public Formulation {
  private:
   /// Brings the fields for observers up to date; nothing that steps read changes. Collective where ranks share the
   /// body.
-  void refresh(NodalBody const& body) const {
+  void refresh(NodalBody& body) const {
+    if (body.observed()) return;
+    body.set_observed(true);
     FailureSlot failure;
     BodyState seen = body.state();
     seen.failure = &failure;
@@ -201,7 +208,7 @@ double Solver::calm_time_step() const {
 void Solver::tell_failures() {
   failed_neighbours_.assign(bodies_.size(), 0);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    NodalBody const& body = *bodies_[k];
+    NodalBody& body = *bodies_[k];
     Index const slot = body.state().failure->index;
     if (slot >= body.particles()) continue;
     refresh(body);
@@ -283,6 +290,7 @@ void Solver::save(StateWriter& writer) const {
 void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody& body = *bodies_[k];
+    body.set_observed(false);
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
       load_own(reader, name, body, field, components);
     });
