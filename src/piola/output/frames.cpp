@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/hdf5.hpp"
@@ -186,8 +187,8 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   for (std::size_t i = 0; i < points.size(); ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
   frame.field_names = file.names("/VTKHDF/PointData");
   if (std::find(frame.field_names.begin(), frame.field_names.end(), field) == frame.field_names.end()) {
-    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field",
-                                 path.string(), field, fmt::join(frame.field_names, ", ")));
+    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - {}", path.string(), field,
+                                 fmt::join(frame.field_names, ", "), advice_for_name(field, frame.field_names)));
   }
   read_field(file, field, frame);
   frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");

@@ -10,6 +10,7 @@
 #include "piola/output/folder_lock.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/failure_text.hpp"
+#include "piola/simulation/formula_failure.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/picture_observer.hpp"
@@ -220,6 +221,16 @@ void report_rest(Simulation const& s, Relaxation const& relaxation, Ending endin
                     rest.stops, share));
 }
 
+/// A formula that was no number is the cause of what particles had then.
+void blame_formula(Simulation const& s, Moment const& moment, March& last) {
+  auto formula = failure_of_formula(s.spec, s.particles, moment);
+  if (!formula) return;
+  last.failure = std::move(*formula);
+  last.causes =
+      "a formula must be a finite number at all times up to run.end, or up to its until: look for divisions by zero, "
+      "roots of negative numbers and exp of large ones";
+}
+
 /// How often particles were shared out among ranks anew.
 std::string recuts_text(Recuts const& recuts) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
@@ -315,6 +326,7 @@ CaseOutcome CaseRun::finish() {
   if (auto const& recuts = outcome.summary.recuts; recuts && !recuts->imbalance.empty())
     p.journal.note(recuts_text(*recuts));
   auto const& folder = p.options.folder;
+  if (p.last.failure) blame_formula(s, p.moment, p.last);
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (p.watch.relaxation.active()) {
     Rest const& rest = p.watch.relaxation.rest();
