@@ -108,6 +108,10 @@ void check_folders(RenderArguments const& options) {
   if (options.folders.empty())
     throw InputError(options.shape ? "folder is required - name the case"
                                    : "folder is required - name the results folder of the run");
+  if (options.range.size() == 2 && !(options.range[0] < options.range[1]))
+    throw InputError(fmt::format("--range: {} {} is empty (allowed: the lower value first) - write --range {} {}",
+                                 options.range[0], options.range[1], std::min(options.range[0], options.range[1]),
+                                 std::max(options.range[0], options.range[1])));
   if (options.side_by_side && options.folders.size() < 2)
     throw InputError("--side-by-side: there is one folder only (allowed: two or more) - name the others, too");
   if (!options.side_by_side && options.folders.size() > 1)

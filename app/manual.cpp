@@ -9,6 +9,7 @@
 #include "piola/kernels/registry.hpp"
 #include "piola/materials/library.hpp"
 #include "piola/materials/registry.hpp"
+#include "piola/materials/validity.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -98,9 +99,12 @@ std::string describe_law(LawInfo const& law, Layout layout) {
   std::vector<Row> rows;
   for (Choice const& choice : law.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : law.parameters) rows.push_back(row_of(parameter, false, layout));
+  std::string const indent = layout == Layout::markdown ? "" : "  ";
+  std::string valid(validity_of_law(law.name));
+  if (!valid.empty()) valid = (layout == Layout::markdown ? "\n" : "") + indent + "Valid for " + valid + ".\n";
   return title(layout == Layout::markdown ? "law = \"" + std::string(law.name) + "\"" : std::string(law.name), 3,
                layout) +
-         (layout == Layout::markdown ? "" : "  ") + std::string(law.about) + "\n" + table_text(rows, layout);
+         indent + std::string(law.about) + "\n" + valid + table_text(rows, layout);
 }
 
 std::string describe_kernel(Kernel const& kernel, Layout layout) {

@@ -10,31 +10,34 @@ import numpy as np
 
 from . import _piola
 from .errors import InputError
+from .strict import Strict, advice
 from .toml import document_text, value_text
 
 
-class Body:
+class Body(Strict):
     """What functions give one body of a case instead of the case file.
 
     initial_velocity [m/s] and initial_displacement [m]: functions of (X, t) that are called once, with all points X of
     the body (n, 3) [m] and t = 0, and return (n, 3); or such arrays; or None for what the case file says.
     """
+    _settable = ("initial_velocity", "initial_displacement")
 
     def __init__(self):
         self.initial_velocity: Optional[Any] = None
         self.initial_displacement: Optional[Any] = None
 
 
-class Support:
+class Support(Strict):
     """velocity [m/s]: a function of (X, t) that is called once for each instant with all points X of the support (n, 3)
     [m] and the time t [s], and returns (n, 3), of which the fixed directions count; None for what the case file says.
     """
+    _settable = ("velocity",)
 
     def __init__(self):
         self.velocity: Optional[Callable] = None
 
 
-class _Named(dict):
+class _Named(Strict, dict):
     """Bodies or supports by name; supports also by number."""
 
     def __init__(self, kind, make):
@@ -46,13 +49,20 @@ class _Named(dict):
         self[name] = entry
         return entry
 
+    def __setitem__(self, name, entry):
+        if not isinstance(entry, self._make):
+            can = " or ".join(f"case.{self._kind}[{name!r}].{key} = ..." for key in self._make._settable)
+            raise TypeError(f"case.{self._kind}[{name!r}] cannot be {entry!r} - set {can}")
+        super().__setitem__(name, entry)
 
-class Case:
+
+class Case(Strict):
     """A case: a text in TOML, or a dict of the same structure, with settings that replace values of it.
 
     Nothing is read or checked before check(), particles or Run ask for it. Raises InputError then, with all that is
     wrong.
     """
+    _settable = ("body", "support")
 
     def __init__(self, source: Union[str, Mapping], set: Optional[Mapping[str, Any]] = None):
         if not isinstance(source, (str, Mapping)):
@@ -141,10 +151,11 @@ class Case:
         bodies, supports = [name for name, _, _ in case.bodies], list(case.supports)
         for key in self.body:
             if key not in bodies:
-                problems.append(f"there is no body {key!r} (bodies: {', '.join(bodies)}) - check the name")
+                problems.append(f"there is no body {key!r} (bodies: {', '.join(bodies)}) - {advice(str(key), bodies)}")
         for key in self.support:
             if key not in supports and not (isinstance(key, int) and 0 <= key < len(supports)):
-                problems.append(f"there is no support {key!r} (supports: {', '.join(supports) or 'none'}) - check it")
+                problems.append(f"there is no support {key!r} (supports: {', '.join(supports) or 'none'}) - "
+                                f"{advice(str(key), supports)}")
         if problems:
             raise InputError("\n".join(problems))
 

@@ -9,6 +9,7 @@ from typing import Dict, Iterator, List, Union
 import numpy as np
 
 from .errors import FileError
+from .strict import Strict, advice
 
 
 def read_table(path: str) -> Dict[str, np.ndarray]:
@@ -20,11 +21,12 @@ def read_table(path: str) -> Dict[str, np.ndarray]:
     return {name: values[:, column] for column, name in enumerate(names)}
 
 
-class Frame:
+class Frame(Strict):
     """One instant: fields by name, read when they are asked for, in the order of the particles' ids.
 
     Shapes: (n), or (n, components). "Position" is where the particles are [m]; "Body" numbers their bodies.
     """
+    _settable = ("path", "time")
 
     def __init__(self, path: str, time: float):
         self.path, self.time = path, time
@@ -46,7 +48,8 @@ class Frame:
         with _open(self.path) as file:
             data = file["VTKHDF/PointData"]
             if name != "Position" and name not in data:
-                raise KeyError(f"{self.path} has no field {name!r} (it has Position, {', '.join(sorted(data))})")
+                raise KeyError(f"{self.path} has no field {name!r} (it has Position, {', '.join(sorted(data))}) - "
+                               f"{advice(name, ['Position', *data])}")
             order = np.argsort(data["Id"][:], kind="stable")
             return (file["VTKHDF/Points"] if name == "Position" else data[name])[:][order]
 
@@ -54,8 +57,9 @@ class Frame:
         return f"<frame at t = {self.time:.6g} s of {self.path}>"
 
 
-class Frames:
+class Frames(Strict):
     """The frames of a run; times [s]."""
+    _settable = ("times",)
 
     def __init__(self, folder: str):
         index = os.path.join(folder, "frames.hdf.series")
@@ -79,8 +83,9 @@ class Frames:
         return self[int(np.argmin(np.abs(self.times - time)))]
 
 
-class Results:
+class Results(Strict):
     """What a run has written to its folder so far. Needs numpy, and h5py for frames. Raises FileError."""
+    _settable = ("folder",)
 
     def __init__(self, folder: Union[str, os.PathLike]):
         self.folder = os.fspath(folder)

@@ -14,6 +14,7 @@ import numpy as np
 from . import _piola
 from .case import Case
 from .errors import CaseWarning
+from .strict import Strict
 
 STOP = object()
 """What an observer returns to stop the run; it can go on afterwards."""
@@ -35,7 +36,7 @@ def seconds(time: Time) -> float:
     return value
 
 
-class Run:
+class Run(Strict):
     """A run of a case.
 
     out: the folder for its results (as `piola run --out`; replaced if it holds an earlier run of the same case); None:

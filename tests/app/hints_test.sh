@@ -12,6 +12,15 @@ expect 2 'there is no option "--thread"' "$program" run bar.toml --thread 2 --qu
 expect 2 'piola: there is no option "--verson"' "$program" --verson
 expect 2 "case" "$program" run
 
+# Fields and ranges of colours, and what a law is for.
+expect 0 "" "$program" run bar.toml --out bar --quiet --set 'run.end="1 ms"' --set 'output.frames.every="1 ms"'
+expect 2 "did you mean \"Velocity\"?" "$program" render bar --field velocity
+expect 2 "--range: 5 -5 is empty (allowed: the lower value first) - write --range -5 5" \
+  "$program" render bar --range 5 -5
+expect 2 "--range: 5 5 is empty" "$program" render bar --range 5 5
+expect 0 "small strain" "$program" describe material linear_elastic
+expect 0 "Cauchy's stress is not symmetric" "$program" describe material linear_elastic
+
 ln -s loop.toml loop.toml
 ln -s there here
 ln -s here there

@@ -20,6 +20,12 @@ TEST(Text, NearestNameIsFoundForASlipAndNotForAnotherWord) {
   EXPECT_EQ(nearest_name("desnity", known), "density");
   EXPECT_EQ(nearest_name("youngs", known), "youngs_modulus");
   EXPECT_FALSE(nearest_name("viscosity", known));
+  EXPECT_EQ(nearest_name("DENSITY", known), "density");
+  EXPECT_EQ(nearest_name("Youngs", known), "youngs_modulus");
+  std::vector<std::string> const fields{"Velocity", "VonMisesStress", "Volume"};
+  EXPECT_EQ(nearest_name("velocity", fields), "Velocity");
+  EXPECT_EQ(nearest_name("von_mises_stress", fields), "VonMisesStress");
+  EXPECT_EQ(known_names_text("x", fields), "Velocity, VonMisesStress, Volume");
   EXPECT_FALSE(nearest_name("", known));
   EXPECT_EQ(advice_for_name("densitx", known), "did you mean \"density\"?");
   EXPECT_EQ(advice_for_name("viscosity", known), "choose one of these");

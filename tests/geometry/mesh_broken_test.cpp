@@ -115,6 +115,94 @@ TEST_F(BrokenMesh, HasEdgesOfManyFaces) {
   expect_words(problems_of(unit_cube().add(cuboid({{1, 1, 0}}, {{2, 2, 1}}))), {"1 edge used by more than two faces"});
 }
 
+/// Corners that each face has for itself, moved by up to `gap` [units of the file].
+Shape torn_apart(Shape const& whole, double gap) {
+  Shape torn;
+  for (auto const& f : whole.face) {
+    int const first = static_cast<int>(torn.X.size());
+    for (int k = 0; k < 3; ++k) {
+      Vec<3> X = whole.X[f[k]];
+      X[(first + k) % 3] += gap * ((first / 3 + k) % 3 - 1) / 2;
+      torn.X.push_back(X);
+    }
+    torn.face.push_back({first, first + 1, first + 2});
+  }
+  return torn;
+}
+
+TEST_F(BrokenMesh, HasCornersThatNearlyCoincide) {
+  Shape const torn = torn_apart(round_ball(2), 1e-3);
+  for (auto const& [name, bytes] : {std::pair{"a.stl", stl_text(torn)}, std::pair{"b.stl", stl_binary(torn)},
+                                    std::pair{"c.obj", obj_text(torn)}, std::pair{"d.ply", ply_text(torn)}}) {
+    std::string const text = problems_of(name, bytes, {.scale = 1e-3});
+    expect_words(text, {"open edges", "set merge = \"", "nearly coincide"});
+    std::size_t const at = text.find("merge = \"") + 9;
+    double const nanometres = std::stod(text.substr(at, text.find(' ', at) - at));
+    EXPECT_NE(text.find(" nm\"", at), std::string::npos) << text;
+    MeshReport report;
+    MeshOptions const merging{.scale = 1e-3, .merge = 1e-9 * nanometres};
+    auto const solid = mesh_from_bytes(bytes, name, merging, report);
+    ASSERT_NE(solid, nullptr) << text << all_of(report.problems);
+    EXPECT_EQ(report.corners, static_cast<std::int64_t>(round_ball(2).X.size()));
+    EXPECT_EQ(report.faces, static_cast<std::int64_t>(torn.face.size()));
+    expect_words(all_of(report.notes), {"corners are merged with others less than"});
+    // Corners moved by at most half the gap of 1e-3 of a radius.
+    MeshReport whole;
+    auto const exact = mesh_from_bytes(stl_binary(round_ball(2)), "whole.stl", {.scale = 1e-3}, whole);
+    EXPECT_NEAR(report.volume, whole.volume, 3 * 0.5e-3 * whole.volume);
+  }
+}
+
+// A true hole stays one, whatever is merged.
+TEST_F(BrokenMesh, HasHolesThatMergingDoesNotClose) {
+  Shape ball = round_ball(2);
+  ball.face.pop_back();
+  EXPECT_EQ(problems_of(ball).find("merge"), std::string::npos);
+  EXPECT_EQ(problems_of(torn_apart(ball, 1e-3)).find("set merge"), std::string::npos);
+  expect_words(problems_of(torn_apart(ball, 1e-3), {.merge = 3e-3}), {"3 open edges"});
+}
+
+TEST_F(BrokenMesh, IsMendedOfNeedlessFaces) {
+  Shape cube = unit_cube();
+  cube.face.push_back(cube.face[2]);                                         // twice
+  cube.face.push_back({cube.face[5][0], cube.face[5][2], cube.face[5][1]});  // twice, turned
+  cube.face.push_back(cube.face[5]);
+  cube.X.push_back({{0, 0, 0.5}});
+  cube.face.push_back({0, 4, 8});  // without area, on an edge
+  expect_words(problems_of(cube), {"used by more than two faces", "set repair = \"faces\""});
+  MeshReport report;
+  MeshOptions const faces{.repair = MeshOptions::Repair::faces};
+  ASSERT_NE(solid_of(cube, report, faces), nullptr) << all_of(report.problems);
+  EXPECT_EQ(report.twice, 3);
+  EXPECT_EQ(report.without_area, 1);
+  EXPECT_EQ(report.faces, 12);
+  EXPECT_DOUBLE_EQ(report.volume, 1);
+  expect_words(all_of(report.notes), {"3 faces that stand twice are removed", "1 faces without area are removed"});
+  MeshReport good;
+  ASSERT_NE(solid_of(unit_cube(), good, faces), nullptr);
+  EXPECT_EQ(good.notes, std::vector<std::string>{}) << "nothing to mend, nothing to say";
+}
+
+TEST_F(BrokenMesh, IsMendedOfWallsBetweenPartsAndOfSecondSides) {
+  MeshOptions const faces{.repair = MeshOptions::Repair::faces};
+  Shape two = unit_cube().add(cuboid({{1, 0, 0}}, {{2, 1, 1}}));
+  // The diagonals of the wall must agree, as they do where one program cut both.
+  for (auto& f : two.face)
+    if (f == std::array{1, 3, 7})
+      f = {1, 3, 5};
+    else if (f == std::array{1, 7, 5})
+      f = {3, 7, 5};
+  MeshReport report;
+  auto const bar = solid_of(two, report, faces);
+  if (bar) EXPECT_DOUBLE_EQ(report.volume, 2);
+  Shape both = unit_cube();
+  both.add(unit_cube().turn());
+  MeshReport sides;
+  ASSERT_NE(solid_of(both, sides, faces), nullptr) << all_of(sides.problems);
+  EXPECT_EQ(sides.twice, 12);
+  EXPECT_DOUBLE_EQ(sides.volume, 1);
+}
+
 TEST_F(BrokenMesh, HasTurnedFaces) {
   Shape cube = unit_cube();
   std::swap(cube.face[4][0], cube.face[4][1]);

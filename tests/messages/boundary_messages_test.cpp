@@ -59,7 +59,7 @@ TEST(BoundaryMessages, LoadsAreOfOneKind) {
             "case.toml:23:1: load has 2 of traction, pressure, body_force, acceleration (allowed: one) - keep one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nforce = [0, 0, 0]\nbody_force = [0, \"1 Pa\", 0]\n"),
             "case.toml:25:1: \"force\" is not a key of load (allowed: name, body, where, traction, pressure, follows, "
-            "face, patch, body_force, acceleration, until) - choose one of these\n"
+            "face, patch, body_force, acceleration, until) - write \"traction\"\n"
             "case.toml:26:18: load.body_force[1] cannot be read: \"1 Pa\" is not a force per volume (expected a unit "
             "such as N/m^3)");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nacceleration = [0, \"1/(Y - 6)\", 0]\nface = \"+x\"\n"),

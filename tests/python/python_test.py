@@ -251,8 +251,39 @@ class Cases(InFolder):
             with self.assertRaisesRegex(piola.InputError, "initial_displacement of body 'column'"):
                 piola.Run(case)
         case.body["colum"].initial_velocity = wrong
-        with self.assertRaisesRegex(piola.InputError, "no body 'colum'"):
+        with self.assertRaisesRegex(piola.InputError, "no body 'colum'.*did you mean 'column'"):
             piola.Run(case)
+
+    def test_attributes_that_do_not_exist_are_refused(self):
+        case = column()
+        for thing, name, near in ((case.body["column"], "initial_velocty", "initial_velocity"),
+                                  (case.body["column"], "velocity", "initial_velocity"),
+                                  (case.body["column"], "Initial_Displacement", "initial_displacement"),
+                                  (case.support[0], "velocty", "velocity"),
+                                  (case, "bodies_", "body"), (case, "suport", "support"),
+                                  (case.body, "column", "")):
+            with self.assertRaisesRegex(AttributeError, f"no attribute '{name}'.*{near}"):
+                setattr(thing, name, 1)
+        for thing, name in ((case, "title"), (case, "X")):
+            with self.assertRaisesRegex(AttributeError, f"'{name}' of Case cannot be set"):
+                setattr(thing, name, 1)
+        with self.assertRaisesRegex(TypeError, r"set case.body\['column'\].initial_velocity = ..."):
+            case.body["column"] = {"initial_velocity": 1}
+        self.assertIsNone(case.body["column"].initial_velocity)
+        copy = case.copy()
+        with self.assertRaises(AttributeError):
+            copy.body["column"].initial_velocty = 1
+
+    def test_runs_and_results_take_no_attributes(self):
+        run = piola.Run(column(), out="results")
+        run.finish()
+        results = piola.Results("results")
+        for thing, name in ((run, "ende"), (run, "end"), (results, "foldr"), (results.frames, "time"),
+                            (results.frames[0], "field")):
+            with self.assertRaises(AttributeError, msg=name):
+                setattr(thing, name, 1)
+        with self.assertRaisesRegex(KeyError, "did you mean 'Velocity'"):
+            results.frames[0]["velocity"]
 
     def test_support_functions(self):
         for formulation in ("jst_sph", "nodal", "adaptle"):

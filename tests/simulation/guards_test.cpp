@@ -27,6 +27,8 @@ struct Script {
   std::function<double(std::size_t, double)> speed = [](std::size_t, double) { return 0.0; },
                                              jacobian = [](std::size_t, double) { return 1.0; };
   std::vector<char> eulerian = {};
+  std::function<double(double)> step = [](double) { return 1e-3; };
+  std::function<std::array<double, 9>(std::size_t, double)> gradient = {};
   std::function<std::vector<std::pair<std::string, double>>(double)> more = [](double) {
     return std::vector<std::pair<std::string, double>>{};
   };
@@ -35,7 +37,7 @@ struct Script {
 class Scripted : public Formulation {
  public:
   Scripted(Script script, std::size_t particles) : script_(std::move(script)), n_(particles) {}
-  double stable_time_step() const override { return 1e-3; }
+  double stable_time_step() const override { return script_.step(time_); }
   void step(double time, double dt) override {
     time_ = time + dt;
     if (++steps_ == stop_at) *stop = 15;
@@ -58,6 +60,7 @@ class Scripted : public Formulation {
   std::vector<FieldInfo> fields() const override {
     std::vector<FieldInfo> r{{"Displacement", "m", 3}, {"Velocity", "m/s", 3}, {"Jacobian", "1", 1}};
     if (!script_.eulerian.empty()) r.push_back({"KernelType", "1", 1});
+    if (script_.gradient) r.push_back({"DeformationGradient", "1", 9});
     return r;
   }
   void sample(std::string_view field, std::span<double> values) const override {
@@ -65,6 +68,10 @@ class Scripted : public Formulation {
       if (field == "Jacobian") values[i] = script_.jacobian(i, time_);
       if (field == "KernelType") values[i] = script_.eulerian[i];
       if (field == "Velocity") values[3 * i] = script_.speed(i, time_);
+      if (field == "DeformationGradient") {
+        auto const F = script_.gradient(i, time_);
+        std::copy(F.begin(), F.end(), values.begin() + static_cast<std::ptrdiff_t>(9 * i));
+      }
       if (field != "Displacement") continue;
       Point const u = script_.displacement(i, time_);
       std::copy(u.begin(), u.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
@@ -341,6 +348,84 @@ TEST(PartingGuard, WarnsAndStops) {
   expect_parts(o.of.failure, {"the strain of cells has parted from their stress, strain without stress = 0.2"});
 }
 
+// ---- steps, and the law for small strain
+
+TEST(StepGuard, WarnsOfAStepThatFallsAThousandfold) {
+  auto const with = [](double least) {
+    Script s;
+    s.step = [=](double t) { return t < 0.5 ? 1e-3 : least; };
+    s.jacobian = [](std::size_t i, double t) { return i == 7 && t > 0.5 ? 0.4 : 1; };
+    Simulation of = simulation(s);
+    of.spec.run.end = 0.501;
+    of.spec.output.history_every = 1e-3;
+    TemporaryFolder const folder;
+    return run(of, folder / "r");
+  };
+  Outcome const o = with(0.9e-6);
+  expect_parts(o.all(),
+               {"the step fell to 900 ns at t = 0.5", "0.0009 of the 1 ms that waves at rest allow (limit 0.001)",
+                "particle 7 of body 'plate'", "has det F = 0.4"});
+  EXPECT_NEAR(o.guards["step"]["share"].get<double>(), 0.9e-3, 1e-12);
+  ASSERT_FALSE(o.told.empty());
+  expect_parts(o.told[0], {"so far, at t = 0.5"});
+  EXPECT_TRUE(with(1.1e-6).of.summary.warnings.empty());
+}
+
+TEST(StepGuard, LetsTheCaseBoundItsSteps) {
+  Script s;
+  Simulation of = simulation(s);
+  of.spec.bodies[0].material = testing::rubber();  // waves allow far more than what the script takes
+  of.spec.run.max_step = 1e-7;
+  of.spec.run.end = 1e-4;
+  TemporaryFolder const folder;
+  EXPECT_TRUE(run(of, folder / "bounded").of.summary.warnings.empty());
+}
+
+// A first step that is far below what waves allow.
+TEST(StepGuard, KnowsTheSpeedOfWaves) {
+  Script s;
+  s.step = [](double) { return 1e-7; };
+  Simulation of = simulation(s);
+  of.spec.bodies[0].material = testing::rubber();  // 144 m/s, 1 m: 2 ms
+  of.spec.run.end = 1e-4;
+  TemporaryFolder const folder;
+  expect_parts(run(of, folder / "r").all(), {"the step fell to 100 ns", "of the 2.079 ms that waves at rest allow"});
+}
+
+std::array<double, 9> turned(double angle) {
+  return {std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1};
+}
+
+TEST(SmallStrainGuard, WarnsOfStrainAndRotationOfTheLinearLaw) {
+  auto const with = [](std::function<std::array<double, 9>(std::size_t, double)> gradient, std::string const& law) {
+    Script s;
+    s.gradient = std::move(gradient);
+    Simulation of = simulation(s);
+    of.spec.bodies[0].law = law;
+    of.spec.bodies[0].formulation.name = "nodal";
+    TemporaryFolder const folder;
+    return run(of, folder / "r");
+  };
+  auto const turns = [](double most) { return [=](std::size_t i, double t) { return turned(i == 5 ? most * t : 0); }; };
+  auto const stretches = [](double most) {
+    return [=](std::size_t i, double t) {
+      return std::array<double, 9>{1 + (i == 3 ? most * t : 0), 0, 0, 0, 1, 0, 0, 0, 1};
+    };
+  };
+  Outcome const o = with(turns(0.06), "linear_elastic");
+  expect_parts(o.all(),
+               {"linear_elastic is for small strain and rotation", "the rotation reached 0.06 rad (limit 0.05)",
+                "particle 5 of body 'plate'", "wrong by about 6 %", "a strain of 0.0018", "saint_venant_kirchhoff"});
+  EXPECT_NEAR(o.guards["small_strain"]["rotation"].get<double>(), 0.06, 1e-12);
+  EXPECT_NEAR(o.guards["small_strain"]["strain"].get<double>(), 0, 1e-12) << "a rotation is no strain";
+  EXPECT_TRUE(with(turns(0.049), "linear_elastic").of.summary.warnings.empty());
+  expect_parts(with(turns(3.1), "linear_elastic").all(), {"rotation reached 3.1 rad"});
+  expect_parts(with(stretches(0.03), "linear_elastic").all(), {"the strain reached 0.0304 (limit 0.02)", "particle 3"});
+  expect_parts(with(stretches(-0.03), "linear_elastic").all(), {"the strain reached 0.0295"});
+  EXPECT_TRUE(with(stretches(0.019), "linear_elastic").of.summary.warnings.empty());
+  EXPECT_TRUE(with(turns(3), "neo_hookean").of.summary.warnings.empty());
+}
+
 // ---- particles that meet
 
 /// Two plates of 3 x 3, the second to the right of the first.
@@ -437,10 +522,17 @@ TEST(Guards, OfAResumedRunSayTheSame) {
   };
   s.displacement = [](std::size_t i, double t) { return Point{i < 9 ? 3.8 * t : 0, 0, 0}; };
   s.loss = [](double t) { return 30 * t; };
+  s.gradient = [](std::size_t i, double t) { return turned(i == 5 ? t : 0); };
   for (double const stop_at : {100.0, 457.0, 905.0}) {
     TemporaryFolder const folder;
     expect_same(
-        folder, [&] { return simulation(s, two_plates()); }, stop_at);
+        folder,
+        [&] {
+          Simulation of = simulation(s, two_plates());
+          of.spec.bodies[0].law = "linear_elastic";
+          return of;
+        },
+        stop_at);
   }
   TemporaryFolder const folder;
   expect_same(

@@ -22,6 +22,14 @@ std::string join(std::span<Word const> words, std::string_view separator) {
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+/// Letters beyond ASCII stay as they are.
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
 }  // namespace
 
 std::string in_quotes(std::string_view text) {
@@ -68,12 +76,13 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[n];
 }
 
-std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::string const> known) {
-  if (wanted.size() > 64) return std::nullopt;
+std::optional<std::string> nearest_name(std::string_view asked, std::span<std::string const> known) {
+  if (asked.size() > 64) return std::nullopt;
+  std::string const wanted = lower_case(asked);
   int best = std::max(1, static_cast<int>(wanted.size()) / 3) + 1;
   std::optional<std::string> found;
   for (std::string const& name : known) {
-    int const distance = edit_distance(wanted, name);
+    int const distance = edit_distance(wanted, lower_case(name));
     if (distance < best && distance < static_cast<int>(std::max(name.size(), wanted.size()))) {
       best = distance;
       found = name;
@@ -81,7 +90,7 @@ std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::
   }
   if (found || wanted.size() < 3) return found;
   auto const longer =
-      std::find_if(known.begin(), known.end(), [&](auto const& name) { return name.starts_with(wanted); });
+      std::find_if(known.begin(), known.end(), [&](auto const& name) { return lower_case(name).starts_with(wanted); });
   return longer == known.end() ? std::nullopt : std::optional(*longer);
 }
 
@@ -95,7 +104,8 @@ std::string known_names_text(std::string_view wanted, std::span<std::string cons
   if (known.size() <= few) return joined(known);
   std::vector<std::string> nearest(known.begin(), known.end());
   std::stable_sort(nearest.begin(), nearest.end(), [&](std::string const& a, std::string const& b) {
-    return edit_distance(wanted.substr(0, 64), a) < edit_distance(wanted.substr(0, 64), b);
+    std::string const asked = lower_case(wanted.substr(0, 64));
+    return edit_distance(asked, lower_case(a)) < edit_distance(asked, lower_case(b));
   });
   nearest.resize(shown);
   return joined(nearest) + " and " + std::to_string(known.size() - shown) + " more";

@@ -22,7 +22,7 @@ std::string joined(std::span<std::string_view const> words, std::string_view sep
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The known word closest to `wanted`, if it is close enough to be a slip of the pen, else the first that starts with
-/// it.
+/// it. Capitals count as small letters.
 std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::string const> known);
 
 /// What to do about an unknown word: 'did you mean "x"?' or, if no word is near, 'choose one of these'.

@@ -4,6 +4,7 @@
 #include "piola/geometry/mesh_bytes.hpp"
 #include "piola/geometry/mesh_checks.hpp"
 #include "piola/geometry/mesh_file.hpp"
+#include "piola/geometry/mesh_repair.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -89,14 +90,34 @@ void note_offset(std::string const& name, MeshReport& report) {
                     name, quantity_text(reach, "m", 3), quantity_text(size, "m", 3)));
 }
 
+/// Makes near corners one and removes needless faces, as far as that is wanted.
+void repair_faces(Surface& surface, std::string const& name, MeshOptions const& options, MeshReport& report) {
+  auto const note = [&](std::int64_t count, std::string_view what) {
+    if (count > 0) report.notes.push_back(fmt::format("{}: {} {}", name, count_text(count), what));
+  };
+  int const before = surface.faces();
+  report.dropped = weld(surface);
+  if (options.merge > 0) {
+    report.merged = merge_corners(surface, options.merge);
+    note(report.merged,
+         fmt::format("corners are merged with others less than {} away", quantity_text(options.merge, "m")));
+    report.dropped = before - surface.faces();
+  }
+  note(report.dropped, "faces with equal corners are left out");
+  if (options.repair != MeshOptions::Repair::faces) return;
+  RemovedFaces const removed = remove_needless_faces(surface);
+  report.twice = removed.twice;
+  report.without_area = removed.without_area;
+  note(report.twice, "faces that stand twice are removed");
+  note(report.without_area, "faces without area are removed");
+}
+
 /// Welds, mends if that is wanted, and counts.
 Links prepare(Surface& surface, std::string const& name, MeshOptions const& options, MeshReport& report) {
-  report.dropped = weld(surface);
-  if (report.dropped > 0)
-    report.notes.push_back(
-        fmt::format("{}: {} faces with equal corners are left out", name, count_text(report.dropped)));
+  repair_faces(surface, name, options, report);
   Links links = link_faces(surface);
-  if (options.repair == MeshOptions::Repair::orient && links.open.empty() && links.crowded.empty()) {
+  bool const turns = options.repair == MeshOptions::Repair::orient || options.repair == MeshOptions::Repair::faces;
+  if (turns && links.open.empty() && links.crowded.empty()) {
     report.mended = orient(surface, links);
     if (report.mended > 0)
       report.notes.push_back(fmt::format("{}: {} faces are turned", name, count_text(report.mended)));

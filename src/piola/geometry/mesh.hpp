@@ -12,12 +12,14 @@ struct MeshOptions {
   enum class Repair {
     none,
     orient,  ///< faces are turned until neighbours agree and the body is inside
-    holes    ///< holes are allowed up to largest_hole, and rays tell inside from outside
+    holes,   ///< holes are allowed up to largest_hole, and rays tell inside from outside
+    faces    ///< faces that stand twice or have no area are removed, the others turned as by orient
   };
   double scale = 1;                             ///< [m] per unit of the file
   double feature_angle = std::numbers::pi / 6;  ///< patches end where normals turn by more [rad]
   Repair repair = Repair::none;                 ///< what may be mended
   double largest_hole = 0;                      ///< for Repair::holes [m]
+  double merge = 0;                             ///< corners nearer than this become one [m]; 0: only equal ones
   double spacing = 0;                           ///< of the particles to come [m]; 0: no remarks about it
   double patience = 5;                          ///< so long may reading take, and 1 s more per MB [s]; 0: no bounds
 };
@@ -29,7 +31,9 @@ struct MeshReport {
   std::int64_t corners = 0, faces = 0, shells = 0;
   std::int64_t dropped = 0;                        ///< faces with equal corners
   std::int64_t open = 0, crowded = 0, turned = 0;  ///< edges: used once, more than twice, between faces turned about
-  std::int64_t mended = 0;                         ///< faces turned by Repair::orient
+  std::int64_t mended = 0;                         ///< faces turned by Repair::orient, Repair::faces
+  std::int64_t merged = 0;                         ///< corners that are gone because others are near
+  std::int64_t twice = 0, without_area = 0;        ///< faces removed by Repair::faces
   double longest_hole = 0;                         ///< [m]
   double volume = 0, area = 0;                     ///< [m3, m2]
   Bounds bounds;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_checks.hpp"
 #include "piola/base/text.hpp"
+#include "piola/geometry/mesh_repair.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -56,6 +57,13 @@ double longest_hole(Surface const& surface, Links const& links) {
   return longest;
 }
 
+/// The advice to merge corners, if that closes the surface.
+std::string merge_text(double distance) {
+  if (!(distance > 0)) return "";
+  return fmt::format("set merge = \"{}\" (its corners nearly coincide, and become one), ",
+                     quantity_text(distance, "m", 2));
+}
+
 void check_open(Surface const& surface, Links const& links, std::string const& name, MeshOptions const& options,
                 MeshReport& report) {
   if (links.open.empty()) return;
@@ -65,8 +73,10 @@ void check_open(Surface const& surface, Links const& links, std::string const& n
   std::string const where = fmt::format("the longest hole is {} across, {}", length_text(report.longest_hole),
                                         near_text(middle_of_side(surface, links.open.front())));
   if (!allowed)
-    report.problems.push_back(fmt::format(
-        "{} (allowed: none), {} - close the surface in the CAD program, or set repair = \"holes\"", what, where));
+    report.problems.push_back(
+        fmt::format("{} (allowed: none), {} - {}close the surface in the CAD program, or set "
+                    "repair = \"holes\"",
+                    what, where, merge_text(closing_distance(surface, links))));
   else if (report.longest_hole > options.largest_hole)
     report.problems.push_back(
         fmt::format("{}, {} (allowed: {}) - close the surface in the CAD program, or allow larger holes", what, where,
@@ -77,19 +87,22 @@ void check_open(Surface const& surface, Links const& links, std::string const& n
 
 void check_crowded(Surface const& surface, Links const& links, std::string const& name, MeshReport& report) {
   if (links.crowded.empty()) return;
+  Surface trial = surface;
+  remove_needless_faces(trial);
+  bool const removable = trial.faces() > 0 && link_faces(trial).crowded.empty();
   double longest = 0;
   for (int const half : links.crowded) longest = std::max(longest, surface.edge_length(half / 3, half % 3));
   report.problems.push_back(fmt::format(
-      "{}: {} used by more than two faces (allowed: two), the longest {}, {} - remove faces that lie inside "
+      "{}: {} used by more than two faces (allowed: two), the longest {}, {} - {}remove faces that lie inside "
       "the body or stand twice, or part bodies that touch",
       name, edges_text(links.crowded.size()), length_text(longest),
-      near_text(middle_of_side(surface, links.crowded.front()))));
+      near_text(middle_of_side(surface, links.crowded.front())), removable ? "set repair = \"faces\", or " : ""));
 }
 
 void check_turned(Surface const& surface, Links const& links, std::string const& name, MeshOptions const& options,
                   MeshReport& report) {
   if (links.turned.empty()) return;
-  bool const tried = options.repair == MeshOptions::Repair::orient;
+  bool const tried = options.repair == MeshOptions::Repair::orient || options.repair == MeshOptions::Repair::faces;
   double longest = 0;
   for (int const half : links.turned) longest = std::max(longest, surface.edge_length(half / 3, half % 3));
   report.problems.push_back(fmt::format(

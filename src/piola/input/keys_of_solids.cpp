@@ -9,7 +9,7 @@ using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr std::array<std::string_view, 2> filling_words{"packed", "lattice"};
-constexpr std::array<std::string_view, 3> repair_words{"none", "orient", "holes"};
+constexpr std::array<std::string_view, 4> repair_words{"none", "orient", "holes", "faces"};
 
 /// The kinds of solids that stand in a shape and in the parts of others.
 struct SolidKey {
@@ -105,15 +105,18 @@ constexpr std::array parameters{
 
     KeyInfo{"body.shape.mesh", "file", text, "", {}, "", "path from the case file: .stl, .obj or .ply", {}},
     KeyInfo{"body.shape.mesh", "unit", text, "", {}, "", "what one is in the file, such as mm: meshes do not say", {}},
-    KeyInfo{"body.shape.mesh",
-            "repair",
-            word,
-            "",
-            {},
-            "\"none\"",
-            "orient: faces are turned until neighbours agree; holes: holes are allowed up to largest_hole",
-            repair_words},
+    KeyInfo{
+        "body.shape.mesh",
+        "repair",
+        word,
+        "",
+        {},
+        "\"none\"",
+        "orient: faces are turned until neighbours agree; holes: holes are allowed up to largest_hole; faces: faces "
+        "that stand twice or have no area are removed, the others turned",
+        repair_words},
     KeyInfo{"body.shape.mesh", "largest_hole", quantity, "m", positive, "none", "repair = \"holes\"", {}},
+    KeyInfo{"body.shape.mesh", "merge", quantity, "m", positive, "none", "corners nearer than this become one", {}},
     KeyInfo{"body.shape.mesh",
             "feature_angle",
             quantity,

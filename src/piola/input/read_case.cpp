@@ -25,6 +25,8 @@ std::vector<Section> tables_of(Section const& top, std::string_view key) {
   if (!value->node.is_array()) {
     top.problems().add(value->node.place, std::string(key) + " is " + shown(value->node) +
                                               " (allowed: a list of tables) - write " + heading);
+    // The table is read all the same: supports that name the body would be refused, too.
+    if (value->node.is_table()) tables.emplace_back(value->node, std::string(key), top.problems());
     return tables;
   }
   for (Node const& item : value->node.items) {

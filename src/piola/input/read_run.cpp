@@ -141,28 +141,4 @@ void read_output(Section const& section, OutputSpec& output, std::span<BodySpec 
   section.refuse_unknown();
 }
 
-std::map<std::string, double> read_constants(Value const& value, Problems& problems) {
-  std::map<std::string, double> constants;
-  if (!value.node.is_table()) {
-    problems.add(value.node.place, "constants is " + shown(value.node) + " (allowed: a table) - write [constants]");
-    return constants;
-  }
-  for (Node::Entry const& entry : value.node.entries) {
-    std::string const name = "constants." + entry.key;
-    if (!is_name(entry.key) || is_reserved_name(entry.key)) {
-      problems.add(entry.place, in_quotes(entry.key) +
-                                    (is_name(entry.key) ? " already has a meaning in formulas" : " is not a name") +
-                                    " (allowed: letters, digits and _) - choose another name");
-    } else if (entry.value.is_text()) {
-      Quantity const quantity = read_any_quantity(entry.value.text);
-      if (quantity.problem) problems.add(entry.value.place, name + " cannot be read: " + *quantity.problem);
-      constants[entry.key] = quantity.value;
-    } else {
-      auto const number = read_number({entry.value, name}, "", any_value, problems);
-      constants[entry.key] = number.value_or(0);  // known all the same, so that formulas do not complain again
-    }
-  }
-  return constants;
-}
-
 }  // namespace piola

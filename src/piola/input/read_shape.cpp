@@ -2,6 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/read_solid.hpp"
 #include "piola/input/sections.hpp"
+#include <algorithm>
 #include <array>
 
 namespace piola {
@@ -105,6 +106,19 @@ void refuse_box_key(Section const& section, std::string_view key) {
                                                     "seed) - remove it");
 }
 
+/// A spacing that is larger than the body leaves one particle or none, which no support or probe would find.
+void refuse_wide_spacing(Section const& section, ShapeSpec const& shape, double spacing) {
+  double largest = shape.kind == ShapeKind::cylinder ? std::max(shape.length, 2 * shape.radius) : 2 * shape.radius;
+  for (std::size_t d = 0; shape.kind == ShapeKind::box && d < static_cast<std::size_t>(shape.dimension); ++d)
+    largest = std::max(largest, shape.max[d] - shape.min[d]);
+  if (!(largest > 0) || !(spacing > largest)) return;
+  section.problems().add(section.place_of("spacing"),
+                         "body.shape.spacing is " + quantity_text(spacing, "m") + ", larger than the body, " +
+                             quantity_text(largest, "m") +
+                             ", which would be a single particle (allowed: less; a third of the smallest edge to "
+                             "bend) - check the units of both");
+}
+
 void read_box_particles(Section const& section, ShapeSpec& shape) {
   auto const count = static_cast<std::size_t>(shape.dimension);
   if (auto const value = section.find("particles")) {
@@ -118,6 +132,7 @@ void read_box_particles(Section const& section, ShapeSpec& shape) {
     for (std::size_t d = 0; d < count; ++d) {
       shape.particles[d] = particles_over(shape.max[d] - shape.min[d], spacing, shape.placement);
     }
+    refuse_wide_spacing(section, shape, spacing);
   }
 }
 
@@ -135,6 +150,7 @@ void read_fineness(Section const& section, ShapeSpec& shape) {
     read_box_particles(section, shape);
   } else {
     section.read("spacing", shape.spacing);
+    refuse_wide_spacing(section, shape, shape.spacing);
   }
 }
 

@@ -86,6 +86,7 @@ class SolidReader {
     else if (!section.has("largest_hole"))
       section.report_missing("largest_hole", "how large a hole may be", "largest_hole = \"1 mm\"");
     section.read("largest_hole", options.largest_hole);
+    section.read("merge", options.merge);
     section.refuse_unknown();
     if (!given || !unit) return nullptr;
     options.scale = *unit;

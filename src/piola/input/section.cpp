@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/section.hpp"
 #include "piola/base/text.hpp"
+#include "piola/input/synonyms.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -26,6 +27,13 @@ std::string example_of(KeyInfo const& info) {
     case KeyInfo::Kind::table: return "{ ... }";
   }
   return "";
+}
+
+/// By meaning, where that is known; else by spelling.
+std::string advice_for_key(std::string_view key, std::span<std::string const> known) {
+  auto const synonym = advice_for_synonym(key, known);
+  bool const elsewhere = synonym.starts_with("that is");
+  return synonym.empty() || (elsewhere && nearest_name(key, known)) ? advice_for_name(key, known) : synonym;
 }
 
 }  // namespace
@@ -158,7 +166,7 @@ void Section::refuse_unknown(std::vector<std::string> const& more) const {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     std::string const where = section_.empty() ? "a case" : section_;
     problems_.add(entry.place, in_quotes(entry.key) + " is not a key of " + where + " (allowed: " + joined(known) +
-                                   ") - " + advice_for_name(entry.key, known));
+                                   ") - " + advice_for_key(entry.key, known));
   }
 }
 

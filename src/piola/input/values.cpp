@@ -2,6 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include "piola/input/section.hpp"
+#include "piola/input/synonyms.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -117,9 +118,11 @@ std::optional<std::string> read_word(Value const& value, std::vector<std::string
   auto text = read_text(value, problems);
   if (!text) return std::nullopt;
   if (std::find(allowed.begin(), allowed.end(), *text) != allowed.end()) return text;
+  auto const synonym = advice_for_synonym(*text, allowed);
+  bool const by_meaning = !synonym.empty() && !synonym.starts_with("that is");
   complain(value,
            "is " + in_quotes(*text) + " (allowed: " + known_names_text(*text, allowed) + ") - " +
-               advice_for_name(*text, allowed),
+               (by_meaning ? synonym : advice_for_name(*text, allowed)),
            problems);
   return std::nullopt;
 }

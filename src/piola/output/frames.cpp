@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/base/text.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/field_signs.hpp"
 #include "piola/output/files.hpp"
@@ -210,8 +211,8 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   frame.field_names = file.names("/VTKHDF/PointData");
   std::string const stored = stored_field(field, frame.field_names);
   if (stored.empty()) {
-    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - choose one of these with --field",
-                                 path.string(), field, fmt::join(frame.field_names, ", ")));
+    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - {}", path.string(), field,
+                                 fmt::join(frame.field_names, ", "), advice_for_name(field, frame.field_names)));
   }
   read_field(file, stored, frame);
   if (stored != field) derive_field(frame, *find_derived(field));

@@ -95,6 +95,8 @@ Guards make_guards(CaseSpec const& spec, ParticleSet const& particles) {
   guards.push_back(make_overlap_guard(limits));
   guards.push_back(make_parting_guard(limits, particles));
   guards.push_back(make_stranger_guard(spec, particles));
+  guards.push_back(make_step_guard(spec, particles));
+  guards.push_back(make_small_strain_guard(spec, particles));
   return guards;
 }
 

@@ -83,5 +83,7 @@ std::unique_ptr<Guard> make_jacobian_guard(CaseSpec const& spec, ParticleSet con
 std::unique_ptr<Guard> make_overlap_guard(GuardLimits const& limits);
 std::unique_ptr<Guard> make_parting_guard(GuardLimits const& limits, ParticleSet const& particles);
 std::unique_ptr<Guard> make_stranger_guard(CaseSpec const& spec, ParticleSet const& particles);
+std::unique_ptr<Guard> make_step_guard(CaseSpec const& spec, ParticleSet const& particles);
+std::unique_ptr<Guard> make_small_strain_guard(CaseSpec const& spec, ParticleSet const& particles);
 
 }  // namespace piola

@@ -65,10 +65,10 @@ void GuardObserver::save(StateWriter& writer) const {
 
 void GuardObserver::load(NamedState& reader, Moment const&) {
   if (guards_.empty() || !reader.has("guards")) return;  // checkpoints of older versions have none
-  std::vector<double> state(1 + told_.size());
-  reader.get("guards", state);
+  auto const state = reader.all("guards");
   last_look_ = state[0];
   told_.assign(state.begin() + 1, state.end());
+  told_.resize(guards_.size(), 0);  // checkpoints of older versions know fewer guards
   scale_.load(reader);
   for (auto const& guard : guards_) guard->load(reader);
 }

@@ -11,6 +11,7 @@
 #include "piola/particles/particle_record.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include "piola/simulation/failure_text.hpp"
+#include "piola/simulation/formula_failure.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
 #include "piola/simulation/picture_observer.hpp"
@@ -259,6 +260,16 @@ std::string missing_results(std::filesystem::path const& folder, Watch& watch) {
       missing.size() == 1 ? "was" : "were");
 }
 
+/// A formula that was no number is the cause of what particles had then.
+void blame_formula(Simulation const& s, Moment const& moment, March& last) {
+  auto formula = failure_of_formula(s.spec, s.particles, moment);
+  if (!formula) return;
+  last.failure = std::move(*formula);
+  last.causes =
+      "a formula must be a finite number at all times up to run.end, or up to its until: look for divisions by zero, "
+      "roots of negative numbers and exp of large ones";
+}
+
 /// How often particles were shared out among ranks anew.
 std::string recuts_text(Recuts const& recuts) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
@@ -361,6 +372,7 @@ CaseOutcome CaseRun::finish() {
                       .index = {}};
   add_watched(outcome.summary, s, p.watch, p.journal);
   auto const& folder = p.options.folder;
+  if (p.last.failure) blame_formula(s, p.moment, p.last);
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (folder.empty()) return outcome;
   std::string const missing = missing_results(folder, p.watch);

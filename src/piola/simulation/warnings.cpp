@@ -159,7 +159,7 @@ void warn_of_thin_parts(CaseSpec const& spec, Problems& found) {
 
 std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, Prospect const& prospect) {
   Problems found;
-  find_slips(spec, body_facts(spec, assembly.particles), prospect.step, found);
+  find_slips(spec, assembly.particles, body_facts(spec, assembly.particles), prospect.step, found);
   for (Doubt const& doubt : doubts(assembly)) found.add(place_of_doubt(spec.bodies[doubt.body], doubt.key), doubt.text);
   warn_of_thin_parts(spec, found);
   warn_of_idle_contact(spec, found);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/geometry/mesh_surface.hpp"
+
+namespace piola::geometry {
+
+/// Makes corners that lie within `distance` [m] of each other one, at the place of the first of them, and drops the
+/// faces that this leaves with fewer than three corners. Chains of near corners become one corner, too. The surface
+/// must be welded. Returns how many corners are gone.
+int merge_corners(Surface& surface, double distance);
+
+/// The distance [m] that merges the corners of all open edges so that the surface is closed; 0 if there is none below
+/// a quarter of the mean length of these edges. Complexity: as of a welding.
+double closing_distance(Surface const& surface, Links const& links);
+
+/// Removed by remove_needless_faces.
+struct RemovedFaces {
+  int twice = 0;         ///< copies of a face, walls between parts that touch among them
+  int without_area = 0;  ///< with corners on a line, at edges that have not two faces
+};
+
+/// Keeps one of the faces with the same three corners: of those that are turned alike, one; of as many turned either
+/// way none, because nothing lies between them, unless the whole surface is given twice, from either side. Then removes
+/// faces without area that stand at open or crowded edges. The surface must be welded.
+RemovedFaces remove_needless_faces(Surface& surface);
+
+}  // namespace piola::geometry

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
+#include "piola/materials/solids.hpp"
+#include "piola/simulation/guard.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace piola {
+namespace {
+
+/// Of the step that waves at rest allow. Impact and fracture shorten it by 100 at most; below a thousandth the particle
+/// that limits it is no longer part of any answer, and the run stops at a millionth (run.min_step).
+constexpr double least_fraction = 1e-3;
+/// Particles are searched again once the step is shorter by a tenth: a search costs as much as a frame.
+constexpr double worse = 0.9;
+
+/// cfl times spacing over wave speed, the least of all bodies [s]; infinity if no law knows a speed.
+double step_of_waves(CaseSpec const& spec, ParticleSet const& particles) {
+  constexpr double usual_cfl = 0.3;
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    auto const& spacing = particles.bodies[b].spacing;
+    double const least = *std::min_element(spacing.begin(), spacing.begin() + particles.dimension);
+    auto const see = [&](MaterialParameters const& material) {
+      with_any_law(material, [&](auto const& law) {
+        if (double const own = least / law.p_wave_speed(); own > 0) step = std::min(step, own);
+      });
+    };
+    see(spec.bodies[b].material);
+    for (PartSpec const& part : spec.bodies[b].parts) see(part.material);
+  }
+  return (std::isnan(spec.run.cfl) ? usual_cfl : spec.run.cfl) * step;
+}
+
+/// The step beside the one that waves at rest allow.
+class StepGuard : public Guard {
+ public:
+  StepGuard(CaseSpec const& spec, ParticleSet const& particles)
+      : waves_(step_of_waves(spec, particles)), particles_(particles) {}
+
+  void look(Look const& look) override {
+    Moment const& now = look.moment;
+    if (now.step == 0 || now.cut_to_end || now.bounded_by_max_step || !(now.dt > 0)) return;
+    reference_ = std::isfinite(waves_) ? waves_ : now.first_dt;
+    if (!(now.dt < m_.least)) return;
+    m_.least = now.dt;
+    m_.time = now.time;
+    if (!(fraction() < least_fraction) || !(m_.least < worse * m_.searched)) return;
+    m_.searched = m_.least;
+    find_where(look);
+  }
+  std::optional<GuardNumbers> numbers() const override {
+    if (!std::isfinite(m_.least)) return std::nullopt;
+    return GuardNumbers{"step", {{"least", m_.least}, {"share", fraction()}, {"time", m_.time}}, words()};
+  }
+  std::string words() const override {
+    if (!(fraction() < least_fraction)) return "";
+    return fmt::format(
+        "the step fell to {} at t = {:.6g} s, {:.2g} of the {} that waves at rest allow (limit {}){} - the rest of the "
+        "run costs more by that factor, and what is crushed or torn there is no answer any more: look at the last "
+        "frame, take more particles or a law that fails, or end the run earlier",
+        quantity_text(m_.least, "s"), m_.time, fraction(), quantity_text(reference_, "s"), least_fraction,
+        m_.where.known() ? "; " + m_.where.text(particles_) + fmt::format(" has det F = {:.3g}", m_.jacobian) : "");
+  }
+  void save(StateWriter& writer) const override {
+    writer.put("guard_step", std::array{m_.least, m_.time, m_.searched, m_.jacobian, reference_, m_.where.id,
+                                        m_.where.time, m_.where.x[0], m_.where.x[1], m_.where.x[2]});
+  }
+  void load(NamedState& reader) override {
+    if (!reader.has("guard_step")) return;  // checkpoints of older versions have none
+    std::array<double, 10> v{};
+    reader.get("guard_step", v);
+    m_ = {v[0], v[1], v[2], v[3], {v[5], v[6], {v[7], v[8], v[9]}}};
+    reference_ = v[4];
+  }
+
+ private:
+  double fraction() const { return std::isfinite(m_.least) && reference_ > 0 ? m_.least / reference_ : 1; }
+
+  /// The particle whose volume has changed most: it is what waves cross fastest.
+  void find_where(Look const& look) {
+    if (!look.fields.knows("Jacobian")) return;
+    auto const J = look.fields.values("Jacobian");
+    auto const change = [](double j) {
+      return j > 0 ? std::fabs(std::log(j)) : std::numeric_limits<double>::infinity();
+    };
+    auto const most = std::max_element(J.begin(), J.end(), [&](double a, double b) { return change(a) < change(b); });
+    if (most == J.end()) return;
+    m_.jacobian = *most;
+    m_.where = suspect(look.fields, static_cast<std::size_t>(most - J.begin()), look.moment.time);
+  }
+
+  struct Memory {
+    double least = std::numeric_limits<double>::infinity(), time = 0;  ///< [s]
+    double searched = std::numeric_limits<double>::infinity();         ///< step at the last search [s]
+    double jacobian = 1;
+    Suspect where = {};
+  };
+  double waves_, reference_ = 0;  ///< [s]
+  ParticleSet const& particles_;
+  Memory m_;
+};
+
+}  // namespace
+
+std::unique_ptr<Guard> make_step_guard(CaseSpec const& spec, ParticleSet const& particles) {
+  return std::make_unique<StepGuard>(spec, particles);
+}
+
+}  // namespace piola
