@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/hdf5_driver.hpp"
+#include "piola/base/problems.hpp"
 #include "piola/output/hdf5_types.hpp"
 #include <algorithm>
 #include <iterator>

@@ -178,7 +178,7 @@ void SplineLevels<D>::add_to_splines(PartFilled<double> const& r) {
   std::size_t const layer = first.value.size() / D / static_cast<std::size_t>(first.splines[last]);
   std::int64_t const layers = first.splines[last];
   int const count = shared_ ? ranks::count() : 1, rank = shared_ ? ranks::own() : 0;
-  auto const start = [&](int r) { return static_cast<int>(layers * r / count); };
+  auto const start = [&](int k) { return static_cast<int>(layers * k / count); };
   int const before = start(rank), mine = start(rank + 1) - before;
   Index const parts = std::max<Index>(1, std::min<Index>(exec_host::team(particles), mine));
   exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
@@ -195,7 +195,7 @@ void SplineLevels<D>::add_to_splines(PartFilled<double> const& r) {
   });
   if (!shared_) return;
   std::vector<std::size_t> starts;
-  for (int r = 0; r <= count; ++r) starts.push_back(static_cast<std::size_t>(start(r)) * layer * D);
+  for (int k = 0; k <= count; ++k) starts.push_back(static_cast<std::size_t>(start(k)) * layer * D);
   ranks::complete(first.value, starts);
 }
 
