@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Types what the manual says: every key, path, command, field, column and file of README.md and docs/ must exist."""
+import json
 import os
 import re
 import shlex
@@ -17,7 +18,7 @@ if not os.access(PROGRAM, os.X_OK):
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 problems = []
-counts = dict.fromkeys(("keys", "paths", "commands", "names", "files"), 0)
+counts = dict.fromkeys(("keys", "paths", "commands", "names", "files", "presets"), 0)
 
 
 def said(*words):
@@ -204,7 +205,30 @@ def check_command(page, line, text):
                 complain(page, line, f"{text}: there is no case {name}")
 
 
+PRESETS = {preset["name"]: preset
+           for preset in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
+
+
+def variables_of(preset):
+    """The cache variables of a preset, with those that it inherits."""
+    own = PRESETS[preset]
+    inherited = variables_of(own["inherits"]) if "inherits" in own else {}
+    return inherited | own.get("cacheVariables", {})
+
+
+def check_presets(page, number, line):
+    """Presets that pages name exist; those for users need none of the packages that only tests need."""
+    for name in re.findall(r"cmake --preset ([\w-]+)", line):
+        counts["presets"] += 1
+        if name not in PRESETS:
+            complain(page, number, f"there is no preset {name}")
+        elif page.name != "CONTRIBUTING.md" and "developer" not in page.parts:
+            if variables_of(name).get("PIOLA_TESTS") != "OFF":
+                complain(page, number, f"the preset {name} builds the tests, whose packages users do not have")
+
+
 def check_line(page, number, line):
+    check_presets(page, number, line)
     for code in re.findall(r"`([^`]+)`", line):
         if re.fullmatch(r"(run|output|body|contact)\.[a-z0-9_.]*[a-z0-9_](=.*)?", code):
             check_path(page, number, code.split("=")[0])
