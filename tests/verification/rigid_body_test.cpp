@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/input/read_case.hpp"
+#include "piola/simulation/build.hpp"
 #include "verification/surface_bodies.hpp"
 
 /// Free rigid bodies among deformable ones: momenta, energy, threads, checkpoints.
@@ -220,6 +222,46 @@ TEST(FreeRigidBodies, ThatMoveWithNoNumberStopTheRun) {
   f->step(0, 1e-5);
   ASSERT_TRUE(f->failure().has_value());
   EXPECT_NE(f->failure()->what.find("rigid shape 'stone'"), std::string::npos);
+}
+
+// A body of adaptle that may turn Eulerian has no surface; with law = "none" a free shape passes through it.
+TEST(FreeRigidBodies, PassThroughBodiesWithoutContact) {
+  Simulation s = build(read_case_text(R"toml(title = "A stone passes through a block"
+[run]
+end = "0.3 ms"
+[[body]]
+name = "floor"
+shape = { box = { min = ["0 mm", "-8 mm"], max = ["40 mm", "0 mm"] }, spacing = "2 mm", placement = "cell_centred" }
+material = { law = "neo_hookean", density = 1100, youngs_modulus = "5 MPa", poissons_ratio = 0.4 }
+formulation = { name = "nodal" }
+[[body]]
+name = "block"
+shape = { box = { min = ["60 mm", "-8 mm"], max = ["80 mm", "20 mm"] }, spacing = "2 mm", placement = "cell_centred" }
+material = { law = "elastic", density = 1100, youngs_modulus = "5 MPa", poissons_ratio = 0.4 }
+formulation = { name = "adaptle" }
+[[rigid]]
+name = "stone"
+box = { min = ["10 mm", "0.1 mm"], max = ["50 mm", "20 mm"] }
+motion = "free"
+mass = "1 kg/m"
+velocity = ["100 m/s", "-2 m/s"]
+[[contact]]
+between = ["block", "stone"]
+law = "none"
+)toml",
+                                      "case.toml"));
+  double time = 0, touched = 0;
+  while (time < s.spec.run.end) {
+    double const dt = s.formulation->stable_time_step();
+    s.formulation->step(time, dt);
+    time += dt;
+    touched = std::max(touched, column(s.formulation->diagnose(), "contact_points"));
+  }
+  Diagnostics const d = s.formulation->diagnose();
+  EXPECT_GT(touched, 0) << "the floor pushes it";
+  EXPECT_NEAR(d.rigids.at(0).centre[0], 0.03 + 100 * time, 1e-3) << "nothing stops it";
+  ASSERT_EQ(d.bodies.size(), 2U);
+  EXPECT_NEAR(d.bodies[1].linear_momentum[0], 0, 1e-9);
 }
 
 TEST(FreeRigidBodies, NeedASurfaceToPush) {

@@ -128,8 +128,9 @@ void System::rub_by(ShapeRun const& run, double normal_force, double area) {
   rub_back(run.first, rubbed);
 }
 
-void System::push_from_shape_points() {
-  if (shape_runs_.empty()) return;
+/// Gaps of the points of shapes.
+void System::place_shape_points() {
+  weights_.resize(sources_.size());
   exec_host::for_each_in_set_up(static_cast<Index>(shape_runs_.size()), [&](Index k) {
     ShapeRun& run = shape_runs_[at(k)];
     ShapePass const& pass = shape_passes_[run.pass];
@@ -140,6 +141,11 @@ void System::push_from_shape_points() {
         [&](Index s) -> Plane const& { return planes_[at(sources_[run.first + at(s)])]; }, pass.rule.reach,
         &weights_[run.first]);
   });
+}
+
+void System::push_from_shape_points() {
+  if (shape_runs_.empty()) return;
+  place_shape_points();
   shape_springs_.assign(at(carriers_.count()), 0);
   for (ShapeRun const& run : shape_runs_)
     if (run.gap.seen() && run.gap.gap < near * 2 * shape_passes_[run.pass].rule.length) push_by(run);

@@ -9,6 +9,7 @@ namespace piola::contact {
 namespace {
 
 constexpr double way_in_a_step = 0.5;         // of a spacing, past thin shapes
+constexpr double opposite = -0.5;             // product of normals
 constexpr double watched = 0.5, counted = 1;  // depths, in spacings
 
 }  // namespace
@@ -70,7 +71,8 @@ void System::count_passed() {
   std::sort(deep_.begin(), deep_.end());
   for (Deep const& last : last_deep_) {
     auto const now = std::lower_bound(deep_.begin(), deep_.end(), last);
-    bool const there = now != deep_.end() && !(last < *now) && dot(now->normal, last.normal) > 0;
+    // Another face of a box may be the nearest one, but not the opposite one.
+    bool const there = now != deep_.end() && !(last < *now) && dot(now->normal, last.normal) > opposite;
     if (there || !last.counts) continue;
     if (last.with < others())
       pass(points_[static_cast<std::size_t>(last.point)].body, last.with);

@@ -98,6 +98,7 @@ void System::place_anew(std::vector<Vec<3>> const& x) {
   std::fill(knows_F_.begin(), knows_F_.end(), 0);
   make_lists(x);
   if (!active_points_.empty()) place_points(x);
+  place_shape_points();
   remember(x);
   forget_forces();
 }

@@ -203,6 +203,7 @@ class System {
   void list_shape_points(std::vector<std::vector<Index>> const& of_body);
   std::vector<ShapePoint> shape_points_near(ShapePass const& pass, std::vector<Index> const& of_body) const;
   double share_before_mirrors(ShapeRun const& run) const;
+  void place_shape_points();
   void push_from_shape_points();
   void push_by(ShapeRun const& run);
   void note_spring_by(ShapeRun const& run, double area);
