@@ -5,6 +5,7 @@
 #include "piola/output/points.hpp"
 #include "output/drawn_shapes.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -211,6 +212,45 @@ TEST(Scene, ShowsWhereABodyWas) {
   stand.appearance.outline = false;
   Image const without = stand.image();
   EXPECT_GT(pixels(with), pixels(without) + 200);
+}
+
+/// The largest difference of a channel, and how many pixels differ by more than a few steps.
+std::array<int, 2> difference(Image const& a, Image const& b) {
+  std::array<int, 2> found{};
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    int const by = std::abs(a.rgb[i] - b.rgb[i]);
+    found = {std::max(found[0], by), found[1] + (by > 4 ? 1 : 0)};
+  }
+  return found;
+}
+
+TEST(Scene, IsTheSameWhetherAllOrAPartOfThePictureIsDrawn) {
+  for (double const turn : {0.0, 30.0}) {
+    Stand stand;
+    stand.view = {turn, turn / 2};
+    for (Place3& p : stand.x) p[1] += 0.2 * std::sin(3 * p[0]);
+    Image const part = stand.image();
+    // A shape that nobody sees may be anywhere: then all of it is drawn.
+    RigidShape far;
+    far.kind = RigidShape::Kind::sphere;
+    far.centre = {1e3, 1e3, 0};
+    far.radius = 0.1;
+    PictureData data = stand.data();
+    data.rigid_shapes = std::span(&far, 1);
+    Image const all =
+        draw_bodies(data, stand.appearance, stand.project(), {width, height, 0, width}, ColourMap(0, 2), white);
+    EXPECT_GT(pixels(part), 1000);
+    EXPECT_LT(difference(part, all)[1], 30) << "but for rounding at edges";
+  }
+}
+
+TEST(Scene, ShowsSmoothPixelsAsTheirSamplesDo) {
+  Stand stand;
+  stand.view = {30, 20};
+  Image const normal = stand.image();
+  stand.appearance.quality = Quality::high;  // 4 x 4 samples, each of which counts
+  auto const by = difference(normal, stand.image());
+  EXPECT_LT(by[1], pixels(normal) / 10) << "edges alone differ, largest by " << by[0];
 }
 
 TEST(Scene, IsTheSameForAnyNumberOfThreads) {

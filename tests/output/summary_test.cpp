@@ -29,6 +29,14 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
   EXPECT_TRUE(nlohmann::ordered_json::parse(to_json(Summary{}))["quantities"].is_object());
 }
 
+TEST(Summary, HasTheScalesOfMomentaAndStresses) {
+  Summary s;
+  s.scales = {{"kg m/s", 3}, {"Pa", 2e11}};
+  auto const scales = nlohmann::json::parse(to_json(s))["scales"];
+  EXPECT_EQ(scales["kg m/s"], 3);
+  EXPECT_EQ(scales["Pa"], 2e11);
+}
+
 TEST(Summary, HasNoMomentumWhereItMeansNothing) {
   EXPECT_FALSE(nlohmann::json::parse(to_json(Summary{})).contains("momentum"));
 }

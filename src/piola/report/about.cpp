@@ -117,6 +117,7 @@ std::optional<Json> one_plot(RunFolder const& run, std::vector<std::string> cons
   std::string const name = columns.empty() ? "energies" : plot.y.name;
   plot.title.clear();
   plot.note.clear();
+  if (plot.curves.size() == 1) plot.curves.front().label.clear();  // its axis has the name
   plot.width = 560;
   plot.height = 300;
   PlotText const text = plot_text(plot);

@@ -56,6 +56,23 @@ TEST(NodalForces, AreMinusTheDerivativeOfTheEnergy) {
   }
 }
 
+TEST(NodalObservers, SeeThePresentStateHoweverOftenTheyLook) {
+  Assembly a = bent_box(3, rubber());
+  std::size_t const n = a.particles.X.size();
+  auto const seen = make_formulation(a), blind = make_formulation(a);
+  double const dt = seen->stable_time_step();
+  for (int k = 0; k < 4; ++k) {
+    seen->diagnose();
+    auto const before = sample(*seen, "Pressure", n);
+    EXPECT_EQ(before, sample(*seen, "Pressure", n)) << "the second look";
+    seen->step(k * dt, dt);
+    blind->step(k * dt, dt);
+    EXPECT_NE(before, sample(*seen, "Pressure", n)) << "of the new state";
+  }
+  EXPECT_EQ(sample(*seen, "CauchyStress", n), sample(*blind, "CauchyStress", n));
+  EXPECT_EQ(seen->diagnose().strain_energy, blind->diagnose().strain_energy);
+}
+
 TEST(NodalForces, VanishUnderRigidRotation) {
   for (Cloud const& cloud : clouds()) {
     Assembly a = nodal_body(brick(3, cloud.jitter, {4, 5, 6}, cloud.seed));
