@@ -315,6 +315,7 @@ CaseOutcome CaseRun::finish() {
   if (auto const& recuts = outcome.summary.recuts; recuts && !recuts->imbalance.empty())
     p.journal.note(recuts_text(*recuts));
   auto const& folder = p.options.folder;
+  if (p.last.failure) add_energies(*p.last.failure, history());
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (p.watch.relaxation.active()) {
     Rest const& rest = p.watch.relaxation.rest();
