@@ -212,6 +212,7 @@ TEST(EnergyGuard, ForgivesTheFirstStepsOfALoad) {
   s.kinetic = [](double t) { return t > 0.5 ? std::pow(t - 0.5 + 1e-3, 2) : 0; };
   s.work = [](double t) { return t > 0.5 ? std::pow(t - 0.5, 2) : 0; };
   Simulation often = simulation(s);
+  often.spec.loads.emplace_back();
   often.spec.output.history_every = 1e-3;
   TemporaryFolder const folder;
   Outcome const o = run(often, folder / "r");

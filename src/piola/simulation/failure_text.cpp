@@ -2,6 +2,7 @@
 #include "piola/simulation/failure_text.hpp"
 #include "piola/base/text.hpp"
 #include "piola/output/checkpoint.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -44,16 +45,32 @@ std::string usual_causes(Failure const& f, Moment const& m) {
          "stabilisation too weak";
 }
 
+/// The state of the failure and the newest one before it that was kept.
+std::string places_text(std::filesystem::path const& results) {
+  auto const kept = list_checkpoints(results);
+  return fmt::format("last state: {} and {}; {}", (results / "frames.hdf.series").string(),
+                     (results / failed_checkpoint).string(),
+                     kept.empty() ? "no checkpoint was kept before it (output.checkpoints); "
+                                  : fmt::format("newest checkpoint before it: {}; ", kept.front().string()));
+}
+
 }  // namespace
+
+void add_energies(Failure& failure, HistoryTable const& history) {
+  bool const told = std::any_of(failure.values.begin(), failure.values.end(),
+                                [](auto const& value) { return value.first.starts_with("total energy"); });
+  if (told || history.rows.empty() || !history.find("total_energy")) return;
+  auto const energy = history.values("total_energy"), work = history.values("external_work");
+  failure.values.emplace_back("energy at the start [J]", energy.front());
+  failure.values.emplace_back("total energy [J]", energy.back());
+  failure.values.emplace_back("work of loads [J]", work.back());
+}
 
 std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,
                          std::filesystem::path const& results) {
   std::string const values = values_text(failure);
   std::string const likely = causes.empty() ? usual_causes(failure, moment) : causes;
-  std::string const where = results.empty()
-                                ? ""
-                                : fmt::format("last state: {} and {}; ", (results / "frames.hdf.series").string(),
-                                              (results / failed_checkpoint).string());
+  std::string const where = results.empty() ? "" : places_text(results);
   return fmt::format("stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  {}see docs/user/when-it-stops.md",
                      moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values,
                      limit_text(moment, cfl), likely, where);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/formulation.hpp"
+#include "piola/output/history.hpp"
 #include "piola/simulation/moment.hpp"
 #include <filesystem>
 #include <string>
@@ -11,5 +12,9 @@ namespace piola {
 /// and where the last state lies. `causes`: the likely ones if they are known, else those of such failures.
 std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,
                          std::filesystem::path const& results);
+
+/// Adds what the energies did from the first to the last row of the history to the values of a failure, unless it has
+/// energies of its own.
+void add_energies(Failure& failure, HistoryTable const& history);
 
 }  // namespace piola

@@ -34,7 +34,8 @@ void EnergyScale::see(Diagnostics const& now, Moment const& moment) {
   floor_ = 0.5 * mass_ * speed * speed;
 }
 
-double EnergyScale::value() const { return std::max({std::abs(initial_), work_, kinetic_, floor_, rounding_}); }
+double EnergyScale::without_motion() const { return std::max({std::abs(initial_), work_, floor_, rounding_}); }
+double EnergyScale::value() const { return std::max(without_motion(), kinetic_); }
 
 double energy_of_rounding(CaseSpec const& spec, ParticleSet const& particles) {
   double sum = 0;
@@ -49,13 +50,13 @@ double energy_of_rounding(CaseSpec const& spec, ParticleSet const& particles) {
   return above_rounding * std::numeric_limits<double>::epsilon() * sum;
 }
 
-void EnergyScale::save(StateWriter& writer) const {
-  writer.put("guard_scale", std::array{begun_, initial_, work_, last_work_, kinetic_, floor_});
+void EnergyScale::save(StateWriter& writer, std::string_view name) const {
+  writer.put(name, std::array{begun_, initial_, work_, last_work_, kinetic_, floor_});
 }
 
-void EnergyScale::load(NamedState& reader) {
+void EnergyScale::load(NamedState& reader, std::string_view name) {
   std::array<double, 6> v{};
-  reader.get("guard_scale", v);
+  reader.get(name, v);
   begun_ = v[0];
   initial_ = v[1];
   work_ = v[2];
@@ -78,6 +79,41 @@ Suspect suspect(FieldCache& fields, std::size_t id, double time) {
   auto const x = fields.values("Position");
   std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(3 * id), 3, s.x.begin());
   return s;
+}
+
+std::vector<double> kinetic_per_mass(FieldCache& fields, ParticleSet const& particles) {
+  std::vector<double> out(particles.X.size(), 0);
+  if (!fields.knows("Velocity")) return out;
+  auto const v = fields.values("Velocity");
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = 0.5 * (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2]);
+  return out;
+}
+
+std::optional<Suspect> most_moved(FieldCache& fields, ParticleSet const& particles, std::vector<double> const& before,
+                                  double time) {
+  auto const now = kinetic_per_mass(fields, particles);
+  if (now.empty() || !fields.knows("Velocity")) return std::nullopt;
+  std::size_t most = 0;
+  auto const growth = [&](std::size_t i) {
+    double const grown = particles.volume[i] * (now[i] - (before.empty() ? 0.0 : before[i]));
+    return std::isnan(grown) ? std::numeric_limits<double>::infinity() : grown;
+  };
+  for (std::size_t i = 1; i < now.size(); ++i)
+    if (growth(i) > growth(most)) most = i;
+  return suspect(fields, most, time);
+}
+
+void take_particle(Failure& failure, Suspect const& suspect, ParticleSet const& particles) {
+  auto const id = static_cast<std::size_t>(suspect.id);
+  failure.particle = static_cast<std::int64_t>(id);
+  failure.body = particles.bodies[static_cast<std::size_t>(particles.body[id])].name;
+  failure.X = particles.X[id];
+  failure.x = suspect.x;
+}
+
+double energy_without_work(Diagnostics const& diagnostics) {
+  return column_of(diagnostics, "centred_energy").value_or(diagnostics.total_energy()) - diagnostics.external_work;
 }
 
 std::optional<double> column_of(Diagnostics const& diagnostics, std::string_view name) {

@@ -24,9 +24,11 @@ class EnergyScale {
   /// body would have with 1e-9 of its wave speed, and what tells strain energy from rounding, because a body at rest
   /// has nothing else.
   double value() const;
+  /// value() without kinetic energy.
+  double without_motion() const;
   double initial() const { return initial_; }
-  void save(StateWriter& writer) const;
-  void load(NamedState& reader);
+  void save(StateWriter& writer, std::string_view name = "guard_scale") const;
+  void load(NamedState& reader, std::string_view name = "guard_scale");
 
  private:
   double mass_, spacing_, rounding_;
@@ -69,6 +71,17 @@ struct Suspect {
   std::string text(ParticleSet const& particles) const;
 };
 Suspect suspect(FieldCache& fields, std::size_t id, double time);
+/// Half the square of each particle's speed [m2/s2]; zero where the formulation has no velocities.
+std::vector<double> kinetic_per_mass(FieldCache& fields, ParticleSet const& particles);
+/// The particle whose kinetic energy grew most since `before` (see kinetic_per_mass), or is the largest if that is
+/// empty; nothing where the formulation has no velocities.
+std::optional<Suspect> most_moved(FieldCache& fields, ParticleSet const& particles, std::vector<double> const& before,
+                                  double time);
+/// Makes it the particle of a failure.
+void take_particle(Failure& failure, Suspect const& suspect, ParticleSet const& particles);
+/// Total energy minus external work [J], which nothing but an error lets rise. Where energies are those of instants
+/// half a step apart, the formulation gives the sum that does not rise.
+double energy_without_work(Diagnostics const& diagnostics);
 
 /// The number of a column that only some formulations have.
 std::optional<double> column_of(Diagnostics const& diagnostics, std::string_view name);

@@ -20,9 +20,7 @@ class EnergyGuard : public Guard {
   EnergyGuard(GuardLimits const& limits, ParticleSet const& particles) : limits_(limits), particles_(particles) {}
 
   void look(Look const& look) override {
-    // Where energies are booked half a step apart, the formulation tells the sum that does not rise.
-    double const energy = column_of(look.now, "centred_energy").value_or(look.now.total_energy());
-    double const own = energy - look.now.external_work;
+    double const own = energy_without_work(look.now);
     if (!std::isfinite(own)) return;
     auto const step = static_cast<double>(look.moment.step);
     if (!(own >= m_.lowest)) {
@@ -31,7 +29,7 @@ class EnergyGuard : public Guard {
       m_.lowest_step = step;
     }
     double const scale = look.scale.value(), share = scale > 0 ? (own - m_.lowest) / scale : 0;
-    if (share >= limits_.energy_rise_warn / 2 && before_.empty()) before_ = speeds(look);
+    if (share >= limits_.energy_rise_warn / 2 && before_.empty()) before_ = kinetic_per_mass(look.fields, particles_);
     if (m_.rise == 0) m_.scale = scale;
     if (m_.looks == 0) m_.window_step = step;
     m_.least = m_.looks == 0 ? share : std::min(m_.least, share);
@@ -66,11 +64,7 @@ class EnergyGuard : public Guard {
     Objection o;
     o.failure.what = "gains most of an energy that no load brings";
     if (m_.where.known()) {
-      auto const id = static_cast<std::size_t>(m_.where.id);
-      o.failure.particle = static_cast<std::int64_t>(id);
-      o.failure.body = particles_.bodies[static_cast<std::size_t>(particles_.body[id])].name;
-      o.failure.X = particles_.X[id];
-      o.failure.x = m_.where.x;
+      take_particle(o.failure, m_.where, particles_);
     } else {
       o.failure.what = "energy rises without a load";
     }
@@ -104,29 +98,8 @@ class EnergyGuard : public Guard {
     m_.from_time = m_.lowest_time;
     m_.from_step = m_.lowest_step;
     m_.to_time = look.moment.time;
-    if (share > limits_.energy_rise_warn) find_where(look);
-  }
-
-  /// Half the square of each particle's speed [m2/s2].
-  std::vector<double> speeds(Look const& look) const {
-    std::vector<double> out(particles_.X.size(), 0);
-    if (!look.fields.knows("Velocity")) return out;
-    auto const v = look.fields.values("Velocity");
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = 0.5 * (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2]);
-    return out;
-  }
-
-  /// The particle whose kinetic energy grew most since the rise was half of what is told.
-  void find_where(Look const& look) {
-    auto const now = speeds(look);
-    std::size_t most = 0;
-    auto const growth = [&](std::size_t i) {
-      return particles_.volume[i] * (now[i] - (before_.empty() ? 0.0 : before_[i]));
-    };
-    for (std::size_t i = 1; i < now.size(); ++i)
-      if (growth(i) > growth(most)) most = i;
-    if (!now.empty()) m_.where = suspect(look.fields, most, look.moment.time);
+    if (share > limits_.energy_rise_warn)
+      m_.where = most_moved(look.fields, particles_, before_, look.moment.time).value_or(m_.where);
   }
 
   struct Memory {

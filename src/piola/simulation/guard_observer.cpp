@@ -22,7 +22,8 @@ double finest_spacing(ParticleSet const& particles) {
 GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const& history)
     : results_(std::move(results)),
       history_(history),
-      scale_(mass, finest_spacing(results_.particles), energy_of_rounding(results_.spec, results_.particles)) {
+      scale_(mass, finest_spacing(results_.particles), energy_of_rounding(results_.spec, results_.particles)),
+      jump_(results_.spec, results_.particles, scale_) {
   if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   for (BodySpec const& body : results_.spec.bodies)
@@ -34,6 +35,7 @@ void GuardObserver::see(Formulation const& formulation, Moment const& moment) {
   bool const last = moment.time >= results_.spec.run.end || moment.at_rest;
   auto const step = static_cast<double>(moment.step);
   Diagnostics const* row = history_.row_of(moment.step);
+  jump_.see(formulation, moment, row, last);
   if (row == nullptr && !last && step - last_look_ < look_interval) return;
   last_look_ = step;
   Diagnostics const own = row == nullptr ? formulation.diagnose() : *row;
@@ -60,6 +62,7 @@ void GuardObserver::save(StateWriter& writer) const {
   state.insert(state.end(), told_.begin(), told_.end());
   writer.put("guards", state);
   scale_.save(writer);
+  jump_.save(writer);
   for (auto const& guard : guards_) guard->save(writer);
 }
 
@@ -70,10 +73,12 @@ void GuardObserver::load(NamedState& reader, Moment const&) {
   told_.assign(state.begin() + 1, state.end());
   told_.resize(guards_.size(), 0);  // checkpoints of older versions know fewer guards
   scale_.load(reader);
+  jump_.load(reader);
   for (auto const& guard : guards_) guard->load(reader);
 }
 
 std::optional<Objection> GuardObserver::objection() const {
+  if (jump_.objection()) return jump_.objection();
   for (auto const& guard : guards_) {
     if (auto objection = guard->objection()) return objection;
   }

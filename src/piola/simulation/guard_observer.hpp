@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/simulation/energy_jump.hpp"
 #include "piola/simulation/guard.hpp"
 #include "piola/simulation/observers.hpp"
 
 namespace piola {
 
-/// Lets the guards look at each row of the history, at least every thousand steps, and at the end. What they have seen
-/// is in the checkpoints: a resumed run says and does the same.
+/// Lets the guards look at each row of the history, at least every thousand steps, and at the end, and the one that
+/// knows jumps of energy at each step. What they have seen is in the checkpoints: a resumed run says and does the same.
 class GuardObserver : public Observer {
  public:
   GuardObserver(Results results, double mass, HistoryObserver const& history);
@@ -22,6 +23,7 @@ class GuardObserver : public Observer {
   Results results_;
   HistoryObserver const& history_;
   EnergyScale scale_;
+  EnergyJumpGuard jump_;
   Guards guards_;        ///< none if they are off
   bool kicked_ = false;  ///< a pressure of the case acts in the first step, and no book holds its energy
   double last_look_ = 0;

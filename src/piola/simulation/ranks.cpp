@@ -144,6 +144,7 @@ class Conductor final : public Formulation {
     own().damp(factor);
   }
   double kinetic_energy() const override {
+    Aside const aside;
     send({Order::What::kinetic_energy});
     return own().kinetic_energy();
   }
@@ -202,8 +203,8 @@ class Conductor final : public Formulation {
 
 bool is_for_observers(Order const& order) {
   using enum Order::What;
-  return order.what == diagnose || order.what == sample || order.what == probes || order.what == frame ||
-         order.what == save || order.what == load;
+  return order.what == kinetic_energy || order.what == diagnose || order.what == sample || order.what == probes ||
+         order.what == frame || order.what == save || order.what == load;
 }
 
 /// What this rank does for a writer of rank 0.

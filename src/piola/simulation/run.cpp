@@ -65,8 +65,9 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     moment.wall_seconds = wall_before + seconds_since(start);
 
     if (auto failure = formulation.failure()) return {.ending = Ending::failed, .failure = std::move(failure)};
-    for (Observer* observer : observers) observer->see(formulation, moment);
-    for (Observer const* observer : observers) {
+    for (Observer* observer : observers) {
+      observer->see(formulation, moment);
+      // Observers behind one that objects, checkpoints among them, do not keep this state as a good one.
       if (auto objection = observer->objection())
         return {
             .ending = Ending::failed, .failure = std::move(objection->failure), .causes = std::move(objection->causes)};

@@ -372,7 +372,10 @@ CaseOutcome CaseRun::finish() {
                       .index = {}};
   add_watched(outcome.summary, s, p.watch, p.journal);
   auto const& folder = p.options.folder;
-  if (p.last.failure) blame_formula(s, p.moment, p.last);
+  if (p.last.failure) {
+    add_energies(*p.last.failure, history());
+    blame_formula(s, p.moment, p.last);
+  }
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (folder.empty()) return outcome;
   std::string const missing = missing_results(folder, p.watch);

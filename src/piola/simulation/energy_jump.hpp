@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/simulation/guard.hpp"
+#include <limits>
+#include <optional>
+
+namespace piola {
+
+/// Ends a run in the step in which its energy jumps: total energy minus external work rises by more than all energy
+/// that the run has had so far, or kinetic energy exceeds by more than that what there was to turn into motion.
+///
+/// A step costs one sum of kinetic energy. All energies are evaluated only where kinetic energy exceeds the energy
+/// known so far four times, or where the step falls to a quarter of the shortest one so far, and in the rows of the
+/// history. Where loads or driven supports do work, a jump must be found at five steps in a row, because work and
+/// energy are added up within a step of each other when a load begins; without them one step is enough.
+class EnergyJumpGuard {
+ public:
+  /// `particles` must outlive the guard. scale: of the run, before it has begun.
+  EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& particles, EnergyScale const& scale);
+  /// Called at the start and after each step. row: energies of this step if they have been evaluated, else null.
+  /// Collective; called on rank 0.
+  void see(Formulation const& formulation, Moment const& moment, Diagnostics const* row, bool last);
+  /// Set once the energy has jumped or is not a number.
+  std::optional<Objection> const& objection() const { return objection_; }
+  void save(StateWriter& writer) const;
+  void load(NamedState& reader);
+
+ private:
+  bool is_strange(Formulation const& formulation, Moment const& moment) const;
+  void look(Formulation const& formulation, Moment const& moment, Diagnostics const& now, bool last);
+  void object(Formulation const& formulation, Moment const& moment, Diagnostics const& now);
+
+  ParticleSet const& particles_;
+  EnergyScale scale_;
+  double limit_;  ///< of a rise, in energies that the run has had
+  double stop_;   ///< run.guards.energy_rise_stop
+  bool loaded_;   ///< loads, driven supports or rigid shapes may do work
+  double lowest_ = std::numeric_limits<double>::infinity(), lowest_time_ = 0, lowest_step_ = 0;
+  double kinetic_ = 0;                                         ///< largest kinetic energy before any jump [J]
+  double known_ = 0;                                           ///< largest energy at the last look [J]
+  double shortest_ = std::numeric_limits<double>::infinity();  ///< shortest step at a look [s]
+  double rises_ = 0;                                           ///< looks in a row that found a jump
+  std::optional<Objection> objection_;
+};
+
+}  // namespace piola
