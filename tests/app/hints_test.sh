@@ -12,6 +12,10 @@ expect 2 'there is no option "--thread"' "$program" run bar.toml --thread 2 --qu
 expect 2 'piola: there is no option "--verson"' "$program" --verson
 expect 2 "case" "$program" run
 
+# A value with a space that the shell made two words of.
+expect 2 'write --set "run.end=1 us"' "$program" run bar.toml --set run.end=1 us
+expect 2 'write --set "run.end=1 us"' "$program" check --set run.end=1 us bar.toml
+
 ln -s loop.toml loop.toml
 ln -s there here
 ln -s here there

@@ -8,10 +8,6 @@
 namespace piola {
 namespace {
 
-std::string point_text(std::array<double, 3> const& p) {
-  return fmt::format("({}, {}, {}) m", number_text(p[0], 4), number_text(p[1], 4), number_text(p[2], 4));
-}
-
 std::string subject(Failure const& f) {
   if (f.particle < 0) return "the " + f.what;
   return fmt::format("particle {} (body '{}', X = {}, x = {}) {}", f.particle, f.body, point_text(f.X), point_text(f.x),
@@ -45,6 +41,10 @@ std::string usual_causes(Failure const& f, Moment const& m) {
 }
 
 }  // namespace
+
+std::string point_text(std::array<double, 3> const& p) {
+  return fmt::format("({}, {}, {}) m", number_text(p[0], 4), number_text(p[1], 4), number_text(p[2], 4));
+}
 
 std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,
                          std::filesystem::path const& results) {
