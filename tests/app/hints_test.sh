@@ -21,6 +21,10 @@ expect 2 "--range: 5 5 is empty" "$program" render bar --range 5 5
 expect 0 "small strain" "$program" describe material linear_elastic
 expect 0 "Cauchy's stress is not symmetric" "$program" describe material linear_elastic
 
+# A value with a space that the shell made two words of.
+expect 2 'write --set "run.end=1 us"' "$program" run bar.toml --set run.end=1 us
+expect 2 'write --set "run.end=1 us"' "$program" check --set run.end=1 us bar.toml
+
 ln -s loop.toml loop.toml
 ln -s there here
 ln -s here there

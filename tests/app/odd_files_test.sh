@@ -95,8 +95,4 @@ check test "$("$program" run "${escape}[31m.toml" 2>&1 | grep -c "$escape")" = 0
 printf 'title = "%s"\n' "$(printf 'x%.0s' $(seq 600))" > long.toml
 sed '/^title/d' bar.toml >> long.toml
 expect 2 'the title has 600 characters (allowed: at most 500)' "$program" check long.toml
-
-# A value with a space that the shell made two words of.
-expect 2 '--set "run.end=1 us"' "$program" run bar.toml --set run.end=1 us
-expect 2 '--set "run.end=1 us"' "$program" check --set run.end=1 us bar.toml
 finish

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola {
@@ -49,6 +50,8 @@ TEST(Text, NamesAreLettersDigitsAndUnderscores) {
 TEST(Text, NumbersAreWrittenForPeople) {
   EXPECT_EQ(number_text(0.3), "0.3");
   EXPECT_EQ(number_text(1.0 / 3, 3), "0.333");
+  EXPECT_EQ(number_text(std::nan("")), "not a number");
+  EXPECT_EQ(number_text(-std::nan(""), 2), "not a number");
   EXPECT_EQ(exact_text(0.1), "0.1");
   EXPECT_EQ(count_text(0), "0");
   EXPECT_EQ(count_text(999), "999");
@@ -58,6 +61,7 @@ TEST(Text, NumbersAreWrittenForPeople) {
 
 TEST(Text, QuantitiesCarryAPrefixWhereThatIsUsual) {
   EXPECT_EQ(quantity_text(17e6, "Pa"), "17 MPa");
+  EXPECT_EQ(quantity_text(-std::nan(""), "J"), "not a number");
   EXPECT_EQ(quantity_text(1.53e-4, "s"), "153 us");
   EXPECT_EQ(quantity_text(3600, "s"), "3600 s");
   EXPECT_EQ(quantity_text(0.25, "m"), "250 mm");

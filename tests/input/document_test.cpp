@@ -92,10 +92,10 @@ TEST(Document, NestedBracketsAreRefusedInLinearTime) {
   // In quadratic time each of these takes minutes.
   for (char const* piece : {"[", "[[", "{", "=", ",", "[ 1,", "{a=", "\"", "'", "[1 m", "=1"}) {
     std::string text = "a = ";
-    while (text.size() < 3'900'000) text += piece;
+    while (text.size() < 500'000) text += piece;
     auto const start = std::clock();
     EXPECT_NE(problems_of(text), "") << piece;
-    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 10) << piece;
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5) << piece;
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(std::string const& text) {
+std::string in_toml(std::string const& text) {
   Node node;
   node.kind = Node::Kind::text;
   node.text = text;
@@ -138,8 +138,8 @@ std::string kept_name(std::size_t number, std::string const& given) {
 std::string text_of_list(std::vector<KeptFile> const& files) {
   std::string text = "# The files that the case names, as they were when the run began.\n";
   for (KeptFile const& file : files)
-    text += fmt::format("\n[[file]]\ngiven = {}\nkept = {}\nfrom = {}\nbytes = {}\nhash = {}\n", quoted(file.given),
-                        quoted(file.kept), quoted(coded(file.from.string())), file.bytes, quoted(file.hash));
+    text += fmt::format("\n[[file]]\ngiven = {}\nkept = {}\nfrom = {}\nbytes = {}\nhash = {}\n", in_toml(file.given),
+                        in_toml(file.kept), in_toml(coded(file.from.string())), file.bytes, in_toml(file.hash));
   return text;
 }
 

@@ -195,11 +195,16 @@ double text_width(std::string_view text, double size) {
 std::string shortened(std::string_view text, double size, double width) {
   std::string words = drawable(text);
   if (text_width(words, size) <= width) return words;
-  while (!words.empty() && text_width(words + "\u2026", size) > width) {
-    while (words.size() > 1 && (static_cast<unsigned char>(words.back()) & 0xC0) == 0x80) words.pop_back();
-    words.pop_back();
+  auto const start = [&](std::size_t bytes) {  // of whole characters
+    while (bytes > 0 && (static_cast<unsigned char>(words[bytes]) & 0xC0) == 0x80) --bytes;
+    return words.substr(0, bytes) + "\u2026";
+  };
+  std::size_t fits = 0, most = words.size();
+  while (fits + 1 < most) {
+    std::size_t const half = (fits + most) / 2;
+    (text_width(start(half), size) <= width ? fits : most) = half;
   }
-  return words + "\u2026";
+  return start(fits);
 }
 
 }  // namespace piola

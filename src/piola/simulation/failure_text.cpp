@@ -9,10 +9,6 @@
 namespace piola {
 namespace {
 
-std::string point_text(std::array<double, 3> const& p) {
-  return fmt::format("({}, {}, {}) m", number_text(p[0], 4), number_text(p[1], 4), number_text(p[2], 4));
-}
-
 std::string subject(Failure const& f) {
   if (f.particle < 0) return "the " + f.what;
   return fmt::format("particle {} (body '{}', X = {}, x = {}) {}", f.particle, f.body, point_text(f.X), point_text(f.x),
@@ -64,6 +60,10 @@ void add_energies(Failure& failure, HistoryTable const& history) {
   failure.values.emplace_back("energy at the start [J]", energy.front());
   failure.values.emplace_back("total energy [J]", energy.back());
   failure.values.emplace_back("work of loads [J]", work.back());
+}
+
+std::string point_text(std::array<double, 3> const& p) {
+  return fmt::format("({}, {}, {}) m", number_text(p[0], 4), number_text(p[1], 4), number_text(p[2], 4));
 }
 
 std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,

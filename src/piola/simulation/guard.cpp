@@ -2,6 +2,7 @@
 #include "piola/simulation/guard.hpp"
 #include "piola/exec/exact_sum.hpp"
 #include "piola/materials/solids.hpp"
+#include "piola/simulation/failure_text.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -67,10 +68,9 @@ void EnergyScale::load(NamedState& reader, std::string_view name) {
 
 std::string Suspect::text(ParticleSet const& particles) const {
   auto const k = static_cast<std::size_t>(id);
-  auto const& X = particles.X[k];
-  return fmt::format("particle {} of body '{}' (X = ({:.4g}, {:.4g}, {:.4g}) m, x = ({:.4g}, {:.4g}, {:.4g}) m)", k,
-                     particles.bodies[static_cast<std::size_t>(particles.body[k])].name, X[0], X[1], X[2], x[0], x[1],
-                     x[2]);
+  return fmt::format("particle {} of body '{}' (X = {}, x = {})", k,
+                     particles.bodies[static_cast<std::size_t>(particles.body[k])].name, point_text(particles.X[k]),
+                     point_text(x));
 }
 
 Suspect suspect(FieldCache& fields, std::size_t id, double time) {

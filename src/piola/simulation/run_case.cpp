@@ -239,9 +239,13 @@ void report_rest(Simulation const& s, Relaxation const& relaxation, Ending endin
 }
 
 /// What is not there any more of what the run wrote, in one sentence; empty if all of it is.
-std::string missing_results(std::filesystem::path const& folder, Watch& watch) {
+std::string missing_results(RunOptions const& options, Watch& watch) {
   constexpr std::size_t few = 5;
+  auto const& folder = options.folder;
   std::vector<std::filesystem::path> all{folder / "case.toml", folder / "log.txt"};
+  // A run that is resumed may have lost copies before.
+  for (KeptFile const& file : options.resume ? std::vector<KeptFile>() : read_kept_list(folder))
+    if (!file.kept.empty()) all.push_back(folder / kept_files / file.kept);
   for (Observer* observer : watch.all()) {
     auto const files = observer->files();
     all.insert(all.end(), files.begin(), files.end());
@@ -378,14 +382,12 @@ CaseOutcome CaseRun::finish() {
   }
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (folder.empty()) return outcome;
-  std::string const missing = missing_results(folder, p.watch);
-  if (!missing.empty()) {
-    outcome.summary.status = "incomplete";
-    outcome.summary.warnings.push_back(missing);
-  }
+  std::string const missing = missing_results(p.options, p.watch);
+  if (!missing.empty()) outcome.summary.warnings.push_back(missing);
+  if (!missing.empty() && !p.last.failure) outcome.summary.status = "incomplete";
   if (std::filesystem::exists(folder / "frames.hdf.series")) outcome.index = folder / "frames.hdf.series";
   write_summary(folder / "summary.json", outcome.summary);
-  if (!missing.empty()) throw FileError(missing);
+  if (!missing.empty() && !p.last.failure) throw FileError(missing);
   p.journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, p.moment.step,
                              p.moment.time, duration_text(p.moment.wall_seconds)));
   if (p.last.failure) p.journal.note(outcome.failure);
