@@ -88,6 +88,21 @@ void take_loads(Assembly const& whole, EnsemblePart& part) {
   }
 }
 
+/// Rules and rigid shapes of a formulation that has a contact of its own.
+void take_contact(Assembly const& whole, EnsemblePart& part) {
+  Assembly& a = part.assembly;
+  auto const info = find_formulation(part.formulation);
+  if (info && info->contact && whole.contact.law != ContactRule::Law::surface) {
+    a.contact = whole.contact;
+    a.contact_pairs = whole.contact_pairs;
+    for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) {
+      if (whole.rigid_shapes[k].turns()) continue;  // surfaces alone meet those
+      a.rigid_shapes.push_back(whole.rigid_shapes[k]);
+      part.rigid_shapes.push_back(k);
+    }
+  }
+}
+
 void fill_part(Assembly const& whole, EnsemblePart& part) {
   Assembly& a = part.assembly;
   a.particles = particles_of(whole.particles, part);
@@ -114,15 +129,7 @@ void fill_part(Assembly const& whole, EnsemblePart& part) {
     tie.bodies = {*first, *second};
     a.ties.push_back(std::move(tie));
   }
-  auto const info = find_formulation(part.formulation);
-  if (info && info->contact && whole.contact.law != ContactRule::Law::surface) {
-    a.contact = whole.contact;
-    for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) {
-      if (whole.rigid_shapes[k].turns()) continue;  // surfaces alone meet those
-      a.rigid_shapes.push_back(whole.rigid_shapes[k]);
-      part.rigid_shapes.push_back(k);
-    }
-  }
+  take_contact(whole, part);
   a.pushed = !whole.surfaces.empty();
   a.cfl = whole.cfl;
   a.machine = whole.machine;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/meeting.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/surface_loss.hpp"
 #include "piola/math/places.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
@@ -49,6 +50,22 @@ void Meeting::read_state(Formulations const& formulations) {
   place_images();
 }
 
+/// Points of particles that their formulation keeps apart from others itself by now.
+void Meeting::drop_lost_surfaces(Formulations const& formulations) {
+  std::vector<char> lost;
+  for (Share& share : shares_) {
+    auto const* const loss = dynamic_cast<SurfaceLoss const*>(formulations[share.part].get());
+    if (loss == nullptr || loss->surfaces_lost() == share.lost) continue;
+    share.lost = loss->surfaces_lost();
+    lost.resize(system_.ids().size());
+    for (std::size_t k = 0; k < share.at.size(); ++k)
+      if (auto const i = static_cast<std::size_t>(share.at[k]);
+          i < lost.size() && loss->has_lost_surface(share.local[k]))
+        lost[i] = 1;
+  }
+  if (!lost.empty()) system_.drop(lost);
+}
+
 void Meeting::place_images() {
   for (Image const& image : images_) {
     auto const at = static_cast<std::size_t>(image.at), source = static_cast<std::size_t>(image.source);
@@ -86,6 +103,7 @@ void Meeting::look(Formulations const& formulations) {
   read_masses(formulations);
   read_state(formulations);
   system_.set_masses({mass_.begin(), mass_.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
+  drop_lost_surfaces(formulations);
   ties_.look(system_, x_, mass_);
   if (loaded_.empty()) {
     system_.start(x_);
@@ -228,6 +246,7 @@ void Meeting::begin(Formulations const& formulations, double time, double dt) {
 
 void Meeting::finish(Formulations const& formulations, double time, double dt) {
   read_state(formulations);
+  drop_lost_surfaces(formulations);
   ties_.evaluate(system_, x_);
   system_.evaluate(x_, dt);
   ties_.hand_over(system_);

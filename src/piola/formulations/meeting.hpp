@@ -71,6 +71,7 @@ class Meeting {
     std::size_t part;
     std::vector<Index> at;            ///< indices into run_ids_
     std::vector<std::int64_t> local;  ///< ids in the part
+    std::int64_t lost = 0;            ///< particles that had lost their surface when this was asked last
   };
 
   static constexpr std::size_t plane = static_cast<std::size_t>(-1);
@@ -87,6 +88,7 @@ class Meeting {
   void fold_images();
   void read_masses(Formulations const& formulations);
   void read_state(Formulations const& formulations);
+  void drop_lost_surfaces(Formulations const& formulations);
   void push(Formulations const& formulations, double time, double half);
   void give(Formulations const& formulations, double time, double half);
   void damp_chatter(Formulations const& formulations, double time);

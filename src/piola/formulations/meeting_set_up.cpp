@@ -20,8 +20,36 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
-/// Who meets whom: bodies with a surface, except two of a formulation that has a contact of its own and are not tied,
-/// and such a body and a rigid shape that does not turn; what is said of a pair goes before what is said of all.
+/// Whether the surface of a body may be lost to a contact of its formulation: then surfaces keep it apart only from
+/// bodies that lose theirs in the same way.
+bool may_lose_surface(FormulationSpec const& formulation) {
+  auto const info = find_formulation(formulation.name);
+  auto const says = [&](std::string_view key, std::string_view word) {
+    auto const given = formulation.words.find(key);
+    return given != formulation.words.end() && given->second == word;
+  };
+  return info && info->contact && !says("description", "total_lagrangian");
+}
+
+/// Whether surfaces can keep two bodies apart, or a body and a rigid shape, whose number follows those of the bodies.
+bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
+  std::size_t const n = whole.particles.bodies.size();
+  auto const has = [&](std::size_t body) { return !whole.surfaces[body].points.empty(); };
+  auto const keeps = [&](std::size_t body) { return has(body) && !may_lose_surface(whole.formulations[body]); };
+  if (b >= n) return keeps(a);
+  auto const own = [&](std::size_t body) {
+    auto const info = find_formulation(whole.formulations[body].name);
+    return info && info->contact;
+  };
+  auto const& bodies = whole.particles.bodies;
+  return has(a) && has(b) &&
+         ((keeps(a) && keeps(b)) ||
+          (a != b && own(a) && own(b) && find_pair(whole.contact_pairs, bodies[a].name, bodies[b].name) != nullptr));
+}
+
+/// Contact between bodies with a surface, except two of a formulation that has a contact of its own, are not tied and
+/// of which nothing is said, and such a body and a rigid shape that does not turn; what is said of a pair goes before
+/// what is said of all.
 contact::System::Setting touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
@@ -35,10 +63,10 @@ contact::System::Setting touches_of(Assembly const& whole) {
       bool const rigid = b >= n;
       std::string const& name = rigid ? whole.rigid_shapes[b - n].name : bodies[b].name;
       ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, name);
-      bool const surfaces = !whole.surfaces[a].points.empty() && (rigid || !whole.surfaces[b].points.empty());
+      bool const surfaces = have_surfaces(whole, a, b);
       // By the contact of their own formulation.
-      bool const apart =
-          own(a) && (rigid ? !whole.rigid_shapes[b - n].turns() : own(b) && !contact::is_tied(whole.ties, a, b));
+      bool const apart = own(a) && (rigid ? !whole.rigid_shapes[b - n].turns()
+                                          : own(b) && !contact::is_tied(whole.ties, a, b) && pair == nullptr);
       bool const others = a == b ? pair != nullptr || whole.contact.self : !apart;
       bool const off = whole.contact.law == ContactRule::Law::none || (pair != nullptr && pair->off);
       touches[a][b] = {surfaces && others && !off, 0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
@@ -61,7 +89,7 @@ std::vector<contact::ColourContact::Pair> coloured_pairs(Assembly const& whole) 
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = a + 1; b < bodies.size(); ++b) {
       if (!can(a) || !can(b)) continue;
-      bool const surfaces = !whole.surfaces[a].points.empty() && !whole.surfaces[b].points.empty();
+      bool const surfaces = have_surfaces(whole, a, b);
       bool const own = info(a)->contact && info(b)->contact && whole.contact.law != ContactRule::Law::surface;
       ContactPair const* const pair = find_pair(whole.contact_pairs, bodies[a].name, bodies[b].name);
       if (surfaces || own || (pair != nullptr && pair->off)) continue;

@@ -58,6 +58,7 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
   }
   if (bodies.size() + static_cast<std::size_t>(rigids) < 2) return;
   if (bodies.empty()) problems.add(place, "contact.between names two rigid shapes (allowed: one) - name a body");
+  if (bodies.size() == 2 && starts_with_surface_contact(spec, bodies[0], bodies[1])) return;
   bool const coloured =
       bodies.size() == 2 && (pair.off || pushed_by_colour(spec, bodies[0], bodies[1])) && !pair.friction.any();
   for (std::size_t const body : bodies)
@@ -69,9 +70,12 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
   bool const own = std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return knows_contact(spec, b); });
   bool const self = bodies.size() == 2 && bodies[0] == bodies[1];
   if (own && !bodies.empty() && !self && !left_alone)
-    problems.add(place,
-                 "contact.between names what adaptle keeps apart by a contact of its own (allowed: pairs with a "
-                 "body of another formulation) - remove the table, or take nodal or jst_sph for one of them");
+    problems.add(
+        place,
+        "contact.between names what adaptle keeps apart by a contact of its own (allowed: pairs with a "
+        "body of another formulation; two bodies with description = \"adaptive\" or \"total_lagrangian\" "
+        "without failed = \"delete\" and particles from a file, which then have surface contact first, without law "
+        "= \"none\") - remove the table, or change one of them");
 }
 
 /// What is asked for of all bodies, of one that has no surface for it.

@@ -148,6 +148,11 @@ void report_contact(CaseSpec const& spec, ParticleSet const& particles, Closenes
 
 }  // namespace
 
+bool is_given(Places const& places, std::string_view key) {
+  Place const place = place_of(places, key), section = place_of(places, "");
+  return place.line != section.line || place.column != section.column || place.file != section.file;
+}
+
 std::vector<Closeness> close_bodies(CaseSpec const& spec, ParticleSet const& particles, double reach) {
   std::vector<Closeness> found;
   std::vector<BodyPlaces> clouds;
@@ -196,6 +201,25 @@ Intrusion intrusion(CaseSpec const& spec, ParticleSet const& particles, std::siz
     found.depth = std::max(found.depth, depth);
   }
   return found;
+}
+
+void add_surface_contact(CaseSpec& spec, ParticleSet const& particles) {
+  constexpr double touching = 1.5;  // spacings between particles: less than half a spacing between surfaces
+  if (spec.contact && is_given(spec.contact->places, "law")) return;
+  auto const keeps_surface = [&](std::size_t b) { return can_lose_surface(spec, b) && has_surface(spec, b); };
+  std::size_t able = 0;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) able += keeps_surface(b) ? 1 : 0;
+  if (able < 2) return;
+  ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
+  for (Closeness const& near : close_bodies(spec, particles, touching)) {
+    if (!keeps_surface(near.body) || !keeps_surface(near.other) || !has_own_contact(spec, near.body, near.other))
+      continue;
+    ContactPairSpec pair;
+    pair.between = {spec.bodies[near.body].name, spec.bodies[near.other].name};
+    pair.scale = rule.scale;
+    pair.friction = rule.friction;
+    spec.contact_pairs.push_back(std::move(pair));
+  }
 }
 
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {

@@ -4,9 +4,13 @@
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace piola {
+
+/// Whether the section gives the key.
+bool is_given(Places const& places, std::string_view key);
 
 /// Two bodies, or a body and a rigid shape, that start close to each other.
 struct Closeness {
@@ -23,6 +27,13 @@ std::vector<Closeness> close_bodies(CaseSpec const& spec, ParticleSet const& par
 
 /// Bodies that start with a particle nearer to a rigid shape than half a spacing.
 std::vector<Closeness> close_shapes(CaseSpec const& spec, ParticleSet const& particles);
+
+/// Gives surface contact (see starts_with_surface_contact) to total-Lagrangian bodies whose nearest particles start
+/// less than 1.5 spacings apart: the contact of their formulation would push them off with an energy out of nothing.
+/// Adds the pairs to the case. Not where the case names a law of contact, nor for bodies whose particles may convert,
+/// which a
+/// [[contact]] table must name.
+void add_surface_contact(CaseSpec& spec, ParticleSet const& particles);
 
 /// Particles of one body that start inside the shape of another, beyond round-off.
 struct Intrusion {

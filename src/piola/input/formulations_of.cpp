@@ -28,7 +28,8 @@ bool is_tied(CaseSpec const& spec, std::size_t body) {
 }
 
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
-  return knows_contact(spec, a) && knows_contact(spec, b) && !contact::is_tied(spec.ties, a, b);
+  return knows_contact(spec, a) && knows_contact(spec, b) && !contact::is_tied(spec.ties, a, b) &&
+         !starts_with_surface_contact(spec, a, b);
 }
 
 bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b) {
@@ -82,11 +83,27 @@ bool can_have_surface(CaseSpec const& spec, std::size_t body) {
 
 bool pushed_by_colour(CaseSpec const& spec, std::size_t a, std::size_t b) {
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
-  if (off || a == b || (can_have_surface(spec, a) && can_have_surface(spec, b)) || has_own_contact(spec, a, b))
+  if (off || a == b || (can_have_surface(spec, a) && can_have_surface(spec, b)) || has_own_contact(spec, a, b) ||
+      starts_with_surface_contact(spec, a, b))
     return false;
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
   bool const able = can_be_pushed(spec, a) && can_be_pushed(spec, b) && !has_mirrors(spec, a) && !has_mirrors(spec, b);
   return able && (pair == nullptr || !pair->off);
+}
+
+bool can_lose_surface(CaseSpec const& spec, std::size_t body) {
+  FormulationSpec const& formulation = spec.bodies[body].formulation;
+  bool const has_none = is_word(formulation, "description", "eulerian") ||
+                        is_word(formulation, "description", "patch") || is_word(formulation, "failed", "delete");
+  return knows_contact(spec, body) && can_be_pushed(spec, body) && !has_none &&
+         spec.bodies[body].shape.kind != ShapeSpec::Kind::points;
+}
+
+bool starts_with_surface_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  if (a == b || !can_lose_surface(spec, a) || !can_lose_surface(spec, b)) return false;
+  if ((spec.contact && spec.contact->law == ContactRule::Law::none) || contact::is_tied(spec.ties, a, b)) return false;
+  ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
+  return pair != nullptr && !pair->off;
 }
 
 std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
@@ -103,6 +120,7 @@ std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
 }
 
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  if (starts_with_surface_contact(spec, a, b)) return true;
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
   if (!has_surface(spec, a) || !has_surface(spec, b)) return false;
   if (a == b) return pair != nullptr ? !pair->off : spec.contact && spec.contact->self;

@@ -32,7 +32,15 @@ std::string why_without_surface(CaseSpec const& spec, std::size_t body);
 /// Whether a tie of the case names the body.
 bool is_tied(CaseSpec const& spec, std::size_t body);
 
-/// Whether the contact of their formulation keeps two bodies apart: not if they are tied.
+/// Whether two bodies of a formulation with a contact of its own have surface contact first, which their particles lose
+/// one by one to that contact: a [[contact]] table names the two, or they start within its reach (see
+/// add_surface_contact), and both have surfaces.
+bool starts_with_surface_contact(CaseSpec const& spec, std::size_t a, std::size_t b);
+/// Whether a body has a surface at the start that its particles may lose, one by one, to a contact of their own.
+bool can_lose_surface(CaseSpec const& spec, std::size_t body);
+
+/// Whether the contact of their formulation alone keeps two bodies apart: not if they are tied or start with surface
+/// contact.
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b);
 
 /// Whether something keeps two bodies apart: the contact of their formulation, their surfaces or colours.

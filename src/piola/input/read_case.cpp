@@ -4,6 +4,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/closeness.hpp"
 #include "piola/input/document_guard.hpp"
 #include "piola/input/sections.hpp"
 #include "piola/setup/solid_bodies.hpp"
@@ -237,6 +238,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
   CaseSpec spec = read_document(*document, problems, limits);
   if (problems.empty()) {
     ParticleSet particles = make_particles(spec, problems);
+    add_surface_contact(spec, particles);
     check_regions(spec, particles, problems);
     if (made != nullptr) *made = std::move(particles);
   }

@@ -221,7 +221,10 @@ void take_parts(CaseSpec const& spec, std::size_t body, Assembly& a) {
 std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
   std::vector<contact::Surface> surfaces(spec.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (!has_surface(spec, b) && !is_tied(spec, b)) continue;
+    bool first = false;
+    for (std::size_t other = 0; other < spec.bodies.size(); ++other)
+      first = first || starts_with_surface_contact(spec, other, b);
+    if (!has_surface(spec, b) && !is_tied(spec, b) && !first) continue;
     surfaces[b] = contact_surface(spec.bodies[b].shape, a.particles, a.particles.bodies[b]);
     with_any_law(a.materials[b], [&](auto const& law) { surfaces[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
   }
@@ -288,6 +291,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   double const step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
   Prospect prospect{.step = step};
   if (any_contact(spec) && ranks::own() == 0) prospect.start = simulation.formulation->diagnose();
+  if (prospect.start) refuse_unpaid_contact(spec, assembly.particles, *prospect.start);
   simulation.warnings = warnings_of(spec, assembly, prospect);
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);

@@ -21,11 +21,6 @@ Place place_of_doubt(BodySpec const& body, std::string const& key) {
   return place_in_table(body.places, key.substr(0, dot), key.substr(dot + 1));
 }
 
-bool is_given(Places const& places, char const* key) {
-  Place const place = place_of(places, key), section = place_of(places, "");
-  return place.line != section.line || place.column != section.column || place.file != section.file;
-}
-
 /// Settings of contact that find nothing to act on.
 void warn_of_idle_contact(CaseSpec const& spec, Problems& found) {
   if (!spec.contact || spec.bodies.size() > 1 || spec.contact->self) return;
@@ -103,9 +98,9 @@ std::string energy_text(std::optional<Diagnostics> const& start) {
                      quantity_text(*energy, "J", 3), number_text(total > 0 ? 100 * *energy / total : 0.0, 2));
 }
 
-/// Bodies, and bodies and rigid shapes, that push each other from the start.
+/// Bodies, and bodies and rigid shapes, that push each other from the start. otherwise: what else can be done.
 void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::optional<Diagnostics> const& start,
-                   Problems& found) {
+                   std::string const& otherwise, Problems& found) {
   constexpr double touching = 1.001, reach = 3, much = 1e-3;
   bool const merged = spec.contact && spec.contact->law == ContactRule::Law::none;
   auto const energy = contact_energy(start);
@@ -119,23 +114,25 @@ void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::opti
         place_of(spec.bodies.back().places, "shape"),
         fmt::format("surfaces of bodies or rigid shapes overlap at the start by {:.2g} spacings{} - move them apart",
                     overlap, held));
+  std::string const by_surfaces =
+      otherwise.empty() ? "" : ", or give the two a [[contact]] table, which lets their surfaces touch";
   for (Closeness const& pair : close_bodies(spec, particles, counts ? reach : touching)) {
     if (merged) break;
     if (!has_own_contact(spec, pair.body, pair.other)) continue;
     found.add(
         place_of(spec.bodies[pair.other].places, "shape"),
         fmt::format("the bodies {} and {} start close to each other: their nearest particles are {} apart, {:.2f} "
-                    "spacings{} - leave two smoothing lengths between their particles",
+                    "spacings{} - leave two smoothing lengths between their particles{}{}",
                     in_quotes(spec.bodies[pair.body].name), in_quotes(spec.bodies[pair.other].name),
-                    quantity_text(pair.distance, "m"), pair.distance / pair.spacing, held));
+                    quantity_text(pair.distance, "m"), pair.distance / pair.spacing, held, by_surfaces, otherwise));
   }
   for (Closeness const& pair : close_shapes(spec, particles)) {
     if (!knows_contact(spec, pair.body)) continue;
     found.add(place_of(spec.rigids[pair.other].places, ""),
               fmt::format("the rigid shape {} starts {} from a particle of body {}, nearer than half a spacing, {}{} - "
-                          "leave half a spacing between them",
+                          "leave half a spacing between them{}",
                           in_quotes(spec.rigids[pair.other].name), quantity_text(pair.distance, "m"),
-                          in_quotes(spec.bodies[pair.body].name), quantity_text(pair.spacing, "m"), held));
+                          in_quotes(spec.bodies[pair.body].name), quantity_text(pair.spacing, "m"), held, otherwise));
   }
 }
 
@@ -157,6 +154,23 @@ void warn_of_thin_parts(CaseSpec const& spec, Problems& found) {
 
 }  // namespace
 
+void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, Diagnostics const& start) {
+  auto const energy = contact_energy(start);
+  if (!energy || !knows_contact(spec) || (spec.contact && is_given(spec.contact->places, "law"))) return;
+  double const total = start.total_energy();
+  bool const moves = total - *energy > 0;  // at rest the energy that loads will bring is not known: a warning says it
+  if (!moves || !(*energy > largest_unpaid_contact * total)) return;
+  Problems problems;
+  warn_of_touch(
+      spec, particles, start,
+      fmt::format(" (allowed: at most {:.3g} % of all energy), or name contact.law (now: kernel) if this energy "
+                  "is wanted",
+                  100 * largest_unpaid_contact),
+      problems);
+  problems.sort_by_place();
+  problems.raise_if_any();
+}
+
 std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, Prospect const& prospect) {
   Problems found;
   find_slips(spec, assembly.particles, body_facts(spec, assembly.particles), prospect.step, found);
@@ -166,7 +180,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   warn_of_chatter(spec, found);
   warn_of_other_contact(spec, found);
   warn_of_ties(spec, assembly.particles, found);
-  warn_of_touch(spec, assembly.particles, prospect.start, found);
+  warn_of_touch(spec, assembly.particles, prospect.start, "", found);
   warn_of_narrow_shapes(spec, assembly.particles, found);
   found.sort_by_place();
   return found.lines();

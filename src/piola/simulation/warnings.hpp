@@ -16,6 +16,12 @@ struct Prospect {
   std::optional<Diagnostics> start = {};
 };
 
+/// The largest fraction of the energy at the start that contact may hold.
+inline constexpr double largest_unpaid_contact = 0.01;
+/// Throws InputError if the contact of a formulation holds more of the energy at the start than that, which nothing has
+/// paid for, unless the case names a law of contact or nothing moves at the start.
+void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, Diagnostics const& start);
+
 /// All that looks odd about a case that can run: slips of units, settings without effect, laws that lock or cannot
 /// fail, bodies that touch or cannot touch. One sentence each, "file:line:column: what (what is usual) - what to do",
 /// in the order of the file. What `piola check` shows, and `piola run` tells and writes to summary.json and log.txt.

@@ -50,19 +50,30 @@ void add_rigid_contacts(System const& s, Index i, exec::ExactSums<1>& sum) {
   }
 }
 
-template <int D>
-exec::ExactSums<1> energy_of_contacts(System const& s) {
+/// Sums the energies of the pairs for which counts(pair, i, j) is true, at the positions of half time, which are known
+/// of ghost particles, too.
+template <int D, class Counts>
+exec::ExactSums<1> energy_of_pairs(System const& s, Counts const& counts) {
   exec::ExactSums<1> sum;
   for (Index t = 0; t < s.contact.targets; ++t) {
     Index const i = s.spatial.slot[s.contact.target[t]];
     for (Index k = 0; k < s.contact.length[t]; ++k) {
       Index const j = s.spatial.slot[s.contact.list[static_cast<std::ptrdiff_t>(t) * s.contact.capacity + k]];
+      if (!counts(s.contact.pair[s.body_of[i] * s.bodies + s.body_of[j]], i, j)) continue;
       double square = 0;
-      for (int c = 0; c < D; ++c) square += std::pow(value_at(s.field.x, i, c) - value_at(s.field.x, j, c), 2);
+      for (int c = 0; c < D; ++c)
+        square += std::pow(s.position[std::ptrdiff_t{3} * i + c] - s.position[std::ptrdiff_t{3} * j + c], 2);
       double const half = 0.5 * potential<D>(s, i, j, std::sqrt(square));
       sum.add(&half);
     }
   }
+  return sum;
+}
+
+template <int D>
+exec::ExactSums<1> energy_of_contacts(System const& s) {
+  exec::ExactSums<1> sum =
+      energy_of_pairs<D>(s, [&](ContactPair const& pair, Index i, Index j) { return s.contact.acts(pair, i, j); });
   for (Range const& own : std::span(s.part, static_cast<std::size_t>(s.bodies)))
     for (Index i = own.first; i < own.last; ++i) add_rigid_contacts<D>(s, i, sum);
   return sum;
@@ -107,6 +118,17 @@ double contact_energy(System const& system) {
   return sum.value();
 }
 
+double opened_energy(System const& system, std::vector<std::uint8_t> const& lost_before) {
+  auto const opened = [&](ContactPair const& pair, Index i, Index j) {
+    auto const before = [&](Index k) { return lost_before[static_cast<std::size_t>(k)] != 0; };
+    return pair.surfaces && system.contact.acts(pair, i, j) && !before(i) && !before(j);
+  };
+  exec::ExactSums<1> sum =
+      system.dimension == 2 ? energy_of_pairs<2>(system, opened) : energy_of_pairs<3>(system, opened);
+  if (system.shared) ranks::add(sum);
+  return sum.value();
+}
+
 std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
                                        std::vector<std::array<double, 3>> const& mean_velocity) {
   std::vector<ContactPair> pairs(bodies.size() * bodies.size());
@@ -132,6 +154,17 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
         p.eps = rule.scale * std::min(bodies[a].bulk_modulus, bodies[b].bulk_modulus) * area;
     }
   return pairs;
+}
+
+bool mark_surface_contact(Assembly const& assembly, std::vector<ContactPair>& pairs) {
+  auto const& bodies = assembly.particles.bodies;
+  bool any = false;
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (a == b || find_pair(assembly.contact_pairs, bodies[a].name, bodies[b].name) == nullptr) continue;
+      any = pairs[a * bodies.size() + b].surfaces = true;
+    }
+  return any;
 }
 
 void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs) {

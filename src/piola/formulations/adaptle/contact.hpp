@@ -29,6 +29,14 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
 /// Bodies that are tied meet by their surfaces, where the tie has failed, and not here.
 void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs);
 
+/// Marks the pairs of bodies that have surface contact first: those of the case's contact_pairs, to which reading the
+/// case adds total-Lagrangian bodies that touch at the start. Returns whether there are any.
+bool mark_surface_contact(Assembly const& assembly, std::vector<ContactPair>& pairs);
+
+/// Potential energy that this contact has by now because surfaces were lost since `lost_before` (LostSurfaces::by_slot)
+/// [J]: it was not there before. The lists must be those of the last step. Collective.
+double opened_energy(System const& system, std::vector<std::uint8_t> const& lost_before);
+
 /// Potential energy of all contacts where particles are now [J]: bodies may start within reach of each other or of a
 /// rigid shape. The lists must be those of the present positions. Collective.
 double contact_energy(System const& system);

@@ -74,6 +74,7 @@ struct ContactSweep {
     for (Index k = 0; k < table.length[t]; ++k) {
       Index const j = slot[row[k]];
       ContactPair const& pair = table.pair[body_of[i] * bodies + body_of[j]];
+      if (!table.acts(pair, i, j)) continue;
       double square = 0;
       for (int c = 0; c < D; ++c) {
         double const d = x.at(i, c) - x.at(j, c);

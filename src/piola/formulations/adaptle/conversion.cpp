@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Total-Lagrangian particles that become Eulerian, or fail.
+#include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
@@ -94,6 +95,8 @@ void Particles::convert(double dt) {
                                  [&](Index j) { marks.set(j, Marks::changes); });
     }
   marks.share();
+  std::vector<std::uint8_t> const lost_before = lost_.by_slot();
+  std::int64_t const count_before = lost_.count();
   ConversionSums sums;
   for (Index i = 0; i < system_.particles; ++i) {
     bool const changes = marks.has(i, Marks::changes);
@@ -106,7 +109,18 @@ void Particles::convert(double dt) {
   books_.converted_mass += sums.value(0);
   books_.energy_change += sums.value(1);
   books_.momentum_change += sums.value(2);
+  if (lost_.count() > count_before) {
+    double const opened = opened_energy(system_, lost_before);
+    books_.contact_energy += opened;
+    books_.energy_change += opened;
+  }
   choose_material();
+}
+
+/// The particle and all that have it as a reference neighbour, because their deformation gradient now depends on the
+/// positions of an Eulerian particle.
+void Particles::lose_surface(Index slot) {
+  lost_.lose(set_, order_, slot, 2 * body_[at(body_of_[at(slot)])].material_h);
 }
 
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
@@ -115,6 +129,7 @@ void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums&
   if (f.phi.at(i) == 1) return;
   books_.converted += 1;
   books_.by_guard += by_guard ? 1 : 0;
+  if (lost_.used()) lose_surface(i);
   if (!is_own(i)) {  // the others know of it that it has converted
     f.phi.at(i) = 1;
     return;

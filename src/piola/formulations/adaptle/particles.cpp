@@ -183,6 +183,8 @@ void Particles::set_contact(Assembly const& assembly) {
     }
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
   leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
+  if (mark_surface_contact(assembly, contact_pairs_)) lost_ = LostSurfaces(set_);
+  system_.contact.lost = lost_.by_slot().data();
   system_.contact.pair = contact_pairs_.data();
   system_.contact.printed = assembly.contact.stiffness;
   system_.contact.scale = assembly.contact.scale;
@@ -537,6 +539,8 @@ bool Particles::deleted() const {
 }
 
 void Particles::resumed() {
+  for (Index i = 0; i < system_.particles && lost_.used(); ++i)
+    if (fields_.phi.at(i) == 1) lose_surface(i);
   set_factors();
   choose_material();
 }

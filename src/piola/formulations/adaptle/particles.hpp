@@ -4,6 +4,7 @@
 #include "piola/exec/part_filled.hpp"
 #include "piola/formulations/adaptle/exchanges.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
+#include "piola/formulations/adaptle/lost_surfaces.hpp"
 #include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/own_particles.hpp"
@@ -119,6 +120,7 @@ class Particles {
   /// For observers of what ranks share; null: one has all.
   SharedLines* lines(int body) const { return lines_.empty() ? nullptr : lines_[static_cast<std::size_t>(body)].get(); }
   std::optional<Recuts> recuts() const { return balance_.recuts(); }
+  LostSurfaces const& lost_surfaces() const { return lost_; }
 
  private:
   bool deleted() const;
@@ -158,6 +160,7 @@ class Particles {
   void hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to);
   double work_of(Index slot) const;
   std::vector<ImpulseSum> impulses(double time, double dt) const;
+  void lose_surface(Index slot);
   void make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums);
   double energy_of(Index i) const;
   std::array<double, 3> momentum_of(Index i) const;
@@ -182,6 +185,7 @@ class Particles {
   SpatialLists spatial_;
   Memory material_records_;
   std::vector<ContactPair> contact_pairs_;
+  LostSurfaces lost_;
   std::vector<double> partial_;
   PartFilled<double> rigid_power_;
   PointFactors factors_;

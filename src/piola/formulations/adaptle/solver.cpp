@@ -5,6 +5,7 @@
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/checkpoint.hpp"
+#include "piola/formulations/surface_loss.hpp"
 #include "piola/materials/solids.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -48,7 +49,7 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
-class Solver final : public Formulation {
+class Solver final : public Formulation, public SurfaceLoss {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
@@ -81,6 +82,11 @@ class Solver final : public Formulation {
       if (!particles_.is_own(slot)) continue;
       for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
+  }
+  std::int64_t surfaces_lost() const override { return particles_.lost_surfaces().count(); }
+  bool has_lost_surface(std::int64_t id) const override {
+    auto const& lost = particles_.lost_surfaces().by_slot();
+    return !lost.empty() && lost[at(particles_.order().slot(id))] != 0;
   }
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;

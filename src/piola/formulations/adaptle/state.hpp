@@ -110,7 +110,8 @@ struct BodyConstants {
 struct ContactPair {
   double eps = 0;  ///< [J]
   double h = 1, dp = 1;
-  double exponent = 4;  ///< n
+  double exponent = 4;    ///< n
+  bool surfaces = false;  ///< surfaces keep the bodies apart where both still have one
 };
 
 /// A rigid shape at half time.
@@ -173,7 +174,13 @@ struct ContactTable {
   ContactPair const* pair = nullptr;  ///< [body][body]
   int law = 0;
   double printed = 0;
-  double scale = 1;  ///< of the stiffness of rigid shapes
+  double scale = 1;                    ///< of the stiffness of rigid shapes
+  std::uint8_t const* lost = nullptr;  ///< per slot: whether its surface is lost (LostSurfaces)
+
+  /// Whether this contact keeps two particles apart, and not surfaces.
+  [[gnu::always_inline]] PIOLA_FN bool acts(ContactPair const& between, Index i, Index j) const {
+    return !between.surfaces || lost[i] != 0 || lost[j] != 0;
+  }
 };
 
 struct Settings {

@@ -64,7 +64,7 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
   for (std::size_t k = 0; k < points_.size(); ++k) {
     double const r = reach(points_[k]);
     Vec<3> const& y = planes_[k].y;
-    if (!(r > 0) || is_left_out(k, b) || !box.holds(y, r)) continue;
+    if (!(r > 0) || is_dropped(k) || is_left_out(k, b) || !box.holds(y, r)) continue;
     std::size_t const first = sources_.size();
     grid.visit({y[0], y[1], y[2]}, [&](Index j) {
       Index const source = of_body[at(j)];
@@ -79,6 +79,13 @@ void System::list_sources(std::size_t b, std::vector<Index> const& of_body, Vec<
 void System::leave_out(std::size_t body, std::size_t point, std::size_t other, bool out) {
   left_out_.resize(points_.size() * others());
   left_out_[place_of(body, point) * others() + other] = out ? 1 : 0;
+  listed_at_.clear();
+}
+
+void System::drop(std::vector<char> const& lost) {
+  dropped_.resize(points_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (lost[at(carriers_.self(points_[k].carrier))] != 0) dropped_[k] = 1;
   listed_at_.clear();
 }
 
@@ -132,6 +139,7 @@ void System::make_lists(std::vector<Vec<3>> const& x) {
   std::vector<std::vector<Index>> of_body(surfaces_.size());
   std::vector<Box> boxes(surfaces_.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (is_dropped(k)) continue;
     of_body[points_[k].body].push_back(static_cast<Index>(k));
     boxes[points_[k].body].add(planes_[k].y);
   }

@@ -66,6 +66,9 @@ class System {
   /// Body `other`, or a rigid shape, whose number follows those of the bodies, does not push this surface point of a
   /// body, or does so again.
   void leave_out(std::size_t body, std::size_t point, std::size_t other, bool out);
+  /// Particles have lost their surface for good, by index into ids(): their points push nothing and are pushed by
+  /// nothing from now on. Not in state(): to be called before restore() again.
+  void drop(std::vector<char> const& lost);
   /// What it stores because it pushes this point [J].
   double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
@@ -192,8 +195,10 @@ class System {
   bool is_left_out(std::size_t point, std::size_t other) const {
     return !left_out_.empty() && left_out_[point * others() + other] != 0;
   }
+  bool is_dropped(std::size_t point) const { return !dropped_.empty() && dropped_[point] != 0; }
   bool is_met(Index point, std::size_t rigid) const {
-    return with_rigid(points_[at(point)].body, rigid).meets && !is_left_out(at(point), surfaces_.size() + rigid);
+    return !is_dropped(at(point)) && with_rigid(points_[at(point)].body, rigid).meets &&
+           !is_left_out(at(point), surfaces_.size() + rigid);
   }
   /// Whether the point itself is tested against the shape, too; not where points of the shape cover all of it.
   bool is_tested(Index point, std::size_t rigid) const {
@@ -265,6 +270,7 @@ class System {
   std::vector<RigidPose> listed_rigids_;  ///< and rigid shapes
   double skin_ = 0;                       ///< [m]
   std::vector<char> left_out_;            ///< by point and other, or empty
+  std::vector<char> dropped_;             ///< by point, or empty
   std::vector<Run> runs_;
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;          ///< by run
