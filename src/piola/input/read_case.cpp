@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/document_guard.hpp"
+#include "piola/input/identify.hpp"
 #include "piola/input/sections.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
@@ -231,6 +232,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
   problems.raise_if_any();
   CaseSpec spec = read_document(*document, problems, limits);
   if (problems.empty()) {
+    spec.identity = identity_of(spec);
     ParticleSet particles = make_particles(spec, problems);
     check_regions(spec, particles, problems);
     if (made != nullptr) *made = std::move(particles);

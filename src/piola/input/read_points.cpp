@@ -28,7 +28,7 @@ ShapeSpec read_points_shape(Section const& section) {
   if (points->read("volume", volume)) options.total_volume = volume;
   points->refuse_unknown();
   if (!given) return shape;
-  shape.files.push_back(case_file(points->place_of("file"), file));
+  shape.files.push_back(case_file(points->base_of("file"), file));
   std::vector<std::string> problems;
   auto cloud = std::make_shared<PointCloud>(read_cloud(shape.files.back().path.string(), options, problems));
   for (std::string const& problem : problems) section.problems().add(points->place_of("file"), problem);

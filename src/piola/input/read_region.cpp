@@ -31,7 +31,7 @@ Names::OfPlace read_near(Section const& near, RegionSpec& region) {
   bool const bounded = near.read("within", within);
   near.refuse_unknown();
   if (!given || !unit || !bounded) return {};
-  region.files.push_back(case_file(near.place_of("file"), file));
+  region.files.push_back(case_file(near.base_of("file"), file));
   geometry::MeshOptions options;
   options.scale = *unit;
   // Only how far a place is counts, so the surface need not enclose anything.

@@ -91,7 +91,7 @@ class SolidReader {
     section.refuse_unknown();
     if (!given || !unit) return nullptr;
     options.scale = *unit;
-    shape_.files.push_back(case_file(section.place_of("file"), file));
+    shape_.files.push_back(case_file(section.base_of("file"), file));
     geometry::MeshReport report;
     SolidPtr solid = geometry::read_mesh(shape_.files.back().path.string(), options, report);
     for (std::string const& problem : report.problems) section.problems().add(section.place_of("file"), problem);
@@ -237,7 +237,7 @@ void set_cache(Section const& section, Names const& names, bool beside, ShapeSpe
   particles.key = toml_value(section.node());
   for (auto const& [name, value] : names.constants) particles.key += "\n" + name + " = " + number_text(value, 17);
   particles.key += key_of(shape.files);
-  std::filesystem::path const folder = std::filesystem::path(section.place().file).parent_path();
+  std::filesystem::path const folder = std::filesystem::path(section.base_of("").file).parent_path();
   particles.folders = {folder / kept_files, folder};
   if (beside) particles.cache = folder;
 }
