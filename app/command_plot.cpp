@@ -4,6 +4,7 @@
 #include "piola/report/check_rows.hpp"
 #include "piola/report/plot_references.hpp"
 #include "piola/simulation/history_plot.hpp"
+#include "piola/simulation/study_plot.hpp"
 #include "commands.hpp"
 #include "streams.hpp"
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 struct PlotArguments {
   std::string folder, out, checks, variant;
   std::vector<std::string> columns, with, log;
-  std::string against = "time";
+  std::string against;
   std::vector<int> size{800, 500};
 };
 
@@ -29,31 +30,50 @@ void add_references_of(PlotArguments const& options, Plot& drawn) {
   say("{} reference{} of {}\n", count, count == 1 ? "" : "s", options.checks);
 }
 
-int plot(PlotArguments const& options) {
-  auto const has = [&](char const* axis) {
-    return std::find(options.log.begin(), options.log.end(), axis) != options.log.end();
-  };
+bool is_logarithmic(PlotArguments const& options, char const* axis) {
+  return std::find(options.log.begin(), options.log.end(), axis) != options.log.end();
+}
+
+Plot plot_of_study(PlotArguments const& options, std::filesystem::path const& table) {
+  if (!options.with.empty() || !options.checks.empty())
+    throw InputError("--with and --checks are for runs, and " + table.string() + " is of a study - leave them out");
+  return study_plot(table, {.quantities = options.columns,
+                            .against = options.against,
+                            .log_x = is_logarithmic(options, "x"),
+                            .log_y = is_logarithmic(options, "y")});
+}
+
+Plot plot_of_run(PlotArguments const& options) {
+  bool const over_time = options.against.empty() || options.against == "time";
   Plot drawn = history_plot(options.folder, {.columns = options.columns,
-                                             .against = options.against,
+                                             .against = over_time ? "time" : options.against,
                                              .with = {options.with.begin(), options.with.end()},
-                                             .log_x = has("x"),
-                                             .log_y = has("y")});
+                                             .log_x = is_logarithmic(options, "x"),
+                                             .log_y = is_logarithmic(options, "y")});
   if (!options.checks.empty()) {
-    if (options.against != "time")
+    if (!over_time)
       throw InputError("--checks: references stand over time (here: --against " + options.against +
                        ") - leave one out");
     add_references_of(options, drawn);
   }
+  return drawn;
+}
+
+int plot(PlotArguments const& options) {
+  std::filesystem::path const table = study_table_at(options.folder);
+  Plot drawn = table.empty() ? plot_of_run(options) : plot_of_study(options, table);
   drawn.width = options.size[0];
   drawn.height = options.size[1];
-  std::filesystem::path const name =
-      options.columns.empty() ? "energies.svg"
-                              : options.columns.front() + (options.columns.size() > 1 ? "-and-more.svg" : ".svg");
-  std::filesystem::path const out =
-      options.out.empty() ? std::filesystem::path(options.folder) / name : std::filesystem::path(options.out);
+  std::string const name = !options.columns.empty() ? options.columns.front() : table.empty() ? "energies" : "study";
+  std::filesystem::path const folder = table.empty() ? std::filesystem::path(options.folder) : table.parent_path();
+  std::filesystem::path const out = options.out.empty()
+                                        ? folder / (name + (options.columns.size() > 1 ? "-and-more.svg" : ".svg"))
+                                        : std::filesystem::path(options.out);
   if (out.has_parent_path()) make_folder(out.parent_path());
   write_plot(out, drawn);
-  say("{} curve{} drawn to {}\n", drawn.curves.size(), drawn.curves.size() == 1 ? "" : "s", out.string());
+  // Rings at the runs of a study belong to its curves.
+  std::size_t const curves = table.empty() ? drawn.curves.size() : drawn.curves.size() / 2;
+  say("{} curve{} drawn to {}\n", curves, curves == 1 ? "" : "s", out.string());
   return completed;
 }
 
@@ -61,10 +81,17 @@ int plot(PlotArguments const& options) {
 
 void add_plot(CLI::App& program, Action& action) {
   auto const options = std::make_shared<PlotArguments>();
-  CLI::App* command = program.add_subcommand("plot", "Draw columns of the history of a run, by default its energies");
-  command->add_option("folder", options->folder, "The results folder of the run")->required();
-  command->add_option("columns", options->columns, "Columns of history.csv (default: the energies as a ledger)");
-  command->add_option("--against", options->against, "The column of the horizontal axis")->capture_default_str();
+  CLI::App* command = program.add_subcommand(
+      "plot", "Draw columns of the history of a run, by default its energies, or quantities of a study");
+  command
+      ->add_option("folder", options->folder,
+                   "The results folder of the run, or the folder or the study.csv of a study")
+      ->required();
+  command->add_option("columns", options->columns,
+                      "Columns of history.csv (default: the energies as a ledger); quantities of the study");
+  command->add_option("--against", options->against,
+                      "The column of the horizontal axis (default: time), or the parameter of the study (default: the "
+                      "first that changes)");
   command->add_option("--with", options->with, "Another results folder to draw beside it; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);

@@ -24,6 +24,7 @@ void add_plot(CLI::App& program, Action& action);
 void add_watch(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_study(CLI::App& program, Action& action);
+void add_converge(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 
 /// Options that several commands share: how a case is changed on the command line before it is read.

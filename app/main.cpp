@@ -88,6 +88,7 @@ int use(int argc, char** argv) {
   app::add_resume(program, action);
   app::add_render(program, action);
   app::add_study(program, action);
+  app::add_converge(program, action);
   app::add_plot(program, action);
   app::add_report(program, action);
   app::add_watch(program, action);

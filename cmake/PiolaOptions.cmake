@@ -32,6 +32,7 @@ target_compile_options(piola_warnings INTERFACE
 # Sanitizers bring guards of their own.
 option(PIOLA_HARDENING "Harden release builds (stack protector, checked copies, PIE, full RELRO)" ON)
 add_library(piola_pie INTERFACE)
+target_link_options(piola_pie INTERFACE LINKER:--build-id=sha1)  # by which results know the program (base/version.hpp)
 if(PIOLA_PYTHON)
   target_compile_options(piola_pie INTERFACE -fPIC -fno-semantic-interposition)
 endif()

@@ -77,6 +77,7 @@ void add_case(py::module_& m) {
       .def_property_readonly("title", [](ReadCase const& from) { return from.spec.title; })
       .def_property_readonly("file", [](ReadCase const& from) { return from.file; })
       .def_property_readonly("source", [](ReadCase const& from) { return from.spec.source; })
+      .def_property_readonly("identity", [](ReadCase const& from) { return from.spec.identity.run; })
       .def_property_readonly("end", [](ReadCase const& from) { return from.spec.run.end; })
       .def_property_readonly("dimension", [](ReadCase const& from) { return from.particles.dimension; })
       .def_property_readonly("bodies", &bodies)

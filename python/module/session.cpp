@@ -43,6 +43,9 @@ Formulas formulas_of(Table const& rows, std::string const& what, Body const& bod
 Session::Session(ReadCase const& from, std::string const& folder, bool resume, bool force, Given const& given)
     : written_(!folder.empty()) {
   CaseSpec spec = from.spec;
+  bool const has_functions =
+      !given.initial_velocity.empty() || !given.initial_displacement.empty() || !given.support_velocity.empty();
+  if (has_functions) spec.identity.run.clear();  // the text does not tell what they are
   put(given, spec, from.particles);
   py::gil_scoped_release const others_may_run;
   simulation_ = std::make_unique<Simulation>(build(std::move(spec), from.particles));

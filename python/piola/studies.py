@@ -9,12 +9,13 @@ import json
 import os
 import subprocess
 import sys
+import warnings
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from .case import Case
-from .errors import FileError, InputError
+from .errors import CaseWarning, InputError, PhysicsError
 
-_JOB = "study.json"  # in the folder of each run: its parameters
+_STATUS = {0: "completed", 3: "failed"}  # of summary.json, by the exit code of the run's process
 
 
 def study(case: Case, parameters: Mapping[str, Sequence[Any]], out: Union[str, os.PathLike] = "study",
@@ -22,8 +23,10 @@ def study(case: Case, parameters: Mapping[str, Sequence[Any]], out: Union[str, o
     """Runs a case with every combination of the parameters' values, `jobs` at a time, each in a process of its own.
 
     parameters: values by key, as in case[key] = value. Each run has a folder of its own in `out`; study.csv there has a
-    row for each: parameters, status, quantities. Runs that are completed there with the same case and parameters are
-    not run again. threads: of each run; by default the cores divided by `jobs`. Returns the rows.
+    row for each: parameters, status, quantities. Runs that are completed there are not run again if nothing that they
+    depend on has changed: case and parameters, the files that the case names, the program. A run that cannot be made
+    has the status "failed", no quantities, and a CaseWarning that says why. threads: of each run; by default the cores
+    divided by `jobs`. Returns the rows.
     Raises InputError for cases with Python functions (they cannot go to another process) and if any of the cases is
     wrong, before the first one runs.
     """
@@ -39,56 +42,75 @@ def study(case: Case, parameters: Mapping[str, Sequence[Any]], out: Union[str, o
     tasks = []
     for number, values in enumerate(combinations):
         one = case.copy({"run.threads": share, **values} if "run.threads" not in case._settings else values)
-        _check(one, values)
-        tasks.append((one, values, os.path.join(out, f"run-{number + 1:0{digits}d}")))
+        tasks.append((one, values, os.path.join(out, f"run-{number + 1:0{digits}d}"), _identity(one, values)))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         rows = list(pool.map(lambda task: _run(*task), tasks))
     _write(os.path.join(out, "study.csv"), rows)
     return rows
 
 
-def _check(case: Case, values: Mapping[str, Any]) -> None:
+def _identity(case: Case, values: Mapping[str, Any]) -> str:
+    """What a run of the case depends on, as a digest. Raises InputError if the case is wrong."""
     try:
-        case._case()
+        return case._case().identity
     except InputError as error:
         raise InputError(f"with {values}:\n{error}") from error
-    case._read = None  # its particles would stay in memory
+    finally:
+        case._read = None  # its particles would stay in memory
 
 
-def _run(case: Case, values: Dict[str, Any], folder: str) -> Dict[str, Any]:
-    from .results import Results
-    job = {"file": case._file and os.path.abspath(case._file), "text": case._text, "settings": case.overrides(),
-           "values": {key: str(value) for key, value in values.items()}}
-    if not _is_done(folder, job):
-        worker = [sys.executable, "-c", "from piola import studies; studies._work()", folder]
-        path = os.pathsep.join([os.path.dirname(os.path.dirname(os.path.abspath(__file__)))] + sys.path)
-        done = subprocess.run(worker, input=json.dumps(job), text=True, capture_output=True,
-                              env={**os.environ, "PYTHONPATH": path})
-        if done.returncode != 0 and not os.path.exists(os.path.join(folder, "summary.json")):
-            raise FileError(f"{folder}: the run with {values} could not be made: {done.stderr.strip()}")
-    results = Results(folder)
-    return {"folder": folder, **values, "status": results.summary.get("status", "failed"), **results.quantities}
+def _run(case: Case, values: Dict[str, Any], folder: str, identity: str) -> Dict[str, Any]:
+    summary = _summary(folder, identity)
+    if summary.get("status") != "completed":
+        summary = _made(case, values, folder, identity)
+    quantities = {name: entry["value"] for name, entry in summary.get("quantities", {}).items()}
+    return {"folder": folder, **values, "status": summary.get("status", "failed"), **quantities}
 
 
-def _is_done(folder: str, job: dict) -> bool:
+def _made(case: Case, values: Dict[str, Any], folder: str, identity: str) -> dict:
+    """Makes a run in a process of its own. The summary that this run wrote; {} if it wrote none."""
+    job = {"file": case._file and os.path.abspath(case._file), "text": case._text, "settings": case.overrides()}
+    before = _text(folder)
+    path = os.pathsep.join([os.path.dirname(os.path.dirname(os.path.abspath(__file__)))] + sys.path)
+    done = subprocess.run([sys.executable, "-c", "from piola import studies; studies._work()", folder],
+                          input=json.dumps(job), text=True, capture_output=True, env={**os.environ, "PYTHONPATH": path})
+    summary = _summary(folder, identity) if _text(folder) != before else {}
+    if summary.get("status") == _STATUS.get(done.returncode, ""):
+        return summary
+    why = done.stderr.strip().splitlines()[-1:] or [f"its process ended with {done.returncode}"]
+    warnings.warn(f"{folder}: the run with {values} failed: {why[0]}", CaseWarning, stacklevel=2)
+    return {}
+
+
+def _text(folder: str) -> str:
+    """The text of a summary.json; empty if there is none."""
     try:
-        with open(os.path.join(folder, _JOB), encoding="utf-8") as file:
-            same = json.load(file) == job
         with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-            return same and json.load(file)["status"] == "completed"
-    except (OSError, ValueError, KeyError):
-        return False
+            return file.read()
+    except OSError:
+        return ""
+
+
+def _summary(folder: str, identity: str) -> dict:
+    """What a summary.json says of a run with this identity; {} if it is of another run, or none."""
+    try:
+        summary = json.loads(_text(folder) or "{}")
+        return summary if identity and summary["identity"]["run"] == identity else {}
+    except (ValueError, KeyError, TypeError):
+        return {}
 
 
 def _work() -> None:
-    """What the process of one run does."""
+    """What the process of one run does; its exit code is a key of _STATUS, or another one if it cannot run."""
     from . import _piola
     job, folder = json.load(sys.stdin), sys.argv[1]
     case = _piola.read(job["file"], job["text"], "case", job["settings"])
     session = _piola.Session(case, folder, False, False, {}, {}, {})
-    with _new_file(os.path.join(folder, _JOB)) as file:
-        json.dump(job, file)
-    session.advance(float("inf"), -1, False)
+    try:
+        session.advance(float("inf"), -1, False)
+    except PhysicsError as error:
+        print(error, file=sys.stderr)
+        sys.exit(3)
     session.finish()
 
 

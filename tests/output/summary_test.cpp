@@ -17,9 +17,9 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
   auto const json = nlohmann::ordered_json::parse(to_json(s));
   std::vector<std::string> keys;
   for (auto const& item : json.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys, (std::vector<std::string>{"status", "title", "version", "formulation", "particles", "steps",
-                                            "end_time", "wall_seconds", "stages_per_second", "threads", "energy",
-                                            "momentum", "quantities", "guards", "warnings"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"status", "title", "version", "identity", "formulation", "particles",
+                                            "steps", "end_time", "wall_seconds", "stages_per_second", "threads",
+                                            "energy", "momentum", "quantities", "guards", "warnings"}));
   EXPECT_TRUE(json["energy"].contains("initial") && json["energy"].contains("final") &&
               json["energy"].contains("max_increase") && json["energy"].contains("max_decrease"));
   EXPECT_EQ(json["momentum"]["linear_drift"], 0.25);

@@ -380,6 +380,24 @@ class Folders(InFolder):
             piola.study(case, {key: [0.1, 0.9]}, out="other")
         self.assertFalse(os.path.exists("other/run-1"))
 
+    def test_study_reports_no_results_of_other_runs(self):
+        peak = {"name": "peak", "column": "strain_energy", "take": "maximum"}
+        case = column(**{"run.threads": 1, "quantity": [peak]})
+        first = piola.study(case, {"title": ["one"]}, out="study", jobs=1)
+        self.assertIn("peak", first[0])
+        with self.assertWarnsRegex(piola.CaseWarning, "holds the results of another case"):
+            second = piola.study(case, {"title": ["two"]}, out="study", jobs=1)
+        self.assertEqual(second, [{"folder": first[0]["folder"], "title": "two", "status": "failed"}])
+        self.assertEqual(Path("study/study.csv").read_text().splitlines()[1].split(",")[-1], "failed")
+        self.assertEqual(piola.study(case, {"title": ["one"]}, out="study", jobs=1), first)
+
+    def test_results_of_functions_are_taken_for_no_others(self):
+        case = column(**{"run.threads": 1})
+        case.body["column"].initial_velocity = lambda X, t: 0.1 * X
+        run = piola.Run(case, out="results")
+        run.finish()
+        self.assertEqual(piola.Results("results").summary["identity"]["run"], "")
+
 
 class Manual(InFolder):
     def test_everything_is_explained(self):

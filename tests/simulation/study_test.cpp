@@ -43,16 +43,75 @@ TEST(Studies, TellAllThatIsWrong) {
   EXPECT_THROW(spec_of(folder, many.c_str()), InputError);
 }
 
+TEST(Studies, TakePathsFromTheirOwnFolder) {
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "cases");
+  std::string const text =
+      "out = 'o'\n[parameters]\n'body.a.shape.mesh.file' = ['m.stl', '/m.stl']\n'body.a.shape' = [{ union = [{ mesh = "
+      "{ "
+      "file = 'm.stl' } }] }]\n'body.a.formulation.file' = ['x']\n";
+  StudySpec const there = spec_of(folder, ("case = 'cases/c.toml'\n" + text).c_str());
+  EXPECT_EQ(there.out, folder / "o");
+  EXPECT_EQ(there.parameters[0].second, (std::vector<std::string>{"\"../m.stl\"", "\"/m.stl\""}));
+  EXPECT_NE(there.parameters[1].second[0].find("\"../m.stl\""), std::string::npos) << there.parameters[1].second[0];
+  StudySpec const here = spec_of(folder, ("case = 'c.toml'\n" + text).c_str());
+  EXPECT_EQ(here.parameters[0].second[0], "\"m.stl\"");
+}
+
+constexpr char const* completed_run = R"({"status": "completed", "identity": {"run": "abc"},
+"quantities": {"z": {"value": 0.5, "unit": "m"}, "a": {"value": 2, "unit": "1"}}})";
+
+TEST(Studies, TakeResultsOfTheSameIdentityOnly) {
+  TemporaryFolder folder;
+  EXPECT_FALSE(outcome_in(folder.path(), "abc"));
+  write_whole_file(folder / "summary.json", completed_run);
+  auto const found = outcome_in(folder.path(), "abc");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->status, "completed");
+  ASSERT_EQ(found->quantities.size(), 2u);
+  EXPECT_EQ(found->quantities[0].name, "z");  // in the order of the case
+  EXPECT_FALSE(outcome_in(folder.path(), "abd"));
+  write_whole_file(folder / "summary.json", R"({"status": "completed", "identity": {"run": ""}})");
+  EXPECT_FALSE(outcome_in(folder.path(), ""));
+  for (char const* text : {"[]", "{", R"({"status": "completed"})", R"({"status": 1, "identity": "abc"})"}) {
+    write_whole_file(folder / "summary.json", text);
+    EXPECT_FALSE(outcome_in(folder.path(), "abc")) << text;
+  }
+}
+
+TEST(Studies, BelieveASummaryThatTheRunItselfWrote) {
+  TemporaryFolder folder;
+  write_whole_file(folder / "summary.json", completed_run);
+  auto const status = [&](char const* identity, char const* before, char const* ended_as) {
+    RunOutcome const outcome = outcome_of(folder.path(), {identity, before, ended_as});
+    EXPECT_EQ(outcome.quantities.empty(), !outcome.why.empty());
+    return outcome.status + (outcome.why.empty() ? "" : " without values");
+  };
+  EXPECT_EQ(status("abc", "", "completed"), "completed");
+  EXPECT_EQ(status("abc", completed_run, "completed"), "failed without values");  // it is as it was before
+  EXPECT_EQ(status("abd", "", "completed"), "failed without values");
+  EXPECT_EQ(status("abc", "", ""), "failed without values");
+  EXPECT_EQ(status("abc", "", "stopped"), "stopped");
+  EXPECT_EQ(status("abc", "", "failed"), "failed");
+  write_whole_file(folder / "summary.json", R"({"status": "stopped", "identity": {"run": "abc"}})");
+  EXPECT_EQ(outcome_of(folder.path(), {"abc", "", "completed"}).status, "failed");
+}
+
 TEST(Studies, HaveATableOfValuesAndQuantities) {
   TemporaryFolder folder;
   StudySpec const study = spec_of(folder, "case = 'c'\n[parameters]\n'a.b' = ['x, y', 2]\n");
-  auto const runs = combinations(study);
-  std::filesystem::create_directories(folder / "run-2");
-  write_whole_file(folder / "run-2/summary.json",
-                   R"({"status": "completed", "quantities": {"peak": {"value": 0.5, "unit": "m"}}})");
-  write_study_table(folder.path(), study, runs);
+  write_study_table(folder.path(), study, combinations(study),
+                    {{"failed", {}, "why"}, {"completed", {{"peak", 0.5, "m"}}}});
   EXPECT_EQ(read_text_file(folder / "study.csv"),
             "folder,a.b,status,peak\nrun-1,\"x, y\",failed,\nrun-2,2,completed,0.5\n");
+}
+
+TEST(Studies, SetValuesForAllRuns) {
+  TemporaryFolder folder;
+  StudySpec study = spec_of(folder, "case = 'c'\n[parameters]\n'a.b' = [1, 2]\n");
+  study.settings = {"run.end=1"};
+  EXPECT_EQ(combinations(study)[1].settings, (std::vector<std::string>{"run.end=1", "a.b=2"}));
+  EXPECT_EQ(combinations(study)[1].value_text, std::vector<std::string>{"2"});
 }
 
 }  // namespace

@@ -57,11 +57,6 @@ KeptFile const* find_kept(std::vector<KeptFile> const& list, std::string const& 
   return found == list.end() ? nullptr : &*found;
 }
 
-/// Hash of a file; empty if it cannot be read.
-std::string hash_if_readable(fs::path const& path) {
-  return FileToRead(path).problem().empty() ? content_hash(path) : "";
-}
-
 std::string is_another(std::string const& given, fs::path const& path, std::string const& hash,
                        std::string const& needed) {
   return fmt::format(
@@ -74,12 +69,12 @@ std::string is_another(std::string const& given, fs::path const& path, std::stri
 /// The copy, or the file where it was; nothing, and a problem, if neither has the content of the list.
 fs::path place_of_kept(KeptFile const& file, fs::path const& results, Place const& place, Problems& problems) {
   fs::path const copy = results / kept_files / file.kept;
-  if (!file.kept.empty() && hash_if_readable(copy) == file.hash) return copy;
-  std::string const hash = hash_if_readable(file.from);
+  if (!file.kept.empty() && digest_of_file(copy) == file.hash) return copy;
+  std::string const hash = digest_of_file(file.from);
   if (hash == file.hash) return file.from;
-  bool const copied = !file.kept.empty() && !hash_if_readable(copy).empty();
+  bool const copied = !file.kept.empty() && !digest_of_file(copy).empty();
   fs::path const& wrong = copied ? copy : file.from;
-  problems.add(place, is_another(file.given, wrong, copied ? hash_if_readable(copy) : hash, file.hash));
+  problems.add(place, is_another(file.given, wrong, copied ? digest_of_file(copy) : hash, file.hash));
   return {};
 }
 
@@ -98,7 +93,7 @@ void point_to_kept(Node& node, std::vector<KeptFile> const& list, fs::path const
 CaseFile case_file(Section const& section, std::string const& given) {
   Node const* const node = section.node().find("file");
   if (node != nullptr && !node->found_at.empty()) return {given, node->found_at};
-  return {given, fs::path(section.place_of("file").file).parent_path() / given};
+  return {given, fs::path(section.base_of("file").file).parent_path() / given};
 }
 
 std::string content_hash(fs::path const& path) {
@@ -113,6 +108,8 @@ std::string content_hash(fs::path const& path) {
   if (!file.problem().empty()) throw FileError(path.string() + ": " + file.problem());
   return fmt::format("{:016x}", digest.value());
 }
+
+std::string digest_of_file(fs::path const& path) { return FileToRead(path).problem().empty() ? content_hash(path) : ""; }
 
 std::vector<CaseFile> files_of(CaseSpec const& spec) {
   std::vector<CaseFile> all;
@@ -171,7 +168,7 @@ void compare_with_kept_list(CaseSpec const& spec, fs::path const& results, Probl
   std::vector<KeptFile> const list = read_kept_list(results);
   for (CaseFile const& file : files_of(spec)) {
     KeptFile const* const known = find_kept(list, file.given);
-    std::string const hash = hash_if_readable(file.path);
+    std::string const hash = digest_of_file(file.path);
     if (known == nullptr)
       problems.add({(results / kept_files / kept_list).string(), 0, 0},
                    fmt::format("{} is not in this list of the files that the run began with - run the case again with "

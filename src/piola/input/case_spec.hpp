@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/expression.hpp"
+#include "piola/base/identity.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/input/guard_limits.hpp"
@@ -282,6 +283,7 @@ struct OutputSpec {
 struct CaseSpec {
   std::string title;
   std::string source;  ///< the case file as run: overrides applied, TOML
+  Identity identity;   ///< of a run of it, taken when its files were read
   RunSpec run;
   std::vector<RegionSpec> regions;
   std::vector<BodySpec> bodies;

@@ -17,6 +17,7 @@ struct Node {
 
   Kind kind = Kind::table;
   Place place;
+  std::string base;            ///< file from whose folder relative paths in the value start; empty: place.file
   std::string text;            ///< text; date: as it is written
   int text_offset = 0;         ///< columns from `place` to the first character of a text; 0 if it cannot be told
   std::string found_at;        ///< text that names a file: where a results folder keeps it; empty: see case_file
@@ -56,7 +57,8 @@ std::optional<Document> parse_document(std::string_view text, std::string const&
 
 /// Applies "path=value" settings to a document: a dotted path of keys, with the number or the name of an array's table
 /// ("body.0.material.density", "body.column.material.density"), and a TOML value; a value that is no TOML is a text.
-/// Places of changed values name the setting. Rewrites `source` if there are any.
+/// Places of changed values name the setting; relative paths in them start from the folder of the document, which
+/// root.place.file tells. Rewrites `source` if there are any.
 void apply_overrides(Document& document, std::span<std::string const> overrides, Problems& problems);
 
 /// TOML text of a table, entries in their order.

@@ -37,14 +37,15 @@ std::vector<std::string> path_of(std::string_view text) {
   return path;
 }
 
-void set_place(Node& node, Place const& place) {
+void set_place(Node& node, Place const& place, std::string const& base) {
   node.place = place;
+  node.base = base;
   node.text_offset = 0;
   for (Node::Entry& entry : node.entries) {
     entry.place = place;
-    set_place(entry.value, place);
+    set_place(entry.value, place, base);
   }
-  for (Node& item : node.items) set_place(item, place);
+  for (Node& item : node.items) set_place(item, place, base);
 }
 
 /// One setting on its way into a document.
@@ -75,7 +76,8 @@ std::optional<Node> value_of(std::string_view text, Place const& place, Problems
   return std::nullopt;
 }
 
-std::optional<Setting> setting_of(std::string const& text, Problems& problems) {
+/// `file`: that of the case.
+std::optional<Setting> setting_of(std::string const& text, std::string const& file, Problems& problems) {
   Place const place{"--set " + std::string(text.substr(0, 200)), 0, 0};
   std::size_t const equals = text.find('=');
   std::vector<std::string> path = path_of(std::string_view(text).substr(0, equals));
@@ -88,7 +90,7 @@ std::optional<Setting> setting_of(std::string const& text, Problems& problems) {
   }
   auto value = value_of(trimmed(std::string_view(text).substr(equals + 1)), place, problems);
   if (!value) return std::nullopt;
-  set_place(*value, place);
+  set_place(*value, place, file);
   refuse_unusable_texts(*value, problems);
   return Setting{place, std::move(path), std::move(*value)};
 }
@@ -136,7 +138,7 @@ void apply(Node& root, Setting const& setting, Problems& problems) {
     } else if (at->is_table()) {
       if (at->find(step) == nullptr) {
         Node table;
-        table.place = setting.place;
+        set_place(table, setting.place, setting.value.base);
         at->entries.push_back({step, setting.place, table});
       }
       at = at->find(step);
@@ -155,7 +157,8 @@ void apply(Node& root, Setting const& setting, Problems& problems) {
 void apply_overrides(Document& document, std::span<std::string const> overrides, Problems& problems) {
   if (overrides.empty()) return;
   for (std::string const& text : overrides) {
-    if (auto const setting = setting_of(text, problems)) apply(document.root, *setting, problems);
+    if (auto const setting = setting_of(text, document.root.place.file, problems))
+      apply(document.root, *setting, problems);
   }
   document.source = toml_text(document.root);
 }

@@ -6,6 +6,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/closeness.hpp"
 #include "piola/input/document_guard.hpp"
+#include "piola/input/identify.hpp"
 #include "piola/input/sections.hpp"
 #include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
@@ -237,6 +238,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
   problems.raise_if_any();
   CaseSpec spec = read_document(*document, problems, limits);
   if (problems.empty()) {
+    spec.identity = identity_of(spec);
     ParticleSet particles = make_particles(spec, problems);
     add_surface_contact(spec, particles);
     check_regions(spec, particles, problems);

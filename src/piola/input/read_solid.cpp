@@ -235,7 +235,7 @@ void set_cache(Section const& section, Names const& names, bool beside, ShapeSpe
   particles.key = toml_value(section.node());
   for (auto const& [name, value] : names.constants) particles.key += "\n" + name + " = " + number_text(value, 17);
   particles.key += key_of(shape.files);
-  std::filesystem::path const folder = std::filesystem::path(section.place().file).parent_path();
+  std::filesystem::path const folder = std::filesystem::path(section.base_of("").file).parent_path();
   particles.folders = {folder / kept_files, folder};
   if (beside) particles.cache = folder;
 }

@@ -46,6 +46,12 @@ Place Section::place_of(std::string_view key) const {
   return value != nullptr ? value->place : node_.place;
 }
 
+Place Section::base_of(std::string_view key) const {
+  Node const* const value = node_.find(key);
+  Node const& node = value != nullptr ? *value : node_;
+  return node.base.empty() ? node.place : Place{node.base, 0, 0};
+}
+
 std::string Section::name_of(std::string_view key) const {
   return section_.empty() ? std::string(key) : section_ + "." + std::string(key);
 }

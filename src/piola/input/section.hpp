@@ -52,6 +52,10 @@ class Section {
   /// Place of a value, or of the section if the key is missing.
   Place place_of(std::string_view key) const;
 
+  /// The file from whose folder relative paths in a value start: the case, also for values of settings. Of the section
+  /// if the key is missing.
+  Place base_of(std::string_view key) const;
+
   /// The value of a key; a missing required key is a problem.
   std::optional<Value> find(std::string_view key) const;
   /// A sub-table as a section of its own.

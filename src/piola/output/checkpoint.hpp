@@ -34,13 +34,13 @@ struct Checkpoint {
   double first_dt = 0;                            ///< s, the first stable step: the measure of a collapsed one
   double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far; in a file of their own (durations_name)
   bool cut_to_end = false;                        ///< the last step has its length from the end of the run
-  std::string version;                            ///< of the program that wrote it
-  std::string machine;                            ///< instruction sets used and available when it was written
-  std::string source;                             ///< the case as run
-  std::string particles;                          ///< particle_record of them in reference configuration
-  NamedState state;                               ///< of the formulation
-  std::shared_ptr<StateReader> in_file;           ///< has it in place of `state`, and reads it array by array
-  NamedState observers;                           ///< next output times, twist angles, times of frames
+  std::string version;                   ///< of the program that wrote it; with its build if the run has an identity
+  std::string machine;                   ///< instruction sets used and available when it was written
+  std::string source;                    ///< the case as run
+  std::string particles;                 ///< particle_record of them in reference configuration
+  NamedState state;                      ///< of the formulation
+  std::shared_ptr<StateReader> in_file;  ///< has it in place of `state`, and reads it array by array
+  NamedState observers;                  ///< next output times, twist angles, times of frames
 };
 
 /// Writes one file (whole, synced, renamed). Throws FileError. `save`: puts the state of the formulation, which is not

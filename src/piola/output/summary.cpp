@@ -30,6 +30,16 @@ void add_ranks(Summary const& s, nlohmann::ordered_json& document) {
         {"count", s.recuts->imbalance.size()}, {"imbalance", s.recuts->imbalance}, {"last", s.recuts->last}};
 }
 
+nlohmann::ordered_json identity_json(Identity const& identity) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  for (auto const& [name, digest] : identity.files) files[name] = digest;
+  return {{"run", identity.run},
+          {"case", identity.case_text},
+          {"files", files},
+          {"program", identity.program},
+          {"machine", identity.machine}};
+}
+
 }  // namespace
 
 std::string to_json(Summary const& s) {
@@ -38,6 +48,7 @@ std::string to_json(Summary const& s) {
   nlohmann::ordered_json document{{"status", s.status},
                                   {"title", s.title},
                                   {"version", s.version},
+                                  {"identity", identity_json(s.identity)},
                                   {"formulation", s.formulation},
                                   {"particles", s.particles},
                                   {"steps", s.steps},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/identity.hpp"
 #include "piola/parallel/work_balance.hpp"
 #include <cstdint>
 #include <filesystem>
@@ -42,6 +43,7 @@ struct RankTraffic {
 struct Summary {
   std::string status;  ///< "completed", "failed" or "stopped"
   std::string title, version, formulation;
+  Identity identity;  ///< of the run
   std::int64_t particles = 0, steps = 0;
   double end_time = 0;           ///< s, time reached
   double wall_seconds = 0;       ///< over all parts of a resumed run

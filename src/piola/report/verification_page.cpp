@@ -17,7 +17,7 @@ struct Share {
       : plots(runs > 150 ? 1 : 3), picture_bytes(12'000'000 / std::max<std::size_t>(runs, 80)) {}
 };
 
-/// The section of one run; only what was told if it left no folder.
+/// The section of one run; only what was told if it could not be made or left no folder.
 Json about_variant(CaseVerification const& c, VariantRun const& variant, std::filesystem::path const& folder,
                    Share const& share) {
   Json section{{"case", c.name},
@@ -28,13 +28,14 @@ Json about_variant(CaseVerification const& c, VariantRun const& variant, std::fi
                {"pictures", Json::array()}};
   section["title"] = variant.title.empty() ? c.name : variant.title;
   section["summary"] = variant.summary.empty() ? Json() : Json::parse(variant.summary);
+  if (variant.summary.empty()) return section;  // the folder may hold the results of an earlier run
   try {
     RunFolder const run = open_run(folder);
     std::size_t left = 0;
     section["plots"] = about_plots(run, share.plots, left);
     section["pictures"] = about_pictures(run, share.picture_bytes);
     section["text"] = run.case_text;
-  } catch (InputError const&) {  // a run that could not be made
+  } catch (InputError const&) {  // a run that left no folder
   }
   return section;
 }

@@ -22,12 +22,13 @@ struct JudgedRun {
 std::vector<JudgedRun> judged_runs(CaseVerification const& c, std::filesystem::path const& results) {
   std::vector<JudgedRun> runs;
   for (VariantRun const& run : c.runs) {
+    if (run.summary.empty()) continue;  // it could not be made; its folder may hold the results of an earlier run
     std::vector<VerificationRow> rows;
     for (VerificationRow const& row : c.rows)
       if (row.variant == run.variant) rows.push_back(row);
     try {
       runs.push_back({run.variant, open_run(results / c.name / folder_of(run.variant)), std::move(rows)});
-    } catch (InputError const&) {  // a run that could not be made
+    } catch (InputError const&) {  // a run that left no folder
     }
   }
   return runs;

@@ -137,6 +137,8 @@ CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> o
 }
 
 Checkpoint CheckpointObserver::take(Moment const& moment) const {
+  // Without the build where the run has no identity: it stays so when the run is resumed.
+  Identity const& identity = results_.spec.identity;
   Checkpoint c{moment.time,
                moment.step,
                moment.dt,
@@ -144,7 +146,7 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
                moment.wall_seconds,
                moment.stepping_seconds,
                moment.cut_to_end,
-               std::string(version()),
+               identity.run.empty() ? std::string(version()) : identity.program,
                exec_host::machine_text(results_.spec.run.machine),
                results_.spec.source,
                particles_,

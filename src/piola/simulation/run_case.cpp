@@ -110,12 +110,15 @@ Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Wat
   return moment;
 }
 
-/// What makes the bits of a resumed run differ from those of an uninterrupted one.
-void compare_origin(Checkpoint const& c, Simulation const& s, Journal& journal) {
+/// What makes the bits of a resumed run differ from those of an uninterrupted one. Such a run, and one that goes on
+/// with changed keys, has no identity.
+void compare_origin(Checkpoint const& c, Simulation& s, bool changed, Journal& journal) {
   std::string const here = exec_host::machine_text(s.spec.run.machine);
+  std::string const before = c.version.substr(0, c.version.find(' '));
   char const* const what = "the numbers may differ in their last digits from those of a run without interruption";
-  if (c.version != version())
-    journal.warn(fmt::format("the checkpoint was written by Piola {}, this is {}; {}", c.version, version(), what));
+  if (changed || c.version != s.spec.identity.program || c.machine != here) s.spec.identity.run.clear();
+  if (before != version())
+    journal.warn(fmt::format("the checkpoint was written by Piola {}, this is {}; {}", before, version(), what));
   if (c.machine != here)
     journal.warn(
         fmt::format("the checkpoint was written with the instruction set {}, this is {}; {}", c.machine, here, what));
@@ -183,7 +186,7 @@ std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder
               .stepping_seconds = c.stepping_seconds};
     s.formulation->load(*c.in_file);
     for (Observer* observer : watch.all()) observer->load(c.observers, moment);
-    compare_origin(c, s, journal);
+    compare_origin(c, s, !changes.empty(), journal);
     return true;
   });
   if (!found) return std::nullopt;
@@ -354,6 +357,8 @@ void CaseRun::also(Observer& observer) { parts_->watch.also.push_back(&observer)
 March const& CaseRun::advance(Pause const& pause) {
   Parts& p = *parts_;
   RunSpec run = p.simulation.spec.run;
+  // A cut step changes those that follow, so the run is no longer the one that its case tells.
+  if (pause.exactly && pause.time < run.end) p.simulation.spec.identity.run.clear();
   if (pause.exactly) run.end = std::min(run.end, pause.time);
   p.last = march(*p.simulation.formulation, run, p.moment, p.watch.all(), {p.stop, p.wall, pause}, &p.watch.relaxation);
   p.last.paused = p.last.paused || (p.last.ending == Ending::completed && !p.moment.at_rest &&

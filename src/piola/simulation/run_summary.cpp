@@ -110,6 +110,7 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
   summary.status = status_word(ending);
   summary.title = s.spec.title;
   summary.version = version();
+  summary.identity = s.spec.identity;
   summary.formulation = s.formulation_name;
   summary.particles = s.particles.size();
   summary.steps = moment.step;

@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/document.hpp"
 #include "piola/output/files.hpp"
+#include "piola/simulation/run_in_folder.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,38 @@ void read_count(Node const& root, char const* key, int& target, Problems& proble
     problems.add(node->place, fmt::format("{} is not a whole number from 1 to 1024 - correct it", key));
 }
 
-void read_parameters(Node const& root, StudySpec& study, Problems& problems) {
+/// A value of a key that names files, with relative paths that start from the folder of the case in place of that of
+/// the study.
+Node from_case_folder(std::string const& key, Node value, std::filesystem::path const& study,
+                      std::filesystem::path const& of_case) {
+  namespace fs = std::filesystem;
+  bool const names_file = key == "file" || key.ends_with(".file");
+  if (names_file && value.is_text() && !fs::path(value.text).is_absolute())
+    value.text = fs::proximate(study / value.text, of_case).string();
+  for (Node::Entry& entry : value.entries) entry.value = from_case_folder(entry.key, entry.value, study, of_case);
+  for (Node& item : value.items) item = from_case_folder("", item, study, of_case);
+  return value;
+}
+
+/// The folders of study and case, if they are not the same.
+struct Folders {
+  std::filesystem::path study, of_case;
+};
+
+std::optional<Folders> different_folders(std::filesystem::path const& study_file,
+                                         std::filesystem::path const& case_file) {
+  std::error_code error;
+  auto const absolute = [](std::filesystem::path const& path) {
+    return path.empty() ? std::filesystem::current_path() : std::filesystem::absolute(path);
+  };
+  Folders const folders{
+      absolute(study_file.parent_path()),
+      absolute(std::filesystem::is_directory(case_file, error) ? case_file : case_file.parent_path())};
+  if (std::filesystem::equivalent(folders.study, folders.of_case, error) || error) return {};
+  return folders;
+}
+
+void read_parameters(Node const& root, std::optional<Folders> const& folders, StudySpec& study, Problems& problems) {
   constexpr std::size_t most = 10'000;
   Node const* node = root.find("parameters");
   if (node == nullptr || !node->is_table() || node->entries.empty()) {
@@ -38,7 +70,9 @@ void read_parameters(Node const& root, StudySpec& study, Problems& problems) {
       continue;
     }
     std::vector<std::string> values;
-    for (Node const& item : entry.value.items) values.push_back(toml_value(item));
+    for (Node const& item : entry.value.items)
+      values.push_back(
+          toml_value(folders ? from_case_folder(entry.key, item, folders->study, folders->of_case) : item));
     runs = std::min(runs * values.size(), most + 1);
     study.parameters.emplace_back(entry.key, std::move(values));
   }
@@ -51,11 +85,24 @@ std::string csv_cell(std::string text) {
   return "\"" + text + "\"";
 }
 
-nlohmann::json summary_of(std::filesystem::path const& results) {
-  auto const file = results / "summary.json";
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return {};
-  return nlohmann::json::parse(read_text_file(file), nullptr, false);
+nlohmann::ordered_json summary_of(std::filesystem::path const& results) {
+  auto const summary = nlohmann::ordered_json::parse(summary_text(results), nullptr, false);
+  return summary.is_object() ? summary : nlohmann::ordered_json::object();
+}
+
+/// The text at a path of keys; empty if there is none.
+std::string text_at(nlohmann::ordered_json const& summary, char const* pointer) {
+  nlohmann::ordered_json::json_pointer const at(pointer);
+  return summary.contains(at) && summary[at].is_string() ? summary[at].get<std::string>() : std::string();
+}
+
+std::vector<MeasuredQuantity> quantities_of(nlohmann::ordered_json const& summary) {
+  std::vector<MeasuredQuantity> quantities;
+  if (!summary.contains("quantities") || !summary["quantities"].is_object()) return quantities;
+  for (auto const& [name, entry] : summary["quantities"].items())
+    if (entry.is_object() && entry.contains("value") && entry["value"].is_number())
+      quantities.push_back({name, entry["value"].get<double>(), entry.value("unit", "")});
+  return quantities;
 }
 
 }  // namespace
@@ -71,8 +118,8 @@ StudySpec read_study(std::filesystem::path const& path) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       problems.add(entry.place, fmt::format("{} is not a key of a study (known: {}) - {}", in_quotes(entry.key),
                                             joined(known), advice_for_name(entry.key, known)));
-  std::string file;
-  for (auto const& [key, target] : {std::pair{"case", &file}, {"out", &study.out}}) {
+  std::string file, out;
+  for (auto const& [key, target] : {std::pair{"case", &file}, {"out", &out}}) {
     Node const* node = root.find(key);
     if (node != nullptr && node->is_text() && !node->text.empty())
       *target = node->text;
@@ -80,16 +127,24 @@ StudySpec read_study(std::filesystem::path const& path) {
       problems.add(node ? node->place : root.place, fmt::format("{} = \"...\" is needed, a path - add it", key));
   }
   study.case_file = path.parent_path() / file;
+  if (!out.empty()) study.out = path.parent_path() / out;
   read_count(root, "jobs", study.jobs, problems);
   read_count(root, "threads", study.threads, problems);
-  read_parameters(root, study, problems);
+  read_parameters(root, different_folders(path, study.case_file), study, problems);
   problems.sort_by_place();
   problems.raise_if_any();
   return study;
 }
 
+std::vector<std::string> run_folders(std::size_t count) {
+  std::vector<std::string> names;
+  std::size_t const digits = std::to_string(count).size();
+  for (std::size_t k = 0; k < count; ++k) names.push_back(fmt::format("run-{:0{}}", k + 1, digits));
+  return names;
+}
+
 std::vector<StudyRun> combinations(StudySpec const& study) {
-  std::vector<StudyRun> runs{{}};
+  std::vector<StudyRun> runs{{{}, study.settings, {}}};
   for (auto const& [key, values] : study.parameters) {
     std::vector<StudyRun> more;
     for (StudyRun const& run : runs)
@@ -100,29 +155,47 @@ std::vector<StudyRun> combinations(StudySpec const& study) {
       }
     runs = std::move(more);
   }
-  std::size_t const digits = std::to_string(runs.size()).size();
-  for (std::size_t k = 0; k < runs.size(); ++k) runs[k].folder = fmt::format("run-{:0{}}", k + 1, digits);
+  auto const folders = run_folders(runs.size());
+  for (std::size_t k = 0; k < runs.size(); ++k) runs[k].folder = folders[k];
   return runs;
 }
 
-std::string run_status(std::filesystem::path const& results) {
-  auto const summary = summary_of(results);
-  return summary.is_object() ? summary.value("status", "") : "";
+std::string summary_text(std::filesystem::path const& results) {
+  auto const file = results / "summary.json";
+  std::error_code error;
+  return std::filesystem::exists(file, error) ? read_text_file(file, most_summary_bytes) : std::string();
 }
 
-void write_study_table(std::filesystem::path const& folder, StudySpec const& study, std::vector<StudyRun> const& runs) {
-  std::vector<nlohmann::json> summaries;
-  std::vector<std::string> quantities;
-  for (StudyRun const& run : runs) {
-    summaries.push_back(summary_of(folder / run.folder));
-    if (!summaries.back().is_object() || !summaries.back().contains("quantities")) continue;
-    for (auto const& [name, entry] : summaries.back()["quantities"].items())
-      if (std::find(quantities.begin(), quantities.end(), name) == quantities.end()) quantities.push_back(name);
-  }
+std::optional<RunOutcome> outcome_in(std::filesystem::path const& results, std::string const& identity) {
+  auto const summary = summary_of(results);
+  std::string const status = text_at(summary, "/status");
+  if (identity.empty() || status.empty() || text_at(summary, "/identity/run") != identity) return std::nullopt;
+  return RunOutcome{status, quantities_of(summary)};
+}
+
+RunOutcome outcome_of(std::filesystem::path const& results, EndedRun const& run) {
+  auto const failed = [](char const* why) { return RunOutcome{"failed", {}, why}; };
+  if (run.ended_as.empty()) return failed("it did not run to an end of its own");
+  if (summary_text(results) == run.summary_before) return failed("it wrote no summary.json");
+  auto outcome = outcome_in(results, run.identity);
+  if (!outcome) return failed("the case, a file that it names or the program has changed since the study began");
+  // A run that ended with another exit code than 0 is not completed, whatever else is said of it.
+  if (outcome->status == "completed" && run.ended_as != "completed") outcome->status = run.ended_as;
+  if (run.ended_as == "completed" && outcome->status != "completed")
+    return failed("its summary.json is of no completed run");
+  return *outcome;
+}
+
+void write_study_table(std::filesystem::path const& folder, StudySpec const& study, std::vector<StudyRun> const& runs,
+                       std::vector<RunOutcome> const& outcomes) {
+  std::vector<std::string> names;
+  for (RunOutcome const& outcome : outcomes)
+    for (MeasuredQuantity const& quantity : outcome.quantities)
+      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) names.push_back(quantity.name);
   std::string text = "folder";
   for (auto const& [key, values] : study.parameters) text += "," + csv_cell(key);
   text += ",status";
-  for (std::string const& name : quantities) text += "," + csv_cell(name);
+  for (std::string const& name : names) text += "," + csv_cell(name);
   text += "\n";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     text += runs[k].folder;
@@ -130,13 +203,12 @@ void write_study_table(std::filesystem::path const& folder, StudySpec const& stu
       if (value.size() > 1 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
       text += "," + csv_cell(value);
     }
-    nlohmann::json const& summary = summaries[k];
-    text += "," + (summary.is_object() ? summary.value("status", "failed") : std::string("failed"));
-    for (std::string const& name : quantities) {
-      auto const at = nlohmann::json::json_pointer("/quantities/" + name + "/value");
-      text += "," + (summary.is_object() && summary.contains(at) && summary[at].is_number()
-                         ? fmt::format("{}", summary[at].get<double>())
-                         : std::string());
+    text += "," + outcomes[k].status;
+    auto const& quantities = outcomes[k].quantities;
+    for (std::string const& name : names) {
+      auto const found =
+          std::find_if(quantities.begin(), quantities.end(), [&](auto const& q) { return q.name == name; });
+      text += "," + (found == quantities.end() ? std::string() : fmt::format("{}", found->value));
     }
     text += "\n";
   }

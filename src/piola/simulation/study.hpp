@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/problems.hpp"
+#include "piola/output/summary.hpp"
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,32 +13,58 @@ namespace piola {
 
 /// One case with several values of some of its keys (study.toml).
 struct StudySpec {
-  std::filesystem::path case_file;  ///< as given, relative to the study's file
-  std::string out;                  ///< empty: NAME-study
-  int jobs = 2;                     ///< runs at a time
-  int threads = 0;                  ///< of each run; 0: the cores divided by `jobs`
+  std::filesystem::path case_file;    ///< as given, relative to the study's file
+  std::filesystem::path out;          ///< likewise; empty: NAME-study
+  int jobs = 2;                       ///< runs at a time
+  int threads = 0;                    ///< of each run; 0: the cores divided by `jobs`
+  std::vector<std::string> settings;  ///< "key=value" of all runs
   /// Keys as those of --set, and the TOML texts of their values.
   std::vector<std::pair<std::string, std::vector<std::string>>> parameters;
 };
 
-/// Throws InputError with all that is wrong.
+/// Relative paths in it start from its folder. Throws InputError with all that is wrong.
 StudySpec read_study(std::filesystem::path const& path);
 
 /// One combination of the values.
 struct StudyRun {
   std::string folder;                   ///< "run-07" in the study's folder
-  std::vector<std::string> settings;    ///< "key=value" for each parameter
-  std::vector<std::string> value_text;  ///< the values alone
+  std::vector<std::string> settings;    ///< "key=value": those of all runs, then one for each parameter
+  std::vector<std::string> value_text;  ///< the values of the parameters alone
 };
 
 /// All combinations; the last parameter changes fastest.
 std::vector<StudyRun> combinations(StudySpec const& study);
 
-/// Makes study.csv: a row for each run with its folder, values, status and the quantities of its summary; a status is
-/// "failed" where there is no summary. Throws FileError.
-void write_study_table(std::filesystem::path const& folder, StudySpec const& study, std::vector<StudyRun> const& runs);
+/// Folder names for so many runs: "run-07".
+std::vector<std::string> run_folders(std::size_t count);
 
-/// "completed", "failed" or "stopped" of a results folder; "" if it has no summary.
-std::string run_status(std::filesystem::path const& results);
+/// What became of a run of a study.
+struct RunOutcome {
+  std::string status;                        ///< "completed", "failed" or "stopped"; "not run": it was not begun
+  std::vector<MeasuredQuantity> quantities;  ///< empty unless this run wrote them
+  std::string why = {};                      ///< it has no quantities; empty: it has
+};
+
+/// What summary.json of a results folder says. Nothing unless it is of a run with this identity (Identity::run), or if
+/// the identity is empty.
+std::optional<RunOutcome> outcome_in(std::filesystem::path const& results, std::string const& identity);
+
+/// The text of summary.json; empty if there is none.
+std::string summary_text(std::filesystem::path const& results);
+
+/// How a run went whose process has ended.
+struct EndedRun {
+  std::string identity;        ///< that its summary must have
+  std::string summary_before;  ///< summary_text before it began
+  std::string_view ended_as;   ///< status that its exit code stands for: "completed", "failed", "stopped"; empty: none
+};
+
+/// What the run's own summary says: one that it wrote itself, of its identity, with the status of its exit code. Else
+/// "failed" without quantities: the folder may hold the results of an earlier run.
+RunOutcome outcome_of(std::filesystem::path const& results, EndedRun const& run);
+
+/// Makes study.csv: a row for each run with its folder, values, status and quantities. Throws FileError.
+void write_study_table(std::filesystem::path const& folder, StudySpec const& study, std::vector<StudyRun> const& runs,
+                       std::vector<RunOutcome> const& outcomes);
 
 }  // namespace piola
