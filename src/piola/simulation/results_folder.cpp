@@ -6,6 +6,7 @@
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
+#include "piola/setup/packing_file.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -20,8 +21,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_headline = 20000;  // of a log: version and title
 
 // frames.xmf was written by earlier versions.
-constexpr std::array own_names{"history.csv", "summary.json", "frames",  "frames.hdf.series", "frames.xmf", "pictures",
-                               "checkpoints", "case.toml",    "log.txt", "report.html",       kept_files};
+constexpr std::array own_names{"history.csv", "summary.json", "frames",      "frames.hdf.series",
+                               "frames.xmf",  "pictures",     "checkpoints", "case.toml",
+                               "log.txt",     "report.html",  kept_files,    unfinished_set_up};
 
 /// Title of the run whose results lie in a folder; nothing if there are none.
 std::optional<std::string> title_in(fs::path const& folder) {
@@ -34,12 +36,13 @@ std::optional<std::string> title_in(fs::path const& folder) {
   return line.substr(colon + 2);
 }
 
-/// An empty log counts for nothing: it is what a run leaves that was killed before its first word.
+/// An empty log counts for nothing: it is what a run leaves that was killed before its first word. What a stopped
+/// set-up leaves counts for nothing either.
 bool holds_anything(fs::path const& folder) {
   return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](fs::directory_entry const& entry) {
     std::error_code no_file;
     auto const name = entry.path().filename();
-    return name != lock_name && !(name == "log.txt" && entry.file_size(no_file) == 0);
+    return name != lock_name && name != unfinished_set_up && !(name == "log.txt" && entry.file_size(no_file) == 0);
   });
 }
 
@@ -78,6 +81,14 @@ std::optional<CaseSpec> case_in_results(fs::path const& folder, ParticleSet* par
 std::string log_headline(std::string const& title) {
   std::string const line = title.substr(0, title.find('\n'));
   return fmt::format("Piola {}: {}", version(), line);
+}
+
+fs::path folder_for_unfinished(fs::path const& results) {
+  std::error_code none;
+  if (fs::exists(results, none) &&
+      (!fs::is_directory(results, none) || (holds_anything(results) && !title_in(results))))
+    return {};
+  return results / unfinished_set_up;
 }
 
 void check_results(fs::path const& folder, ResultsOf const& run) {
