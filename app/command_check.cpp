@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/exec/threads.hpp"
 #include "piola/input/case_facts.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/formulations_of.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/particles/parts.hpp"
-#include "piola/simulation/build.hpp"
-#include "piola/simulation/estimate.hpp"
-#include "piola/simulation/warnings.hpp"
+#include "piola/simulation/case_plan.hpp"
 #include "commands.hpp"
+#include "cost_report.hpp"
 #include "ranks_report.hpp"
 #include "run_support.hpp"
+#include "set_up_watch.hpp"
 #include "solid_report.hpp"
 #include "streams.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -315,55 +315,28 @@ void print_output(CaseSpec const& spec) {
   if (!quantities.empty()) say("  quantities: {}\n", joined(quantities));
 }
 
-/// What a run would take, and what looks odd.
-struct Look {
-  Estimate cost;
-  std::vector<std::string> warnings;
-};
-
-// Smaller cases are built, which tells what the formulation refuses; of larger ones a part.
-Look look_at(CaseSpec const& spec, ParticleSet const& particles) {
-  if (particles.size() < large_case) {
-    Simulation const simulation = build(spec, particles);
-    return {estimate(spec, simulation.particles, *simulation.formulation, simulation.threads), simulation.warnings};
-  }
-  int const threads = exec_host::set_threads(spec.run.threads);
-  Assembly const assembly = assemble(spec, particles);
-  Look look{estimate_from_parts(spec, assembly.particles, threads), {}};
-  look.warnings = warnings_of(spec, assembly, {.step = look.cost.step});
-  return look;
-}
-
-void print_cost(CaseSpec const& spec, Estimate const& cost) {
-  bool const bounded = spec.run.max_step < cost.rule.settled;
-  std::string const first =
-      cost.rule.first < cost.step ? fmt::format(", from {} at the start", quantity_text(cost.rule.first, "s", 3)) : "";
-  say("step: about {}{}, about {} {}\n", quantity_text(cost.step, "s", 3), first, count_text(cost.steps),
-      cost.steps == 1 ? "step" : "steps");
-  say("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
-  say("needs, estimated: {} to set up and {} to run with {} {}, {} of memory, {} of disk\n",
-      duration_text(cost.setup_seconds), duration_text(cost.run_seconds), cost.threads,
-      cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
-}
-
 struct CheckArguments {
   CaseOptions from;
   int ranks = 0;  ///< 0: not asked for
+  bool json = false;
 };
 
-CaseSpec read(CaseOptions const& options, ParticleSet& particles) {
-  PackingLine line(false);
-  return read_case(case_file(options.file), options.overrides(), {.packing = std::ref(line)}, &particles);
+/// Packings are cut short: what a look tells hardly depends on where each particle is.
+CasePlan plan(CaseOptions const& options) {
+  constexpr double most_packing = 15;  // s
+  SetUpWatch watch("reading the case and making its particles", {.most_packing = most_packing});
+  ParticleSet particles;
+  auto const start = SetUpWatch::Clock::now();
+  CaseSpec spec = read_case(case_file(options.file), options.overrides(), {.packing = std::ref(watch)}, &particles);
+  std::chrono::duration<double> const reading = SetUpWatch::Clock::now() - start;
+  watch.enter(fmt::format("looking at {} particles", count_text(particles.size())));
+  CasePlan plan = plan_of_case(std::move(spec), std::move(particles), reading.count() + watch.seconds_left_out());
+  for (std::string const& packing : watch.left_out()) plan.left_out.push_back(packing);
+  return plan;
 }
 
-int check(CheckArguments const& arguments) {
-  CaseOptions const& options = arguments.from;
-  ParticleSet particles;
-  CaseSpec const spec = read(options, particles);
-  auto const [facts, look] = [&] {
-    WaitingLine const line(fmt::format("looking at {} particles", count_text(particles.size())));
-    return std::pair(body_facts(spec, particles), look_at(spec, particles));
-  }();
+void say_plan(CasePlan const& plan, int ranks) {
+  auto const& [spec, particles, facts, cost, warnings, left_out] = plan;
   say("{}\n", spec.title);
   say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
       quantity_text(spec.run.end, "s"));
@@ -374,12 +347,22 @@ int check(CheckArguments const& arguments) {
   print_cracks(particles);
   print_contact(spec, particles.dimension);
   print_ties(spec, particles);
-  print_cost(spec, look.cost);
-  if (arguments.ranks > 0) say_ranks(spec, particles, look.cost, arguments.ranks);
+  say_cost(plan);
+  if (ranks > 0) say_ranks(spec, particles, cost, ranks);
   print_output(spec);
-  std::vector<std::string> const& warnings = look.warnings;
+  for (std::string const& what : left_out) say("left out: {}\n", what);
   for (std::string const& warning : warnings) say("warning: {}\n", warning);
   say("{}\n", warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
+}
+
+int check(CheckArguments const& arguments) {
+  if (arguments.json && arguments.ranks > 0)
+    throw InputError("--json: tells nothing of ranks - leave out --ranks, or --json");
+  CasePlan const found = plan(arguments.from);
+  if (arguments.json)
+    write_out(plan_json(found));
+  else
+    say_plan(found, arguments.ranks);
   return with_output(completed);
 }
 
@@ -393,6 +376,7 @@ void add_check(CLI::App& program, Action& action) {
       ->add_option("--ranks", options->ranks,
                    "Say as well what each of so many ranks (processes, see clusters) would have to do")
       ->check(CLI::Range(1, 100'000));
+  command->add_flag("--json", options->json, "Say it as one JSON object, for scripts");
   command->callback([options, &action] { action = [options] { return check(*options); }; });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/simulation/case_schema.hpp"
 #include "commands.hpp"
 #include "manual.hpp"
 #include "own_pages.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 struct DescribeArguments {
   std::string kind, name;
-  bool markdown = false;
+  bool markdown = false, schema = false;
 };
 
 using Describe = std::string (*)(std::string const& name, Layout layout);
@@ -29,8 +30,14 @@ constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", desc
 
 int describe(DescribeArguments const& options, CLI::App const& program) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
-  if (options.kind.empty()) {
+  if (options.kind.empty() && !options.schema) {
     write_out(options.markdown ? manual_page() : overview());
+    return with_output(completed);
+  }
+  if (options.schema && (options.kind != "case" || !options.name.empty() || options.markdown))
+    throw InputError("--schema is for the whole of a case file - write 'piola describe case --schema'");
+  if (options.schema) {
+    write_out(case_schema());
     return with_output(completed);
   }
   if (options.kind == "man-page" || options.kind == "completion") {
@@ -62,6 +69,8 @@ void add_describe(CLI::App& program, Action& action) {
   command->add_option("name", options->name, "which one, e.g. neo_hookean; for a case a section, e.g. body.shape");
   command->add_flag("--markdown", options->markdown,
                     "As a page of the manual; alone: the whole page docs/user/case-reference.md");
+  command->add_flag("--schema", options->schema,
+                    "case: as a JSON Schema, with which editors complete and check the keys of case files");
   command->callback(
       [options, &action, &program] { action = [options, &program] { return describe(*options, program); }; });
 }

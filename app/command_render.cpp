@@ -6,6 +6,7 @@
 #include "piola/simulation/shape_picture.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "set_up_watch.hpp"
 #include "streams.hpp"
 #include <algorithm>
 #include <cstdio>
@@ -60,9 +61,10 @@ int render_shape(RenderArguments const& options) {
     throw InputError(fmt::format("--out: {} is not the name of a picture (allowed with --shape: NAME.png) - add .png",
                                  out.string()));
   ParticleSet particles;
-  PackingLine line(false);
+  SetUpWatch watch("reading the case and making its particles", {});
   CaseSpec const spec =
-      read_case(case_file(options.folder), options.with.overrides(), {.packing = std::ref(line)}, &particles);
+      read_case(case_file(options.folder), options.with.overrides(), {.packing = std::ref(watch)}, &particles);
+  watch.enter("drawing the bodies");
   ShapePictureOptions const what{.look = look_of(options), .patches = options.patches};
   if (out.has_parent_path()) make_folder(out.parent_path());
   write_png(out, draw_shape(spec, particles, what));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
-#include "piola/input/read_case.hpp"
 #include "piola/simulation/ranks.hpp"
+#include "piola/simulation/results_folder.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "set_up_watch.hpp"
 #include "signals.hpp"
 #include <fmt/format.h>
-#include <functional>
 #include <memory>
 
 namespace piola::app {
@@ -29,11 +29,11 @@ int resume(ResumeArguments const& options) {
         "{}: holds no case.toml (the folder of an earlier run is needed) - give the folder that 'piola run' wrote to",
         options.folder));
   }
-  ParticleSet particles;
-  PackingLine line(options.quiet);
-  CaseSpec spec =
-      read_case(file, options.from.overrides(), {.of_results = true, .packing = std::ref(line)}, &particles);
-  Simulation simulation = build(std::move(spec), std::move(particles));
+  Simulation simulation = set_up({.file = file,
+                                  .overrides = options.from.overrides(),
+                                  .unfinished = folder_for_unfinished(options.folder),
+                                  .of_results = true},
+                                 {.wall_time = wall_time, .quiet = options.quiet});
   if (ranks::own() != 0) return follow(simulation);
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
                         options.quiet);

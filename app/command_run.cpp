@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/read_case.hpp"
 #include "piola/simulation/ranks.hpp"
 #include "piola/simulation/results_folder.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "set_up_watch.hpp"
 #include "signals.hpp"
-#include <functional>
 #include <memory>
 
 namespace piola::app {
@@ -21,17 +20,15 @@ int run(RunArguments const& options) {
   catch_checkpoint_signals();
   double const wall_time = read_wall_time(options.wall_time);
   auto const file = case_file(options.from.file);
-  ParticleSet particles;
-  PackingLine line(options.quiet);
-  CaseSpec spec = read_case(file, options.from.overrides(), {.packing = std::ref(line)}, &particles);
-  if (options.no_pictures) spec.output.pictures.every = 0;
-  Simulation simulation = build(std::move(spec), std::move(particles));
+  std::filesystem::path const folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out);
+  Simulation simulation = set_up({.file = file,
+                                  .overrides = options.from.overrides(),
+                                  .unfinished = folder_for_unfinished(folder),
+                                  .pictures = !options.no_pictures},
+                                 {.wall_time = wall_time, .quiet = options.quiet});
   if (ranks::own() != 0) return follow(simulation);
-  RunOptions const where{.folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out),
-                         .resume = false,
-                         .force = options.force,
-                         .case_file = file,
-                         .wall_time = wall_time};
+  RunOptions const where{
+      .folder = folder, .resume = false, .force = options.force, .case_file = file, .wall_time = wall_time};
   return run_and_report(simulation, where, options.quiet);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/problems.hpp"
+#include "piola/base/stopped.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/free_memory.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -41,6 +42,10 @@ int perform(app::Action const& action) {
   } catch (ranks::Disagreement const& error) {
     tell("piola: {}\n", error.what());
     return error.code();
+  } catch (SetUpStopped const& error) {
+    tell("piola: {}\n", error.what());
+    if (ranks::several()) ranks::abort_all(app::stopped_by_signal);  // the others go on with their set-up
+    return app::stopped_by_signal;
   } catch (InputError const& error) {
     return report(error.what(), app::bad_input);
   } catch (PhysicsError const& error) {

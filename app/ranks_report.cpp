@@ -7,7 +7,7 @@
 #include "piola/simulation/ranks.hpp"
 #include "piola/simulation/scaling.hpp"
 #include "piola/simulation/talk_between.hpp"
-#include "run_support.hpp"
+#include "set_up_watch.hpp"
 #include "streams.hpp"
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ constexpr int most = 1024;
 
 /// Throws InputError for what does not run on ranks.
 Counted counted(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
-  WaitingLine const line(fmt::format("counting what {} particles tell each other", count_text(particles.size())));
+  SetUpWatch const watch(fmt::format("counting what {} particles tell each other", count_text(particles.size())), {});
   Assembly const assembly = assemble(spec, particles);
   refuse_on_ranks(assembly, ranks);
   if (!runs_on_ranks(cost))

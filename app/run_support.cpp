@@ -12,9 +12,10 @@
 #include <unistd.h>
 
 namespace piola::app {
-namespace {
 
 WallLimit::Clock::time_point const program_start = WallLimit::Clock::now();
+
+namespace {
 
 std::string percent(double share) { return fmt::format("{:3.0f} %", 100 * std::clamp(share, 0.0, 1.0)); }
 
@@ -66,41 +67,6 @@ void Console::progress(Progress const& progress) {
 void Console::warning(std::string const& text) {
   clear();
   tell("warning: {}\n", text);
-}
-
-void PackingLine::operator()(std::string const& body, double share) {
-  if (quiet_) return;
-  auto const now = std::chrono::steady_clock::now();
-  if (body != body_) {
-    line_.clear();
-    body_ = body;
-    begun_ = now;
-  }
-  double const spent = std::chrono::duration<double>(now - begun_).count();
-  if (spent < 2) return;
-  line_.show(fmt::format("packing {}: {}, {} left", body, percent(share), duration_text(spent * (1 - share) / share)));
-}
-
-WaitingLine::WaitingLine(std::string what) {
-  if (::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this, what = std::move(what)] { keep_saying(what); });
-}
-
-WaitingLine::~WaitingLine() {
-  {
-    std::lock_guard const lock(mutex_);
-    is_over_ = true;
-  }
-  over_.notify_one();
-  if (thread_.joinable()) thread_.join();
-}
-
-void WaitingLine::keep_saying(std::string const& what) {
-  constexpr std::chrono::seconds first{3}, every{1};
-  StatusLine line;
-  std::unique_lock lock(mutex_);
-  for (auto waited = first; !over_.wait_for(lock, waited == first ? first : every, [&] { return is_over_; });
-       waited += every)
-    line.show(fmt::format("{}: {} so far", what, duration_text(static_cast<double>(waited.count()))));
 }
 
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
@@ -173,7 +139,6 @@ double read_wall_time(std::string const& text) {
 }
 
 int run_and_report(Simulation& simulation, RunOptions options, bool quiet) {
-  catch_stop_signals();
   options.started = program_start;
   options.checkpoint_request = &checkpoint_signal;
   if (!quiet) write_out(start_report(simulation, options.folder));

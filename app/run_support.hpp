@@ -3,11 +3,8 @@
 #include "piola/simulation/run_case.hpp"
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <string>
 #include <system_error>
-#include <thread>
 
 namespace piola::app {
 
@@ -40,35 +37,8 @@ class Console : public Listener {
   StatusLine line_;
 };
 
-/// For read_case: shows how far a packing is that takes more than two seconds, with the time left.
-class PackingLine {
- public:
-  explicit PackingLine(bool quiet) : quiet_(quiet) {}
-  void operator()(std::string const& body, double share);
-
- private:
-  bool quiet_;
-  StatusLine line_;
-  std::string body_;
-  std::chrono::steady_clock::time_point begun_;
-};
-
-/// Says what takes so long, on a terminal, from the third second of its life on. Nobody else may write meanwhile.
-class WaitingLine {
- public:
-  explicit WaitingLine(std::string what);
-  ~WaitingLine();
-  WaitingLine(WaitingLine const&) = delete;
-  WaitingLine& operator=(WaitingLine const&) = delete;
-
- private:
-  void keep_saying(std::string const& what);
-
-  std::mutex mutex_;
-  std::condition_variable over_;
-  bool is_over_ = false;
-  std::thread thread_;  ///< what is waited for has no time to say it
-};
+/// When the program was started.
+extern WallLimit::Clock::time_point const program_start;
 
 /// What is about to run, in a few lines.
 std::string start_report(Simulation const& simulation, std::filesystem::path const& folder);

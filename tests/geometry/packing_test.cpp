@@ -94,4 +94,24 @@ TEST(Packing, CanBeStopped) {
   EXPECT_EQ(pack(*solid, volume_of(*solid, 0.1), 0.1, options).sweeps, 3);
 }
 
+TEST(Packing, ContinuesBitForBitFromAnySweep) {
+  auto const solid = torus({}, {{0.6, 0, 0.8}}, 1, 0.3);
+  double const volume = volume_of(*solid, 0.1);
+  Packing const whole = pack(*solid, volume, 0.1);
+  ASSERT_GT(whole.sweeps, 12);
+  EXPECT_FALSE(whole.unfinished);
+  PackingOptions options;
+  for (int const sweeps : {1, 4, 5, 12}) {  // neighbours are looked for in every fifth
+    options.progress = [&](int sweep) { return sweep < sweeps; };
+    Packing const part = pack(*solid, volume, 0.1, options);
+    options.from = part.unfinished;
+    ASSERT_TRUE(options.from) << sweeps;
+  }
+  EXPECT_EQ(options.from->sweeps, 12);
+  options.progress = {};
+  Packing const continued = pack(*solid, volume, 0.1, options);
+  EXPECT_EQ(continued.X, whole.X);
+  EXPECT_EQ(continued.sweeps, whole.sweeps);
+}
+
 }  // namespace

@@ -165,7 +165,10 @@ TEST(PackingFiles, AreTakenInPlaceOfPacking) {
   auto const sweeps = [&] {
     int count = 0;
     ReadLimits limits;
-    limits.packing = [&](std::string const&, double) { ++count; };
+    limits.packing = [&](std::string const&, double) {
+      ++count;
+      return AfterSweep::go_on;
+    };
     ParticleSet particles;
     read_case(file, {}, limits, &particles);
     EXPECT_GT(particles.size(), 50);

@@ -190,7 +190,7 @@ std::optional<Talk> Ensemble::talk(std::size_t body) const {
     if (talk->near) talk->near->group = k;
     StepRule const own = formulations_[k]->step_rule();
     if (talk->stages == 0) talk->stages = formulations_[k]->stages_per_step() + own.more_stages;
-    double const step = least(&Formulation::settled_time_step);
+    double const step = step_rule().settled;
     talk->take_shorter_steps(own.settled, meeting_ ? meeting_->limit(step) : step);
     if (meeting_ && *here == 0) talk->read_motion_of(meeting_->read_of(k));
     return talk;

@@ -145,15 +145,25 @@ class Packer {
     std::vector<Point> at_piece;
     for (SurfacePiece const& piece : pieces_) at_piece.push_back(array_of(piece.X));
     CellGrid const surface(at_piece, reach_);
-    for (out_.sweeps = 0; out_.sweeps < options.sweeps;) {
-      if (out_.sweeps % sweeps_per_list == 0) find_lists();
+    while (out_.sweeps < options.sweeps) {
+      if (out_.sweeps % sweeps_per_list == 0) listed_ = X_;
+      if (begin_.empty() || out_.sweeps % sweeps_per_list == 0) find_lists();
       double const most = sweep(surface);
       ++out_.sweeps;
-      if (options.progress && !options.progress(out_.sweeps)) break;
+      bool const stopped = options.progress && !options.progress(out_.sweeps);
       if (most < still * spacing_) break;
+      if (!stopped) continue;
+      if (out_.sweeps < options.sweeps) out_.unfinished = {X_, listed_, known_at_, away_, out_.sweeps};
+      break;
     }
     out_.X = X_;
     return std::move(out_);
+  }
+  void continue_from(UnfinishedPacking const& before) {
+    listed_ = before.listed;
+    known_at_ = before.known_at;
+    away_ = before.away;
+    out_.sweeps = before.sweeps;
   }
 
  private:
@@ -161,11 +171,11 @@ class Packer {
 
   void find_lists() {
     double const far = (support + skin) * spacing_;
-    CellGrid const grid(X_, far);
+    CellGrid const grid(listed_, far);
     auto const each = [&](Index a, auto const& f) {
-      Point const& x = X_[static_cast<std::size_t>(a)];
+      Point const& x = listed_[static_cast<std::size_t>(a)];
       grid.visit(x, [&](Index b) {
-        Vec<3> const r = vector_of(X_[static_cast<std::size_t>(b)]) - vector_of(x);
+        Vec<3> const r = vector_of(listed_[static_cast<std::size_t>(b)]) - vector_of(x);
         if (b != a && dot(r, r) < far * far) f(b);
       });
     };
@@ -242,6 +252,7 @@ class Packer {
   Solid const& solid_;
   int D_;
   std::vector<Point> X_, next_;
+  std::vector<Point> listed_;  ///< places of the lists
   std::vector<double> moved_;
   std::vector<Point> known_at_;  ///< where the surface was last asked for
   std::vector<double> away_;     ///< and how far it was at least
@@ -269,6 +280,11 @@ double packed_count(double volume, double spacing, int dimension) {
 }
 
 Packing pack(Solid const& solid, double volume, double spacing, PackingOptions const& options) {
+  if (options.from) {
+    Packer packer(solid, volume, options.from->X);
+    packer.continue_from(*options.from);
+    return packer.run(options);
+  }
   auto const wanted = static_cast<std::size_t>(packed_count(volume, spacing, solid.dimension()));
   return Packer(solid, volume, Start(solid, spacing).deepest(wanted)).run(options);
 }

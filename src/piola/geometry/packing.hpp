@@ -4,8 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <vector>
 
 namespace piola::geometry {
+
+/// A packing that was stopped. pack() continues from it to the same places, bit for bit, as without the stop.
+struct UnfinishedPacking {
+  std::vector<std::array<double, 3>> X;         ///< places [m]
+  std::vector<std::array<double, 3>> listed;    ///< places when neighbours were last looked for [m]
+  std::vector<std::array<double, 3>> known_at;  ///< places at which the surface was last looked for [m]
+  std::vector<double> away;                     ///< least distance of those from the surface [m]
+  int sweeps = 0;                               ///< done
+};
 
 /// Particles that fill a solid evenly, their outermost layer half a spacing inside.
 struct Packing {
@@ -13,12 +24,15 @@ struct Packing {
   double volume = 0;                     ///< of each: that of the solid over their number [m3; 2D m2]
   double spacing = 0;                    ///< volume^(1/dimension) [m]
   int sweeps = 0;
+  std::optional<UnfinishedPacking> unfinished = {};  ///< where `progress` has ended the packing early
 };
 
 struct PackingOptions {
   int sweeps = 100;  ///< at most
   /// Told after each sweep how many are done; false ends the packing early.
   std::function<bool(int)> progress = {};
+  /// Of the same solid, volume and spacing, with as many values everywhere as particles; else from the start.
+  std::optional<UnfinishedPacking> from = {};
 };
 
 /// Number of particles: the volume over that of a spacing, rounded; may be beyond what memory holds.

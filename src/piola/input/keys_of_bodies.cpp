@@ -10,6 +10,8 @@ using enum KeyInfo::Kind;
 constexpr Interval count_range{1, 2147483647, false, false};
 constexpr Interval half_open{0, 0.5, false, true};
 
+constexpr std::array<std::string_view, 1> auto_word{"auto"}, off_word{"off"}, none_word{"none"};
+constexpr std::array<std::string_view, 2> repartition_words{"auto", "never"};
 constexpr std::array<std::string_view, 4> machine_words{"auto", "scalar", "v3", "v4"};
 constexpr std::array<std::string_view, 3> placement_words{"on_boundary", "cell_centred", "random"};
 constexpr std::array<std::string_view, 3> arrangement_words{"lattice", "rings", "lattice_with_rings"};
@@ -32,7 +34,8 @@ constexpr std::array body_keys{
     KeyInfo{"", "mirror", list, "", {}, "none", "the planes of symmetry", {}},
     KeyInfo{"", "crack", list, "", {}, "none", "the cracks", {}},
     KeyInfo{"", "rigid", list, "", {}, "none", "the rigid obstacles", {}},
-    KeyInfo{"", "contact", table, "", {}, "the law \"kernel\"", "what keeps bodies apart; \"none\": nothing", {}},
+    KeyInfo{
+        "", "contact", table, "", {}, "the law \"kernel\"", "what keeps bodies apart; \"none\": nothing", none_word},
     KeyInfo{"", "tie", list, "", {}, "none", "what holds bodies together", {}},
     KeyInfo{"", "probe", list, "", {}, "none", "the probes", {}},
     KeyInfo{"", "quantity", list, "", {}, "none", "the quantities of the summary", {}},
@@ -89,17 +92,12 @@ constexpr std::array body_keys{
             {1, 4096, false, false},
             "\"auto\" (OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)",
             "number of threads, or \"auto\"",
-            {}},
+            auto_word},
     KeyInfo{"run", "machine", word, "", {}, "\"auto\"", "instruction set of the processor", machine_words},
-    KeyInfo{"run",
-            "repartition",
-            whole,
-            "",
-            count_range,
-            "\"auto\" (when one of the ranks is busier than the others)",
+    KeyInfo{"run", "repartition", whole, "", count_range, "\"auto\" (when one of the ranks is busier than the others)",
             "adaptle on several ranks: steps after which particles are shared out anew, \"auto\" or \"never\"",
-            {}},
-    KeyInfo{"run", "guards", table, "", {}, "all on", "limits of the guards, or \"off\"", {}},
+            repartition_words},
+    KeyInfo{"run", "guards", table, "", {}, "all on", "limits of the guards, or \"off\"", off_word},
     KeyInfo{"run.guards",
             "energy_rise_warn",
             quantity,
@@ -118,14 +116,8 @@ constexpr std::array body_keys{
             "0.1",
             "share of that energy that stabilisation, viscosity, damping and the scheme itself take: warns above",
             {}},
-    KeyInfo{"run.guards",
-            "jacobian",
-            list,
-            "1",
-            positive,
-            "[0.3, 3]",
-            "lowest and highest det F of materials that do not yield: warns outside",
-            {}},
+    KeyInfo{"run.guards", "jacobian", list, "1", positive, "[0.3, 3]",
+            "lowest and highest det F of materials that do not yield: warns outside", off_word},
     KeyInfo{"run.guards", "overlap", quantity, "1", positive, "1", "contact_overlap of adaptle: warns above", {}},
     KeyInfo{"run.guards",
             "strangers",

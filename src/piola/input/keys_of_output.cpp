@@ -10,6 +10,7 @@ namespace {
 using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 7> up_words{"auto", "x", "y", "z", "-x", "-y", "-z"};
+constexpr std::array<std::string_view, 8> view_words{"x", "y", "z", "-x", "-y", "-z", "iso", "iso2"};
 constexpr Interval turn{-360, 360, false, false};  // degree
 constexpr std::array<std::string_view, 8> map_words{"auto", "viridis",  "cividis",    "magma",
                                                     "grey", "blue_red", "blue_brown", "heat_on_grey"};
@@ -57,15 +58,10 @@ constexpr std::array output_keys{
             "that of the whole run",
             "values at the two ends of the colour bar, in the field's unit",
             {}},
-    KeyInfo{"output.pictures",
-            "view",
-            list,
-            "degree",
-            turn,
-            "[30, 20]",
+    KeyInfo{"output.pictures", "view", list, "degree", turn, "[30, 20]",
             "azimuth and elevation, or one of \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\" (from that end of an "
             "axis), \"iso\", \"iso2\"",
-            {}},
+            view_words},
     KeyInfo{"output.pictures", "azimuth", quantity, "degree", turn, "30", "about what points up, as in view", {}},
     KeyInfo{
         "output.pictures", "elevation", quantity, "degree", turn, "20", "above the plane across it, as in view", {}},

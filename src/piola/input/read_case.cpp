@@ -165,11 +165,14 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
     if (body.shape.arrangement == ShapeSpec::Arrangement::packed) cut_by_parts(body, spec.regions);
   }
   refuse_twins(sections, spec.bodies, "body");
-  for (BodySpec const& body : spec.bodies)
-    if (limits.packing && body.shape.solid_particles)
-      body.shape.solid_particles->progress = [tell = limits.packing, name = body.name](double share) {
-        tell(name, share);
+  for (BodySpec const& body : spec.bodies) {
+    if (!body.shape.solid_particles) continue;
+    body.shape.solid_particles->unfinished = limits.unfinished;
+    if (limits.packing)
+      body.shape.solid_particles->progress = [ask = limits.packing, name = body.name](double done) {
+        return ask(name, done);
       };
+  }
   if (top.problems().count() > before) return;
   check_bodies_together(sections, spec.bodies);
   check_size(sections, spec, limits);

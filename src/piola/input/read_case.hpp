@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/input/case_spec.hpp"
 #include "piola/particles/particle_set.hpp"
+#include "piola/setup/solid_bodies.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -17,8 +18,9 @@ struct ReadLimits {
   bool memory = true;                   ///< refuse cases that cannot fit into the memory of this machine
   /// The case is that of a results folder: the files that it names are those that its run began with.
   bool of_results = false;
-  /// Told the name of a body that is being packed and the share of it that is done.
-  std::function<void(std::string const&, double)> packing = {};
+  /// Called after each sweep of a packing with the name of the body and the fraction done.
+  std::function<AfterSweep(std::string const&, double)> packing = {};
+  std::filesystem::path unfinished = {};  ///< see SolidParticles::unfinished
 };
 
 /// Bytes per particle that a run needs at least; used to refuse hopeless cases before any particle is made.

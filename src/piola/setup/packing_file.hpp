@@ -19,6 +19,16 @@ void write_packing(std::filesystem::path const& path, std::string const& key, ge
 /// Nothing if there is no such file, if it is damaged or if it is of another key: the body is packed anew then.
 std::optional<geometry::Packing> read_packing(std::filesystem::path const& path, std::string const& key);
 
+/// Folder in the results in which a stopped set-up leaves packings, finished or not, for the next run.
+inline constexpr char const* unfinished_set_up = "unfinished-set-up";
+
+/// A packing that was stopped, under the same name as a finished one. Throws FileError. Inverse of read_unfinished().
+void write_unfinished(std::filesystem::path const& path, std::string const& key,
+                      geometry::UnfinishedPacking const& packing);
+
+/// Nothing in the cases of read_packing().
+std::optional<geometry::UnfinishedPacking> read_unfinished(std::filesystem::path const& path, std::string const& key);
+
 /// 64 bits that stand for a text.
 std::uint64_t digest_of(std::string_view text);
 

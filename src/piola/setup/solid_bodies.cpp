@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/solid_bodies.hpp"
+#include "piola/base/stopped.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/geometry/combined.hpp"
 #include "piola/geometry/measure.hpp"
 #include "piola/geometry/packing.hpp"
 #include "piola/math/places.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
+#include "piola/output/files.hpp"
+#include "piola/parallel/ranks.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/packing_file.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace piola {
@@ -88,17 +93,48 @@ std::vector<Piece> pieces_of(ShapeSpec const& shape, SolidParticles const& to) {
   return pieces;
 }
 
+/// Keeps a packing that was stopped.
+[[noreturn]] void stop(geometry::UnfinishedPacking const& packing, Piece const& piece, int most_sweeps,
+                       SolidParticles const& to) {
+  std::string const done = fmt::format("after {} of at most {} sweeps of a packing", packing.sweeps, most_sweeps);
+  if (to.unfinished.empty())
+    throw SetUpStopped("set-up was stopped " + done +
+                       ", which is not kept (there is no folder for it) - allow more time");
+  auto const path = to.unfinished / packing_name(piece.key);
+  if (ranks::own() == 0) {
+    make_folder(to.unfinished);
+    write_unfinished(path, piece.key, packing);
+  }
+  throw SetUpStopped(fmt::format("{}: set-up was stopped {} - start the same command again, which continues from there",
+                                 path.string(), done));
+}
+
 /// From the disk if it lies there, else made. `done`: of all pieces, the shares before and after this one.
 geometry::Packing packing_of(Piece const& piece, double spacing, std::array<double, 2> const& done,
                              SolidParticles const& to) {
+  std::string const name = packing_name(piece.key);
   for (auto const& folder : to.folders)
-    if (auto found = read_packing(folder / packing_name(piece.key), piece.key)) return std::move(*found);
+    if (auto found = read_packing(folder / name, piece.key)) return std::move(*found);
   geometry::PackingOptions options;
+  if (!to.unfinished.empty()) {
+    if (auto found = read_packing(to.unfinished / name, piece.key)) return std::move(*found);
+    options.from = read_unfinished(to.unfinished / name, piece.key);
+  }
+  AfterSweep wish = AfterSweep::go_on;
   options.progress = [&](int sweep) {
-    if (to.progress) to.progress(done[0] + (done[1] - done[0]) * sweep / options.sweeps);
-    return true;
+    if (to.progress) wish = to.progress(done[0] + (done[1] - done[0]) * sweep / options.sweeps);
+    return wish == AfterSweep::go_on;
   };
-  return geometry::pack(*piece.solid, piece.volume, spacing, options);
+  constexpr std::chrono::seconds worth_keeping{1};
+  auto const start = std::chrono::steady_clock::now();
+  geometry::Packing packing = geometry::pack(*piece.solid, piece.volume, spacing, options);
+  if (packing.unfinished && wish == AfterSweep::keep) stop(*packing.unfinished, piece, options.sweeps, to);
+  bool const dear = options.from || std::chrono::steady_clock::now() - start > worth_keeping;
+  if (dear && !packing.unfinished && !to.unfinished.empty() && ranks::own() == 0) {
+    make_folder(to.unfinished);
+    write_packing(to.unfinished / name, piece.key, packing);
+  }
+  return packing;
 }
 
 /// The cell of a spacing in which a place lies, z first.
@@ -156,11 +192,12 @@ void SolidParticles::make(ShapeSpec const& shape) {
   for (Piece const& piece : pieces_of(shape, *this)) {
     double const after = done + piece.volume / shape.volume;
     packings_.push_back(packing_of(piece, shape.spacing, {done, after}, *this));
+    rough = rough || packings_.back().unfinished;
     keys_.push_back(piece.key);
     done = after;
   }
   take(shape);
-  if (!cache.empty()) save(cache);
+  if (!cache.empty() && !rough) save(cache);
 }
 
 /// The particles of all packings, those of a cell together: what is near in space is near in memory.

@@ -20,6 +20,10 @@ struct PatchShare {
   std::array<double, 3> middle{};  ///< of this part of the surface [m]
 };
 
+/// What follows a sweep of a packing: the next one; or the packing is taken as it is; or it is kept for a later run,
+/// and set-up ends with SetUpStopped.
+enum class AfterSweep { go_on, take, keep };
+
 /// The particles of a solid, made when they are first asked for and then kept; shapes that are copies share them.
 class SolidParticles {
  public:
@@ -30,6 +34,7 @@ class SolidParticles {
   std::vector<double> volumes;  ///< of a solid in parts: of each particle
   double spacing = 0;           ///< [m]
   int sweeps = 0;               ///< packed
+  bool rough = false;           ///< packed: taken before it was finished (AfterSweep::take)
 
   /// Of a shape of the kind `solid`, which must be the one that it belongs to.
   static SolidParticles const& of(ShapeSpec const& shape);
@@ -38,10 +43,12 @@ class SolidParticles {
   /// Packed solids are cut along these, and each part, and the rest, is packed by itself: no particle's cell lies
   /// across. What several of them hold belongs to the first.
   std::vector<geometry::SolidPtr> parts = {};
-  std::function<void(double)> progress = {};     ///< told the share that is done while a packing goes on
-  std::string key = {};                          ///< all that the places depend on; empty: nothing is looked for
-  std::vector<std::filesystem::path> folders{};  ///< where the packing may lie from an earlier run
-  std::filesystem::path cache = {};              ///< folder to which it goes once it is made; empty: none
+  std::function<AfterSweep(double)> progress = {};  ///< called after each sweep of a packing with the fraction done
+  std::string key = {};                             ///< all that the places depend on; empty: nothing is looked for
+  std::vector<std::filesystem::path> folders{};     ///< where the packing may lie from an earlier run
+  std::filesystem::path cache = {};                 ///< folder to which it goes once it is made; empty: none
+  /// Folder for what a set-up that was stopped has packed, and where a later one looks for it; empty: none.
+  std::filesystem::path unfinished = {};
 
   /// Writes the packing into a folder, if there is one. Throws FileError.
   void save(std::filesystem::path const& folder) const;

@@ -6,6 +6,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/simulation/part_of_case.hpp"
 #include "piola/simulation/probes.hpp"
+#include "piola/simulation/step_range.hpp"
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -198,24 +199,40 @@ double probed_numbers(CaseSpec const& spec) {
   return (positions ? 3 : 0) + (velocities ? 3 : 0);
 }
 
+/// Wall time of so many steps with all output [s].
+double run_seconds_of(CaseSpec const& spec, double particles, std::int64_t steps, Estimate const& e) {
+  Plan const plan = plan_of(spec);
+  double const rows = std::min(plan.rows, static_cast<double>(steps) + 1);
+  return (static_cast<double>(steps) * e.step_work + rows * e.row_work) / e.busy_threads +
+         plan.frames * frame_seconds * particles + plan.pictures * picture_seconds +
+         plan.checkpoints * checkpoint_seconds * particles;
+}
+
+/// What follows from the number of steps. `change`: of the length of the last trial steps, as a fraction.
+void count_steps(CaseSpec const& spec, double particles, double change, Estimate& e) {
+  StepExcess const excess = e.trial_ends_run ? StepExcess{} : step_excess(spec, change);
+  double const as_tried = static_cast<double>(std::max(e.steps, e.most_steps));
+  e.most_steps = static_cast<std::int64_t>(std::min(excess.factor * as_tried, 1e18));
+  e.varies = excess.why;
+  if (spec.run.relax) e.varies = "the run ends as soon as the bodies are at rest: these are the steps to run.end";
+  e.rows_per_step = std::min(plan_of(spec).rows / static_cast<double>(e.steps), 1.0);
+  e.run_seconds = run_seconds_of(spec, particles, e.steps, e);
+  e.most_run_seconds = run_seconds_of(spec, particles, e.most_steps, e);
+}
+
 /// `side`: processor time of one right-hand side, `tables`: of what comes before [s].
 void count_times(CaseSpec const& spec, ParticleSet const& particles, double stages, double side, double tables,
                  Estimate& e) {
   double const all = static_cast<double>(particles.size());
   // Loops of few particles are shared by few threads.
   constexpr double least_share = 2048;
-  double const threads = std::min<double>(e.threads, std::floor(all / least_share) + 1);
-  Plan const plan = plan_of(spec);
-  double const rows = std::min(plan.rows, static_cast<double>(e.steps) + 1);
+  e.busy_threads = std::min<double>(e.threads, std::floor(all / least_share) + 1);
   e.step = std::min(e.rule.settled, spec.run.max_step);
   e.stages = stages + e.rule.more_stages;
   e.step_work = e.stages * side;
   e.row_work = row_stages * side;
-  e.rows_per_step = rows / static_cast<double>(e.steps);
-  e.setup_seconds = tables + e.rule.setup_stages * side / threads;
-  e.run_seconds = static_cast<double>(e.steps) * (stages + e.rule.more_stages) * side / threads +
-                  rows * row_stages * side / threads + plan.frames * frame_seconds * all +
-                  plan.pictures * picture_seconds + plan.checkpoints * checkpoint_seconds * all;
+  e.setup_seconds = tables + e.rule.setup_stages * side / e.busy_threads;
+  count_steps(spec, all, 0, e);
 }
 
 /// What set-up takes of a rank: of all of a body, and of it what every rank has in full [bytes].
@@ -271,9 +288,11 @@ void count_work(CaseSpec const& spec, ParticleSet const& particles, double stage
 
 }  // namespace
 
-std::int64_t steps_of(StepRule const& rule, RunSpec const& run) {
+std::int64_t steps_of(StepRule const& rule, RunSpec const& run) { return steps_of(rule, run, 0, rule.first); }
+
+std::int64_t steps_of(StepRule const& rule, RunSpec const& run, double time, double last) {
   double const most = std::min(rule.settled, run.max_step);
-  double time = 0, step = std::min(rule.first, most), steps = 0;
+  double step = std::min(last, most), steps = 0;
   while (rule.growth > 1 && step < most && time + step < run.end) {
     time += step;
     double const growth = rule.late_growth > 1 && step > rule.late_from ? rule.late_growth : rule.growth;
@@ -302,6 +321,49 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
     if (e.talk[b]->stages == 0) e.talk[b]->stages = e.stages;
     e.talk[b]->take_shorter_steps(e.rule.settled, e.step);
   }
+  return e;
+}
+
+namespace {
+
+/// Number of steps for a trial: enough for the first measurement of nodal, else as many as the time allows by counted
+/// work, so that it is the same on a busy machine.
+std::int64_t steps_to_try(Estimate const& e) {
+  constexpr double seconds = 2, fewest = 60, most = 400;
+  return static_cast<std::int64_t>(std::clamp(seconds * e.busy_threads / e.step_work, fewest, most));
+}
+
+/// Corrects the steps by those of a trial. `now`: the rule after it.
+void correct(Estimate& e, RunSpec const& run, Trial const& trial, StepRule now) {
+  e.trial_steps = e.steps = trial.steps;
+  e.step = trial.step;
+  e.trial_ends_run = trial.over || trial.failure;
+  if (e.trial_ends_run) return;
+  constexpr double nearly = 0.98;
+  bool const growing = now.growth > 1 && trial.step < nearly * std::min(now.settled, run.max_step);
+  if (!growing) {
+    now.settled = trial.step;
+    now.growth = 1;
+  }
+  e.step = std::min(now.settled, run.max_step);
+  e.steps += steps_of(now, run, trial.time, trial.step);
+  e.most_steps = e.steps;
+  // Steps that are short at first, because a load has just come, grow to those of the rule at best.
+  if (trial.earlier < nearly * trial.step && e.rule.settled > trial.step) {
+    now.settled = e.rule.settled;
+    e.steps = trial.steps + steps_of(now, run, trial.time, now.settled);
+  }
+}
+
+}  // namespace
+
+Estimate estimate_by_trial(Simulation& s, Trial& trial) {
+  constexpr double patience = 10;  // s, on slow or busy machines
+  Estimate e = estimate(s.spec, s.particles, *s.formulation, s.threads);
+  trial = take_trial_steps(*s.formulation, s.spec.run, steps_to_try(e), patience);
+  correct(e, s.spec.run, trial, s.formulation->step_rule());
+  bool const growing = e.step > trial.step;  // by the rule of a gentle start
+  count_steps(s.spec, static_cast<double>(s.particles.size()), growing ? 0 : trial.earlier / trial.step - 1, e);
   return e;
 }
 

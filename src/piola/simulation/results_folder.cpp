@@ -9,6 +9,7 @@
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
+#include "piola/setup/packing_file.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ constexpr std::size_t longest_headline = 20000;  // of a log: version and title
 // frames.xmf was written by earlier versions.
 constexpr std::array own_files{"history.csv", "summary.json", "frames.hdf.series", "frames.xmf",
                                "case.toml",   "log.txt",      "report.html"};
-constexpr std::array own_folders{"frames", "pictures", "checkpoints", kept_files};
+constexpr std::array own_folders{"frames", "pictures", "checkpoints", kept_files, unfinished_set_up};
 
 bool is_number(std::string_view text, std::size_t digits) {
   return text.size() >= digits && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -104,12 +105,13 @@ std::optional<std::string> title_in(fs::path const& folder) {
   return line.substr(colon + 2);
 }
 
-/// An empty log counts for nothing: it is what a run leaves that was killed before its first word.
+/// An empty log counts for nothing: it is what a run leaves that was killed before its first word. What a stopped
+/// set-up leaves counts for nothing either.
 bool holds_anything(fs::path const& folder) {
   return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](fs::directory_entry const& entry) {
     std::error_code no_file;
     auto const name = entry.path().filename();
-    return name != lock_name && !(name == "log.txt" && entry.file_size(no_file) == 0);
+    return name != lock_name && name != unfinished_set_up && !(name == "log.txt" && entry.file_size(no_file) == 0);
   });
 }
 
@@ -150,6 +152,14 @@ std::optional<CaseSpec> case_in_results(fs::path const& folder, ParticleSet* par
 std::string log_headline(std::string const& title) {
   std::string const line = title.substr(0, title.find('\n'));
   return fmt::format("Piola {}: {}", version(), line);
+}
+
+fs::path folder_for_unfinished(fs::path const& results) {
+  std::error_code none;
+  if (fs::exists(results, none) &&
+      (!fs::is_directory(results, none) || (holds_anything(results) && !title_in(results))))
+    return {};
+  return results / unfinished_set_up;
 }
 
 void check_results(fs::path const& folder, ResultsOf const& run) {

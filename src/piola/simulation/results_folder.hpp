@@ -20,6 +20,10 @@ struct ResultsOf {
 /// never taken. Throws InputError (refused) or FileError (cannot be made).
 void check_results(std::filesystem::path const& folder, ResultsOf const& run);
 
+/// Where a set-up that is stopped may leave what it has made for a later run: a folder in the results; empty if these
+/// would lie in a folder with other things.
+std::filesystem::path folder_for_unfinished(std::filesystem::path const& results);
+
 /// Removes the results of an earlier run: files with the names that Piola gives them, and its folders if nothing else
 /// is in them. Links are removed, never followed. Throws FileError.
 void clear_results(std::filesystem::path const& folder);

@@ -38,15 +38,13 @@ class Solver final : public Formulation {
   }
 
   double stable_time_step() const override { return up_to_release_of(bodies_, time_, settled_time_step()); }
-  double settled_time_step() const override {
-    double dt = std::numeric_limits<double>::infinity();
-    for (auto const& monitor : monitors_) dt = std::min(dt, monitor->step());
-    return std::min(dt, std::max(calm_time_step(), StabilityMonitor::least_of_limit * dt));
-  }
+  double settled_time_step() const override { return least_step(&StabilityMonitor::step); }
 
   StepRule step_rule() const override {
     StepRule rule;
-    rule.settled = rule.first = settled_time_step();
+    rule.first = settled_time_step();
+    rule.settled = least_step(&StabilityMonitor::calm_step);
+    if (time_ == 0) rule.growth = StabilityMonitor::growth_at_start;
     if (bodies_.front()->options().cfl > 0) {
       rule.limit = fmt::format("run.cfl h / c with run.cfl = {}", bodies_.front()->options().cfl);
       return rule;
@@ -178,6 +176,12 @@ class Solver final : public Formulation {
                        [](auto const& body) { return body->state().failure->index < body->particles(); });
   }
   double calm_time_step() const;
+  /// The least of a step of all bodies, shorter where the tolerance for the energy asks for it [s].
+  double least_step(double (StabilityMonitor::*of_body)() const) const {
+    double dt = std::numeric_limits<double>::infinity();
+    for (auto const& monitor : monitors_) dt = std::min(dt, ((*monitor).*of_body)());
+    return std::min(dt, std::max(calm_time_step(), StabilityMonitor::least_of_limit * dt));
+  }
   void tell_failures();
 
   ParticleSet set_;

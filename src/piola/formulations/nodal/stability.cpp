@@ -304,15 +304,20 @@ void StabilityMonitor::update(double dt, int halvings) {
 double StabilityMonitor::frequency() const { return lift * std::max(frequency_, start_); }
 
 double StabilityMonitor::step() const {
+  return step_at(pace_ == 0              ? first_share
+                 : pace_ >= brisk_pace   ? calm_share
+                 : pace_ >= violent_pace ? brisk_share
+                                         : violent_share);
+}
+
+double StabilityMonitor::calm_step() const { return step_at(calm_share); }
+
+double StabilityMonitor::step_at(double fraction) const {
   if (is_given()) return body_.options().cfl * body_.state().constants.unit_step;
-  double const share = pace_ == 0              ? first_share
-                       : pace_ >= brisk_pace   ? calm_share
-                       : pace_ >= violent_pace ? brisk_share
-                                               : violent_share;
   // Viscous forces of the step before take from the limit: sqrt(1 + xi^2) - xi with their share xi of critical damping.
   auto const& s = body_.state();
   double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);
-  return caution_ * share * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();
+  return caution_ * fraction * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();
 }
 
 std::vector<double> StabilityMonitor::state() const {

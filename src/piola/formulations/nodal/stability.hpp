@@ -13,6 +13,9 @@ class StabilityMonitor {
  public:
   /// Right-hand sides for the measurement at the start, and for later ones per step of calm motion.
   static constexpr double setup_stages = 25, stages_per_step = 0.1;
+  /// For estimates: steps that grow by this factor from step() at the start to calm_step() are as many more than those
+  /// of calm_step() alone as the short steps before the first measurement in motion are.
+  static constexpr double growth_at_start = 1.043;
   /// What all ranks add in a step: sums of the unrest in every fourth step of calm motion and in all before the first
   /// measurement, and those of measurements. In steps that others make shorter the unrest is looked at each time, but
   /// measurements are further apart.
@@ -31,8 +34,10 @@ class StabilityMonitor {
   /// Counts the step dt [s] that was just taken, and measures again what is due. `halvings`: how often it had to be
   /// halved.
   void update(double dt, int halvings);
-  /// The step to take [s]: a share of the limit, the smaller the faster strains change.
+  /// Step to take [s]: a fraction of the stability limit, smaller the faster strains change.
   double step() const;
+  /// Step [s] after the first measurement in motion where strains change slowly.
+  double calm_step() const;
   /// Largest frequency that was measured last, and never less than that of the start [1/s].
   double frequency() const;
 
@@ -70,6 +75,8 @@ class StabilityMonitor {
     double square, most;
   };
   Extent extent(Vector const& u) const;
+  /// Step [s] at a fraction of the stability limit.
+  double step_at(double fraction) const;
   void measure(int cycles, bool at_start);
   bool should_look(double dt) const;
   void look_at_unrest(double dt);

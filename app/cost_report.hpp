@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/simulation/case_plan.hpp"
+
+namespace piola::app {
+
+/// Steps, times, memory and disk of a run, for `piola check`.
+void say_cost(CasePlan const& plan);
+
+}  // namespace piola::app
