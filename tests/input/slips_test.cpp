@@ -31,7 +31,7 @@ end = "10 us"
 [[body]]
 name = "block"
 shape = { box = { min = [0, 0], max = ["10 mm", "10 mm"] }, particles = [10, 10], placement = "cell_centred" }
-formulation = { name = "adaptle" }
+formulation = { name = "adaptle", description = "total_lagrangian" }
 initial_velocity = ["10*Y/0.01", "0"]
 [body.material]
 law = "johnson_cook"
@@ -42,7 +42,7 @@ yield_stress = "300 MPa"
 hardening_coefficient = "400 MPa"
 hardening_exponent = 0.3
 rate_coefficient = 0.01
-initial_temperature = "300 K"
+initial_temperature = "293 K"
 reference_temperature = "293 K"
 melting_temperature = "900 K"
 specific_heat = "900 J/(kg K)"
@@ -52,7 +52,7 @@ spall = "hydrostatic"
 spall_pressure = "1 GPa"
 [[support]]
 body = "block"
-where = "Y < 0.001"
+where = "Y < 0.003"
 fix = "y"
 velocity = ["0", "20 m/s"]
 [[load]]
@@ -64,8 +64,8 @@ body = "block"
 acceleration = ["0", "-9.81 m/s^2"]
 [[rigid]]
 name = "wall"
-plane = { at = [0, -0.02], normal = [0, 1] }
-motion = "prescribed"
+plane = { point = [0, -0.02], normal = [0, 1] }
+motion = "driven"
 velocity = ["0", "1 m/s"]
 [contact]
 friction = 0.3
@@ -84,21 +84,22 @@ std::vector<Odd> const oddities{
     {"poissons_ratio", "= 0.33", "= -0.33", "check the sign"},
     {"poissons_ratio", "= 0.33", "= 0.499999", "take 0.499 or less"},
     {"yield_stress", "\"300 MPa\"", "300", "is 300 Pa, 4.29e-09 times Young's modulus, 70 GPa"},
-    {"yield_stress", "300 MPa", "30 GPa", "perfect crystal"},
+    {"yield_stress", "300 MPa", "30 GPa", "above what any solid bears"},
     {"spall_pressure", "\"1 GPa\"", "1000", "times the modulus of pressure waves"},
-    {"spall_pressure", "\"1 GPa\"", "\"100 GPa\"", "perfect crystal"},
+    {"spall_pressure", "\"1 GPa\"", "\"100 GPa\"", "above what any solid bears"},
     {"hardening", "\"400 MPa\"", "400", "the hardening is 400 Pa"},
     {"hardening", "\"400 MPa\"", "\"400 GPa\"", "stiffer than the elastic law"},
     {"hardening_exponent", "hardening_exponent = 0.3", "hardening_exponent = 3", "check the law"},
     {"rate_coefficient", "rate_coefficient = 0.01", "rate_coefficient = 14", "check the law"},
     {"fracture_strain", "d1 = 0.1", "d1 = 0", "the first plastic strain breaks the material"},
     {"fracture_strain", "d1 = 0.1", "d1 = 1000", "nothing ever breaks"},
-    {"initial_temperature", "300 K", "20 K", "was 273 + this meant"},
-    {"reference_temperature", "293 K", "25 K", "was 273 + this meant"},
+    {"initial_temperature", "initial_temperature = \"293 K\"", "initial_temperature = 20", "was 273 + this meant"},
+    {"reference_temperature", "reference_temperature = \"293 K\"", "reference_temperature = 25",
+     "was 273 + this meant"},
     {"melting_temperature", "\"900 K\"", "9000", "higher than that of any solid"},
-    {"heat", "\"300 K\"", "1000", "no strength from the start"},
+    {"heat", "initial_temperature = \"293 K\"", "initial_temperature = 1000", "no strength from the start"},
     {"specific_heat", "900 J", "0.9 J", "kJ/(kg K) meant"},
-    {"friction", "friction = 0.3", "friction = 30", "check the number"},
+    {"friction", "friction = 0.3", "friction = 5", "check the number"},
     {"size", "max = [\"10 mm\", \"10 mm\"]", "max = [20000, 20000]", "larger than a mountain"},
     {"particles_across", "[10, 10]", "[10, 2]", "only 2 particles across in y"},
     {"spacing_ratio", "[10, 10]", "[30, 10]", "differ by a factor of 3"},
@@ -109,14 +110,15 @@ std::vector<Odd> const oddities{
     {"load", "1 MPa", "10 Pa", "was MPa or GPa meant"},
     {"load_on_metal", "\"300 MPa\"", "\"0.1 MPa\"", "times the yield stress, 100 kPa"},
     {"weight", "-9.81 m/s^2", "-9.81e9 m/s^2", "under its own weight"},
-    {"steps", "10 us", "100 ns", "only about 3 steps"},
+    {"steps", "10 us", "150 ns", "only about 4 steps"},
     {"steps", "10 us", "100 s", "more than 10 million"},
-    {"transits", "[10, 10]", "[1000, 3]", "mm given as m"},
+    {"transits", "[10, 10]", "[100, 100]", "mm given as m"},
 };
 
 std::string odd_case(Odd const& odd) {
   std::string text = test::replaced(block, odd.from, odd.to);
   if (odd.rule == "load_on_metal") text = test::replaced(text, "\"1 MPa\"", "\"1 GPa\"");
+  if (odd.rule == "size") text = test::replaced(text, "Y < 0.003", "Y < 5000");
   if (odd.rule == "transits") text = test::replaced(text, "10 us", "100 ns");
   return text;
 }
@@ -155,7 +157,11 @@ TEST(Slips, PartsAreLookedAtToo) {
       "[[body.part]]\nwhere = \"X < 0.005\"\nmaterial = { law = \"johnson_cook\", density = 2.7, "
       "youngs_modulus = \"70 GPa\", poissons_ratio = 0.33, yield_stress = \"300 MPa\", "
       "hardening_coefficient = 0, hardening_exponent = 1, melting_temperature = 900 }\n[[support]]";
-  auto const found = slips_of(test::replaced(block, "[[support]]", part));
+  std::string nodal =
+      test::replaced(block, "name = \"adaptle\", description = \"total_lagrangian\"", "name = \"nodal\"");
+  nodal = test::replaced(nodal, "damage = \"johnson_cook\"\nd1 = 0.1\nspall = \"hydrostatic\"\n", "");
+  nodal = test::replaced(nodal, "spall_pressure = \"1 GPa\"\n", "");
+  auto const found = slips_of(test::replaced(nodal, "[[support]]", part));
   ASSERT_FALSE(found.empty());
   EXPECT_NE(found.front().find("part \"part_1\": density is 2.7 kg/m^3"), std::string::npos) << found.front();
 }
@@ -171,8 +177,8 @@ TEST(Slips, FormulasThatStopBeingNumbersAreSeen) {
   ASSERT_EQ(found.size(), 1U);
   for (char const* word : {"traction: the load is not a number at t = 5.", "X = (", "give until"})
     EXPECT_NE(found[0].find(word), std::string::npos) << word << "\n" << found[0];
-  std::string const drive = test::replaced(block, "\"20 m/s\"", "\"20/(t - 10e-6)\"");
-  EXPECT_NE(slips_of(drive).at(0).find("the velocity is infinite at t = 10 us"), std::string::npos)
+  std::string const drive = test::replaced(block, "\"20 m/s\"", "\"log(5e-6 - t)\"");
+  EXPECT_NE(slips_of(drive).at(0).find("the velocity is not a number at t = 5."), std::string::npos)
       << slips_of(drive)[0];
 }
 

@@ -158,9 +158,10 @@ TEST(CaseMessages, ErrorsNeedAFieldAndAFormulaPerComponent) {
             "[\"0\", ...]");
   EXPECT_EQ(message_of(probe + "kind = \"error\"\nfield = \"CauchyStress\"\nreference = [0, 0]\n"),
             "case.toml:28:13: probe.reference is a list of 2 (allowed: a list of 6)");
-  EXPECT_EQ(message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
-            "case.toml:27:9: probe.field is \"Presure\" (allowed: Pressure, CellPressure, Density, Damage, Momentum, "
-            "Temperature, KernelType, Slip and 18 more) - did you mean \"Pressure\"?");
+  EXPECT_EQ(
+      message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
+      "case.toml:27:9: probe.field is \"Presure\" (allowed: Pressure, CellPressure, Density, Damage, Temperature, "
+      "Slip, Momentum, KernelType and 18 more) - did you mean \"Pressure\"?");
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Pressure\"\nreference = [\"1/t\"]\nwhere = \"Y > 5\"\n"),
       "case.toml:28:13: probe.reference[0], formula \"1/t\" is inf at X = (-0.5, 5.25, -0.5) m of body \"column\" "

@@ -389,8 +389,10 @@ TEST(StepGuard, KnowsTheSpeedOfWaves) {
   Simulation of = simulation(s);
   of.spec.bodies[0].material = testing::rubber();  // 144 m/s, 1 m: 2 ms
   of.spec.run.end = 1e-4;
+  of.spec.output.history_every = 1e-5;
   TemporaryFolder const folder;
-  expect_parts(run(of, folder / "r").all(), {"the step fell to 100 ns", "of the 2.079 ms that waves at rest allow"});
+  expect_parts(run(of, folder / "r").all(),
+               {"the step fell to 100 ns", "of the 2.08 ms that waves at rest allow", "the formulation itself"});
 }
 
 std::array<double, 9> turned(double angle) {
@@ -422,7 +424,7 @@ TEST(SmallStrainGuard, WarnsOfStrainAndRotationOfTheLinearLaw) {
   EXPECT_TRUE(with(turns(0.049), "linear_elastic").of.summary.warnings.empty());
   expect_parts(with(turns(3.1), "linear_elastic").all(), {"rotation reached 3.1 rad"});
   expect_parts(with(stretches(0.03), "linear_elastic").all(), {"the strain reached 0.0304 (limit 0.02)", "particle 3"});
-  expect_parts(with(stretches(-0.03), "linear_elastic").all(), {"the strain reached 0.0295"});
+  expect_parts(with(stretches(-0.03), "linear_elastic").all(), {"the strain reached 0.0296"});
   EXPECT_TRUE(with(stretches(0.019), "linear_elastic").of.summary.warnings.empty());
   EXPECT_TRUE(with(turns(3), "neo_hookean").of.summary.warnings.empty());
 }

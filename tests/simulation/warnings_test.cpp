@@ -305,7 +305,7 @@ TEST(Warnings, ASlipOfUnitsThatMakesOneStepOfARun) {
   auto const all = warnings(test::sample_with("17 MPa", "17"));
   EXPECT_NE(about("softer than any jelly", all), "");
   EXPECT_NE(about("so that the run is a single step", all), "");
-  EXPECT_NE(about("above the speed of pressure waves", all), "");
+  EXPECT_NE(about("times the speed of pressure waves", all), "");
 }
 
 std::string solid(std::string const& shape, std::string const& spacing) {

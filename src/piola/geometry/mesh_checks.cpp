@@ -13,7 +13,7 @@ namespace piola::geometry {
 
 namespace {
 
-std::string length_text(double length) { return quantity_text(length, "m"); }
+std::string length_text(double length, int digits = 4) { return quantity_text(length, "m", digits); }
 
 std::string near_text(Vec<3> const& X) {
   return fmt::format("near ({}, {}, {})", length_text(X[0]), length_text(X[1]), length_text(X[2]));
@@ -57,11 +57,18 @@ double longest_hole(Surface const& surface, Links const& links) {
   return longest;
 }
 
-/// The advice to merge corners, if that closes the surface.
-std::string merge_text(double distance) {
-  if (!(distance > 0)) return "";
-  return fmt::format("set merge = \"{}\" (its corners nearly coincide, and become one), ",
-                     quantity_text(distance, "m", 2));
+/// What is left of the links once needless faces are removed.
+Links links_without_needless(Surface surface) {
+  remove_needless_faces(surface);
+  return link_faces(surface);
+}
+
+/// The advice to mend an open surface, if that closes it.
+std::string closing_advice(Surface const& surface, Links const& links) {
+  if (double const distance = closing_distance(surface, links); distance > 0)
+    return fmt::format("set merge = \"{}\" (its corners nearly coincide, and become one), ", length_text(distance, 3));
+  Links const mended = links_without_needless(surface);
+  return mended.open.empty() && !mended.across.empty() ? "set repair = \"faces\", " : "";
 }
 
 void check_open(Surface const& surface, Links const& links, std::string const& name, MeshOptions const& options,
@@ -76,7 +83,7 @@ void check_open(Surface const& surface, Links const& links, std::string const& n
     report.problems.push_back(
         fmt::format("{} (allowed: none), {} - {}close the surface in the CAD program, or set "
                     "repair = \"holes\"",
-                    what, where, merge_text(closing_distance(surface, links))));
+                    what, where, closing_advice(surface, links)));
   else if (report.longest_hole > options.largest_hole)
     report.problems.push_back(
         fmt::format("{}, {} (allowed: {}) - close the surface in the CAD program, or allow larger holes", what, where,
@@ -87,9 +94,8 @@ void check_open(Surface const& surface, Links const& links, std::string const& n
 
 void check_crowded(Surface const& surface, Links const& links, std::string const& name, MeshReport& report) {
   if (links.crowded.empty()) return;
-  Surface trial = surface;
-  remove_needless_faces(trial);
-  bool const removable = trial.faces() > 0 && link_faces(trial).crowded.empty();
+  Links const mended = links_without_needless(surface);
+  bool const removable = mended.crowded.empty() && !mended.across.empty();
   double longest = 0;
   for (int const half : links.crowded) longest = std::max(longest, surface.edge_length(half / 3, half % 3));
   report.problems.push_back(fmt::format(

@@ -11,16 +11,24 @@ namespace piola::geometry {
 
 namespace {
 
-using Point = std::array<double, 3>;
+using CornerPlace = std::array<double, 3>;
 
-std::vector<Point> points_of(Surface const& surface) {
-  std::vector<Point> points;
+std::vector<CornerPlace> points_of(Surface const& surface) {
+  std::vector<CornerPlace> points;
   points.reserve(surface.X.size());
   for (Vec<3> const& X : surface.X) points.push_back({X[0], X[1], X[2]});
   return points;
 }
 
-double length_between(Point const& a, Point const& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double length_between(CornerPlace const& a, CornerPlace const& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// Whether a distance is more than round-off of the corners, and the cells of that size can be counted.
+bool is_resolved(Surface const& surface, double distance) {
+  constexpr double round_off = 1e-12;
+  return distance > round_off * largest_extent(bounds_of(surface));
+}
 
 /// Keeps the faces that `keep` names.
 void keep_faces(Surface& surface, std::vector<char> const& keep) {
@@ -99,6 +107,7 @@ int remove_flat_faces(Surface& surface) {
 }  // namespace
 
 int merge_corners(Surface& surface, double distance) {
+  if (!is_resolved(surface, distance)) return 0;
   auto const points = points_of(surface);
   std::vector<int> first(points.size());
   std::iota(first.begin(), first.end(), 0);
@@ -135,9 +144,9 @@ double closing_distance(Surface const& surface, Links const& links) {
   }
   double const most = 0.25 * sum / static_cast<double>(links.open.size());
   auto const all = points_of(surface);
-  std::vector<Point> open;
+  std::vector<CornerPlace> open;
   for (int const corner : at_edges) open.push_back(all[corner]);
-  if (!(most > 0)) return 0;
+  if (!is_resolved(surface, most)) return 0;
   CellGrid const grid(open, most);
   double farthest = 0;
   for (std::size_t a = 0; a < open.size(); ++a) {

@@ -40,7 +40,10 @@ double step_estimate(CaseSpec const& spec, std::vector<BodyFacts> const& facts, 
 /// its place in the file: the rules of plausible.hpp. `step` is the expected time step [s].
 void find_slips(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts, double step,
                 Problems& slips);
-/// The part of it that looks at loads and driven supports and shapes.
+/// Whether an expression is a formula that may be evaluated at any time; a function of a program that uses the library
+/// is not, because its author counts the calls. Told by its text, in which functions are described in words.
+bool is_formula(Expression const& expression);
+/// The part of find_slips that looks at loads and driven supports and shapes.
 void find_slips_of_loads(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts,
                          Problems& slips);
 

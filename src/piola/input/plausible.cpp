@@ -10,11 +10,11 @@
 namespace piola {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::infinity();
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr std::string_view celsius =
     ", colder than liquid nitrogen (77 K) - temperatures are in K: was 273 + this meant?";
 
-constexpr std::array table{
+constexpr std::array ranges{
     // Numbers of materials.
     PlausibleRange{"density", "density", "kg/m^3", "", 10, 25000,
                    ", lighter than foam (solids have 100 to 20000 kg/m^3) - was g/cm^3 meant?",
@@ -29,15 +29,15 @@ constexpr std::array table{
     PlausibleRange{"wave_speed", "the speed of pressure waves", "m/s", "", 1, 25000,
                    ", slower than in any solid (10 m/s to 18 km/s is usual) - check the units of moduli and density",
                    ", faster than in any solid (10 m/s to 18 km/s is usual) - check the units of moduli and density"},
-    PlausibleRange{"dense_wave_speed", "the speed of pressure waves", "m/s", "", 20, none,
+    PlausibleRange{"dense_wave_speed", "the speed of pressure waves", "m/s", "", 20, no_bound,
                    " at a density above 2500 kg/m^3 (metals and rocks have 1 to 12 km/s) - was GPa meant for the "
                    "modulus?"},
-    PlausibleRange{"yield_stress", "the yield stress at the start", "Pa", "Young's modulus", 1e-6, 0.1,
+    PlausibleRange{"yield_stress", "the yield stress at the start", "Pa", "Young's modulus", 1e-6, 0.3,
                    " (1e-4 to 0.03 is usual) - was MPa or GPa meant?",
-                   ", above the strength of a perfect crystal (1e-4 to 0.03 is usual) - check the units of both"},
+                   ", above what any solid bears (1e-4 to 0.03 is usual) - check the units of both"},
     PlausibleRange{"spall_pressure", "spall_pressure", "Pa", "the modulus of pressure waves", 1e-6, 0.1,
                    " (1e-3 to 0.03 is usual) - was MPa or GPa meant?",
-                   ", above the strength of a perfect crystal (1e-3 to 0.03 is usual) - check the unit"},
+                   ", above what any solid bears (1e-3 to 0.03 is usual) - check the unit"},
     PlausibleRange{"hardening", "the hardening", "Pa", "Young's modulus", 1e-7, 1,
                    " (0, or 1e-3 to 0.1, is usual) - was MPa or GPa meant?",
                    ", stiffer than the elastic law (0, or 1e-3 to 0.1, is usual) - check the unit"},
@@ -65,7 +65,7 @@ constexpr std::array table{
     // Shapes.
     PlausibleRange{"size", "the size of its box", "m", "", 1e-7, 1e4, ", smaller than a grain - was mm or um meant?",
                    ", larger than a mountain - was mm meant?"},
-    PlausibleRange{"particles_across", "the number of particles across", "1", "", 3, none,
+    PlausibleRange{"particles_across", "the number of particles across", "1", "", 3, no_bound,
                    " (3 or more are needed to bend) - make the spacing smaller"},
     PlausibleRange{"spacing_ratio", "the ratio of the spacings", "1", "", 0, 2, "",
                    " (SPH wants them alike, at most 1.5) - change particles"},
@@ -91,18 +91,18 @@ constexpr std::array table{
                    " (2 to 1000 is usual) - check the units of run.end, of the shape and of the moduli"},
 };
 
-std::string_view side(PlausibleRange const& range, double measure) {
+std::string_view words_for(PlausibleRange const& range, double measure) {
   if (measure < range.low * (1 - 1e-9)) return range.below;
   return measure > range.high * (1 + 1e-9) ? range.above : std::string_view{};
 }
 
 }  // namespace
 
-std::span<PlausibleRange const> plausible_ranges() { return table; }
+std::span<PlausibleRange const> plausible_ranges() { return ranges; }
 
 PlausibleRange const* find_plausible_range(std::string_view name) {
-  auto const found = std::find_if(table.begin(), table.end(), [&](auto const& range) { return range.name == name; });
-  return found == table.end() ? nullptr : &*found;
+  auto const found = std::find_if(ranges.begin(), ranges.end(), [&](auto const& range) { return range.name == name; });
+  return found == ranges.end() ? nullptr : &*found;
 }
 
 PlausibleRange const& plausible_range(std::string_view name) {
@@ -112,14 +112,14 @@ PlausibleRange const& plausible_range(std::string_view name) {
 }
 
 std::string implausible(PlausibleRange const& range, double value) {
-  std::string_view const words = std::isfinite(value) ? side(range, value) : std::string_view{};
+  std::string_view const words = std::isfinite(value) ? words_for(range, value) : std::string_view{};
   if (words.empty()) return "";
   return std::string(range.quantity) + " is " + quantity_text(value, range.unit) + std::string(words);
 }
 
 std::string implausible(PlausibleRange const& range, double value, double reference, std::string_view reference_unit) {
   double const ratio = value / reference;
-  std::string_view const words = std::isfinite(ratio) ? side(range, ratio) : std::string_view{};
+  std::string_view const words = std::isfinite(ratio) ? words_for(range, ratio) : std::string_view{};
   if (words.empty()) return "";
   return std::string(range.quantity) + " is " + quantity_text(value, range.unit) + ", " + number_text(ratio, 3) +
          " times " + std::string(range.reference) + ", " + quantity_text(reference, reference_unit) +

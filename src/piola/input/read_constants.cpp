@@ -11,7 +11,10 @@ namespace {
 /// Reads [constants]: numbers, quantities, and formulas of other constants in any order.
 class ConstantsReader {
  public:
-  ConstantsReader(Node const& table, Problems& problems) : table_(table), problems_(problems) {}
+  ConstantsReader(Node const& table, Problems& problems) : table_(table), problems_(problems) {
+    for (Node::Entry const& entry : table_.entries)
+      if (is_name(entry.key) && !is_reserved_name(entry.key)) usable_.emplace(entry.key, &entry);
+  }
 
   std::map<std::string, double> read() {
     for (Node::Entry const& entry : table_.entries) {
@@ -40,7 +43,7 @@ class ConstantsReader {
       values_[entry.key] = value;
       return;
     }
-    if (closes_a_ring(entry)) return;
+    if (closes_a_ring(entry) || is_too_deep(entry)) return;
     open_.push_back(entry.key);
     for (std::string const& word : expression_words(entry.value.text))
       if (Node::Entry const* used = entry_of(word)) evaluate(*used);
@@ -54,10 +57,31 @@ class ConstantsReader {
   }
 
   Node::Entry const* entry_of(std::string const& key) const {
-    auto const found = std::find_if(table_.entries.begin(), table_.entries.end(),
-                                    [&](Node::Entry const& entry) { return entry.key == key; });
-    bool const usable = found != table_.entries.end() && is_name(key) && !is_reserved_name(key);
-    return usable ? &*found : nullptr;
+    auto const found = usable_.find(key);
+    return found == usable_.end() ? nullptr : found->second;
+  }
+
+  /// Whether a constant stands at the end of a chain that is longer than anybody writes, and than the stack holds.
+  bool is_too_deep(Node::Entry const& entry) {
+    constexpr std::size_t deepest = 200;
+    if (open_.size() < deepest) return false;
+    problems_.add(entry.value.place, "constants." + entry.key +
+                                         " is used by a constant that is used by another, and so "
+                                         "on " +
+                                         std::to_string(deepest) + " times (allowed: fewer) - use numbers");
+    values_[entry.key] = 1;
+    return true;
+  }
+
+  /// What a formula may use: the constants that it names; where it names another one, all, for the message.
+  Names names_for(std::string const& text) const {
+    constexpr std::size_t few = 1000;
+    Names names;
+    for (std::string const& word : expression_words(text))
+      if (auto const found = values_.find(word); found != values_.end()) names.constants.insert(*found);
+    if (!is_all_known(text) && usable_.size() < few)
+      for (auto const& [key, entry] : usable_) names.constants.try_emplace(key, 1);
+    return names;
   }
 
   /// Whether a constant is one of those that are being evaluated; reports the ring, which then has the value 1.
@@ -87,10 +111,10 @@ class ConstantsReader {
                                     "as define of the body");
       return 1;
     }
-    // Units such as "1/s" were constants before formulas were.
+    // A unit may begin with a number: "2 1/s".
     if (Quantity const quantity = read_any_quantity(node.text); !quantity.problem && !is_all_known(node.text))
       return quantity.value;
-    auto const formula = read_formula({node, name}, "", {values_, {}}, problems_);
+    auto const formula = read_formula({node, name}, "", names_for(node.text), problems_);
     if (!formula) return 1;
     double const value = (*formula)({});
     if (std::isfinite(value)) return value;
@@ -111,6 +135,7 @@ class ConstantsReader {
   Node const& table_;
   Problems& problems_;
   std::map<std::string, double> values_;
+  std::map<std::string, Node::Entry const*> usable_;  ///< by name
   std::vector<std::string> open_;  ///< constants that are being evaluated, the first one uses the next
 };
 

@@ -114,7 +114,7 @@ void check_fineness(BodySpec const& spec, BodyFacts const& body, Problems& slips
                          std::string(alike.above));
 }
 
-void check_size(BodySpec const& spec, BodyFacts const& body, Problems& slips) {
+void check_extent(BodySpec const& spec, BodyFacts const& body, Problems& slips) {
   double const largest = *std::max_element(body.size.begin(), body.size.end());
   if (auto const sentence = implausible(plausible_range("size"), largest); !sentence.empty())
     slips.add(place_of(spec.places, "shape"), body_words(body) + sentence);
@@ -192,7 +192,7 @@ void find_slips(CaseSpec const& spec, ParticleSet const& particles, std::vector<
   for (std::size_t b = 0; b < facts.size(); ++b) {
     check_materials(spec.bodies[b], facts[b], slips);
     check_fineness(spec.bodies[b], facts[b], slips);
-    check_size(spec.bodies[b], facts[b], slips);
+    check_extent(spec.bodies[b], facts[b], slips);
   }
   check_motion(spec, facts, slips);
   check_friction(spec, slips);

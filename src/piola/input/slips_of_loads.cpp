@@ -12,6 +12,8 @@ namespace {
 
 using Components = std::array<Expression, 3>;
 
+bool are_formulas(Components const& value) { return std::all_of(value.begin(), value.end(), is_formula); }
+
 /// Times at which formulas are looked at [s]: 33 equal steps up to `last`, and halves of its first, for short pulses.
 std::vector<double> times_until(double last) {
   constexpr int steps = 32, halves = 16;
@@ -33,10 +35,12 @@ LookedAt look_at_vector(Components const& value, ParticleSet const& particles, s
   bool const moves = std::any_of(value.begin(), value.end(), [](auto const& v) { return v.depends_on_time(); });
   auto const times = moves ? times_until(last) : std::vector<double>{0};
   LookedAt looked;
+  if (!are_formulas(value)) return looked;
   for (std::size_t k = 0; k < ids.size(); k += std::max<std::size_t>(1, ids.size() / most)) {
     auto const& X = particles.X[static_cast<std::size_t>(ids[k])];
     for (double const t : times) {
-      double const size = std::hypot(value[0](X, t), value[1](X, t), value[2](X, t));
+      double const x = value[0](X, t), y = value[1](X, t), z = value[2](X, t);
+      double const size = std::sqrt(x * x + y * y + z * z);  // std::hypot loses what is not a number
       if (std::isfinite(size))
         looked.largest = std::max(looked.largest, size);
       else if (looked.not_finite.empty())
@@ -62,8 +66,8 @@ std::string odd_face_load(double size, BodyFacts const& body) {
   return odd.empty() ? implausible(plausible_range("load_on_metal"), size, body.yield, "Pa") : odd;
 }
 
-void check_load(CaseSpec const& spec, LoadSpec const& load, ParticleSet const& particles, BodyFacts const& body,
-                Problems& slips) {
+void compare_load(CaseSpec const& spec, LoadSpec const& load, ParticleSet const& particles, BodyFacts const& body,
+                  Problems& slips) {
   constexpr std::array keys{"traction", "body_force", "acceleration", "pressure"};
   Body const& loaded = *body_named(particles, load.body);
   auto const looked = look_at_vector(load.value, particles, loaded_particles(particles, loaded, load),
@@ -90,12 +94,24 @@ void check_drive(LookedAt const& looked, double wave, std::string const& subject
 
 }  // namespace
 
+bool is_formula(Expression const& expression) {
+  Names names;
+  for (std::string const& word : expression_words(expression.text()))
+    if (!is_reserved_name(word)) names.constants[word] = 1;
+  try {
+    static_cast<void>(Expression(expression.text(), names));
+  } catch (ExpressionError const&) {
+    return false;
+  }
+  return true;
+}
+
 void find_slips_of_loads(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts,
                          Problems& slips) {
   double fastest = 0;
   for (BodyFacts const& body : facts) fastest = std::max(fastest, body.p_wave);
   for (LoadSpec const& load : spec.loads)
-    check_load(spec, load, particles, facts[number_of_body(spec, load.body)], slips);
+    compare_load(spec, load, particles, facts[number_of_body(spec, load.body)], slips);
   for (SupportSpec const& support : spec.supports) {
     if (!support.velocity) continue;
     Body const& body = *body_named(particles, support.body);

@@ -12,33 +12,39 @@ struct Synonym {
   std::string_view words;  ///< in lower case, between blanks; without _, - and blanks of their own
   std::string_view key;    ///< the key, or the word of a list
   std::string_view owner;  ///< where it stands
+  bool distinct = false;   ///< the words mean nothing else, so that other tables may point here
 };
 
 constexpr std::array synonyms{
-    Synonym{" gravity g weight bodyacceleration ", "acceleration", "[[load]]"},
-    Synonym{" force loadforce nodalforce pointload ", "traction", "[[load]]"},
+    Synonym{" gravity gravitation bodyacceleration ", "acceleration", "[[load]]", true},
+    Synonym{" g weight ", "acceleration", "[[load]]"},
+    Synonym{" force nodalforce pointload ", "traction", "[[load]]"},
     Synonym{" volumeforce ", "body_force", "[[load]]"},
     Synonym{" follower ", "follows", "[[load]]"},
-    Synonym{" e young youngs youngmodulus elasticmodulus elasticitymodulus modulus stiffness ", "youngs_modulus",
-            "material"},
-    Synonym{" nu poisson poissons poissonratio v ", "poissons_ratio", "material"},
-    Synonym{" rho ro massdensity ", "density", "material"},
-    Synonym{" sigy sigmay fy yield yieldstrength ", "yield_stress", "material"},
-    Synonym{" etan tangentmodulus plasticmodulus ", "hardening_modulus", "material"},
-    Synonym{" cp heatcapacity ", "specific_heat", "material"},
+    Synonym{" young youngs youngmodulus elasticmodulus elasticitymodulus ", "youngs_modulus", "material", true},
+    Synonym{" e modulus stiffness ", "youngs_modulus", "material"},
+    Synonym{" nu poisson poissons poissonratio ", "poissons_ratio", "material", true},
+    Synonym{" v ", "poissons_ratio", "material"},
+    Synonym{" rho massdensity ", "density", "material", true},
+    Synonym{" sigy sigmay fy yield yieldstrength ", "yield_stress", "material", true},
+    Synonym{" etan tangentmodulus plasticmodulus ", "hardening_modulus", "material", true},
+    Synonym{" cp heatcapacity ", "specific_heat", "material", true},
     Synonym{" model type materiallaw constitutivelaw ", "law", "material"},
     Synonym{" c0 soundspeed ", "bulk_sound_speed", "material"},
-    Synonym{" dt timestep step maxdt ", "max_step", "[run]"},
-    Synonym{" tend endtime tfinal finaltime duration time tmax totaltime ", "end", "[run]"},
+    Synonym{" dt timestep maxdt ", "max_step", "[run]", true},
+    Synonym{" step ", "max_step", "[run]"},
+    Synonym{" tend endtime tfinal finaltime tmax totaltime ", "end", "[run]", true},
+    Synonym{" duration time ", "end", "[run]"},
     Synonym{" courant cflnumber safetyfactor ", "cfl", "[run]"},
-    Synonym{" nthreads cores processors omp ", "threads", "[run]"},
+    Synonym{" nthreads cores processors ", "threads", "[run]"},
     Synonym{" velocity v0 speed ", "initial_velocity", "[[body]]"},
     Synonym{" displacement ", "initial_displacement", "[[body]]"},
     Synonym{" method solver scheme ", "formulation", "[[body]]"},
     Synonym{" geometry ", "shape", "[[body]]"},
-    Synonym{" bodies part object ", "body", "[[body]]"},
+    Synonym{" bodies object ", "body", "[[body]]"},
     Synonym{" dx dp h resolution meshsize elementsize particlespacing ", "spacing", "shape of [[body]]"},
-    Synonym{" mu frictioncoefficient coefficientoffriction ", "friction", "[contact]"},
+    Synonym{" frictioncoefficient coefficientoffriction ", "friction", "[contact]", true},
+    Synonym{" mu ", "friction", "[contact]"},
     Synonym{" boundary boundarycondition bc constraint constraints fixed clamp dirichlet spc ", "support",
             "[[support]]"},
     Synonym{" symmetry ", "mirror", "[[mirror]]"},
@@ -77,8 +83,7 @@ std::string advice_for_synonym(std::string_view word, std::span<std::string cons
     std::string const key = in_quotes(synonym.key);
     if (here && synonym.owner.starts_with("law,")) return "write " + key + " as " + std::string(synonym.owner);
     if (here) return "write " + key;
-    if (elsewhere.empty() && !synonym.owner.starts_with("law"))
-      elsewhere = "that is " + key + " of " + std::string(synonym.owner);
+    if (elsewhere.empty() && synonym.distinct) elsewhere = "that is " + key + " of " + std::string(synonym.owner);
   }
   return elsewhere;
 }

@@ -9,7 +9,7 @@ struct Validity {
   std::string_view law, text;
 };
 
-constexpr std::array table{
+constexpr std::array validities{
     Validity{
         "linear_elastic",
         "strains below 0.02 and rotations below 0.05 rad. Beyond, the stress is wrong by about strain plus rotation, "
@@ -23,7 +23,7 @@ constexpr std::array table{
 }  // namespace
 
 std::string_view validity_of_law(std::string_view name) {
-  for (Validity const& entry : table)
+  for (Validity const& entry : validities)
     if (entry.law == name) return entry.text;
   return "";
 }

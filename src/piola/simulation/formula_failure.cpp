@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/formula_failure.hpp"
 #include "piola/base/text.hpp"
+#include "piola/input/case_facts.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/region_checks.hpp"
 #include <cmath>
@@ -23,8 +24,9 @@ std::optional<Failure> first_failure(ActingFormulas const& acting, ParticleSet c
   for (double const part : {-1.0, -0.5, 0.0, 1.0}) {  // instants at which steps ask for it
     double const t = std::max(0.0, moment.time + part * moment.dt);
     if (t > acting.until) continue;
-    for (std::int64_t const id : acting.ids)
-      for (Expression const& formula : acting.formulas) {
+    for (Expression const& formula : acting.formulas) {
+      if (!is_formula(formula)) continue;
+      for (std::int64_t const id : acting.ids) {
         auto const& X = particles.X[static_cast<std::size_t>(id)];
         double const value = formula(X, t);
         if (std::isfinite(value)) continue;
@@ -34,6 +36,7 @@ std::optional<Failure> first_failure(ActingFormulas const& acting, ParticleSet c
                         std::isnan(value) ? "not a number" : "infinite", t, point_text(X, particles.dimension));
         return failure;
       }
+    }
   }
   return std::nullopt;
 }
