@@ -122,7 +122,8 @@ Simulation set_up(SetUpFrom const& from, SetUpWatch::Limits const& limits) {
   SetUpWatch watch("reading the case and making its particles", limits);
   ParticleSet particles;
   CaseSpec spec =
-      read_case(from.file, from.overrides, {.of_results = from.of_results, .packing = std::ref(watch), .unfinished = from.unfinished}, &particles);
+      read_case(from.file, from.overrides,
+                {.of_results = from.of_results, .packing = std::ref(watch), .unfinished = from.unfinished}, &particles);
   if (!from.pictures) spec.output.pictures.every = 0;
   watch.enter(fmt::format("building the simulation of {} particles", count_text(particles.size())));
   return build(std::move(spec), std::move(particles));

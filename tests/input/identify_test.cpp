@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/identify.hpp"
-#include "piola/input/case_files.hpp"
 #include "piola/base/version.hpp"
+#include "piola/input/case_files.hpp"
 #include "piola/input/case_keys.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/files.hpp"

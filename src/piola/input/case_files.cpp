@@ -109,7 +109,9 @@ std::string content_hash(fs::path const& path) {
   return fmt::format("{:016x}", digest.value());
 }
 
-std::string digest_of_file(fs::path const& path) { return FileToRead(path).problem().empty() ? content_hash(path) : ""; }
+std::string digest_of_file(fs::path const& path) {
+  return FileToRead(path).problem().empty() ? content_hash(path) : "";
+}
 
 std::vector<CaseFile> files_of(CaseSpec const& spec) {
   std::vector<CaseFile> all;
