@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace piola {
 namespace {
@@ -36,6 +37,18 @@ Step choose_step(double stable, RunSpec const& run, Moment& moment) {
   return {rest, rest != dt || moment.time + dt != run.end};
 }
 
+/// Shows a step to the observers. The end of the run if one of them objects; those after it, checkpoints among them, do
+/// not see the step then and keep it as no good state.
+std::optional<March> show(Formulation& formulation, Moment const& moment, std::span<Observer* const> observers) {
+  for (Observer* observer : observers) {
+    observer->see(formulation, moment);
+    if (auto objection = observer->objection())
+      return March{
+          .ending = Ending::failed, .failure = std::move(objection->failure), .causes = std::move(objection->causes)};
+  }
+  return {};
+}
+
 }  // namespace
 
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
@@ -65,13 +78,7 @@ March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::s
     moment.wall_seconds = wall_before + seconds_since(start);
 
     if (auto failure = formulation.failure()) return {.ending = Ending::failed, .failure = std::move(failure)};
-    for (Observer* observer : observers) {
-      observer->see(formulation, moment);
-      // Observers behind one that objects, checkpoints among them, do not keep this state as a good one.
-      if (auto objection = observer->objection())
-        return {
-            .ending = Ending::failed, .failure = std::move(objection->failure), .causes = std::move(objection->causes)};
-    }
+    if (auto objected = show(formulation, moment, observers)) return std::move(*objected);
     stops.wall.step_took(seconds_since(step_start));
     if (moment.time >= run.end || moment.at_rest) continue;
     if (stops.asked.load(std::memory_order_relaxed) != 0) return {.ending = Ending::stopped};

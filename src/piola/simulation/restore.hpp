@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/simulation/build.hpp"
+#include "piola/simulation/journal.hpp"
+#include "piola/simulation/run.hpp"
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace piola {
+
+/// Brings a simulation and the observers of its run to the newest good checkpoint in a results folder. Nothing if there
+/// is none. A checkpoint that was reached by a step cut to an earlier end of the run is used only if `cut_too`. Throws
+/// InputError if the case or its particles are not those of the run.
+std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder, Journal& journal,
+                              std::vector<Observer*> const& observers, bool cut_too);
+
+}  // namespace piola
