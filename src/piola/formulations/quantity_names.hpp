@@ -24,7 +24,7 @@ std::optional<FieldQuantity> find_quantity(std::string_view name);
 /// Every known quantity name, for suggestions and the manual.
 std::vector<FieldQuantity> const& all_quantities();
 
-/// A field that follows from another one, whatever the formulation: its values in falling order.
+/// A field that follows from another one, whatever the formulation.
 struct DerivedField {
   std::string_view name, from;
   std::string_view unit;
@@ -32,6 +32,7 @@ struct DerivedField {
 };
 /// "PrincipalStress" [Pa]: eigenvalues of the Cauchy stress. "PrincipalStrain": principal logarithmic (Hencky) strains
 /// ln(lambda), with the principal stretches lambda of the deformation gradient; in plane strain one of them is zero.
+/// Both in falling order. "CompressivePressure" [Pa]: -Pressure. See derived_fields.hpp for what makes them.
 std::span<DerivedField const> derived_fields();
 bool is_derived(std::string_view field);
 
