@@ -133,7 +133,7 @@ std::vector<double> spacings_of(std::vector<Level> const& levels) {
   return spacings;
 }
 
-/// What is to be run, but for the spacings.
+/// The study without its runs.
 StudySpec study_of(ConvergeArguments const& options) {
   StudySpec study;
   study.case_file = case_file(options.from.file);
@@ -187,7 +187,7 @@ void add_converge(CLI::App& program, Action& action) {
   options->from.add_to(*command);
   command
       ->add_option("--column", options->columns,
-                   "A column of history.csv to compare besides the quantities: NAME (its last value) or NAME:TAKE, "
+                   "Another column of history.csv to compare: NAME (its last value) or NAME:TAKE, "
                    "as in tip.displacement_y:minimum; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);

@@ -47,9 +47,9 @@ Ended run_program(std::vector<std::string> words, fs::path const& says) {
   if (error != 0)
     throw FileError(fmt::format("the program cannot be started ({})", std::generic_category().message(error)));
   int status = 0;
-  bool told = false;
+  bool is_stopped = false;
   while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (stop_signal != 0 && !told) told = ::kill(child, SIGTERM) == 0;  // it writes a checkpoint
+    if (stop_signal != 0 && !is_stopped) is_stopped = ::kill(child, SIGTERM) == 0;  // it writes a checkpoint
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (WIFEXITED(status)) return {.code = WEXITSTATUS(status), .signal = 0};
@@ -98,7 +98,7 @@ class Pool {
       next_ = runs_.size();
     }
   }
-  /// What became of all runs. Throws what went wrong first, if anything did.
+  /// Outcomes of all runs. Throws the first error of the threads.
   std::vector<RunOutcome> const& outcomes() const {
     if (error_) std::rethrow_exception(error_);
     return outcomes_;

@@ -17,7 +17,7 @@ struct Share {
       : plots(runs > 150 ? 1 : 3), picture_bytes(12'000'000 / std::max<std::size_t>(runs, 80)) {}
 };
 
-/// The section of one run; only what was told if it could not be made or left no folder.
+/// The section of one run; without plots if it could not be made or left no folder.
 Json about_variant(CaseVerification const& c, VariantRun const& variant, std::filesystem::path const& folder,
                    Share const& share) {
   Json section{{"case", c.name},

@@ -7,7 +7,7 @@
 
 namespace piola {
 
-/// What values of one quantity at two or three spacings tell about their error.
+/// Observed order, limit and estimated errors of one quantity at two or three spacings.
 ///
 /// Three values that change in one direction have an observed order p and a limit q0 (Richardson), which solve
 /// q(h) = q0 + c h^p. Errors are estimated as the grid convergence index of Roache, Annu. Rev. Fluid Mech. 29 (1997)

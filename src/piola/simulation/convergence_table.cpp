@@ -15,7 +15,8 @@ constexpr std::array<std::string_view, 7> kind_words{"monotonic",   "two values"
 
 /// An error beside the size of the value that it is of: "1.3 %", or itself where the value is 0.
 std::string error_text(double error, double size) {
-  if (size > 0) return fmt::format("{:.2g} %", 100 * error / size);
+  double const percent = 100 * error / size;
+  if (size > 0) return percent < 10 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
   return number_text(error, 2);
 }
 

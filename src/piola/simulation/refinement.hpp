@@ -10,7 +10,7 @@ namespace piola {
 /// Settings "key=value" that make the spacing of every body `factor` times as large. Boxes get numbers of intervals (or
 /// of cells) divided by the factor and rounded, so that all directions change alike; a direction with one particle on
 /// its faces keeps it. A factor of 1 changes nothing. Throws InputError for bodies whose particles come from a file.
-/// `file`, `settings`: the case, and what is changed in it besides; `spec`: what they were read to.
+/// `spec`: of the case `file` with `settings`.
 std::vector<std::string> spacing_settings(std::filesystem::path const& file, std::vector<std::string> const& settings,
                                           CaseSpec const& spec, double factor);
 

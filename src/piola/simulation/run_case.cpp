@@ -267,7 +267,7 @@ void CaseRun::also(Observer& observer) { parts_->watch.also.push_back(&observer)
 March const& CaseRun::advance(Pause const& pause) {
   Parts& p = *parts_;
   RunSpec run = p.simulation.spec.run;
-  // A cut step changes those that follow, so the run is no longer the one that its case tells.
+  // A cut step changes the steps after it: the case alone no longer determines the results.
   if (pause.exactly && pause.time < run.end) p.simulation.spec.identity.run.clear();
   if (pause.exactly) run.end = std::min(run.end, pause.time);
   p.last = march(*p.simulation.formulation, run, p.moment, p.watch.all(), {p.stop, p.wall, pause}, &p.watch.relaxation);

@@ -179,7 +179,7 @@ RunOutcome outcome_of(std::filesystem::path const& results, EndedRun const& run)
   if (summary_text(results) == run.summary_before) return failed("it wrote no summary.json");
   auto outcome = outcome_in(results, run.identity);
   if (!outcome) return failed("the case, a file that it names or the program has changed since the study began");
-  // A run that ended with another exit code than 0 is not completed, whatever else is said of it.
+  // The exit code decides: a run that ended with another one than 0 is not completed.
   if (outcome->status == "completed" && run.ended_as != "completed") outcome->status = run.ended_as;
   if (run.ended_as == "completed" && outcome->status != "completed")
     return failed("its summary.json is of no completed run");

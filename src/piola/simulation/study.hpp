@@ -35,18 +35,18 @@ struct StudyRun {
 /// All combinations; the last parameter changes fastest.
 std::vector<StudyRun> combinations(StudySpec const& study);
 
-/// Folder names for so many runs: "run-07".
+/// Folder names of `count` runs: "run-07".
 std::vector<std::string> run_folders(std::size_t count);
 
-/// What became of a run of a study.
+/// Status and quantities of a run of a study.
 struct RunOutcome {
   std::string status;                        ///< "completed", "failed" or "stopped"; "not run": it was not begun
   std::vector<MeasuredQuantity> quantities;  ///< empty unless this run wrote them
   std::string why = {};                      ///< it has no quantities; empty: it has
 };
 
-/// What summary.json of a results folder says. Nothing unless it is of a run with this identity (Identity::run), or if
-/// the identity is empty.
+/// Status and quantities in summary.json of a results folder. Nothing unless it is of a run with this identity
+/// (Identity::run), or if the identity is empty.
 std::optional<RunOutcome> outcome_in(std::filesystem::path const& results, std::string const& identity);
 
 /// The text of summary.json; empty if there is none.
@@ -59,8 +59,8 @@ struct EndedRun {
   std::string_view ended_as;   ///< status that its exit code stands for: "completed", "failed", "stopped"; empty: none
 };
 
-/// What the run's own summary says: one that it wrote itself, of its identity, with the status of its exit code. Else
-/// "failed" without quantities: the folder may hold the results of an earlier run.
+/// Outcome of a run by the summary that it wrote itself, with its identity and the status of its exit code. Without
+/// one: "failed", no quantities. The folder may hold the results of an earlier run.
 RunOutcome outcome_of(std::filesystem::path const& results, EndedRun const& run);
 
 /// Makes study.csv: a row for each run with its folder, values, status and quantities. Throws FileError.

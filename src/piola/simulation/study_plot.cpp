@@ -123,7 +123,7 @@ std::vector<double> numbers_of(StudyTable const& table, std::size_t parameter, s
   return numbers;
 }
 
-/// The unit of a quantity, as the first run that has it tells; "" if none does.
+/// Unit of a quantity by the summary of the first run with this quantity; "" if there is none.
 std::string unit_of_quantity(StudyTable const& table, std::string const& name) {
   for (StudyCells const& row : table.rows) {
     std::filesystem::path folder = row.front();
@@ -135,7 +135,7 @@ std::string unit_of_quantity(StudyTable const& table, std::string const& name) {
   return "";
 }
 
-/// What the other parameters are in a row, of those that change: "run.cfl=0.5".
+/// Values in a row of the other parameters that change: "run.cfl=0.5".
 std::string others_text(StudyTable const& table, StudyCells const& row, std::size_t parameter) {
   std::vector<std::string> texts;
   for (std::size_t p = 0; p < table.parameters.size(); ++p) {

@@ -18,7 +18,7 @@ std::filesystem::path study_table_at(std::filesystem::path const& path);
 
 /// Quantities of a study against one of its parameters: a curve, with a ring at each run that is completed, for each
 /// quantity and each combination of the other parameters. Units are those of the quantities, which the runs beside
-/// study.csv tell, and of the first value of the parameter. Throws InputError if study.csv does not have what is asked
+/// study.csv have, and of the first value of the parameter. Throws InputError if study.csv does not have what is asked
 /// for, or if the values of the parameter are no numbers; FileError if it cannot be read.
 Plot study_plot(std::filesystem::path const& table, StudyPlotOptions const& options);
 
