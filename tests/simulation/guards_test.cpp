@@ -566,14 +566,16 @@ TEST(Guards, LookBetweenTheRowsOfASparseHistory) {
 TEST(Guards, LookAtTheStateAtWhichARelaxationEnds) {
   TemporaryFolder const folder;
   Script script;
-  // It moves for three steps, is stopped when it slows down, and hardly moves then.
-  script.kinetic = [](double t) { return t < 3.5e-3 ? 1 : t < 4.5e-3 ? 0.5 : 1e-20; };
+  // It moves for three steps, slows down, is brought back for a step and stopped, and hardly swings then.
+  script.kinetic = [](double t) {
+    return t < 3.5e-3 ? 1 : t < 4.5e-3 ? 0.5 : t > 6.5e-3 && t < 7.5e-3 ? 1e-21 : 1e-20;
+  };
   script.jacobian = [](std::size_t i, double t) { return i == 6 && t > 4.5e-3 ? 9 : 1; };
   Simulation s = simulation(script);
   s.spec.run.relax = true;
   s.spec.output.history_every = 1;
   Outcome const o = run(s, folder / "r");
-  EXPECT_EQ(o.of.summary.steps, 5);
+  EXPECT_EQ(o.of.summary.steps, 9);
   expect_parts(o.all(), {"det F reached 9", "particle 6"});
 }
 

@@ -3,6 +3,7 @@
 #include "piola/base/problems.hpp"
 #include "piola/formulations/ensemble_state.hpp"
 #include "piola/formulations/meeting.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
@@ -58,7 +59,7 @@ void add_totals(Diagnostics& sum, Diagnostics const& d, bool first) {
   add_columns(sum.more, d.more);
 }
 
-class Ensemble : public Formulation {
+class Ensemble : public Formulation, public SetUpChecked {
  public:
   Ensemble(Assembly const& whole, std::vector<EnsemblePart> parts,
            std::vector<std::unique_ptr<Formulation>> formulations)
@@ -134,6 +135,12 @@ class Ensemble : public Formulation {
     for (std::size_t k = 0; k < parts_.size(); ++k)
       for (auto const& [name, seconds] : formulations_[k]->costs())
         all.emplace_back(parts_[k].name + "_" + name, seconds);
+    return all;
+  }
+  std::vector<SetUpCheck> set_up_checks() const override {
+    std::vector<SetUpCheck> all;
+    for (auto const& formulation : formulations_)
+      for (SetUpCheck& check : set_up_checks_of(*formulation)) all.push_back(std::move(check));
     return all;
   }
   std::optional<Talk> talk(std::size_t body) const override;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/formulation.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,6 +17,11 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
 /// Rank 0 has what comes out of sample(), and the others nothing.
 std::optional<std::vector<std::int64_t>> Formulation::owned() const {
   return ranks::own() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
+}
+
+std::vector<SetUpCheck> set_up_checks_of(Formulation const& formulation) {
+  auto const* checked = dynamic_cast<SetUpChecked const*>(&formulation);
+  return checked == nullptr ? std::vector<SetUpCheck>{} : checked->set_up_checks();
 }
 
 void StateWriter::put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) {

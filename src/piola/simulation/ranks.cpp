@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/ranks.hpp"
 #include "piola/base/problems.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/row_writer.hpp"
 #include "piola/parallel/agreement.hpp"
@@ -127,7 +128,7 @@ class Gathering {
 };
 
 /// The formulation of rank 0, whose calls the other ranks take part in.
-class Conductor final : public Formulation {
+class Conductor final : public Formulation, public SetUpChecked {
  public:
   explicit Conductor(std::unique_ptr<Formulation> formulation) : own_(std::move(formulation)) {}
 
@@ -192,6 +193,7 @@ class Conductor final : public Formulation {
     all.emplace_back("gathering", gathered);
     return all;
   }
+  std::vector<SetUpCheck> set_up_checks() const override { return set_up_checks_of(own()); }
   std::size_t memory_bytes() const override { return own().memory_bytes(); }
   std::optional<Recuts> recuts() const override { return own().recuts(); }
 

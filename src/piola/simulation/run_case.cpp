@@ -2,6 +2,7 @@
 #include "piola/simulation/run_case.hpp"
 #include "piola/base/problems.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/output/files.hpp"
 #include "piola/output/folder_lock.hpp"
@@ -39,7 +40,7 @@ struct Watch {
         guards(results, mass, history),
         frames(results),
         pictures(results),
-        relaxation(results.spec.run),
+        relaxation(results.spec.run, results.particles, mass),
         checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}, orders),
         progress(listener, results.spec.run.end, results.particles.size(), history),
         written(!results.folder.empty()) {
@@ -136,19 +137,22 @@ Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, W
   return *moment;
 }
 
-/// Says whether a dynamic relaxation came to rest.
-void report_rest(Simulation const& s, Relaxation const& relaxation, Ending ending, Journal& journal) {
-  if (!relaxation.active() || ending != Ending::completed) return;
-  Rest const& rest = relaxation.rest();
-  std::string const share = fmt::format("forces out of balance are {} of the largest (limit {})",
-                                        number_text(rest.residual, 2), s.spec.run.rest);
-  if (rest.reached)
-    journal.note(fmt::format("at rest after {} stops: {}", rest.stops, share));
-  else
-    journal.warn(
-        fmt::format("relax: not at rest at run.end after {} stops: {} - give the run more time, or check that "
-                    "supports hold every body",
-                    rest.stops, share));
+/// How good the set-up is.
+void report_set_up(Formulation const& formulation, Journal& journal) {
+  std::string numbers;
+  for (SetUpCheck const& check : set_up_checks_of(formulation)) {
+    if (!check.warning.empty()) journal.warn(check.warning);
+    numbers += fmt::format("{}{} = {:.3g}", numbers.empty() ? "" : ", ", check.name, check.value);
+  }
+  if (!numbers.empty()) journal.note("set-up: " + numbers);
+}
+
+/// Says how a dynamic relaxation came to rest.
+void report_rest(Relaxation const& relaxation, Journal& journal) {
+  if (!relaxation.active()) return;
+  if (relaxation.rest().reached)
+    journal.note(fmt::format("at rest after {} stops: {}", relaxation.rest().stops, relaxation.text()));
+  if (std::string const slow = relaxation.slow_text(); !slow.empty()) journal.warn(slow);
 }
 
 /// What is not there any more of what the run wrote, in one sentence; empty if all of it is.
@@ -249,6 +253,7 @@ CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, s
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
   for (std::string const& warning : s.warnings) journal.warn(warning);
+  report_set_up(*s.formulation, journal);
   auto const before = WallLimit::Clock::now();
   parts_->moment =
       options.resume ? begin_again(s, options, journal, parts_->watch) : begin_new(s, options, journal, parts_->watch);
@@ -273,6 +278,10 @@ March const& CaseRun::advance(Pause const& pause) {
   p.last = march(*p.simulation.formulation, run, p.moment, p.watch.all(), {p.stop, p.wall, pause}, &p.watch.relaxation);
   p.last.paused = p.last.paused || (p.last.ending == Ending::completed && !p.moment.at_rest &&
                                     p.moment.time < p.simulation.spec.run.end);
+  if (p.last.ending == Ending::completed && !p.last.paused && p.watch.relaxation.unfinished()) {
+    Objection const not_at_rest = p.watch.relaxation.objection_at_end();
+    p.last = {.ending = Ending::failed, .failure = not_at_rest.failure, .causes = not_at_rest.causes};
+  }
   return p.last;
 }
 
@@ -280,7 +289,7 @@ CaseOutcome CaseRun::finish() {
   Parts& p = *parts_;
   Simulation const& s = p.simulation;
   Ending const ending = p.last.paused ? Ending::stopped : p.last.ending;
-  report_rest(s, p.watch.relaxation, ending, p.journal);
+  report_rest(p.watch.relaxation, p.journal);
   for (Observer* observer : p.watch.all()) observer->finish(*s.formulation, p.moment, ending);
 
   CaseOutcome outcome{.ending = ending,

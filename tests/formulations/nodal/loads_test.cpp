@@ -14,7 +14,8 @@ void press(Assembly& a, ShapeSpec const& shape, Face const& face, double pressur
   load.follows = follows;
   for (auto const& share : face_shares(shape, a.particles, a.particles.bodies[0], face)) {
     load.particles.push_back(share.particle);
-    load.factor.push_back(1);
+    auto const id = static_cast<std::size_t>(share.particle);
+    load.factor.push_back(share.area / (rubber().value[0] * a.particles.volume[id]));
     if (face.part == Face::Part::flat)
       load.normal = share.normal;
     else

@@ -74,8 +74,13 @@ void press(Assembly& a, int axis, bool upper, double pressure, bool follows) {
     double const X = a.particles.X[k][c];
     if ((upper ? body.outline.max[c] - X : X - body.outline.min[c]) > 0.9 * body.spacing[c]) continue;
     load.particles.push_back(static_cast<std::int64_t>(k));
-    load.factor.push_back(1);
   }
+  double area = 1;  // of the face, in equal parts
+  for (std::size_t d = 0; d < static_cast<std::size_t>(a.particles.dimension); ++d)
+    if (d != c) area *= body.outline.max[d] - body.outline.min[d];
+  for (std::int64_t const id : load.particles)
+    load.factor.push_back(area / (static_cast<double>(load.particles.size()) * rubber().value[0] *
+                                  a.particles.volume[static_cast<std::size_t>(id)]));
   a.loads.push_back(load);
 }
 

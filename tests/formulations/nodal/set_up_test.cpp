@@ -128,7 +128,12 @@ Assembly pulled_box(ParticleSet const& set, Mat<3> const& F, Mat<3> const& P) {
         auto const at = set.lattice_index[static_cast<std::size_t>(id)][axis];
         if (at == (upper ? set.bodies[0].lattice[axis] - 1 : 0)) load.particles.push_back(id);
       }
-      load.factor.assign(load.particles.size(), 1);
+      double area = 1;  // of the face, in equal parts
+      for (std::size_t c = 0; c < D; ++c)
+        if (c != axis) area *= set.bodies[0].spacing[c] * (set.bodies[0].lattice[c] - 1);
+      for (std::int64_t const id : load.particles)
+        load.factor.push_back(area / (static_cast<double>(load.particles.size()) * rubber().value[0] *
+                                      set.volume[static_cast<std::size_t>(id)]));
       for (std::size_t i = 0; i < 3; ++i)
         load.value[i] = Expression(std::to_string((upper ? 1 : -1) * P(static_cast<int>(i), static_cast<int>(axis))));
       a.loads.push_back(load);
@@ -163,6 +168,24 @@ TEST(NodalClosure, TakesFewIterationsWhateverTheSizeAndTheCloud) {
     }
 }
 
+TEST(NodalSetUp, RefusesABarSoLongThatItsGradientsMissTheDivergenceTheorem) {
+  std::string const said = refusal(nodal_body(unit_box(1, 501)));
+  for (char const* words : {"miss the divergence theorem", "500 x 0 x 0 spacings", "jst_sph"})
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  EXPECT_EQ(refusal(nodal_body(unit_box(1, 101))), "");
+}
+
+TEST(NodalSetUp, TakesListsForABodySoLongThatSumsOverItsLatticeLoseDigits) {
+  EXPECT_TRUE(SetUpBody(nodal_body(brick(2, 0, {201, 5, 1}))).reference.lattice);
+  auto const longer = SetUpBody(nodal_body(brick(2, 0, {1001, 5, 1})));
+  EXPECT_FALSE(longer.reference.lattice);
+  for (SetUpCheck const& check : longer.reference.checks) {
+    if (!check.name.ends_with("closure_iterations")) {
+      EXPECT_LT(check.value, check.name.ends_with("residual") ? 2e-3 : 1.5) << check.name;
+    }
+  }
+}
+
 TEST(NodalSetUp, RefusesBodiesOfTwoParticlesAcross) {
   EXPECT_EQ(refusal(nodal_body(brick(3, 0, {5, 2, 5})))
                 .rfind("body 'brick': particle 0 at (-0.2, 0.1, 0) m has "
@@ -175,6 +198,25 @@ TEST(NodalSetUp, RefusesADeformationGradientAsStart) {
   Assembly a = nodal_body(unit_box(3, 4));
   a.initial_deformation_gradient.assign(a.particles.X.size(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
   EXPECT_NE(refusal(a).find("takes the deformation from the positions"), std::string::npos);
+}
+
+TEST(NodalDoubts, AreAboutPressuresThatFollowAFaceAndVaryAlongIt) {
+  auto const count = [](char const* pressure, bool follows, bool viscous) {
+    Assembly a = nodal_body(brick(2, 0, {9, 5, 1}));
+    if (viscous) a.formulations[0].numbers["fluctuation_viscosity"] = 0.05;
+    Load load;
+    load.value = {Expression(pressure), Expression("0"), Expression("0")};
+    load.pressure = true;
+    load.follows = follows;
+    load.normal = Point{1, 0, 0};
+    for (std::int64_t id = 0; id < a.particles.size(); ++id) load.particles.push_back(id);
+    a.loads.push_back(load);
+    return doubts(a).size();
+  };
+  EXPECT_EQ(count("1000*(Y - 0.7)*min(t/30, 1)", true, false), 1U);
+  EXPECT_EQ(count("1000*(Y - 0.7)", true, true), 0U);
+  EXPECT_EQ(count("1000*(Y - 0.7)", false, false), 0U);
+  EXPECT_EQ(count("1000*min(t/30, 1)", true, false), 0U);
 }
 
 TEST(NodalDoubts, AreAboutThreeParticlesAcrossNearIncompressibility) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace piola::nodal {
 namespace {
@@ -137,12 +138,12 @@ void set_levels(Fits<D> const& fits, ProjectionMatrix<D>& matrix, PartFilled<Sca
   levels.set_stiffness(overlap * products(fits, probe, image)[0] / (volume * SplineLevels<D>::probe_square));
 }
 
-/// The largest component of the particles of all ranks.
-template <int D>
+/// The largest of `width` numbers per particle, of the particles of all ranks.
+template <int D, int width = D>
 double largest(Fits<D> const& fits, PartFilled<double> const& u) {
   auto const [first, last] = fits.own();
-  double most =
-      largest_of(std::span(u).subspan(static_cast<std::size_t>(first) * D, static_cast<std::size_t>(last - first) * D));
+  double most = largest_of(
+      std::span(u).subspan(static_cast<std::size_t>(first) * width, static_cast<std::size_t>(last - first) * width));
   if (fits.shared()) ranks::take_largest(most);
   return most;
 }
@@ -178,7 +179,7 @@ PartFilled<double> Divergence<D>::surface_vectors() const {
 }
 
 template <int D>
-PartFilled<double> Divergence<D>::residual() const {
+PartFilled<double> Divergence<D>::residual(Closure const* corrected, PartFilled<double>* size) const {
   auto R = surface_vectors();
   auto const& pairs = fits_.pairs();
   scatter_in_order(fits_.own(), fits_.rows(), pairs.farthest(), [&](std::size_t a, auto const& mine) {
@@ -193,16 +194,38 @@ PartFilled<double> Divergence<D>::residual() const {
       bool const other = mine(pairs.at(k));
       if (!own && !other) continue;
       auto const p = fits_.monomials_of(a, pairs.at(k));
+      double square = 0;
       for (int J = 0; J < D; ++J) {
         double G = 0;
         for (int l = 0; l < terms; ++l) G += to_gradient[J][l] * p[static_cast<std::size_t>(l)];
+        if (corrected != nullptr) G += cells_[a].volume * corrected->unexplained<D>(a, pairs.at(k), p, J);
         G *= pairs.weight[k];
+        square += G * G;
         if (other) R[pairs.at(k) * D + static_cast<std::size_t>(J)] -= G;
         if (own) R[a * D + static_cast<std::size_t>(J)] += G;
       }
+      if (own && size != nullptr) (*size)[a] = std::max((*size)[a], std::sqrt(square) / cells_[a].volume);
     }
   });
   return R;
+}
+
+/// How well the corrected gradients obey the divergence theorem. Collective on ranks that share the body.
+template <int D>
+void Divergence<D>::measure(Closure& closure, Whole const& whole) const {
+  if (whole.halo != nullptr) exchange_once(*whole.halo, closure.coefficients->ref(), Quadratic<D>::values * D);
+  PartFilled<double> size(particles());
+  PartFilled<double> left = residual(&closure, &size);
+  if (whole.fold != nullptr) {
+    whole.fold->extend(left);
+    std::fill(size.begin() + static_cast<std::ptrdiff_t>(whole.fold->particles()), size.end(), 0.0);
+  }
+  double farthest = 0;
+  for (auto const& X : fits_.X())
+    for (std::size_t c = 0; c < D; ++c) farthest = std::max(farthest, std::abs(X[c]));
+  closure.rounding = largest(fits_, closure.mu) * farthest * std::numeric_limits<double>::epsilon();
+  closure.residual = largest(fits_, left);
+  closure.steepest = largest<D, 1>(fits_, size);
 }
 
 template <int D>
@@ -211,7 +234,7 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
   auto const [fold, halo] = whole;
   ProjectionMatrix<D> matrix(fits_, cells_, machine, lattice, halo);
   PartFilled<double> r = residual(), z(r.size()), p(r.size()), image(r.size());
-  Closure closure{PartFilled<double>(r.size()), {}};
+  Closure closure{.mu = PartFilled<double>(r.size()), .coefficients = {}};
   std::optional<SplineLevels<D>> levels;
   if (cells_.size() >= worth_levels) set_levels(fits_, matrix, cells_, levels.emplace(fits_.X(), fits_.shared()));
   // f(particle, number) for the D numbers of each particle.
@@ -228,13 +251,15 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
     if (whole.fold != nullptr) whole.fold->extend(u);
   };
   extend(r);
+  closure.before = largest(fits_, r);
   auto const goal = inner(r, r);
   Columns<D> before{};
-  for (closure.iterations = 0; closure.iterations < most_iterations; ++closure.iterations) {
+  for (; closure.iterations < most_iterations; ++closure.iterations) {
     auto const now = inner(r, r);
     bool done = true;
     for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
-    if (done && largest(fits_, r) <= most_left) break;
+    closure.converged = done && largest(fits_, r) <= most_left;
+    if (closure.converged) break;
     each_particle([&](std::size_t a, std::size_t k) { z[k] = r[k] / matrix.diagonal()[a]; });
     if (levels) levels->add(r, z);
     if (fold != nullptr) fold->gather(z);
@@ -258,6 +283,7 @@ Closure Divergence<D>::solve(double tolerance, Machine const& machine, LatticeLa
   matrix.apply(closure.mu, image);
   closure.coefficients = matrix.take_coefficients();
   refine<D>(fits_, matrix, closure);
+  measure(closure, whole);
   return closure;
 }
 

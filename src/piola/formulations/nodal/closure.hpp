@@ -24,6 +24,21 @@ struct Closure {
   PartFilled<double> mu;                ///< D per particle; on ranks of own ones and their neighbours
   std::unique_ptr<Field> coefficients;  ///< values x D per particle: the quadratic through mu about it; of own ones
   int iterations = 0;
+  double before = 0;    ///< largest component of the residual without corrections [faces between two particles]
+  double residual = 0;  ///< and of corrected gradients, measured with these
+  double steepest = 0;  ///< largest |G_ab| [1/spacing]
+  double rounding = 0;  ///< largest |mu| times |X| times the precision of numbers: what sums of x mu add to a strain
+  bool converged = false;
+
+  /// mu_b less the quadratic about a, along J; p: the monomials of b about a.
+  template <int D>
+  double unexplained(std::size_t a, std::size_t b, typename Fits<D>::Monomials const& p, int J) const {
+    auto const i = static_cast<Index>(a);
+    double left = mu[b * D + static_cast<std::size_t>(J)] - coefficients->at(i, J);
+    for (int m = 1; m < Quadratic<D>::values; ++m)
+      left -= coefficients->at(i, m * D + J) * p[static_cast<std::size_t>(m - 1)];
+    return left;
+  }
 };
 
 /// Where the moments of a patch or a cell (XX YY ZZ YZ XZ XY) are for second derivative `at` of D dimensions.
@@ -53,18 +68,21 @@ class Divergence {
   }
   /// Surface vectors A_b, D per particle.
   PartFilled<double> surface_vectors() const;
-  /// A_b - sum_a V_a G_ab of gradients without correction, D per particle.
-  PartFilled<double> residual() const;
+  /// A_b - sum_a V_a G_ab, D per particle; without `corrected`, of gradients without correction. On ranks the closure
+  /// needs the coefficients of neighbours, too. `size`: largest |G_ab| per particle a of this rank, if asked for.
+  PartFilled<double> residual(Closure const* corrected = nullptr, PartFilled<double>* size = nullptr) const;
   /// Of a body with mirror planes; of one that ranks share.
   struct Whole {
     Fold<D> const* fold = nullptr;
     HaloPlan const* halo = nullptr;  ///< of neighbours, without fields
   };
   /// The smallest change of the gradients that brings the residual below `tolerance` times what it was; by the loops of
-  /// a machine, over lists or the lattice that the particles fill. Collective on ranks that share the body.
+  /// a machine, over lists or the lattice that the particles fill. Collective on ranks that share the body. What comes
+  /// out is measured; it may not have converged.
   Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice, Whole const& whole) const;
 
  private:
+  void measure(Closure& closure, Whole const& whole) const;
   Fits<D> const& fits_;
   PartFilled<ScaledCell> const& cells_;
   std::vector<SurfacePatch> const& patches_;

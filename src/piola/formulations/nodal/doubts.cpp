@@ -3,7 +3,9 @@
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace piola::nodal {
 namespace {
@@ -19,6 +21,36 @@ void doubt_damage(std::vector<MaterialParameters> const& materials, BodyDoubts& 
                "\"none\" and spall = \"limit\", or take the formulation adaptle");
 }
 
+/// Whether a pressure differs along its face at any of a few times.
+bool varies(Load const& load, ParticleSet const& particles) {
+  constexpr double much = 1e-6;
+  for (double const t : {0.0, 1e-6, 1e-3, 1.0, 1e3}) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::int64_t const id : load.particles) {
+      double const p = load.value[0](particles.X[static_cast<std::size_t>(id)], t);
+      least = std::min(least, p);
+      most = std::max(most, p);
+    }
+    if (most - least > much * std::max(std::abs(least), std::abs(most))) return true;
+  }
+  return false;
+}
+
+/// A pressure that follows its face and varies along it is no conservative load: it can feed short waves of the face
+/// without end (docs/theory/nodal.md, section 6), of which nodal takes nothing.
+void doubt_following_pressures(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
+  Body const& own = assembly.particles.bodies[body];
+  if (doubts.gives("fluctuation_viscosity")) return;
+  for (Load const& load : assembly.loads) {
+    bool const here = !load.particles.empty() && load.particles[0] >= own.first && load.particles[0] < own.last;
+    if (!here || !load.follows || !varies(load, assembly.particles)) continue;
+    doubts.add("formulation",
+               fmt::format("load '{}' is a pressure that follows the face and varies along it: it is not conservative "
+                           "and may feed short waves, which nodal does not damp - give fluctuation_viscosity = 0.05",
+                           load.name));
+  }
+}
+
 }  // namespace
 
 /// Three particles across are a little stiff in bending near incompressibility (docs/theory/nodal.md, section 5).
@@ -28,6 +60,7 @@ void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
   auto const& lattice = assembly.particles.bodies[body].lattice;
   int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
   doubt_damage(materials_of(assembly, body), doubts);
+  doubt_following_pressures(assembly, body, doubts);
   double ratio = 0;
   for (MaterialParameters const& material : materials_of(assembly, body))
     ratio = std::max(ratio, poissons_ratio_of(material));

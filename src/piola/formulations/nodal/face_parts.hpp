@@ -5,18 +5,25 @@
 
 namespace piola::nodal {
 
+struct FacePartsOf {
+  std::array<double, 3> const& h;   ///< spacings [m]
+  std::vector<SetUpCheck>& checks;  ///< gets the area of each load, beside the exact one
+};
+
 /// What particles answer for of the faces that loads act on, consistent with quadratic fields. Flat faces have their
 /// own normal. A pressure on a curved face pushes on the vectors of the sampled body's surface, so that it has no
-/// resultant on a closed one; a traction there acts on the area of the exact surface. `h`: spacings [m].
+/// resultant on a closed one. All other loads act on the area of the exact surface: where sides of blocks beside an
+/// oblique edge are taken for those of the wrong face, the areas of a load are scaled. Collective on ranks that share
+/// the body.
 template <int D>
 std::vector<PartFilled<FacePart>> face_parts(SetUp const& from, Fits<D> const& fits, Divergence<D> const& divergence,
-                                             std::array<double, 3> const& h);
+                                             FacePartsOf const& of);
 
 extern template std::vector<PartFilled<FacePart>> face_parts<1>(SetUp const&, Fits<1> const&, Divergence<1> const&,
-                                                                std::array<double, 3> const&);
+                                                                FacePartsOf const&);
 extern template std::vector<PartFilled<FacePart>> face_parts<2>(SetUp const&, Fits<2> const&, Divergence<2> const&,
-                                                                std::array<double, 3> const&);
+                                                                FacePartsOf const&);
 extern template std::vector<PartFilled<FacePart>> face_parts<3>(SetUp const&, Fits<3> const&, Divergence<3> const&,
-                                                                std::array<double, 3> const&);
+                                                                FacePartsOf const&);
 
 }  // namespace piola::nodal

@@ -13,6 +13,7 @@ class Fold {
  public:
   Fold(MirrorImages const& images, std::size_t particles) : images_(images), particles_(particles) {}
 
+  std::size_t particles() const { return particles_; }  ///< without images
   /// Gives images what their sources have, and particles on a plane nothing across it.
   void extend(PartFilled<double>& u) const {
     for (std::size_t a = 0; a < particles_; ++a)

@@ -5,6 +5,7 @@
 #include "piola/formulations/mirror_images.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/mechanics/surface_hold.hpp"
 #include "piola/neighbours/tables.hpp"
 #include "piola/parallel/halo_plan.hpp"
@@ -72,6 +73,7 @@ struct Reference {
   std::optional<LatticeLayout> lattice;  ///< takes the place of the lists where particles fill a lattice
   std::unique_ptr<HaloPlan> halo;        ///< of neighbours, without fields; nullptr: one rank has all particles
   int closure_iterations = 0;
+  std::vector<SetUpCheck> checks;
   SetUpCosts costs;
 
   ListTable list() const { return {begin.data(), nullptr, neighbour.data(), weight.data()}; }
@@ -86,8 +88,8 @@ struct Reference {
   }
 };
 
-/// Throws InputError: a particle without a cell, too few particles across; on ranks that share the body it is
-/// collective, and all throw.
+/// Throws InputError: a particle without a cell, too few particles across, gradients that do not obey the divergence
+/// theorem; on ranks that share the body it is collective, and all throw.
 Reference make_reference(SetUp const& from);
 
 }  // namespace piola::nodal

@@ -5,6 +5,7 @@
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/formulations/sample_own.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/formulations/slots_by_id.hpp"
 #include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/boundary.hpp"
@@ -21,7 +22,7 @@ namespace piola::nodal {
 namespace {
 
 /// One or more bodies that do not touch each other.
-class Solver final : public Formulation {
+class Solver final : public Formulation, public SetUpChecked {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
@@ -151,6 +152,7 @@ class Solver final : public Formulation {
     return talk;
   }
   std::vector<std::pair<std::string, double>> costs() const override;
+  std::vector<SetUpCheck> set_up_checks() const override;
   std::size_t memory_bytes() const override {
     std::size_t total = set_.bytes();
     for (auto const& body : bodies_) total += body->bytes();
@@ -261,6 +263,15 @@ std::vector<std::pair<std::string, double>> Solver::costs() const {
           {"set_up_closure", sum.closure},
           {"set_up_masses", sum.masses},
           {"set_up_tables", sum.tables}};
+}
+
+std::vector<SetUpCheck> Solver::set_up_checks() const {
+  std::vector<SetUpCheck> all;
+  for (auto const& body : bodies_) {
+    auto const& checks = body->reference().checks;
+    all.insert(all.end(), checks.begin(), checks.end());
+  }
+  return all;
 }
 
 /// f(name, field, components) for the evolved state of a body: what a checkpoint must hold.
