@@ -5,7 +5,6 @@
 #include "piola/output/points.hpp"
 #include "output/drawn_shapes.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -214,14 +213,11 @@ TEST(Scene, ShowsWhereABodyWas) {
   EXPECT_GT(pixels(with), pixels(without) + 200);
 }
 
-/// The largest difference of a channel, and how many pixels differ by more than a few steps.
-std::array<int, 2> difference(Image const& a, Image const& b) {
-  std::array<int, 2> found{};
-  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
-    int const by = std::abs(a.rgb[i] - b.rgb[i]);
-    found = {std::max(found[0], by), found[1] + (by > 4 ? 1 : 0)};
-  }
-  return found;
+/// How many channels of pixels differ by more than a few steps.
+int different(Image const& a, Image const& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) count += std::abs(a.rgb[i] - b.rgb[i]) > 4;
+  return count;
 }
 
 TEST(Scene, IsTheSameWhetherAllOrAPartOfThePictureIsDrawn) {
@@ -240,17 +236,8 @@ TEST(Scene, IsTheSameWhetherAllOrAPartOfThePictureIsDrawn) {
     Image const all =
         draw_bodies(data, stand.appearance, stand.project(), {width, height, 0, width}, ColourMap(0, 2), white);
     EXPECT_GT(pixels(part), 1000);
-    EXPECT_LT(difference(part, all)[1], 30) << "but for rounding at edges";
+    EXPECT_LT(different(part, all), 30) << "but for rounding at edges";
   }
-}
-
-TEST(Scene, ShowsSmoothPixelsAsTheirSamplesDo) {
-  Stand stand;
-  stand.view = {30, 20};
-  Image const normal = stand.image();
-  stand.appearance.quality = Quality::high;  // 4 x 4 samples, each of which counts
-  auto const by = difference(normal, stand.image());
-  EXPECT_LT(by[1], pixels(normal) / 10) << "edges alone differ, largest by " << by[0];
 }
 
 TEST(Scene, IsTheSameForAnyNumberOfThreads) {

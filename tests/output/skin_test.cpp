@@ -129,7 +129,11 @@ TEST(Skin, LosesNoMaterialAtAnObliqueTear) {
     for (Place3& x : s.x)
       if (x[0] + 0.7 * x[1] > 1.31) x = plus(x, 3 * s.mesh.spacing, {1, 0.7, 0});
     ASSERT_GT(torn_cells(s.mesh, s.now(), {}).size(), 8U);
-    EXPECT_NEAR(area(s.skin()), 2, 1e-3) << "teeth of one side fit the gaps of the other";
+    Skin const skin = s.skin();
+    double alone = 0;  // what belongs to no whole cell is a ball
+    for (std::size_t i = 0; i < s.x.size(); ++i) alone += skin.inside[i] == 0 ? s.set.volume[i] : 0;
+    EXPECT_LT(alone, 0.01);
+    EXPECT_NEAR(area(skin) + alone, 2, 1e-3) << "teeth of one side fit the gaps of the other";
   }
 }
 

@@ -77,13 +77,10 @@ struct Prepared {
   std::vector<SurfaceFinish> const* finish = nullptr;
   std::vector<Paint> paint;
   std::vector<float> open;  ///< per pixel
-  float fine = 2, range = 1;
+  float fine = 2;
 
   Prepared(ShadedLayer const& layer, Shading const& all)
-      : surfaces(layer.surfaces),
-        finish(&layer.finish),
-        fine(static_cast<float>(all.fine)),
-        range(static_cast<float>(all.range[1] - all.range[0])) {
+      : surfaces(layer.surfaces), finish(&layer.finish), fine(static_cast<float>(all.fine)) {
     for (SurfaceFinish const& f : layer.finish) paint.emplace_back(f, all.range);
   }
   float depth(std::size_t sample) const { return surfaces ? surfaces->depth[sample] : -infinity; }
@@ -103,27 +100,6 @@ struct Prepared {
     Light3 out{};
     for (std::size_t c = 0; c < 3; ++c) out[c] = factor * (light.colour * colour[c] + light.white);
     return out;
-  }
-
-  /// Whether the samples of a pixel from (x, y) on are of one smooth surface, so that one of them stands for all.
-  bool is_smooth(int x, int y) const {
-    SurfaceBuffers const& s = *surfaces;
-    std::size_t const at = s.at(x, y);
-    if (s.depth[at] == -infinity) return false;
-    SurfaceFinish const& f = (*finish)[s.owner[at]];
-    if (f.hatch > 0) return false;
-    constexpr int turn = 1500;            // of 32767
-    constexpr float steps = 4.0F / 1024;  // of the range of values
-    int const samples = static_cast<int>(fine);
-    for (int j = y; j < y + samples; ++j)
-      for (int i = x; i < x + samples; ++i) {
-        std::size_t const other = s.at(i, j);
-        if (s.owner[other] != s.owner[at] || !(std::abs(s.value[other] - s.value[at]) <= steps * range)) return false;
-        for (std::size_t c = 0; c < 2; ++c)
-          if (std::abs(s.normal[other][c] - s.normal[at][c]) > turn) return false;
-        if (is_edge(i, j, 1.5F * f.spacing)) return false;
-      }
-    return true;
   }
 
  private:
@@ -166,15 +142,11 @@ struct Sampler {
   /// Whether a sample shows the background, if only through a shade.
   bool shows_background(std::size_t at) const { return bodies.depth(at) == nothing && tools.depth(at) == nothing; }
 
-  /// Whether one sample tells what a pixel from (x, y) on shows: the background, or one smooth surface of a body.
-  bool is_plain(int x, int y) const {
-    constexpr int careful = 2;  // with more samples each of them counts
-    if (any_sample(x, y, [&](std::size_t at) { return tools.depth(at) > nothing || ghosts.depth(at) > nothing; }))
-      return false;
-    if (bodies.depth(shading.bodies.surfaces->at(x, y)) > nothing)
-      return shading.fine <= careful && bodies.is_smooth(x, y);
+  /// Whether a pixel from (x, y) on shows the background alone, so that one sample tells what all do.
+  bool is_empty(int x, int y) const {
     return shading.ground.empty() && !any_sample(x, y, [&](std::size_t at) {
-             return bodies.depth(at) > nothing || (!shading.lines.empty() && shading.lines[at] > 0);
+             return bodies.depth(at) > nothing || tools.depth(at) > nothing || ghosts.depth(at) > nothing ||
+                    (!shading.lines.empty() && shading.lines[at] > 0);
            });
   }
 
@@ -223,7 +195,7 @@ void draw_pixels(Image& image, Image* other, Sampler const& sample, Sampler cons
   exec_host::for_each_part_in_set_up(image.height, width * image.height, [&](Index y) {
     for (int x = 0; x < width; ++x) {
       auto const pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      if (sample.is_plain(x * fine, y * fine)) {
+      if (sample.is_empty(x * fine, y * fine)) {
         image.set(x, y, encoded(sample(x * fine, y * fine, pixel)));
         if (other) other->set(x, y, encoded(on_other(x * fine, y * fine, pixel)));
         continue;
