@@ -60,7 +60,7 @@ def _identity(case: Case, values: Mapping[str, Any]) -> str:
 
 
 def _run(case: Case, values: Dict[str, Any], folder: str, identity: str) -> Dict[str, Any]:
-    summary = _summary(folder, identity)
+    summary = _summary(folder, identity) if identity else {}
     if summary.get("status") != "completed":
         summary = _made(case, values, folder, identity)
     quantities = {name: entry["value"] for name, entry in summary.get("quantities", {}).items()}
@@ -95,7 +95,7 @@ def _summary(folder: str, identity: str) -> dict:
     """What a summary.json says of a run with this identity; {} if it is of another run, or none."""
     try:
         summary = json.loads(_text(folder) or "{}")
-        return summary if identity and summary["identity"]["run"] == identity else {}
+        return summary if summary["identity"]["run"] == identity else {}
     except (ValueError, KeyError, TypeError):
         return {}
 

@@ -93,6 +93,8 @@ TEST(Studies, BelieveASummaryThatTheRunItselfWrote) {
   EXPECT_EQ(status("abc", "", ""), "failed without values");
   EXPECT_EQ(status("abc", "", "stopped"), "stopped");
   EXPECT_EQ(status("abc", "", "failed"), "failed");
+  write_whole_file(folder / "summary.json", R"({"status": "completed", "identity": {"run": ""}})");
+  EXPECT_EQ(outcome_of(folder.path(), {"", "", "completed"}).status, "completed");  // unknown to both
   write_whole_file(folder / "summary.json", R"({"status": "stopped", "identity": {"run": "abc"}})");
   EXPECT_EQ(outcome_of(folder.path(), {"abc", "", "completed"}).status, "failed");
 }

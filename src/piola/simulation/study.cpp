@@ -101,7 +101,7 @@ std::vector<MeasuredQuantity> quantities_of(nlohmann::ordered_json const& summar
   if (!summary.contains("quantities") || !summary["quantities"].is_object()) return quantities;
   for (auto const& [name, entry] : summary["quantities"].items())
     if (entry.is_object() && entry.contains("value") && entry["value"].is_number())
-      quantities.push_back({name, entry["value"].get<double>(), entry.value("unit", "")});
+      quantities.push_back({name, entry["value"].get<double>(), text_at(entry, "/unit")});
   return quantities;
 }
 
@@ -168,22 +168,23 @@ std::string summary_text(std::filesystem::path const& results) {
 
 std::optional<RunOutcome> outcome_in(std::filesystem::path const& results, std::string const& identity) {
   auto const summary = summary_of(results);
-  std::string const status = text_at(summary, "/status");
-  if (identity.empty() || status.empty() || text_at(summary, "/identity/run") != identity) return std::nullopt;
-  return RunOutcome{status, quantities_of(summary)};
+  if (identity.empty() || text_at(summary, "/identity/run") != identity) return std::nullopt;
+  return RunOutcome{text_at(summary, "/status"), quantities_of(summary)};
 }
 
 RunOutcome outcome_of(std::filesystem::path const& results, EndedRun const& run) {
   auto const failed = [](char const* why) { return RunOutcome{"failed", {}, why}; };
   if (run.ended_as.empty()) return failed("it did not run to an end of its own");
   if (summary_text(results) == run.summary_before) return failed("it wrote no summary.json");
-  auto outcome = outcome_in(results, run.identity);
-  if (!outcome) return failed("the case, a file that it names or the program has changed since the study began");
+  auto const summary = summary_of(results);
+  if (text_at(summary, "/identity/run") != run.identity)
+    return failed("the case, a file that it names or the program has changed since the study began");
+  RunOutcome outcome{text_at(summary, "/status"), quantities_of(summary)};
   // The exit code decides: a run that ended with another one than 0 is not completed.
-  if (outcome->status == "completed" && run.ended_as != "completed") outcome->status = run.ended_as;
-  if (run.ended_as == "completed" && outcome->status != "completed")
+  if (outcome.status == "completed" && run.ended_as != "completed") outcome.status = run.ended_as;
+  if (run.ended_as == "completed" && outcome.status != "completed")
     return failed("its summary.json is of no completed run");
-  return *outcome;
+  return outcome;
 }
 
 void write_study_table(std::filesystem::path const& folder, StudySpec const& study, std::vector<StudyRun> const& runs,
