@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace piola {
 namespace {
@@ -20,7 +21,9 @@ std::array<double, 3> widths_of(RigidShape const& rigid, int dimension) {
   std::array<double, 3> widths{across, across, 2 * rigid.half_lengths[0]};
   if (rigid.kind == Kind::box) {
     for (std::size_t c = 0; c < 3; ++c) widths[c] = 2 * rigid.half_lengths[c];
-    std::sort(widths.begin(), widths.begin() + dimension);
+    if (dimension == 3 && widths[2] < widths[1]) std::swap(widths[1], widths[2]);
+    if (widths[1] < widths[0]) std::swap(widths[0], widths[1]);
+    if (dimension == 3 && widths[2] < widths[1]) std::swap(widths[1], widths[2]);
   }
   return widths;
 }

@@ -8,7 +8,7 @@
 namespace piola::contact {
 
 /// A shape thinner than this many spacings of a body is thin: points of the body could get past its middle.
-inline constexpr double thin = 4;
+inline constexpr double thin_below = 4;
 
 /// A point of the surface of a rigid shape, in the axes that the shape has at the start.
 struct ShapePoint {

@@ -8,9 +8,9 @@
 namespace piola::contact {
 namespace {
 
-constexpr double way_in_a_step = 0.5;         // of a spacing, past thin shapes
-constexpr double opposite = -0.5;             // product of normals
-constexpr double watched = 0.5, counted = 1;  // depths, in spacings
+constexpr double way_in_a_step = 0.5;                     // of a spacing, past thin shapes
+constexpr double opposite_normals = -0.5;                 // product of normals
+constexpr double watched_depth = 0.5, counted_depth = 1;  // depths, in spacings
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void System::pass(std::size_t of, std::size_t through) {
 }
 
 void System::note_deep(std::int64_t point, std::size_t with, double depth, Vec<3> const& normal) {
-  if (depth > watched) deep_.push_back({point, with, normal, depth > counted});
+  if (depth > watched_depth) deep_.push_back({point, with, normal, depth > counted_depth});
 }
 
 /// Counts points that were deep behind a surface and are now in front of it or out of its range: they went through.
@@ -72,7 +72,7 @@ void System::count_passed() {
   for (Deep const& last : last_deep_) {
     auto const now = std::lower_bound(deep_.begin(), deep_.end(), last);
     // Another face of a box may be the nearest one, but not the opposite one.
-    bool const there = now != deep_.end() && !(last < *now) && dot(now->normal, last.normal) > opposite;
+    bool const there = now != deep_.end() && !(last < *now) && dot(now->normal, last.normal) > opposite_normals;
     if (there || !last.counts) continue;
     if (last.with < others())
       pass(points_[static_cast<std::size_t>(last.point)].body, last.with);

@@ -65,7 +65,7 @@ void System::look_at_others(std::size_t body) {
     if (surface.points.empty() || !touch.meets) continue;
     double const dp = surface.spacing;
     std::array<bool, 3>& is_thin = thin_[body][r];
-    is_thin = thin_along(rigids_[r], thin * dp);
+    is_thin = thin_along(rigids_[r], thin_below * dp);
     bool const any = is_thin[0] || is_thin[1] || is_thin[2];
     any_thin_ = any_thin_ || any;
     ShapePoints const points(rigids_[r], dp);

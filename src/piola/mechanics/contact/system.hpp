@@ -279,7 +279,7 @@ class System {
   std::vector<std::vector<SurfaceMirror>> mirrors_ = std::vector<std::vector<SurfaceMirror>>(surfaces_.size());
   std::vector<ShapePass> shape_passes_;
   std::vector<ShapeRun> shape_runs_;
-  std::vector<double> shape_springs_;                   ///< by point: of points of shapes [N/m]
+  std::vector<double> shape_springs_;                   ///< by carrier: of points of shapes [N/m]
   std::vector<std::vector<char>> covered_;              ///< [body][rigid]: see ShapePoints::cover()
   std::vector<std::vector<std::array<bool, 3>>> thin_;  ///< [body][rigid]: along which axes the shape is thin
   bool any_thin_ = false;
