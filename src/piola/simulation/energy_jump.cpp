@@ -12,6 +12,8 @@ namespace {
 /// Kinetic energy grows by this factor, or the step falls by it, between two evaluations of all energies. Energies that
 /// a load brings to a body at rest then cost about ten evaluations.
 constexpr double growth = 4;
+/// Steps from one sum of kinetic energy to the next.
+constexpr std::int64_t interval = 10;
 /// Steps in a row in which a jump must be found where loads do work: energy that is a step ahead of the work of a
 /// constant force exceeds it in the first three.
 constexpr double steps_in_a_row = 5;
@@ -36,6 +38,7 @@ bool may_do_work(CaseSpec const& spec) {
 EnergyJumpGuard::EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& particles, EnergyScale const& scale)
     : particles_(particles),
       scale_(scale),
+      checkpoints_(spec.output.checkpoints_every),
       limit_(std::max(1.0, spec.run.guards.energy_rise_stop)),
       stop_(spec.run.guards.energy_rise_stop),
       loaded_(may_do_work(spec)) {}
@@ -43,14 +46,15 @@ EnergyJumpGuard::EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& partic
 bool EnergyJumpGuard::is_strange(Formulation const& formulation, Moment const& moment) const {
   if (moment.step == 0 || rises_ > 0) return true;
   if (!moment.cut_to_end && !(growth * moment.dt >= shortest_)) return true;
-  return !(formulation.kinetic_energy() <= growth * known_);
+  return moment.step % interval == 0 && !(formulation.kinetic_energy() <= growth * known_);
 }
 
 void EnergyJumpGuard::see(Formulation const& formulation, Moment const& moment, Diagnostics const* row, bool last) {
   if (std::isinf(stop_)) return;
+  bool const kept = checkpoints_.due(moment.time);
   if (row != nullptr)
     look(formulation, moment, *row, last);
-  else if (last || is_strange(formulation, moment))
+  else if (last || kept || is_strange(formulation, moment))
     look(formulation, moment, formulation.diagnose(), last);
 }
 
@@ -104,7 +108,8 @@ void EnergyJumpGuard::save(StateWriter& writer) const {
   scale_.save(writer, "guard_jump_scale");
 }
 
-void EnergyJumpGuard::load(NamedState& reader) {
+void EnergyJumpGuard::load(NamedState& reader, double time) {
+  checkpoints_.start_after(time);
   if (!reader.has("guard_jump")) return;  // checkpoints of older versions have none
   std::array<double, 7> v{};
   reader.get("guard_jump", v);

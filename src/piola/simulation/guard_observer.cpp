@@ -66,14 +66,14 @@ void GuardObserver::save(StateWriter& writer) const {
   for (auto const& guard : guards_) guard->save(writer);
 }
 
-void GuardObserver::load(NamedState& reader, Moment const&) {
+void GuardObserver::load(NamedState& reader, Moment const& moment) {
   if (guards_.empty() || !reader.has("guards")) return;  // checkpoints of older versions have none
   auto const state = reader.all("guards");
   last_look_ = state[0];
   told_.assign(state.begin() + 1, state.end());
   told_.resize(guards_.size(), 0);  // checkpoints of older versions know fewer guards
   scale_.load(reader);
-  jump_.load(reader);
+  jump_.load(reader, moment.time);
   for (auto const& guard : guards_) guard->load(reader);
 }
 

@@ -6,8 +6,8 @@
 
 namespace piola {
 
-/// Lets the guards look at each row of the history, at least every thousand steps, and at the end, and the one that
-/// knows jumps of energy at each step. What they have seen is in the checkpoints: a resumed run says and does the same.
+/// Lets the guards look at each row of the history, at least every thousand steps, and at the end, and the guard of
+/// energy jumps at each step. What they have seen is in the checkpoints: a resumed run says and does the same.
 class GuardObserver : public Observer {
  public:
   GuardObserver(Results results, double mass, HistoryObserver const& history);
