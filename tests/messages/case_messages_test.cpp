@@ -102,7 +102,7 @@ TEST(CaseMessages, WrongTypesSayWhatIsThereAndWhatIsAllowed) {
   EXPECT_EQ(message_of(sample_with("end = \"0.5 s\"", "end = true")),
             "case.toml:6:7: run.end is true (allowed: a number in s or a text such as \"2 s\")");
   EXPECT_EQ(message_of(sample_with("end = \"0.5 s\"", "end = nan")),
-            "case.toml:6:7: run.end is nan (allowed: a finite number)");
+            "case.toml:6:7: run.end is not a number (allowed: a finite number)");
   EXPECT_EQ(message_of(sample_with("[5, 25, 5]", "[5, 25.5, 5]")),
             "case.toml:9:93: body.shape.particles[1] is 25.5 (allowed: a whole number from 1 to 2147483647)");
   EXPECT_EQ(message_of(sample_with("title = \"Twisting column\"", "title = 3")),

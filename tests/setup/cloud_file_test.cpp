@@ -194,7 +194,7 @@ TEST(CloudMessages, ListAFewAndCountTheRest) {
 TEST(CloudMessages, SayWhatIsWrongWithNumbers) {
   auto const problems = read_text("x,y,volume,kernel_volume\n0,nan,1,1\n1,0,0,1\n-inf,1,1,1\n3e9,0,1,-2\n").problems;
   EXPECT_EQ(problems,
-            (Words{"cloud.csv:2: y is nan m (expected a finite number) - correct the row",
+            (Words{"cloud.csv:2: y is not a number (expected a finite number) - correct the row",
                    "cloud.csv:3: the volume is 0 m^2 (expected a positive number) - correct or remove the row",
                    "cloud.csv:4: x is -inf m (expected a finite number) - correct the row",
                    "cloud.csv:5: x is 3e+09 m (at most 1e+09 m away from the origin) - correct the row or the unit",

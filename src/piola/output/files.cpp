@@ -22,8 +22,6 @@ std::string advice(int error) {
     case EPERM:
     case EROFS: return "give a folder that you may write to with --out";
     case ELOOP: return "a link stands there, and results are never written through links: remove it";
-    case ENOENT:
-      return "the file or its folder was removed, or never was there; give another folder or run the case again";
     case ENOTDIR: return "a file stands where a folder is needed; give another folder with --out";
     default: return "give another folder with --out; what was written before is intact";
   }
@@ -86,20 +84,33 @@ std::string cannot_write(std::filesystem::path const& path, int error) {
                      advice(error));
 }
 
-int open_result(std::filesystem::path const& path, Opening how) {
+namespace {
+
+/// -1 and errno if it cannot be opened.
+int try_to_open(std::filesystem::path const& path, Opening how) {
   int const flags = how == Opening::replace  ? O_RDWR | O_CREAT | O_EXCL
                     : how == Opening::append ? O_WRONLY | O_APPEND
                                              : O_RDWR;
-  auto const opened = [&] { return ::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666); };
   if (how == Opening::replace) ::unlink(path.c_str());
-  int const fd = opened();
+  return ::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+}
+
+}  // namespace
+
+std::string was_removed(std::filesystem::path const& path) {
+  return fmt::format("{}: cannot be written, it was removed while the run went on - run the case again", path.string());
+}
+
+int open_result(std::filesystem::path const& path, Opening how) {
+  int fd = try_to_open(path, how);
+  if (fd < 0 && errno == ENOENT && how != Opening::replace) throw FileError(was_removed(path));
   if (fd < 0) throw FileError(cannot_write(path, errno));
   if (how == Opening::replace || is_ours_alone(fd)) return fd;
   ::close(fd);
   write_whole_file(path, read_text_file(path));  // other names of the file keep what they have
-  int const own = opened();
-  if (own < 0) throw FileError(cannot_write(path, errno));
-  return own;
+  fd = try_to_open(path, how);
+  if (fd < 0) throw FileError(cannot_write(path, errno));
+  return fd;
 }
 
 ResultFile open_result_file(std::filesystem::path const& path, Opening how) {
@@ -116,7 +127,8 @@ bool still_there(int fd, std::filesystem::path const& path) {
 
 NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
   part_ += ".part";
-  fd_ = open_result(part_, Opening::replace);
+  fd_ = try_to_open(part_, Opening::replace);
+  if (fd_ < 0) throw FileError(cannot_write(path_, errno));
 }
 
 NewFile::~NewFile() { remove(); }

@@ -94,6 +94,9 @@ bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::u
 /// Makes a folder with its parents. Throws FileError if that is impossible.
 void make_folder(std::filesystem::path const& path);
 
+/// The sentence for a file that is gone although this run wrote it.
+std::string was_removed(std::filesystem::path const& path);
+
 /// The sentence of every failed write: "PATH: cannot be written, REASON - what to do". `error` is an errno.
 std::string cannot_write(std::filesystem::path const& path, int error);
 

@@ -216,7 +216,7 @@ void HistoryFile::open(Opening how) {
 
 void HistoryFile::put(std::string const& line) {
   if (!file_) return;
-  if (!still_there(::fileno(file_.get()), path_)) throw FileError(cannot_write(path_, ENOENT));
+  if (!still_there(::fileno(file_.get()), path_)) throw FileError(was_removed(path_));
   bool const written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
   if (!written || std::fflush(file_.get()) != 0) throw FileError(cannot_write(path_, errno));
   bytes_ += line.size();

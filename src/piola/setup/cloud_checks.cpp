@@ -145,7 +145,8 @@ void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std
     for (std::size_t c = 0; c < 3; ++c) {
       double const x = cloud.X[i][c];
       if (std::abs(x) <= farthest_point) continue;
-      list.add(fmt::format("{}: {} is {} m ({}) - correct the row{}", source.place(i), "xyz"[c], number_text(x),
+      list.add(fmt::format("{}: {} is {} ({}) - correct the row{}", source.place(i), "xyz"[c],
+                           std::isnan(x) ? number_text(x) : number_text(x) + " m",
                            std::isfinite(x)
                                ? fmt::format("at most {} m away from the origin", number_text(farthest_point))
                                : "expected a finite number",
