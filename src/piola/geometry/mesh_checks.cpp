@@ -57,7 +57,7 @@ double longest_hole(Surface const& surface, Links const& links) {
   return longest;
 }
 
-/// What is left of the links once needless faces are removed.
+/// Links of the surface without needless faces.
 Links links_without_needless(Surface surface) {
   remove_needless_faces(surface);
   return link_faces(surface);

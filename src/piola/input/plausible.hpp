@@ -7,8 +7,8 @@
 namespace piola {
 
 /// A bound that a number of a case is compared with. A number outside of [low, high] is allowed, but more likely a slip
-/// (of a unit, of a digit) than a wish. docs/user/when-it-stops.md lists the rules; tests/input/slips_test.cpp has one
-/// test for each of them.
+/// (of a unit, of a digit) than intended. docs/user/when-it-stops.md lists the rules; tests/input/slips_test.cpp has
+/// one test for each of them.
 struct PlausibleRange {
   std::string_view name;       ///< as the manual lists it; of a parameter of a law: the name of that parameter
   std::string_view quantity;   ///< subject of the message
@@ -28,7 +28,7 @@ PlausibleRange const& plausible_range(std::string_view name);
 /// The sentence about a value outside of its range, "" inside: "yield_stress is 300 Pa, softer ... - was MPa meant?".
 /// Values that are not finite are not judged.
 std::string implausible(PlausibleRange const& range, double value);
-/// The same for a value that is judged in multiples of `reference` (> 0, SI unit `reference_unit`).
+/// Judges a value in multiples of `reference` (> 0, SI unit `reference_unit`).
 std::string implausible(PlausibleRange const& range, double value, double reference, std::string_view reference_unit);
 
 }  // namespace piola

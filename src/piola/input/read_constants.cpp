@@ -73,7 +73,7 @@ class ConstantsReader {
     return true;
   }
 
-  /// What a formula may use: the constants that it names; where it names another one, all, for the message.
+  /// Names for a formula: the constants that it uses; all of them if it uses an unknown one, for the message.
   Names names_for(std::string const& text) const {
     constexpr std::size_t few = 1000;
     Names names;

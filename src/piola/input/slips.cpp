@@ -29,7 +29,7 @@ struct MaterialLooked {
   }
 };
 
-/// The numbers that a rule bears the name of. Those of a default are not judged.
+/// Compares the parameters that have a rule of their name. Defaults are not judged.
 void check_parameters(MaterialLooked const& of, Problems& slips) {
   for (std::size_t i = 0; i < of.law.parameters.size(); ++i) {
     Parameter const& parameter = of.law.parameters[i];

@@ -14,7 +14,7 @@ using Components = std::array<Expression, 3>;
 
 bool are_formulas(Components const& value) { return std::all_of(value.begin(), value.end(), is_formula); }
 
-/// Times at which formulas are looked at [s]: 33 equal steps up to `last`, and halves of its first, for short pulses.
+/// Times at which formulas are evaluated [s]: 33 equal steps up to `last`, and halves of its first, for short pulses.
 std::vector<double> times_until(double last) {
   constexpr int steps = 32, halves = 16;
   std::vector<double> times;
@@ -23,7 +23,7 @@ std::vector<double> times_until(double last) {
   return times;
 }
 
-/// What a vector is at some of the particles, over the time that it acts.
+/// Values of a vector at some of the particles, over the time that it acts.
 struct LookedAt {
   double largest = 0;      ///< size, where it is finite
   std::string not_finite;  ///< the first value that is not: "is not a number at t = 2 ms, X = (0, 1) m"

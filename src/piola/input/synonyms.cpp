@@ -11,7 +11,7 @@ namespace {
 struct Synonym {
   std::string_view words;  ///< in lower case, between blanks; without _, - and blanks of their own
   std::string_view key;    ///< the key, or the word of a list
-  std::string_view owner;  ///< where it stands
+  std::string_view owner;  ///< section of the key
   bool distinct = false;   ///< the words mean nothing else, so that other tables may point here
 };
 

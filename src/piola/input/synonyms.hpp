@@ -6,9 +6,8 @@
 
 namespace piola {
 
-/// What a case file calls the thing that users of other programs, or of textbooks, call `word`; "" if the word is
-/// nobody's. "write \"acceleration\"" where that is one of the keys in `known`, else where it stands:
-/// "that is acceleration of [[load]]".
+/// Advice for a word that textbooks or other programs use for a key of case files: "write \"acceleration\"" if that key
+/// is one of `known`, else its section, "that is \"acceleration\" of [[load]]"; "" for other words.
 std::string advice_for_synonym(std::string_view word, std::span<std::string const> known);
 
 }  // namespace piola

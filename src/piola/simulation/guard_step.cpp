@@ -10,8 +10,8 @@
 namespace piola {
 namespace {
 
-/// Of the step that waves at rest allow. Impact and fracture shorten it by 100 at most; below a thousandth the particle
-/// that limits it is no longer part of any answer, and the run stops at a millionth (run.min_step).
+/// Fraction of the step that waves at rest allow. Impact and fracture shorten it by 100 at most; below a thousandth the
+/// particle that limits it is no longer part of any answer, and the run stops at a millionth (run.min_step).
 constexpr double least_fraction = 1e-3;
 /// Particles are searched again once the step is shorter by a tenth: a search costs as much as a frame.
 constexpr double worse = 0.9;
