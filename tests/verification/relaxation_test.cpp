@@ -191,24 +191,6 @@ TEST(Relaxation, BringsStiffAndSoftSpringsToRestAtAnyStep) {
   }
 }
 
-TEST(Relaxation, IsNotAtRestWhileMuchOfTheDisplacementIsLeft) {
-  // Forces of the soft spring are 1e-6 of those of the stiff one from the start, and it has not moved.
-  Springs springs({0.1, 100}, 0.004);
-  ParticleSet set;
-  set.X.resize(2);
-  set.volume.assign(2, 1);
-  RunSpec run;
-  run.end = 1000;
-  run.relax = true;
-  Relaxation relaxation(run, set, 2);
-  Moment moment;
-  std::atomic<int> const stop{0};
-  WallLimit wall(WallLimit::none, WallLimit::Clock::now());
-  march(springs, run, moment, {}, {stop, wall}, &relaxation);
-  EXPECT_TRUE(relaxation.rest().reached);
-  EXPECT_LT(springs.largest_x(), 0.02);
-}
-
 TEST(Relaxation, DoesNotCallABodyAtRestThatFalls) {
   Assembly a = assemble(unit_box(2, 5));
   load(a, {"0", "-10", "0"}, everywhere);

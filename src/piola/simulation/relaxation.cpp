@@ -73,22 +73,25 @@ void Relaxation::judge(Formulation const& formulation, double dt) {
   rest_.reached = rest_.left <= most_left;
 }
 
-/// Root of the mean square over all particles [m].
+/// Root of the mean square over all particles, at least what a body of this size loses by rounding [m].
 double Relaxation::displacement(Formulation const& formulation) const {
   auto const fields = formulation.fields();
   if (std::ranges::find(fields, "Displacement", &FieldInfo::name) == fields.end())
     return std::numeric_limits<double>::infinity();
-  std::size_t const n = particles_.X.size();
-  std::vector<double> u(3 * n);
+  constexpr double rounding = 1e-9;
+  auto const& X = particles_.X;
+  std::vector<double> u(3 * X.size());
   formulation.sample("Displacement", u);
-  exec::ExactSums<2> sums;
-  for (std::size_t i = 0; i < n; ++i) {
-    double const of_one[]{
-        particles_.volume[i],
-        particles_.volume[i] * (u[3 * i] * u[3 * i] + u[3 * i + 1] * u[3 * i + 1] + u[3 * i + 2] * u[3 * i + 2])};
+  exec::ExactSums<3> sums;
+  for (std::size_t i = 0; i < X.size(); ++i) {
+    double of_one[]{particles_.volume[i], 0, 0};
+    for (std::size_t c = 0; c < 3; ++c) {
+      of_one[1] += particles_.volume[i] * u[3 * i + c] * u[3 * i + c];
+      of_one[2] += particles_.volume[i] * (X[i][c] - X[0][c]) * (X[i][c] - X[0][c]);
+    }
     sums.add(of_one);
   }
-  return std::sqrt(sums.value(1) / sums.value(0));
+  return std::sqrt(std::max(sums.value(1), rounding * rounding * sums.value(2)) / sums.value(0));
 }
 
 void Relaxation::stop(Formulation& formulation) {
