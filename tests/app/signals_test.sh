@@ -88,7 +88,7 @@ exec 3<> pipe
 dd if=/dev/zero bs=65536 count=1 >&3 2> /dev/null
 "$program" run bar.toml --out hanging > pipe &
 child=$!
-sleep 1
+sleep 3  # it has written to the pipe by then
 kill -s TERM $child
 kill -s TERM $child  # tools often signal twice, the process and its group
 sleep 0.7

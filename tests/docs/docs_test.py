@@ -182,7 +182,7 @@ def help_of(command, cache={}):  # noqa: B006, kept on purpose
 
 def check_command(page, line, text):
     counts["commands"] += 1
-    words = shlex.split(re.split(r" {2,}", text.strip())[0].replace("\\|", "|"), comments=True)[1:]
+    words = shlex.split(re.split(r" {2,}| > ", text.strip())[0].replace("\\|", "|"), comments=True)[1:]
     if not words or words[0].startswith("-"):
         return
     usage, status = help_of(words[0])

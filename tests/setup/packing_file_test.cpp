@@ -64,8 +64,8 @@ TEST(PackingFile, SetUpContinuesWhereItWasStopped) {
   ReadLimits limits;
   limits.unfinished = unfinished;
   limits.packing = [&](std::string const& body, double) {
-    if (body == "b") ++sweeps_of_b;
-    return sweeps_of_b == 4 ? AfterSweep::keep : AfterSweep::go_on;
+    if (body != "b") return AfterSweep::go_on;
+    return ++sweeps_of_b == 4 ? AfterSweep::keep : AfterSweep::go_on;
   };
   EXPECT_THROW(read_case(file, {}, limits), SetUpStopped);
   EXPECT_TRUE(fs::exists(unfinished));

@@ -25,7 +25,7 @@ Json number_or_text(Interval const& allowed) {
 
 Json one_of_words(std::span<std::string_view const> words) { return {{"type", "string"}, {"enum", words}}; }
 
-Json reference(std::string_view section) { return {{"$ref", fmt::format("#/definitions/{}", section)}}; }
+Json reference_to(std::string_view section) { return {{"$ref", fmt::format("#/definitions/{}", section)}}; }
 
 bool is_section(std::string_view name) {
   auto const sections = case_sections();
@@ -51,10 +51,10 @@ bool may_be_list(KeyInfo const& info) {
 Json table_schema(KeyInfo const& info) {
   std::string const section = section_of(info);
   if (section.empty()) return {{"type", "object"}, {"additionalProperties", {{"type", {"number", "string"}}}}};
-  Json const list{{"type", "array"}, {"items", reference(section)}};
+  Json const list{{"type", "array"}, {"items", reference_to(section)}};
   if (info.kind == KeyInfo::Kind::list) return list;
-  if (may_be_list(info)) return {{"anyOf", {reference(section), list}}};
-  return reference(section);
+  if (may_be_list(info)) return {{"anyOf", {reference_to(section), list}}};
+  return reference_to(section);
 }
 
 Json list_of(Json items, int least, int most) {
