@@ -4,6 +4,7 @@
 #include "piola/formulations/doubts.hpp"
 #include "piola/formulations/make.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/formulations_of.hpp"
 #include "piola/simulation/part_of_case.hpp"
 #include "piola/simulation/probes.hpp"
 #include "piola/simulation/step_range.hpp"
@@ -326,32 +327,31 @@ Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulatio
 
 namespace {
 
-/// Number of steps for a trial: enough for the first measurement of nodal, else as many as the time allows by counted
-/// work, so that it is the same on a busy machine.
+/// Steps of a trial: enough for the first measurement of nodal, else as many as the time allows by counted work.
 std::int64_t steps_to_try(Estimate const& e) {
   constexpr double seconds = 2, fewest = 60, most = 400;
   return static_cast<std::int64_t>(std::clamp(seconds * e.busy_threads / e.step_work, fewest, most));
 }
 
 /// Corrects the steps by those of a trial. `now`: the rule after it.
-void correct(Estimate& e, RunSpec const& run, Trial const& trial, StepRule now) {
+void correct(Estimate& e, CaseSpec const& spec, Trial const& trial, StepRule now) {
   e.trial_steps = e.steps = trial.steps;
   e.step = trial.step;
   e.trial_ends_run = trial.over || trial.failure;
   if (e.trial_ends_run) return;
   constexpr double nearly = 0.98;
-  bool const growing = now.growth > 1 && trial.step < nearly * std::min(now.settled, run.max_step);
+  bool const growing = now.growth > 1 && trial.step < nearly * std::min(now.settled, spec.run.max_step);
   if (!growing) {
     now.settled = trial.step;
     now.growth = 1;
   }
-  e.step = std::min(now.settled, run.max_step);
-  e.steps += steps_of(now, run, trial.time, trial.step);
+  e.step = std::min(now.settled, spec.run.max_step);
+  e.steps += steps_of(now, spec.run, trial.time, trial.step);
   e.most_steps = e.steps;
-  // Steps that are short at first, because a load has just come, grow to those of the rule at best.
-  if (trial.earlier < nearly * trial.step && e.rule.settled > trial.step) {
+  // Steps that are short because a load has just come, or an impact, grow to those of the rule at best.
+  if ((trial.earlier < nearly * trial.step || any_contact(spec)) && e.rule.settled > trial.step) {
     now.settled = e.rule.settled;
-    e.steps = trial.steps + steps_of(now, run, trial.time, now.settled);
+    e.steps = trial.steps + steps_of(now, spec.run, trial.time, now.settled);
   }
 }
 
@@ -361,9 +361,9 @@ Estimate estimate_by_trial(Simulation& s, Trial& trial) {
   constexpr double patience = 10;  // s, on slow or busy machines
   Estimate e = estimate(s.spec, s.particles, *s.formulation, s.threads);
   trial = take_trial_steps(*s.formulation, s.spec.run, steps_to_try(e), patience);
-  correct(e, s.spec.run, trial, s.formulation->step_rule());
-  bool const growing = e.step > trial.step;  // by the rule of a gentle start
-  count_steps(s.spec, static_cast<double>(s.particles.size()), growing ? 0 : trial.earlier / trial.step - 1, e);
+  correct(e, s.spec, trial, s.formulation->step_rule());
+  double const change = e.step > trial.step ? 0 : trial.earlier / trial.step - 1;  // 0: as the rule foresees
+  count_steps(s.spec, static_cast<double>(s.particles.size()), change, e);
   return e;
 }
 
