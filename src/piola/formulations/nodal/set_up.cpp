@@ -4,6 +4,7 @@
 #include "piola/exec/set_up_loop.hpp"
 #include "piola/formulations/nodal/alike_groups.hpp"
 #include "piola/formulations/nodal/closure.hpp"
+#include "piola/formulations/nodal/closure_check.hpp"
 #include "piola/formulations/nodal/face_parts.hpp"
 #include "piola/formulations/nodal/held_faces.hpp"
 #include "piola/formulations/nodal/masses.hpp"
@@ -20,11 +21,6 @@ namespace {
 
 /// A cell smaller than this share of a spacing's volume is none.
 constexpr double least_cell = 1e-3;
-/// Of a force in a body under uniform stress, in areas of a face between two particles times the stress. Solves that
-/// converge leave 2e-3 at most.
-constexpr double most_missing = 4e-3;
-/// [1/spacing]. 1 to 3.2 on lattices, packings and random clouds; thirteen and more where the solve fails.
-constexpr double steepest_gradient = 10;
 /// A strain out of rounding. On 501 x 5 particles it is 7e-7, and energy is kept to a thousandth.
 constexpr double most_rounding = 1e-6;
 
@@ -310,27 +306,6 @@ void refuse_without_cell(SetUp const& from, ScaledBody const& scaled) {
     if (!(scaled.cells[i].volume > least_cell))
       refuse(from, static_cast<Index>(i),
              "has no part of the body to itself - move it into the body, or apart from its neighbours");
-}
-
-/// Gradients that miss the divergence theorem give forces out of nothing, and steep ones short steps.
-void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpCheck>& checks) {
-  auto const& n = from.body.lattice;
-  bool const wrong = !(closure.residual <= most_missing) || !(closure.steepest <= steepest_gradient);
-  std::string const found = fmt::format(
-      "body '{}': gradients miss the divergence theorem by {:.3g} faces of a particle after {} iterations (at most "
-      "{}), "
-      "the largest is {:.3g} / spacing (at most {})",
-      from.body.name, closure.residual, closure.iterations, most_missing, closure.steepest, steepest_gradient);
-  if (wrong)
-    throw InputError(fmt::format(
-        "{} - nodal cannot set up a body this long for its width, {} x {} x {} spacings: shorten it, use larger "
-        "spacings or more particles across, or take the formulation jst_sph",
-        found, std::max(n[0] - 1, 0), std::max(n[1] - 1, 0), std::max(n[2] - 1, 0)));
-  std::string const of_body = from.body.name + ".closure_";
-  checks.push_back({of_body + "iterations", static_cast<double>(closure.iterations),
-                    closure.converged ? "" : found + ": the set-up did not converge, so forces may be wrong by that"});
-  checks.push_back({of_body + "residual", closure.residual, ""});
-  checks.push_back({of_body + "largest_gradient", closure.steepest, ""});
 }
 
 template <int D>

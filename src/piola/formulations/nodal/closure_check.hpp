@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/closure.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+
+namespace piola::nodal {
+
+/// Adds iterations, residual and largest gradient to `checks`. Throws InputError where gradients miss the divergence
+/// theorem, which gives forces out of nothing, or are so steep that steps become short.
+void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpCheck>& checks);
+
+}  // namespace piola::nodal
