@@ -12,21 +12,23 @@ namespace {
 constexpr double most_missing = 4e-3;
 /// [1/spacing]. 1 to 3.2 on lattices, packings and random clouds; thirteen and more where the solve fails.
 constexpr double steepest_gradient = 10;
+
 }  // namespace
 
-void check_closure(Body const& body, Closure const& closure, std::vector<SetUpCheck>& checks) {
-  auto const& n = body.lattice;
+void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpCheck>& checks) {
+  auto const& n = from.body.lattice;
   bool const wrong = !(closure.residual <= most_missing) || !(closure.steepest <= steepest_gradient);
   std::string const found = fmt::format(
       "body '{}': gradients miss the divergence theorem by {:.3g} faces of a particle after {} iterations (at most "
-      "{}), the largest is {:.3g} / spacing (at most {})",
-      body.name, closure.residual, closure.iterations, most_missing, closure.steepest, steepest_gradient);
+      "{}), "
+      "the largest is {:.3g} / spacing (at most {})",
+      from.body.name, closure.residual, closure.iterations, most_missing, closure.steepest, steepest_gradient);
   if (wrong)
     throw InputError(fmt::format(
         "{} - nodal cannot set up a body this long for its width, {} x {} x {} spacings: shorten it, use larger "
         "spacings or more particles across, or take the formulation jst_sph",
         found, std::max(n[0] - 1, 0), std::max(n[1] - 1, 0), std::max(n[2] - 1, 0)));
-  std::string const of_body = body.name + ".closure_";
+  std::string const of_body = from.body.name + ".closure_";
   checks.push_back({of_body + "iterations", static_cast<double>(closure.iterations),
                     closure.converged ? "" : found + ": the set-up did not converge, so forces may be wrong by that"});
   checks.push_back({of_body + "residual", closure.residual, ""});

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/closure.hpp"
-#include "piola/formulations/set_up_checks.hpp"
-#include "piola/particles/particle_set.hpp"
-#include <vector>
+#include "piola/formulations/nodal/set_up.hpp"
 
 namespace piola::nodal {
 
-/// Adds the quality of a body's closure to `checks`. Throws InputError where its gradients miss the divergence theorem,
-/// which gives forces out of nothing, or are steep, which gives short steps.
-void check_closure(Body const& body, Closure const& closure, std::vector<SetUpCheck>& checks);
+/// Adds iterations, residual and largest gradient to `checks`. Throws InputError where gradients miss the divergence
+/// theorem, which gives forces out of nothing, or are so steep that steps become short.
+void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpCheck>& checks);
 
 }  // namespace piola::nodal

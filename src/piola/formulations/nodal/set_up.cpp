@@ -314,7 +314,7 @@ Closure find_closure(SetUp const& from, Divergence<D> const& divergence, Fold<D>
       divergence.solve(from.closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
   if (closure.rounding > most_rounding) r.lattice.reset();  // lists take differences of positions first
   r.closure_iterations = closure.iterations;
-  check_closure(from.body, closure, r.checks);
+  check_closure(from, closure, r.checks);
   return closure;
 }
 
