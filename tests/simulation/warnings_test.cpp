@@ -59,6 +59,21 @@ TEST(Warnings, GoodCasesHaveNone) {
   EXPECT_TRUE(warnings(adaptle(", convert_strain = 0.5, conversion_radius = 1", "", tears)).empty());
 }
 
+TEST(Warnings, TellWhereJstSphIsKnownToBeInaccurate) {
+  auto const with_shape = [](std::string text, std::string const& shape) {
+    std::size_t const from = text.find("shape = "), to = text.find('\n', from);
+    return text.replace(from, to - from, "shape = { " + shape + " }");
+  };
+  std::string const jittered = "box = { min = [0, 0], max = [0.8, 0.8] }, particles = [8, 8], jitter = 0.2";
+  std::string const disc = "sphere = { centre = [0, 0], radius = 0.4 }, spacing = 0.1";
+  EXPECT_NE(about("irregular particles", warnings(with_shape(rubber(""), jittered))), "");
+  EXPECT_NE(about("staircases", warnings(with_shape(rubber(""), disc))), "");
+  EXPECT_EQ(about("staircases", warnings(with_shape(rubber(""), disc + ", arrangement = \"rings\""))), "");
+  std::string const nodal = block("name = \"nodal\"", "law = \"neo_hookean\", poissons_ratio = 0.3");
+  EXPECT_TRUE(warnings(with_shape(nodal, jittered)).empty());
+  EXPECT_TRUE(warnings(with_shape(nodal, disc)).empty());
+}
+
 TEST(Warnings, TellOfMetalsWhoseTensionNothingLimits) {
   for (std::string const settings : {", convert_strain = 0.5", ", description = \"eulerian\""})
     EXPECT_NE(about("nothing limits the tension", warnings(adaptle(settings))), "") << settings;

@@ -152,6 +152,29 @@ void warn_of_thin_parts(CaseSpec const& spec, Problems& found) {
   }
 }
 
+/// Bodies whose formulation is known to be inaccurate on their particles (docs/user/formulations.md, Figures to
+/// expect).
+void warn_of_inaccurate_particles(CaseSpec const& spec, Problems& found) {
+  using Arrangement = ShapeSpec::Arrangement;
+  for (BodySpec const& body : spec.bodies) {
+    ShapeSpec const& shape = body.shape;
+    if (body.formulation.name != "jst_sph" || shape.dimension == 1) continue;
+    bool const irregular = shape.arrangement == Arrangement::packed || shape.random || shape.jitter > 0 || shape.cloud;
+    bool const curved = shape.kind != ShapeSpec::Kind::box || shape.solid;
+    Place const place = place_of(body.places, "formulation");
+    if (irregular)
+      found.add(place, fmt::format("body {}: on irregular particles jst_sph is wrong by some percent that more "
+                                   "particles do not cure: periods of clamped bars by 5 to 10 %, stresses at surfaces "
+                                   "by 3 to 5 % (cases/geometry) - take nodal",
+                                   in_quotes(body.name)));
+    else if (curved && shape.arrangement == Arrangement::lattice)
+      found.add(place, fmt::format("body {}: curved surfaces cut from a lattice are staircases, on which jst_sph is "
+                                   "wrong by 2 to 10 % in periods (cases/geometry/sphere_modes) - take nodal, or "
+                                   "arrangement = \"packed\"",
+                                   in_quotes(body.name)));
+  }
+}
+
 }  // namespace
 
 void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, Diagnostics const& start) {
@@ -176,6 +199,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   find_slips(spec, assembly.particles, body_facts(spec, assembly.particles), prospect.step, found);
   for (Doubt const& doubt : doubts(assembly)) found.add(place_of_doubt(spec.bodies[doubt.body], doubt.key), doubt.text);
   warn_of_thin_parts(spec, found);
+  warn_of_inaccurate_particles(spec, found);
   warn_of_idle_contact(spec, found);
   warn_of_chatter(spec, found);
   warn_of_other_contact(spec, found);
