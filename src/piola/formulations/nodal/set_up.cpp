@@ -290,7 +290,7 @@ bool is_slender(SetUp const& from) {
     next = std::max(next, std::min(n, most));
     most = std::max(most, n);
   }
-  return from.set.dimension > 1 && most > longest * next;
+  return from.set.dimension > 2 && most > longest * next;
 }
 
 /// The lattice of a body that loops may take for one. Pressures that follow a face ask for gradients particle by
