@@ -10,6 +10,7 @@
 #include "piola/simulation/results_folder.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
+#include "set_up_watch.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
 #include "study_runs.hpp"
@@ -56,8 +57,8 @@ struct Given {
 
 Given read_given(StudySpec const& study, std::vector<std::string> const& settings) {
   Given given;
-  PackingLine line(false);
-  given.spec = read_case(study.case_file, settings, {.packing = std::ref(line)}, &given.particles);
+  SetUpWatch watch("reading the case and making its particles", {});
+  given.spec = read_case(study.case_file, settings, {.packing = std::ref(watch)}, &given.particles);
   return given;
 }
 
