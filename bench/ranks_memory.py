@@ -56,6 +56,7 @@ def write_case(file, n, formulation, more):
         case = case[:case.index("[[body]]")] + "".join(
             HALF.format(name=name, low=low, high=high, velocity=velocity, description=description, n=n, half=n // 2)
             for name, low, high, velocity, description in halves)
+        case += '[contact]\nlaw = "kernel"\n'  # they touch at the start
     file.write_text(case)
 
 

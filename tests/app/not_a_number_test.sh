@@ -5,7 +5,7 @@ source "${PIOLA_SOURCE_DIR:-$(dirname "$0")/../..}/tests/app/helpers.sh"
 
 printf '[[load]]\nbody = "bar"\nface = "+z"\ntraction = ["1e4*sqrt(0.001 - t)", 0, 0]\n' >> bar.toml
 expect 3 'not a number at end' "$program" run bar.toml --out bad --threads 1 --no-pictures
-expect 3 'det F = not a number' "$program" run bar.toml --out bad --threads 1 --no-pictures --quiet
+expect 3 'is not a number at t =' "$program" run bar.toml --out bad --threads 1 --no-pictures --quiet
 check test "$("$program" run bar.toml --out bad --threads 1 2>&1 | grep -ciw -- '-\?nan')" = 0
 check test "$(grep -ciw -- '-\?nan' bad/log.txt)" = 0
 check "$program" watch bad --once

@@ -132,6 +132,13 @@ def support(**given):
     return make
 
 
+def relaxed(formulation):
+    """A held block that comes to rest under a weight."""
+    made = support()(formulation)[0] | {"load": [{"body": "block", "acceleration": ["0", "-9.81"]}]}
+    made["run"] |= {"relax": True, "end": 0.5}
+    return made, plain(formulation)
+
+
 def held_surface(formulation):
     """A packed block held on its face, and by the particles along it."""
     def held(what):
@@ -320,7 +327,7 @@ FEATURES = {
     "pressure that follows the deformed face": follows,
     "body forces, gravity": load(acceleration=["0", "-9.81"]),
     "damping": with_run(damping=100),
-    "relaxation to rest": with_run(relax=True),
+    "relaxation to rest": relaxed,
     "bodies that meet": contact(),
     "bodies that meet one of another formulation": lambda f: contact(other="jst_sph" if f == "nodal" else "nodal")(f),
     "friction between bodies": friction,

@@ -134,7 +134,7 @@ TEST(CaseMessages, AnEmptyBodyIsReported) {
 TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(message_of(sample_with("\"pressure\"]", "\"presure\"]")),
             "case.toml:22:33: probe.quantities[1] is \"presure\" (allowed: pressure, damage, temperature, "
-            "density, cell_pressure, parting, slip, momentum_x and 55 more) - did you mean \"pressure\"?");
+            "density, cell_pressure, parting, slip, momentum_x and 56 more) - did you mean \"pressure\"?");
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "
@@ -161,7 +161,7 @@ TEST(CaseMessages, ErrorsNeedAFieldAndAFormulaPerComponent) {
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Presure\"\nreference = [0]\n"),
       "case.toml:27:9: probe.field is \"Presure\" (allowed: Pressure, CellPressure, Density, Damage, Temperature, "
-      "Slip, Momentum, KernelType and 18 more) - did you mean \"Pressure\"?");
+      "Slip, Momentum, KernelType and 19 more) - did you mean \"Pressure\"?");
   EXPECT_EQ(
       message_of(probe + "kind = \"error\"\nfield = \"Pressure\"\nreference = [\"1/t\"]\nwhere = \"Y > 5\"\n"),
       "case.toml:28:13: probe.reference[0], formula \"1/t\" is inf at X = (-0.5, 5.25, -0.5) m of body \"column\" "

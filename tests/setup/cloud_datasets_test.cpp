@@ -121,7 +121,7 @@ TEST(CloudDatasets, SaysWhatIsMissingOrWrong) {
               put(file, "/points", X, 3);
               put(file, "/volume", Numbers(27, 1));
             }),
-            "particle 1: y is nan m (expected a finite number) - correct the row");
+            "particle 1: y is not a number (expected a finite number) - correct the row");
 }
 
 TEST(CloudDatasets, FilesThatAreCutOffOrDamagedAreRefused) {

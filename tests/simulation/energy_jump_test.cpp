@@ -83,6 +83,9 @@ Simulation simulation(Energies const& energies) {
   return s;
 }
 
+/// A load without formulas on the plate: the case has one, whatever it does.
+void add_load(CaseSpec& spec) { spec.loads.emplace_back().body = "plate"; }
+
 Told& told(Simulation& s) { return static_cast<Told&>(*s.formulation); }
 
 CaseOutcome run(Simulation& s, std::filesystem::path const& folder, bool resume = false,
@@ -167,12 +170,12 @@ TEST(EnergyJump, IsNotTheOnsetOfALoadButWhatLastsForFiveSteps) {
   e.work = pushed;
   TemporaryFolder const folder;
   Simulation loaded = simulation(e), created = simulation(e);
-  loaded.spec.loads.emplace_back();
+  add_load(loaded.spec);
   EXPECT_EQ(run(loaded, folder / "loaded").ending, Ending::completed);
   e.kinetic = jump(100, 1e4);
   e.work = [](double) { return 0.0; };
   created = simulation(e);
-  created.spec.loads.emplace_back();
+  add_load(created.spec);
   CaseOutcome const o = run(created, folder / "created");
   EXPECT_EQ(o.ending, Ending::failed);
   EXPECT_EQ(o.summary.steps, 354);
@@ -183,7 +186,7 @@ TEST(EnergyJump, IsNoEnergyThatLoadsBringAndCostsFewEvaluations) {
   e.kinetic = e.work = [](double t) { return 1e6 * t * t; };
   TemporaryFolder const folder;
   Simulation s = simulation(e), off = simulation(e);
-  s.spec.loads.emplace_back();
+  add_load(s.spec);
   off.spec.run.guards.on = false;
   EXPECT_EQ(run(s, folder / "r").ending, Ending::completed);
   run(off, folder / "off");
@@ -225,7 +228,7 @@ TEST(EnergyJump, IsSeenInTheSameStepByAResumedRun) {
   for (double const stop_at : {1.0, 300.0, 646.0}) {
     TemporaryFolder const folder;
     Simulation whole = simulation(e), first = simulation(e), second = simulation(e);
-    for (Simulation* s : {&whole, &first, &second}) s->spec.loads.emplace_back();
+    for (Simulation* s : {&whole, &first, &second}) add_load(s->spec);
     CaseOutcome const expected = run(whole, folder / "whole");
     std::atomic<int> stop{0};
     told(first).stop_at = stop_at;

@@ -204,7 +204,7 @@ std::vector<Acting> of_adaptle() {
        "adaptle/colliding_halves",
        "column eulerian_particles",
        {"body.bar.formulation.description=eulerian", "body.bar.formulation.viscosity=riemann"}},
-      {"on_a_wall", "adaptle/taylor_bar", touching, {"body.bar.shape.spacing=0.8 mm"}}};
+      {"on_a_wall", "adaptle/taylor_bar", touching, {"body.bar.shape.spacing=0.8 mm", "contact={law='kernel'}"}}};
 }
 
 class ShuffledContact : public ::testing::TestWithParam<Acting> {};

@@ -20,14 +20,14 @@ void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpC
   bool const wrong = !(closure.residual <= most_missing) || !(closure.steepest <= steepest_gradient);
   std::string const found = fmt::format(
       "body '{}': gradients miss the divergence theorem by {:.3g} faces of a particle after {} iterations (at most "
-      "{}), "
-      "the largest is {:.3g} / spacing (at most {})",
+      "{}), the largest is {:.3g} / spacing (at most {})",
       from.body.name, closure.residual, closure.iterations, most_missing, closure.steepest, steepest_gradient);
   if (wrong)
-    throw InputError(fmt::format(
-        "{} - nodal cannot set up a body this long for its width, {} x {} x {} spacings: shorten it, use larger "
-        "spacings or more particles across, or take the formulation jst_sph",
-        found, std::max(n[0] - 1, 0), std::max(n[1] - 1, 0), std::max(n[2] - 1, 0)));
+    throw InputError(
+        fmt::format("{} - nodal cannot set up this body of {} x {} x {} spacings, which may be too long for its width: "
+                    "change the numbers of particles a little, or take jitter = 0.001, more particles across, or the "
+                    "formulation jst_sph",
+                    found, std::max(n[0] - 1, 0), std::max(n[1] - 1, 0), std::max(n[2] - 1, 0)));
   std::string const of_body = from.body.name + ".closure_";
   checks.push_back({of_body + "iterations", static_cast<double>(closure.iterations),
                     closure.converged ? "" : found + ": the set-up did not converge, so forces may be wrong by that"});
