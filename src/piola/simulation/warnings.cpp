@@ -158,9 +158,9 @@ void warn_of_inaccurate_particles(CaseSpec const& spec, Problems& found) {
   using Arrangement = ShapeSpec::Arrangement;
   for (BodySpec const& body : spec.bodies) {
     ShapeSpec const& shape = body.shape;
-    if (body.formulation.name != "jst_sph" || shape.dimension == 1) continue;
+    if (body.formulation.name != "jst_sph" || shape.dimension == 1 || shape.kind == ShapeSpec::Kind::points) continue;
     bool const irregular = shape.arrangement == Arrangement::packed || shape.random || shape.jitter > 0;
-    bool const curved = (shape.kind != ShapeSpec::Kind::box && shape.kind != ShapeSpec::Kind::points) || shape.solid;
+    bool const curved = shape.kind != ShapeSpec::Kind::box || shape.solid;
     Place const place = place_of(body.places, "formulation");
     if (irregular)
       found.add(place, fmt::format("body {}: on irregular particles jst_sph is wrong by some percent that more "
