@@ -164,8 +164,8 @@ void warn_of_inaccurate_particles(CaseSpec const& spec, Problems& found) {
     Place const place = place_of(body.places, "formulation");
     if (irregular)
       found.add(place, fmt::format("body {}: on irregular particles jst_sph is wrong by some percent that more "
-                                   "particles do not cure: periods of clamped bars by 5 to 10 %, stresses at surfaces "
-                                   "by 3 to 5 % (cases/geometry) - take nodal",
+                                   "particles do not cure: stresses at surfaces by 3 to 5 % "
+                                   "(cases/geometry/thick_tube) - take nodal",
                                    in_quotes(body.name)));
     else if (curved && shape.arrangement == Arrangement::lattice)
       found.add(place, fmt::format("body {}: curved surfaces cut from a lattice are staircases, on which jst_sph is "
