@@ -94,9 +94,12 @@ void SetUpWatch::end_if_due() {
   bool const asked = stop_signal != 0 && !packs();
   if (!(late || asked) || ranks::own() != 0) return;
   line_.clear();
-  tell("piola: set-up was stopped {} while {} ({} after the start); there is nothing to continue from - {}\n", cause(),
-       stage_, duration_text(elapsed),
-       late ? "give more time, or choose fewer particles" : "start the same command again");
+  // A rank that ends all of them has the launcher send signals to the others: that rank has said why.
+  bool const launcher_may_have_sent_it = !late && ranks::several();
+  if (!launcher_may_have_sent_it)
+    tell("piola: set-up was stopped {} while {} ({} after the start); there is nothing to continue from - {}\n",
+         cause(), stage_, duration_text(elapsed),
+         late ? "give more time, or choose fewer particles" : "start the same command again");
   if (ranks::several()) ranks::abort_all(stopped_by_signal);
   ::_exit(stopped_by_signal);
 }
