@@ -25,6 +25,8 @@ expect 2 "miss the divergence theorem" run "$cases/long_bar.toml" --out long
 # A traction of 1 Pa on an edge of 16 m, for 0.1 s.
 for spacing in 2 1; do
   expect 0 "scaled by 0.9" run "$cases/oblique_panel.toml" --out panel --set "body.panel.shape.spacing=$spacing"
+  expect 0 "scaled by 0.9" "$program" check "$cases/oblique_panel.toml" --set "body.panel.shape.spacing=$spacing"
+  check grep -q '"pull.area_error": -\?0.0' panel/summary.json
   check last panel pull.force_y 15.999999999 16.000000001
 done
 finish

@@ -395,6 +395,45 @@ TEST(StepGuard, KnowsTheSpeedOfWaves) {
                {"the step fell to 100 ns", "of the 2.08 ms that waves at rest allow", "the formulation itself"});
 }
 
+// ---- loads that follow their face
+
+/// A run under a following pressure. damping: 20 1/s leave 1 / e of a velocity after 50 ms.
+Outcome run_under_load(std::string const& pressure, std::function<double(double)> const& kinetic, double damping = 20) {
+  Script s;
+  s.kinetic = kinetic;
+  s.work = [=](double t) { return 10 + kinetic(t); };
+  Simulation of = simulation(s);
+  of.spec.run.damping = damping;
+  LoadSpec& load = of.spec.loads.emplace_back();
+  load.name = "push";
+  load.body = of.spec.bodies[0].name;
+  load.kind = LoadSpec::Kind::pressure;
+  load.follows = true;
+  load.value[0] = Expression(pressure);
+  TemporaryFolder const folder;
+  return run(of, folder / "r");
+}
+/// Calms down until 0.6 s, grows then by 4.5 in 50 ms.
+double fed(double t) { return std::exp(-30 * std::min(t, 0.6)) * std::exp(30 * std::max(t - 0.6, 0.0)); }
+
+TEST(FollowingLoadGuard, NamesTheLoadThatFeedsMotion) {
+  Outcome const o = run_under_load("Y*min(t/0.3, 1)", fed);
+  expect_parts(o.all(), {"kinetic energy grew ", " while every load was steady", "did work of ",
+                         "load \"push\" follows the face and varies along it"});
+  EXPECT_NEAR(o.guards["following_load"]["from_time"].get<double>(), 0.6, 0.06);
+  bool const told_early = std::any_of(o.told.begin(), o.told.end(),
+                                      [](std::string const& text) { return text.starts_with("so far, at t = 0.7"); });
+  EXPECT_TRUE(told_early);
+}
+
+TEST(FollowingLoadGuard, LetsLoadsChangeAndVibrationsDecay) {
+  auto const silent = [](Outcome const& o) { return o.all().find("every load was steady") == std::string::npos; };
+  EXPECT_TRUE(silent(run_under_load("Y*t", fed)));
+  EXPECT_TRUE(silent(run_under_load("Y", fed, 0))) << "without damping nothing need decay";
+  auto const vibration = [](double t) { return std::exp(-40 * t) * std::pow(std::sin(22 * t), 2); };
+  EXPECT_TRUE(silent(run_under_load("Y", vibration)));
+}
+
 std::array<double, 9> turned(double angle) {
   return {std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1};
 }

@@ -69,6 +69,7 @@ std::string to_json(Summary const& s) {
     document["relaxation"] = {
         {"at_rest", s.relaxation->at_rest}, {"residual", s.relaxation->residual}, {"stops", s.relaxation->stops}};
   }
+  for (auto const& [name, value] : s.set_up) document["set_up"][name] = value;
   for (auto const& [name, value] : s.seconds) document["seconds"][name] = value;
   document["quantities"] = quantities;
   document["guards"] = guards_json(s);

@@ -61,6 +61,8 @@ struct Summary {
   /// What values of a unit are large or small beside: "kg m/s", "kg m^2/s", "Pa".
   std::vector<std::pair<std::string, double>> scales;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation tells
+  /// How good the set-up is, if the formulation measures it: residuals and errors of areas, 0 at best.
+  std::vector<std::pair<std::string, double>> set_up;
   std::optional<RelaxationReport> relaxation;
   std::vector<MeasuredQuantity> quantities;
   std::vector<std::string> warnings;

@@ -7,6 +7,7 @@
 #include "piola/exec/threads.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/make.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/formula_loop.hpp"
 #include "piola/input/formulations_of.hpp"
@@ -293,6 +294,8 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   if (any_contact(spec) && ranks::own() == 0) prospect.start = simulation.formulation->diagnose();
   if (prospect.start) refuse_unpaid_contact(spec, assembly.particles, *prospect.start);
   simulation.warnings = warnings_of(spec, assembly, prospect);
+  for (SetUpCheck& check : set_up_checks_of(*simulation.formulation))
+    if (!check.warning.empty()) simulation.warnings.push_back(std::move(check.warning));
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);
   assembly = {};

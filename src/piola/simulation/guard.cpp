@@ -133,6 +133,7 @@ Guards make_guards(CaseSpec const& spec, ParticleSet const& particles) {
   guards.push_back(make_stranger_guard(spec, particles));
   guards.push_back(make_step_guard(spec, particles));
   guards.push_back(make_small_strain_guard(spec, particles));
+  guards.push_back(make_following_load_guard(spec, particles));
   return guards;
 }
 

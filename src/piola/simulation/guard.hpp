@@ -98,5 +98,6 @@ std::unique_ptr<Guard> make_parting_guard(GuardLimits const& limits, ParticleSet
 std::unique_ptr<Guard> make_stranger_guard(CaseSpec const& spec, ParticleSet const& particles);
 std::unique_ptr<Guard> make_step_guard(CaseSpec const& spec, ParticleSet const& particles);
 std::unique_ptr<Guard> make_small_strain_guard(CaseSpec const& spec, ParticleSet const& particles);
+std::unique_ptr<Guard> make_following_load_guard(CaseSpec const& spec, ParticleSet const& particles);
 
 }  // namespace piola

@@ -137,13 +137,11 @@ Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, W
   return *moment;
 }
 
-/// How good the set-up is.
+/// The numbers of the set-up.
 void report_set_up(Formulation const& formulation, Journal& journal) {
   std::string numbers;
-  for (SetUpCheck const& check : set_up_checks_of(formulation)) {
-    if (!check.warning.empty()) journal.warn(check.warning);
+  for (SetUpCheck const& check : set_up_checks_of(formulation))
     numbers += fmt::format("{}{} = {:.3g}", numbers.empty() ? "" : ", ", check.name, check.value);
-  }
   if (!numbers.empty()) journal.note("set-up: " + numbers);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_summary.hpp"
 #include "piola/base/version.hpp"
+#include "piola/formulations/set_up_checks.hpp"
 #include "piola/input/case_facts.hpp"
 #include "piola/simulation/quantities.hpp"
 #include <algorithm>
@@ -121,6 +122,7 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
       static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
   summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
   summary.seconds = s.formulation->costs();
+  for (SetUpCheck const& check : set_up_checks_of(*s.formulation)) summary.set_up.emplace_back(check.name, check.value);
   add_conservation(summary, history, s);
   for (QuantitySpec const& spec : s.spec.quantities) {
     std::string why;
