@@ -240,8 +240,8 @@ constexpr std::array boundary_keys{
             "1",
             {0, 10, false, false},
             "0",
-            "coefficient of Coulomb friction between surfaces, and of surfaces on rigid shapes (not in the contact of "
-            "adaptle)",
+            "coefficient of Coulomb friction between surfaces, and of surfaces on rigid shapes (not in the kernel "
+            "contact of adaptle)",
             {}},
     KeyInfo{"contact",
             "static_friction",
