@@ -34,8 +34,7 @@ constexpr std::array body_keys{
     KeyInfo{"", "mirror", list, "", {}, "none", "the planes of symmetry", {}},
     KeyInfo{"", "crack", list, "", {}, "none", "the cracks", {}},
     KeyInfo{"", "rigid", list, "", {}, "none", "the rigid obstacles", {}},
-    KeyInfo{
-        "", "contact", table, "", {}, "the law \"kernel\"", "what keeps bodies apart; \"none\": nothing", none_word},
+    KeyInfo{"", "contact", table, "", {}, "see [contact]", "what keeps bodies apart; \"none\": nothing", none_word},
     KeyInfo{"", "tie", list, "", {}, "none", "what holds bodies together", {}},
     KeyInfo{"", "probe", list, "", {}, "none", "the probes", {}},
     KeyInfo{"", "quantity", list, "", {}, "none", "the quantities of the summary", {}},

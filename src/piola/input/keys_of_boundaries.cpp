@@ -80,14 +80,16 @@ constexpr std::array boundary_keys{
             "none",
             "force per area of a face, against its outward normal; a formula in X, Y, Z, t",
             {}},
-    KeyInfo{"load",
-            "follows",
-            flag,
-            "",
-            {},
-            "false",
-            "pressure: it acts on the deformed face, along its current normal; else along that of the start",
-            {}},
+    KeyInfo{
+        "load",
+        "follows",
+        flag,
+        "",
+        {},
+        "false",
+        "pressure, not with adaptle: it acts on the deformed face, along its current normal; else along that of the "
+        "start",
+        {}},
     KeyInfo{
         "load",
         "face",
@@ -216,12 +218,11 @@ constexpr std::array boundary_keys{
         word,
         "",
         {},
-        "\"kernel\"",
-        "kernel: repulsion by the kernel, stiffness from the impedances; linear: a spring with the stiffness of the "
-        "material, for slow impacts; printed: as published, with a constant that you give; surface: as other "
-        "formulations "
-        "meet, with friction, if all stay total-Lagrangian; none: Eulerian "
-        "bodies merge, others do not see each other",
+        "\"kernel\"; surface contact for total-Lagrangian bodies that touch at the start",
+        "what keeps bodies of adaptle apart (other bodies have surface contact); kernel: repulsion by the kernel, "
+        "stiffness from the impedances; linear: a spring with the stiffness of the material, for slow impacts; "
+        "printed: as published, with a constant that you give; surface: as other formulations have, with friction, if "
+        "all stay total-Lagrangian; none: no contact of any body, Eulerian bodies merge",
         contact_words},
     KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},
     KeyInfo{"contact",
@@ -239,8 +240,8 @@ constexpr std::array boundary_keys{
             "1",
             {0, 10, false, false},
             "0",
-            "coefficient of Coulomb friction between surfaces, and of surfaces on rigid shapes (not in the contact of "
-            "adaptle)",
+            "coefficient of Coulomb friction between surfaces, and of surfaces on rigid shapes (not in the kernel "
+            "contact of adaptle)",
             {}},
     KeyInfo{"contact",
             "static_friction",
