@@ -2,8 +2,12 @@
 #include "piola/geometry/thickness.hpp"
 #include "piola/exec/set_up_loop.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <set>
+#include <vector>
 
 namespace piola::geometry {
 namespace {
@@ -38,6 +42,16 @@ struct InwardRay {
   }
 };
 
+/// Leaves the first piece in each cube of a given side [m]: a mesh may have far more faces than the question needs.
+void thin_out(std::vector<SurfacePiece>& pieces, double side) {
+  std::set<std::array<std::int64_t, 3>> taken;
+  std::erase_if(pieces, [&](SurfacePiece const& piece) {
+    std::array<std::int64_t, 3> cube{};
+    for (int i = 0; i < 3; ++i) cube[static_cast<std::size_t>(i)] = std::llround(std::floor(piece.X[i] / side));
+    return !taken.insert(cube).second;
+  });
+}
+
 }  // namespace
 
 std::optional<Thinnest> thinnest(Solid const& solid, double edge) {
@@ -45,6 +59,7 @@ std::optional<Thinnest> thinnest(Solid const& solid, double edge) {
   constexpr double shortest = 1e-3;       // of a piece
   std::vector<SurfacePiece> pieces;
   solid.cut_surface(edge, pieces);
+  thin_out(pieces, 0.25 * edge);
   InwardRay const ray{solid, shortest * edge, edge};
   Thinnest best{nowhere, {}};
   std::vector<Thinnest> found(std::min(pieces.size(), together));

@@ -13,8 +13,8 @@ std::string example_of(KeyInfo const& info) {
   std::string const unit(info.unit);
   switch (info.kind) {
     case KeyInfo::Kind::text:
-      return info.key == "law" || info.key == "name" || info.key == "fix" || info.key == "column" ? "\"...\""
-                                                                                                  : "\"A title\"";
+      if (info.key == "title") return "\"A title\"";
+      return info.key == "unit" ? "\"mm\"" : "\"...\"";
     case KeyInfo::Kind::name: return "\"column\"";
     case KeyInfo::Kind::word: return in_quotes(info.words.front());
     case KeyInfo::Kind::quantity: return unit == "1" ? "0.5" : "\"1 " + unit + "\"";

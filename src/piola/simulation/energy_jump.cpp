@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/energy_jump.hpp"
 #include "piola/base/text.hpp"
+#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +18,18 @@ constexpr std::int64_t interval = 10;
 /// Steps in a row in which a jump must be found where loads do work: energy that is a step ahead of the work of a
 /// constant force exceeds it in the first three.
 constexpr double steps_in_a_row = 5;
+/// How long a jump must last where loads do work, in times of a pressure wave across the finest spacing: a support that
+/// is driven at once gives its particles kinetic energy in the first step, and the work of the waves that it sends
+/// equals that energy after one such time.
+constexpr double lasting_crossings = 2;
 /// From here on the end of a run is no onset of a load.
 constexpr std::int64_t first_steps = 50;
+
+/// Whether a body has a pressure at the start, whose energy is in no book.
+bool starts_under_pressure(CaseSpec const& spec) {
+  return std::any_of(spec.bodies.begin(), spec.bodies.end(),
+                     [](BodySpec const& body) { return body.formulation.formulas.contains("initial_pressure"); });
+}
 
 /// Whether anything but the bodies themselves may bring energy.
 bool may_do_work(CaseSpec const& spec) {
@@ -29,8 +40,24 @@ bool may_do_work(CaseSpec const& spec) {
   return !spec.loads.empty() || std::any_of(spec.rigids.begin(), spec.rigids.end(), moves) ||
          std::any_of(spec.supports.begin(), spec.supports.end(),
                      [](SupportSpec const& support) { return support.velocity.has_value(); }) ||
-         std::any_of(spec.bodies.begin(), spec.bodies.end(),
-                     [](BodySpec const& body) { return body.formulation.formulas.contains("initial_pressure"); });
+         starts_under_pressure(spec);
+}
+
+/// Time of a pressure wave across the finest spacing [s]; 0 where no law knows a speed.
+double crossing_time(CaseSpec const& spec, ParticleSet const& particles) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    auto const& spacing = particles.bodies[b].spacing;
+    double const finest = *std::min_element(spacing.begin(), spacing.begin() + particles.dimension);
+    auto const see = [&](MaterialParameters const& material) {
+      with_any_law(material, [&](auto const& law) {
+        if (double const time = finest / law.p_wave_speed(); time > 0) least = std::min(least, time);
+      });
+    };
+    see(spec.bodies[b].material);
+    for (PartSpec const& part : spec.bodies[b].parts) see(part.material);
+  }
+  return std::isfinite(least) ? least : 0;
 }
 
 }  // namespace
@@ -41,7 +68,9 @@ EnergyJumpGuard::EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& partic
       checkpoints_(spec.output.checkpoints_every),
       limit_(std::max(1.0, spec.run.guards.energy_rise_stop)),
       stop_(spec.run.guards.energy_rise_stop),
-      loaded_(may_do_work(spec)) {}
+      loaded_(may_do_work(spec)),
+      pressed_(starts_under_pressure(spec)),
+      lasting_(lasting_crossings * crossing_time(spec, particles)) {}
 
 bool EnergyJumpGuard::is_strange(Formulation const& formulation, Moment const& moment) const {
   if (moment.step == 0 || rises_ > 0) return true;
@@ -71,14 +100,21 @@ void EnergyJumpGuard::look(Formulation const& formulation, Moment const& moment,
     lowest_step_ = static_cast<double>(moment.step);
   }
   // Where total energy is kept, kinetic energy may come out of an internal energy below zero, which there is not.
-  double const created = std::max(own - lowest_, now.kinetic_energy - 2 * scale_.without_motion());
+  double const out_of_nothing = pressed_ ? 0 : now.kinetic_energy - 2 * scale_.without_motion();
+  double const created = std::max(own - lowest_, out_of_nothing);
   if (!(created > limit_ * had)) {
     rises_ = 0;
     kinetic_ = std::max(kinetic_, now.kinetic_energy);
     return;
   }
+  if (rises_ == 0) {
+    risen_time_ = moment.time;
+    risen_step_ = moment.dt;
+  }
   rises_ += 1;
-  if (!loaded_ || rises_ >= steps_in_a_row || (last && moment.step >= first_steps)) object(formulation, moment, now);
+  bool const lasts = moment.time - risen_time_ >= lasting_ || growth * moment.dt < risen_step_;
+  bool const found = !loaded_ || (rises_ >= steps_in_a_row && lasts) || (last && moment.step >= first_steps);
+  if (found) object(formulation, moment, now);
 }
 
 void EnergyJumpGuard::object(Formulation const& formulation, Moment const& moment, Diagnostics const& now) {
@@ -104,14 +140,15 @@ void EnergyJumpGuard::object(Formulation const& formulation, Moment const& momen
 }
 
 void EnergyJumpGuard::save(StateWriter& writer) const {
-  writer.put("guard_jump", std::array{lowest_, lowest_time_, lowest_step_, kinetic_, known_, shortest_, rises_});
+  writer.put("guard_jump", std::array{lowest_, lowest_time_, lowest_step_, kinetic_, known_, shortest_, rises_,
+                                      risen_time_, risen_step_});
   scale_.save(writer, "guard_jump_scale");
 }
 
 void EnergyJumpGuard::load(NamedState& reader, double time) {
   checkpoints_.start_after(time);
   if (!reader.has("guard_jump")) return;  // checkpoints of older versions have none
-  std::array<double, 7> v{};
+  std::array<double, 9> v{};
   reader.get("guard_jump", v);
   lowest_ = v[0];
   lowest_time_ = v[1];
@@ -120,6 +157,8 @@ void EnergyJumpGuard::load(NamedState& reader, double time) {
   known_ = v[4];
   shortest_ = v[5];
   rises_ = v[6];
+  risen_time_ = v[7];
+  risen_step_ = v[8];
   scale_.load(reader, "guard_jump_scale");
 }
 

@@ -13,8 +13,9 @@ namespace piola {
 /// Looks at the length of every step and, because a sum over all particles costs 2 to 6 % of a step, at the kinetic
 /// energy of every tenth one. All energies are evaluated only where kinetic energy exceeds the energy known so far four
 /// times, or where the step falls to a quarter of the shortest one so far, and in the rows of the history and before
-/// checkpoints. Where loads or driven supports do work, a jump must be found at five steps in a row, because work and
-/// energy are added up within a step of each other when a load begins; without them one step is enough.
+/// checkpoints. Where loads or driven supports do work, a jump must be found at five steps in a row and for two times
+/// of a pressure wave across the finest spacing, because energy may be ahead of the work of a load that begins; without
+/// them one step is enough.
 class EnergyJumpGuard {
  public:
   /// `particles` must outlive the guard. scale: of the run, before it has begun.
@@ -38,11 +39,14 @@ class EnergyJumpGuard {
   double limit_;          ///< of a rise, in energies that the run has had
   double stop_;           ///< run.guards.energy_rise_stop
   bool loaded_;           ///< loads, driven supports or rigid shapes may do work
+  bool pressed_;          ///< a pressure of the start feeds motion
+  double lasting_;        ///< how long a jump must last in a loaded run [s]
   double lowest_ = std::numeric_limits<double>::infinity(), lowest_time_ = 0, lowest_step_ = 0;
   double kinetic_ = 0;                                         ///< largest kinetic energy before any jump [J]
   double known_ = 0;                                           ///< largest energy at the last look [J]
   double shortest_ = std::numeric_limits<double>::infinity();  ///< shortest step at a look [s]
   double rises_ = 0;                                           ///< looks in a row that found a jump
+  double risen_time_ = 0, risen_step_ = 0;                     ///< time and step at the first of these looks [s]
   std::optional<Objection> objection_;
 };
 
