@@ -8,6 +8,8 @@ expect 3 'not a number at end' "$program" run bar.toml --out bad --threads 1 --n
 expect 3 'is not a number at t =' "$program" run bar.toml --out bad --threads 1 --no-pictures --quiet
 check test "$("$program" run bar.toml --out bad --threads 1 2>&1 | grep -ciw -- '-\?nan')" = 0
 check test "$(grep -ciw -- '-\?nan' bad/log.txt)" = 0
+check test "$(grep -c 'history.csv: not a number in .*, .* at t = ' bad/log.txt)" = 1
+check test "$(grep -c 'left empty' bad/log.txt)" = 1
 check "$program" watch bad --once
 check test "$("$program" watch bad --once | grep -ciw -- '-\?nan')" = 0
 finish

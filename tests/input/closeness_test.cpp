@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/closeness.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/region_checks.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <fmt/format.h>
@@ -35,6 +36,25 @@ std::string start_of_message(double depth, int particles) {
       "case.toml:11:9: the bodies \"a\" and \"b\" overlap at the start: {} particles of \"b\" up to {} mm "
       "inside \"a\" (allowed: none) - move one of them",
       particles, depth);
+}
+
+/// Places of the contact of two boxes, with these lines and settings.
+Places contact_places(std::string const& lines, std::vector<std::string> const& settings = {}) {
+  return read_case_text(lines + two(box(0, 1), box(3, 4), "jst_sph"), "case.toml", settings).contact->places;
+}
+
+TEST(Places, HoldTheKeysOfTheCaseAndOfSettings) {
+  std::string const scaled = "contact = { scale = 2 }\n";
+  for (Places const& places :
+       {contact_places("contact = { law = \"surface\" }\n"), contact_places("contact = [{ law = \"surface\" }]\n"),
+        contact_places("", {"contact.law=surface"}), contact_places("", {"contact={ law = \"surface\" }"}),
+        contact_places(scaled, {"contact.law=\"surface\""})}) {
+    EXPECT_TRUE(is_given(places, "law"));
+    EXPECT_FALSE(is_given(places, "self"));
+    EXPECT_EQ(place_of(places, "self").file, place_of(places, "").file) << "of the section";
+  }
+  EXPECT_FALSE(is_given(contact_places("", {"contact.static_friction=0.4", "contact.decay_speed=1"}), "friction"));
+  EXPECT_TRUE(is_given(contact_places("", {"contact=none"}), "law")) << "short for a table with it";
 }
 
 TEST(Overlap, BodiesDoNotStartInsideEachOther) {

@@ -25,6 +25,11 @@ TEST(ReadGuards, AreOnWithTheLimitsOfTheManual) {
   EXPECT_EQ(g.strangers, 0.5);
   EXPECT_EQ(g.parting_warn, 0.05);
   EXPECT_EQ(g.parting_stop, 0.2);
+  EXPECT_EQ(g.step_warn, 1e-3);
+  EXPECT_EQ(g.step_stop, 0);
+  EXPECT_EQ(g.small_strain_warn, 0.02);
+  EXPECT_EQ(g.small_rotation_warn, 0.05);
+  EXPECT_TRUE(std::isinf(g.small_strain_stop) && std::isinf(g.small_rotation_stop));
 }
 
 TEST(ReadGuards, TakeLimitsAndOff) {
@@ -48,6 +53,25 @@ std::string refusal(std::string const& guards) {
   return message_of(sample_with("end = \"0.5 s\"", "end = \"0.5 s\"\n" + guards));
 }
 
+TEST(ReadGuards, TakeLimitsOfTheStepAndOfSmallStrain) {
+  GuardLimits const g = limits_of(
+      "guards = { step_warn = \"1 %\", step_stop = 1e-4, small_strain_warn = 0.1, small_strain_stop = 0.2, "
+      "small_rotation_warn = \"0.2 rad\", small_rotation_stop = 0.5 }");
+  EXPECT_DOUBLE_EQ(g.step_warn, 0.01);
+  EXPECT_EQ(g.step_stop, 1e-4);
+  EXPECT_EQ(g.small_strain_warn, 0.1);
+  EXPECT_EQ(g.small_strain_stop, 0.2);
+  EXPECT_EQ(g.small_rotation_warn, 0.2);
+  EXPECT_EQ(g.small_rotation_stop, 0.5);
+  GuardLimits const off = limits_of(
+      "guards = { step_warn = \"off\", step_stop = \"off\", small_strain_warn = \"off\", "
+      "small_rotation_warn = \"off\", small_strain_stop = \"off\", small_rotation_stop = \"off\" }");
+  EXPECT_EQ(off.step_warn, 0);
+  EXPECT_EQ(off.step_stop, 0);
+  EXPECT_TRUE(std::isinf(off.small_strain_warn) && std::isinf(off.small_rotation_warn));
+  EXPECT_TRUE(std::isinf(off.small_strain_stop) && std::isinf(off.small_rotation_stop));
+}
+
 TEST(ReadGuards, RefuseWhatHasNoMeaning) {
   EXPECT_NE(
       refusal("guards = \"on\"").find("run.guards is the text \"on\" (allowed: a table such as guards = { ... })"),
@@ -55,6 +79,9 @@ TEST(ReadGuards, RefuseWhatHasNoMeaning) {
       << refusal("guards = \"on\"");
   EXPECT_NE(refusal("guards = { jacobian = [3, 0.3] }").find("run.guards.jacobian is empty"), std::string::npos);
   EXPECT_NE(refusal("guards = { dissipaton = 1 }").find("did you mean \"dissipation\"?"), std::string::npos);
+  EXPECT_NE(refusal("guards = { step_stop = 0 }").find("run.guards.step_stop is 0"), std::string::npos);
+  EXPECT_NE(refusal("guards = { small_rotation_stop = \"5 mm\" }").find("run.guards.small_rotation_stop"),
+            std::string::npos);
   EXPECT_NE(refusal("guards = { overlap = -1 }").find("run.guards.overlap is -1"), std::string::npos);
 }
 

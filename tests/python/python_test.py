@@ -315,6 +315,28 @@ class Cases(InFolder):
             with self.assertRaises(error):
                 piola.Run(case).finish()
 
+    def test_a_key_counts_as_given_wherever_it_comes_from(self):
+        def squares(contact=None, **settings):
+            def square(name, x):
+                return {"name": name, "formulation": {"name": "jst_sph"},
+                        "shape": {"box": {"min": [x, 0], "max": [x + 1, 1]}, "particles": [6, 6]},
+                        "material": {"law": "neo_hookean", "density": 1000, "youngs_modulus": 1e7,
+                                     "poissons_ratio": 0.3}}
+            case = {"title": "two", "run": {"end": 1}, "body": [square("a", 0), square("b", 3)]}
+            return piola.Case({**case, **({"contact": contact} if contact else {})}, set=settings)
+
+        def idle(case):
+            return [text for text in case.check() if "contact.law has no effect" in text]
+
+        self.assertEqual(len(idle(squares({"law": "linear"}))), 1)
+        self.assertEqual(len(idle(squares(**{"contact.law": "linear"}))), 1)
+        self.assertEqual(len(idle(squares(**{"contact": {"law": "linear"}}))), 1)
+        self.assertEqual(len(idle(squares({"scale": 2}, **{"contact.law": "linear"}))), 1)
+        changed = squares({"scale": 2})
+        self.assertEqual(idle(changed), [])
+        changed["contact.law"] = "linear"
+        self.assertEqual(len(idle(changed)), 1)
+
 
 class Folders(InFolder):
     def test_results(self):

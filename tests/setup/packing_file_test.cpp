@@ -5,6 +5,7 @@
 #include "piola/output/files.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace piola {
 namespace {
@@ -34,6 +35,28 @@ TEST(PackingFile, OfAStoppedPackingComesBackAsItWas) {
     write_whole_file(path, whole.substr(0, i));
     EXPECT_FALSE(read_unfinished(path, "key")) << i;
   }
+}
+
+TEST(PackingFile, KeepsItsLayout) {
+  testing::TemporaryFolder const folder;
+  fs::path const path = folder.path() / "p";
+  // Mark of 16 and 27 characters, length of the key, key, values of 8 bytes each, check sum.
+  write_packing(path, "key", {{{1, 2, 3}, {4, 5, 6}}, 0.5, 0.25, 7});
+  EXPECT_EQ(fs::file_size(path), 16U + 8 + 3 + 8 * (4 + 2 * 3) + 8);
+  write_unfinished(path, "key", {{{1, 2, 3}}, {{4, 5, 6}}, {{7, 8, 9}}, {0.5}, 11});
+  EXPECT_EQ(fs::file_size(path), 27U + 8 + 3 + 8 * (2 + 3 * 3 + 1) + 8);
+}
+
+TEST(PackingFile, WithValuesThatAreNotFiniteIsNotTaken) {
+  testing::TemporaryFolder const folder;
+  fs::path const path = folder.path() / "p";
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  write_packing(path, "key", {{{1, nan, 3}, {4, 5, 6}}, 0.5, 0.25, 7});
+  EXPECT_FALSE(read_packing(path, "key"));
+  write_unfinished(path, "key", {{{1, 2, 3}}, {{4, 5, 6}}, {{7, 8, 9}}, {nan}, 11});
+  EXPECT_FALSE(read_unfinished(path, "key"));
+  write_unfinished(path, "key", {{}, {}, {}, {}, 11});
+  EXPECT_FALSE(read_unfinished(path, "key")) << "it has no particle to continue from";
 }
 
 /// Two bodies, of which the second is stopped while it is packed.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs whose energy jumps: they end within ten steps, at once where the step falls.
 #include "piola/simulation/energy_jump.hpp"
+#include "piola/input/read_case.hpp"
 #include "piola/output/checkpoint.hpp"
+#include "piola/output/frames.hpp"
 #include "piola/simulation/run_case.hpp"
+#include "formulations/small_bodies.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
 #include <functional>
@@ -24,9 +27,9 @@ struct Energies {
   OfTime step = [](double) { return 1e-3; };
 };
 
-class Told : public Formulation {
+class Prescribed : public Formulation {
  public:
-  explicit Told(Energies energies) : energies_(std::move(energies)) {}
+  explicit Prescribed(Energies energies) : energies_(std::move(energies)) {}
   double stable_time_step() const override { return energies_.step(time_); }
   void step(double time, double dt) override {
     time_ = time + dt;
@@ -72,7 +75,7 @@ class Told : public Formulation {
 Simulation simulation(Energies const& energies) {
   Simulation s;
   s.particles = make_plate(4);
-  s.formulation = std::make_unique<Told>(energies);
+  s.formulation = std::make_unique<Prescribed>(energies);
   s.formulation_name = "told";
   s.mass = 16;
   s.spec.title = "Jump";
@@ -86,7 +89,7 @@ Simulation simulation(Energies const& energies) {
 /// A load without formulas on the plate: the case has one, whatever it does.
 void add_load(CaseSpec& spec) { spec.loads.emplace_back().body = "plate"; }
 
-Told& told(Simulation& s) { return static_cast<Told&>(*s.formulation); }
+Prescribed& prescribed(Simulation& s) { return static_cast<Prescribed&>(*s.formulation); }
 
 CaseOutcome run(Simulation& s, std::filesystem::path const& folder, bool resume = false,
                 std::atomic<int>* stop = nullptr) {
@@ -181,6 +184,37 @@ TEST(EnergyJump, IsNotTheOnsetOfALoadButWhatLastsForFiveSteps) {
   EXPECT_EQ(o.summary.steps, 354);
 }
 
+// A support that is driven at once gives its particles energy in the first step; its work follows with the waves.
+TEST(EnergyJump, IsNotTheStartOfADrivenSupportWithShortSteps) {
+  Energies e;
+  e.kinetic = [](double t) { return t > 0 ? 500.0 : 0.0; };
+  e.strain = e.work = [](double t) { return 2.5e4 * t; };  // as much after 20 steps
+  TemporaryFolder const folder;
+  for (bool const stiff : {false, true}) {
+    Simulation s = simulation(e);
+    s.spec.output.history_every = 1e-3;
+    s.spec.supports.emplace_back().velocity.emplace();
+    s.spec.bodies[0].material = testing::rubber();         // 144 m/s across 1 m: 6.9 ms
+    if (!stiff) s.spec.bodies[0].material.value[0] *= 10;  // density: 45 m/s, 22 ms
+    CaseOutcome const o = run(s, folder / (stiff ? "stiff" : "soft"));
+    EXPECT_EQ(o.ending, stiff ? Ending::failed : Ending::completed);
+    if (stiff) EXPECT_EQ(o.summary.steps, 15) << "the first after twice 6.9 ms";
+  }
+}
+
+// The energy of a pressure of the start is in no book.
+TEST(EnergyJump, IsNotWhatAPressureOfTheStartBrings) {
+  Energies e;
+  e.kinetic = [](double t) { return 1e5 * std::min(1.0, 100 * t); };
+  e.strain = [=](double t) { return -1e5 * std::min(1.0, 100 * t); };
+  for (bool const under_pressure : {true, false}) {
+    TemporaryFolder const folder;
+    Simulation s = simulation(e);
+    if (under_pressure) s.spec.bodies[0].formulation.formulas["initial_pressure"];
+    EXPECT_EQ(run(s, folder / "r").ending, under_pressure ? Ending::completed : Ending::failed);
+  }
+}
+
 TEST(EnergyJump, IsNoEnergyThatLoadsBringAndCostsFewEvaluations) {
   Energies e;
   e.kinetic = e.work = [](double t) { return 1e6 * t * t; };
@@ -190,7 +224,7 @@ TEST(EnergyJump, IsNoEnergyThatLoadsBringAndCostsFewEvaluations) {
   off.spec.run.guards.on = false;
   EXPECT_EQ(run(s, folder / "r").ending, Ending::completed);
   run(off, folder / "off");
-  EXPECT_LE(told(s).evaluations - told(off).evaluations, 12) << "of 1000 steps";
+  EXPECT_LE(prescribed(s).evaluations - prescribed(off).evaluations, 12) << "of 1000 steps";
 }
 
 TEST(EnergyJump, IsLeftToTheUserWhereTheCaseSaysSo) {
@@ -222,6 +256,58 @@ TEST(EnergyJump, LeavesNoCheckpointOfItsStepToResumeFrom) {
   expect_parts(o.failure, {"newest checkpoint before it: " + list_checkpoints(folder / "kept").front().string()});
 }
 
+// As after any failure: the state at the jump is in the last frame and in failed.h5, and the message gives their places
+// and that of the newest state before it.
+TEST(EnergyJump, LeavesItsStateInTheLastFrameAndInAFailedCheckpoint) {
+  Energies e;
+  e.kinetic = jump(100, 1e9);
+  TemporaryFolder const folder;
+  Simulation s = simulation(e);
+  s.spec.output.checkpoints_every = 0.1;
+  s.spec.output.frames_every = 0.1;
+  CaseOutcome const o = run(s, folder / "r");
+  EXPECT_EQ(read_checkpoint(folder / "r" / failed_checkpoint).step, 350);
+  auto const frames = list_frames(folder / "r");
+  ASSERT_EQ(frames.size(), 5U) << "at 0, 0.1, 0.2, 0.3 s and at the jump";
+  EXPECT_EQ(frames.back().first, o.summary.end_time);
+  expect_parts(o.failure, {"last state: " + (folder / "r/frames.hdf.series").string() + " and " +
+                               (folder / "r" / failed_checkpoint).string(),
+                           "newest checkpoint before it: " + list_checkpoints(folder / "r").front().string()});
+}
+
+/// A sheared block of rubber with steps above the limit of stability.
+std::string unstable_block(std::string const& formulation) {
+  return "title = \"Block\"\n[run]\nend = \"0.2 s\"\ncfl = 1.2\n[[body]]\nname = \"block\"\n"
+         "shape = { box = { min = [0, 0], max = [1, 1] }, particles = [8, 8], placement = \"cell_centred\" }\n"
+         "material = { law = \"neo_hookean\", density = 1000, youngs_modulus = \"10 MPa\", poissons_ratio = 0.3 }\n"
+         "formulation = { name = \"" +
+         formulation +
+         "\" }\ninitial_velocity = [\"30*Y\", \"0\"]\n[output]\nframes = { every = \"1 ms\" }\n"
+         "checkpoints = { every = \"1 ms\" }\n";
+}
+
+TEST(EnergyJump, OfAnUnstableBlockKeepsTheStatesBeforeAndAtIt) {
+  for (char const* formulation : {"nodal", "jst_sph"}) {
+    TemporaryFolder const folder;
+    Simulation s = build(read_case_text(unstable_block(formulation), "case.toml"));
+    CaseOutcome const o = run(s, folder / "r");
+    ASSERT_EQ(o.ending, Ending::failed) << formulation;
+    expect_parts(o.failure, {"is the fastest where the energy jumps without a load",
+                             "last state: ", "newest checkpoint before it: "});
+    Checkpoint const last = read_checkpoint(folder / "r" / failed_checkpoint);
+    EXPECT_EQ(last.step, o.summary.steps);
+    EXPECT_EQ(list_frames(folder / "r").back().first, last.time);
+    auto const kept = list_checkpoints(folder / "r");
+    ASSERT_FALSE(kept.empty());
+    EXPECT_LT(read_checkpoint(kept.front()).step, last.step) << "a state before the jump";
+    // The run can be continued from the kept state: here it fails at the same step again.
+    Simulation again = build(read_case_text(unstable_block(formulation), "case.toml"));
+    CaseOutcome const resumed = run(again, folder / "r", true);
+    EXPECT_EQ(resumed.ending, Ending::failed);
+    EXPECT_EQ(resumed.summary.steps, o.summary.steps);
+  }
+}
+
 TEST(EnergyJump, IsSeenInTheSameStepByAResumedRun) {
   Energies e;
   e.kinetic = [](double t) { return t < 0.6475 ? 100 : 1e4; };
@@ -231,8 +317,8 @@ TEST(EnergyJump, IsSeenInTheSameStepByAResumedRun) {
     for (Simulation* s : {&whole, &first, &second}) add_load(s->spec);
     CaseOutcome const expected = run(whole, folder / "whole");
     std::atomic<int> stop{0};
-    told(first).stop_at = stop_at;
-    told(first).stop = &stop;
+    prescribed(first).stop_at = stop_at;
+    prescribed(first).stop = &stop;
     EXPECT_EQ(run(first, folder / "parts", false, &stop).ending, Ending::stopped);
     CaseOutcome const found = run(second, folder / "parts", true);
     EXPECT_EQ(found.ending, Ending::failed);

@@ -6,6 +6,7 @@
 #include "piola/output/image.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include "support/fake_formulation.hpp"
+#include "support/scripted_run.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -414,8 +415,25 @@ TEST(RunCase, WarnsOfCellsThatAreNotNumbers) {
   springs(s).nan_at = 50;
   CaseOutcome const outcome = run(s, folder / "r");
   ASSERT_EQ(outcome.summary.warnings.size(), 1U);
-  EXPECT_NE(outcome.summary.warnings[0].find("history.csv: pressure_max is not a number at t = "), std::string::npos);
+  EXPECT_NE(outcome.summary.warnings[0].find("history.csv: not a number in pressure_max at t = "), std::string::npos);
   EXPECT_EQ(text_of(folder / "r/history.csv").find("nan"), std::string::npos);
+}
+
+TEST(RunCase, ListsColumnsWithoutNumbersInOneWarning) {
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  testing::Script script;
+  script.more = [=](double t) {
+    return std::vector<std::pair<std::string, double>>{{"first", t > 0.305 ? nan : 0},
+                                                       {"second", t > 0.305 ? nan : 0},
+                                                       {"third", t > 0.605 ? nan : 0},
+                                                       {"fourth", t > 0.705 ? nan : 0}};
+  };
+  testing::Outcome const outcome = testing::run(script);
+  EXPECT_EQ(outcome.shown, outcome.of.summary.warnings);
+  ASSERT_EQ(outcome.shown.size(), 2U) << "that of the first row with empty cells, and of what followed";
+  std::string const start = "history.csv: not a number in ", end = " s; such cells are left empty";
+  testing::expect_parts(outcome.shown[0], {start + "first, second at t = 0.31", end});
+  testing::expect_parts(outcome.shown[1], {start + "third at t = 0.61", " s, then fourth at t = 0.71", end});
 }
 
 TEST(RunCase, ReplacesItsOwnResultsOnly) {

@@ -317,6 +317,34 @@ TEST(Warnings, ContactWithNothing) {
             "");
 }
 
+// A key counts as given wherever it comes from; one of a similar name does not count for it.
+TEST(Warnings, OfIdleContactKeysFromTheCaseAndFromSettings) {
+  std::string const apart = two_cubes("jst_sph", 1), text = "contact.law has no effect";
+  auto const with = [&](std::string const& more, std::vector<std::string> const& settings) {
+    return build(read_case_text(apart + more, "case.toml", settings)).warnings;
+  };
+  EXPECT_NE(about(text, with("[contact]\nlaw = \"linear\"\n", {})), "");
+  EXPECT_NE(about(text, with("[[contact]]\nscale = 2\nlaw = \"linear\"\n", {})), "");
+  EXPECT_NE(about(text, warnings("contact = { law = \"linear\" }\n" + apart)), "");
+  EXPECT_NE(about(text, with("", {"contact.law=linear"})), "");
+  EXPECT_NE(about(text, with("", {"contact={ scale = 2, law = \"linear\" }"})), "");
+  EXPECT_NE(about(text, with("", {"contact.scale=2", "contact.law=linear"})), "");
+  EXPECT_NE(about(text, with("[contact]\nscale = 2\n", {"contact.law=linear"})), "");
+  EXPECT_NE(about(text, with("[contact]\nlaw = \"linear\"\n", {"contact.scale=2"})), "");
+  // A setting of more than 200 characters, of which a place keeps the first 200 only.
+  std::string const long_setting = "contact={ " + std::string(200, ' ') + "law = \"linear\" }";
+  EXPECT_NE(about(text, with("", {long_setting})), "");
+  EXPECT_EQ(about(text, with("", {"contact.scale=2"})), "");
+  EXPECT_EQ(about(text, with("[contact]\nscale = 2\n", {"contact.scale=3"})), "");
+}
+
+TEST(Warnings, LeaveOutContactThatTheCaseSwitchesOff) {
+  std::string const wall = "[[rigid]]\nname = \"wall\"\nplane = { point = [-1, 0], normal = [1, 0] }\n";
+  std::string const off = "contact = \"none\"\n";
+  EXPECT_EQ(about("contact.stiffness has no effect", warnings(off + adaptle("", wall))), "");
+  EXPECT_EQ(about("contact.exponent has no effect", warnings(off + adaptle("", wall))), "");
+}
+
 TEST(Warnings, ASlipOfUnitsThatMakesOneStepOfARun) {
   auto const all = warnings(test::sample_with("17 MPa", "17"));
   EXPECT_NE(about("softer than any jelly", all), "");

@@ -15,7 +15,8 @@
 
 namespace piola {
 
-/// Where the keys of a section stand in the case file, for messages that are found out later. "" is the section itself.
+/// Where the keys that a section gives stand in the case file, or which setting gives them, for messages that are found
+/// out later. "" is the section itself. A key that is left out has no entry: see place_of() and is_given().
 using Places = std::map<std::string, Place, std::less<>>;
 
 /// [run]

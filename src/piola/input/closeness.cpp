@@ -148,13 +148,6 @@ void report_contact(CaseSpec const& spec, ParticleSet const& particles, Closenes
 
 }  // namespace
 
-// Whatever one --set makes stands at one place, whose file is the text of the setting.
-bool is_given(Places const& places, std::string_view key) {
-  Place const place = place_of(places, key), section = place_of(places, "");
-  return place.line != section.line || place.column != section.column || place.file != section.file ||
-         (place.file.starts_with("--set") && place.file.find(key) != std::string::npos);
-}
-
 std::vector<Closeness> close_bodies(CaseSpec const& spec, ParticleSet const& particles, double reach) {
   std::vector<Closeness> found;
   std::vector<BodyPlaces> clouds;

@@ -4,13 +4,9 @@
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 namespace piola {
-
-/// Whether the section gives the key.
-bool is_given(Places const& places, std::string_view key);
 
 /// Two bodies, or a body and a rigid shape, that start close to each other.
 struct Closeness {

@@ -115,7 +115,7 @@ void read_contact(Value const& value, int dimension, Problems& problems, CaseSpe
   if (value.node.is_text() && value.node.text == "none") {
     spec.contact.emplace();
     spec.contact->law = Law::none;
-    spec.contact->places = {{"", value.node.place}};
+    spec.contact->places = {{"", value.node.place}, {"law", value.node.place}};
     return;
   }
   std::vector<Section> wholes, pairs;

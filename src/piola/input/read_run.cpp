@@ -71,7 +71,7 @@ void read_guards(Section const& run, GuardLimits& limits) {
   }
   auto const section = run.table("guards");
   if (!section) return;
-  constexpr double never = std::numeric_limits<double>::infinity();
+  constexpr double never = GuardLimits::never;
   read_limit(*section, "energy_rise_warn", limits.energy_rise_warn, never);
   read_limit(*section, "energy_rise_stop", limits.energy_rise_stop, never);
   read_limit(*section, "dissipation", limits.dissipation, never);
@@ -80,6 +80,12 @@ void read_guards(Section const& run, GuardLimits& limits) {
   read_limit(*section, "strangers", limits.strangers, 0);
   read_limit(*section, "parting_warn", limits.parting_warn, never);
   read_limit(*section, "parting_stop", limits.parting_stop, never);
+  read_limit(*section, "step_warn", limits.step_warn, 0);
+  read_limit(*section, "step_stop", limits.step_stop, 0);
+  read_limit(*section, "small_strain_warn", limits.small_strain_warn, never);
+  read_limit(*section, "small_strain_stop", limits.small_strain_stop, never);
+  read_limit(*section, "small_rotation_warn", limits.small_rotation_warn, never);
+  read_limit(*section, "small_rotation_stop", limits.small_rotation_stop, never);
   section->refuse_unknown();
 }
 

@@ -21,8 +21,11 @@ double determinant(std::array<Expression, 9> const& F, Vec3 const& X) {
 
 Place place_of(Places const& places, std::string_view key) {
   auto const found = places.find(key);
-  return found == places.end() ? Place{} : found->second;
+  if (found != places.end()) return found->second;
+  return key.empty() ? Place{} : place_of(places, "");
 }
+
+bool is_given(Places const& places, std::string_view key) { return places.contains(key); }
 
 Place place_in_table(Places const& places, std::string_view table, std::string_view key) {
   auto const found = places.find(std::string(table) + "." + std::string(key));

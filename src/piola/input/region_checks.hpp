@@ -11,7 +11,10 @@ namespace piola {
 
 /// Tools of check_regions and of the warnings about a case.
 
+/// Place of a key; of the section if it does not give the key.
 Place place_of(Places const& places, std::string_view key);
+/// Whether the section gives the key, in the case file or by a setting (--set, Python).
+bool is_given(Places const& places, std::string_view key);
 /// Of a key in a table of the section; else of the table.
 Place place_in_table(Places const& places, std::string_view table, std::string_view key);
 /// "(0.5, 6, 0.5) m".

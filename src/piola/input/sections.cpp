@@ -71,7 +71,8 @@ std::optional<std::array<double, 3>> read_direction(Section const& section, std:
 
 Places places_of(Section const& section, std::initializer_list<char const*> keys) {
   Places places{{"", section.place()}};
-  for (char const* key : keys) places[key] = section.place_of(key);
+  for (char const* key : keys)
+    if (section.has(key)) places[key] = section.place_of(key);
   return places;
 }
 

@@ -32,6 +32,7 @@ std::optional<std::vector<Expression>> read_formulas(Value const& value, std::st
 std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension);
 /// The same as a unit vector.
 std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension);
+/// Places of the section and of those of `keys` that it gives.
 Places places_of(Section const& section, std::initializer_list<char const*> keys);
 
 void read_run(Section const& section, RunSpec& run);

@@ -3,11 +3,11 @@
 #include "piola/base/read_file.hpp"
 #include "piola/math/digest.hpp"
 #include "piola/output/files.hpp"
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <type_traits>
+#include <utility>
 
 namespace piola {
 namespace {
@@ -22,35 +22,102 @@ void append(std::string& to, T const& value) {
   to.append(bytes.data(), bytes.size());
 }
 
-/// Takes values from the front of a text; false once there is not enough left.
-class Bytes {
+bool is_finite(double x) { return std::isfinite(x); }
+bool is_finite(std::array<double, 3> const& x) { return std::isfinite(x[0] + x[1] + x[2]); }
+
+/// Appends the values of a packing to the content of a file. Inverse of PackingReader.
+class PackingWriter {
  public:
-  explicit Bytes(std::string_view text) : text_(text) {}
+  explicit PackingWriter(std::string& content) : content_(content) {}
+  void number(double value) { append(content_, value); }
+  void whole(int value) { append(content_, static_cast<std::int64_t>(value)); }
+  template <class T>
+  void count_of(std::vector<T> const& values) {
+    append(content_, static_cast<std::uint64_t>(values.size()));
+  }
+  template <class T>
+  void list(std::vector<T> const& values) {
+    for (T const& value : values) append(content_, value);
+  }
+
+ private:
+  std::string& content_;
+};
+
+/// Takes the values of a packing from the front of a text. Inverse of PackingWriter.
+class PackingReader {
+ public:
+  explicit PackingReader(std::string_view text) : text_(text) {}
+  /// False once there was not enough left, or a listed value was not finite.
+  bool good() const { return good_; }
   template <class T>
   bool take(T& value) {
-    if (text_.size() < sizeof(T)) return false;
+    good_ = good_ && text_.size() >= sizeof(T);
+    if (!good_) return false;
     std::memcpy(&value, text_.data(), sizeof(T));
     text_.remove_prefix(sizeof(T));
     return true;
   }
   bool skip(std::string_view expected) {
-    if (!text_.starts_with(expected)) return false;
-    text_.remove_prefix(expected.size());
-    return true;
+    good_ = good_ && text_.starts_with(expected);
+    if (good_) text_.remove_prefix(expected.size());
+    return good_;
   }
-  std::size_t left() const { return text_.size(); }
+  void number(double& value) { take(value); }
+  void whole(int& value) {
+    std::int64_t wide = 0;
+    if (take(wide)) value = static_cast<int>(wide);
+  }
+  /// Length of all lists that follow.
+  template <class T>
+  void count_of(std::vector<T>&) {
+    take(count_);
+  }
+  template <class T>
+  void list(std::vector<T>& values) {
+    good_ = good_ && count_ <= text_.size() / sizeof(T);
+    if (!good_) return;
+    values.resize(static_cast<std::size_t>(count_));
+    for (T& value : values) good_ = take(value) && is_finite(value);
+  }
 
  private:
   std::string_view text_;
+  std::uint64_t count_ = 0;
+  bool good_ = true;
 };
 
-std::string begun(std::string_view mark, std::string const& key) {
-  std::string content(mark);
-  append(content, static_cast<std::uint64_t>(key.size()));
-  return content + key;
+/// Values of a packing in the order of the file. File: PackingWriter, with a const packing, or
+/// PackingReader.
+template <class File, class Packing>
+  requires std::is_same_v<std::remove_const_t<Packing>, geometry::Packing>
+void transfer(File& file, Packing& packing) {
+  file.count_of(packing.X);
+  file.number(packing.volume);
+  file.number(packing.spacing);
+  file.whole(packing.sweeps);
+  file.list(packing.X);
+}
+template <class File, class Packing>
+  requires std::is_same_v<std::remove_const_t<Packing>, geometry::UnfinishedPacking>
+void transfer(File& file, Packing& packing) {
+  file.count_of(packing.X);
+  file.whole(packing.sweeps);
+  file.list(packing.X);
+  file.list(packing.listed);
+  file.list(packing.known_at);
+  file.list(packing.away);
 }
 
-void write_sealed(std::filesystem::path const& path, std::string content) {
+/// Mark, length of the key, key, values, and a check sum of all of it.
+template <class Packing>
+void write_content(std::filesystem::path const& path, std::string_view mark, std::string const& key,
+                   Packing const& packing) {
+  std::string content(mark);
+  append(content, static_cast<std::uint64_t>(key.size()));
+  content += key;
+  PackingWriter file(content);
+  transfer(file, packing);
   append(content, digest_of(content));
   write_whole_file(path, content);
 }
@@ -62,27 +129,20 @@ std::string content_of(std::filesystem::path const& path) {
   return file.read(content) == content.size() ? content : std::string();
 }
 
-/// What follows mark and key in the content of a file; nothing if these are others or the content is damaged.
-std::optional<Bytes> opened(std::string const& content, std::string_view mark, std::string const& key) {
-  std::uint64_t seal = 0, length = 0;
-  if (content.size() < sizeof(seal)) return {};
-  std::string_view const body(content.data(), content.size() - sizeof(seal));
-  std::memcpy(&seal, content.data() + body.size(), sizeof(seal));
-  Bytes bytes(body);
-  if (digest_of(body) != seal || !bytes.skip(mark) || !bytes.take(length) || length != key.size() || !bytes.skip(key))
+/// Nothing if there is no such file, if mark or key are others, or if it is damaged. Inverse of write_content().
+template <class Packing>
+std::optional<Packing> read_content(std::filesystem::path const& path, std::string_view mark, std::string const& key) {
+  std::string const content = content_of(path);
+  std::uint64_t sum = 0, length = 0;
+  if (content.size() < sizeof(sum)) return {};
+  std::string_view const body(content.data(), content.size() - sizeof(sum));
+  std::memcpy(&sum, content.data() + body.size(), sizeof(sum));
+  PackingReader file(body);
+  if (digest_of(body) != sum || !file.skip(mark) || !file.take(length) || length != key.size() || !file.skip(key))
     return {};
-  return bytes;
-}
-
-bool is_finite(double x) { return std::isfinite(x); }
-bool is_finite(std::array<double, 3> const& x) { return std::isfinite(x[0] + x[1] + x[2]); }
-
-/// `count` values, all finite.
-template <class T>
-bool take_all(Bytes& bytes, std::uint64_t count, std::vector<T>& values) {
-  if (count > bytes.left() / sizeof(T)) return false;
-  values.resize(static_cast<std::size_t>(count));
-  return std::all_of(values.begin(), values.end(), [&](T& value) { return bytes.take(value) && is_finite(value); });
+  Packing packing;
+  transfer(file, packing);
+  return file.good() ? std::optional(std::move(packing)) : std::nullopt;
 }
 
 }  // namespace
@@ -96,51 +156,21 @@ std::uint64_t digest_of(std::string_view text) {
 std::string packing_name(std::string const& key) { return fmt::format("packed-{:016x}.cloud", digest_of(key)); }
 
 void write_packing(std::filesystem::path const& path, std::string const& key, geometry::Packing const& packing) {
-  std::string content = begun(finished_mark, key);
-  append(content, static_cast<std::uint64_t>(packing.X.size()));
-  append(content, packing.volume);
-  append(content, packing.spacing);
-  append(content, static_cast<std::int64_t>(packing.sweeps));
-  for (auto const& X : packing.X) append(content, X);
-  write_sealed(path, std::move(content));
+  write_content(path, finished_mark, key, packing);
 }
 
 std::optional<geometry::Packing> read_packing(std::filesystem::path const& path, std::string const& key) {
-  std::string const content = content_of(path);
-  std::uint64_t count = 0;
-  std::int64_t sweeps = 0;
-  geometry::Packing packing;
-  auto bytes = opened(content, finished_mark, key);
-  if (!bytes || !bytes->take(count) || !bytes->take(packing.volume) || !bytes->take(packing.spacing) ||
-      !bytes->take(sweeps) || !take_all(*bytes, count, packing.X))
-    return {};
-  packing.sweeps = static_cast<int>(sweeps);
-  return packing;
+  return read_content<geometry::Packing>(path, finished_mark, key);
 }
 
 void write_unfinished(std::filesystem::path const& path, std::string const& key,
                       geometry::UnfinishedPacking const& packing) {
-  std::string content = begun(unfinished_mark, key);
-  append(content, static_cast<std::uint64_t>(packing.X.size()));
-  append(content, static_cast<std::int64_t>(packing.sweeps));
-  for (auto const* places : {&packing.X, &packing.listed, &packing.known_at})
-    for (auto const& X : *places) append(content, X);
-  for (double const away : packing.away) append(content, away);
-  write_sealed(path, std::move(content));
+  write_content(path, unfinished_mark, key, packing);
 }
 
 std::optional<geometry::UnfinishedPacking> read_unfinished(std::filesystem::path const& path, std::string const& key) {
-  std::string const content = content_of(path);
-  std::uint64_t count = 0;
-  std::int64_t sweeps = 0;
-  geometry::UnfinishedPacking packing;
-  auto bytes = opened(content, unfinished_mark, key);
-  if (!bytes || !bytes->take(count) || !bytes->take(sweeps) || count == 0 || !take_all(*bytes, count, packing.X) ||
-      !take_all(*bytes, count, packing.listed) || !take_all(*bytes, count, packing.known_at) ||
-      !take_all(*bytes, count, packing.away))
-    return {};
-  packing.sweeps = static_cast<int>(sweeps);
-  return packing;
+  auto packing = read_content<geometry::UnfinishedPacking>(path, unfinished_mark, key);
+  return packing && !packing->X.empty() ? std::move(packing) : std::nullopt;
 }
 
 }  // namespace piola

@@ -11,6 +11,7 @@
 #include "piola/input/check_case.hpp"
 #include "piola/input/formula_loop.hpp"
 #include "piola/input/formulations_of.hpp"
+#include "piola/input/region_checks.hpp"
 #include "piola/materials/solids.hpp"
 #include "piola/neighbours/cell_moments.hpp"
 #include "piola/particles/parts.hpp"
@@ -191,8 +192,7 @@ void check_fields(CaseSpec const& spec, Formulation const& formulation, std::str
       std::vector<std::string> known;
       known.reserve(fields.size());
       for (FieldInfo const& info : fields) known.push_back(info.name);
-      auto const place = probe.places.find("quantities");
-      problems.add(place == probe.places.end() ? Place{} : place->second,
+      problems.add(place_of(probe.places, "quantities"),
                    "probe " + in_quotes(probe.name) + " asks for " + in_quotes(word) + ", but " +
                        (body == spec.bodies.end() ? name : body->formulation.name) + " has no field " +
                        in_quotes(quantity->field) + " here (allowed: quantities of " + joined(known) + ") - remove it");

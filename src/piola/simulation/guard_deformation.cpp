@@ -173,9 +173,9 @@ class OverlapGuard : public LargestGuard {
 };
 
 /// Strain of the cells between particles that their stress does not have (Taylor-SPH).
-class PartingGuard : public LargestGuard {
+class StrainDriftGuard : public LargestGuard {
  public:
-  PartingGuard(GuardLimits const& limits, ParticleSet const& particles)
+  StrainDriftGuard(GuardLimits const& limits, ParticleSet const& particles)
       : LargestGuard("parting", "parting"), limits_(limits), particles_(particles) {}
   std::string words() const override {
     if (!(largest() > limits_.parting_warn)) return "";
@@ -235,7 +235,7 @@ std::unique_ptr<Guard> make_jacobian_guard(CaseSpec const& spec, ParticleSet con
 }
 std::unique_ptr<Guard> make_overlap_guard(GuardLimits const& limits) { return std::make_unique<OverlapGuard>(limits); }
 std::unique_ptr<Guard> make_parting_guard(GuardLimits const& limits, ParticleSet const& particles) {
-  return std::make_unique<PartingGuard>(limits, particles);
+  return std::make_unique<StrainDriftGuard>(limits, particles);
 }
 
 }  // namespace piola

@@ -8,11 +8,6 @@
 namespace piola {
 namespace {
 
-/// P = C : (sym F - 1) has errors of first order. Cauchy's stress P F^T / J differs from P, and from a symmetric
-/// tensor, by (strain + rotation) of itself; a rotation by r alone is taken for a strain of r^2/2. At the limits that
-/// makes 2 % by strain, and 5 % and a strain of 0.00125 by rotation.
-constexpr double strain_limit = 0.02, rotation_limit = 0.05;  // the second one [rad]
-
 /// Angle of the rotation of a deformation gradient of small strain, with a relative error of the size of the strain.
 /// F: row by row.
 double rotation_of(double const* F) {
@@ -37,10 +32,14 @@ double strain_of(double const* F, double known) {
   return largest;
 }
 
-/// Strain and rotation of bodies whose law is for small ones.
+/// Strain and rotation of bodies whose law is for small ones. P = C : (sym F - 1) has errors of first order. Cauchy's
+/// stress P F^T / J differs from P, and from a symmetric tensor, by (strain + rotation) of itself; a rotation by r
+/// alone is taken for a strain of r^2/2. At the default limits that makes 2 % by strain, and 5 % and a strain of
+/// 0.00125 by rotation.
 class SmallStrainGuard : public Guard {
  public:
-  SmallStrainGuard(CaseSpec const& spec, ParticleSet const& particles) : particles_(particles) {
+  SmallStrainGuard(CaseSpec const& spec, ParticleSet const& particles)
+      : limits_(spec.run.guards), particles_(particles) {
     for (BodySpec const& body : spec.bodies) {
       bool const with_gradient = body.formulation.name != "taylor_sph" && body.formulation.name != "jst_advection";
       watched_.push_back(body.law == "linear_elastic" && with_gradient);
@@ -69,8 +68,8 @@ class SmallStrainGuard : public Guard {
       text += fmt::format("{}the {} reached {:.3g}{} (limit {}) at t = {:.6g} s in {}", text.empty() ? "" : "; ", what,
                           most.value, unit, limit, most.where.time, most.where.text(particles_));
     };
-    add("strain", m_.strain, strain_limit, "");
-    add("rotation", m_.rotation, rotation_limit, " rad");
+    add("strain", m_.strain, limits_.small_strain_warn, "");
+    add("rotation", m_.rotation, limits_.small_rotation_warn, " rad");
     if (text.empty()) return text;
     double const rotation = m_.rotation.value;
     return fmt::format(
@@ -78,6 +77,21 @@ class SmallStrainGuard : public Guard {
         "symmetric, and the rotation counts as a strain of {:.2g}; take saint_venant_kirchhoff (large rotation) or "
         "neo_hookean (large strain, too)",
         text, 100 * std::max(m_.strain.value, rotation), 1 - std::cos(rotation));
+  }
+  std::optional<Objection> objection() const override {
+    bool const strained = m_.strain.value > limits_.small_strain_stop;
+    if (!strained && !(m_.rotation.value > limits_.small_rotation_stop)) return std::nullopt;
+    Objection o;
+    take_particle(o.failure, strained ? m_.strain.where : m_.rotation.where, particles_);
+    o.failure.what =
+        strained ? "has a strain that linear_elastic is not for" : "has a rotation that linear_elastic is not for";
+    o.failure.values = {{"largest strain", m_.strain.value}, {"largest rotation [rad]", m_.rotation.value}};
+    o.causes = fmt::format(
+        "linear_elastic is for small strain and rotation: take saint_venant_kirchhoff (large rotation) or neo_hookean "
+        "(large strain, too); run.guards.{} is {}",
+        strained ? "small_strain_stop" : "small_rotation_stop",
+        strained ? limits_.small_strain_stop : limits_.small_rotation_stop);
+    return o;
   }
   void save(StateWriter& writer) const override {
     writer.put(
@@ -107,6 +121,7 @@ class SmallStrainGuard : public Guard {
     most = {value, suspect(look.fields, particle, look.moment.time)};
   }
 
+  GuardLimits limits_;
   ParticleSet const& particles_;
   std::vector<bool> watched_;  ///< by body
   bool any_ = false;

@@ -10,9 +10,6 @@
 namespace piola {
 namespace {
 
-/// Fraction of the step that waves at rest allow. Impact and fracture shorten it by 100 at most; below a thousandth the
-/// particle that limits it is no longer part of any answer, and the run stops at a millionth (run.min_step).
-constexpr double least_fraction = 1e-3;
 /// Particles are searched again once the step is shorter by a tenth: a search costs as much as a frame.
 constexpr double worse = 0.9;
 
@@ -48,11 +45,16 @@ double step_of_waves(CaseSpec const& spec, ParticleSet const& particles) {
   return (std::isnan(spec.run.cfl) ? usual_cfl : spec.run.cfl) * step;
 }
 
-/// The step beside the one that waves at rest allow.
+/// The step as a fraction of the one that waves at rest allow. Impact and fracture shorten it by 100 at most; below a
+/// thousandth, the default of run.guards.step_warn, the particle that limits it is no longer part of any answer. The
+/// run stops at a millionth (run.min_step), or below run.guards.step_stop.
 class StepGuard : public Guard {
  public:
   StepGuard(CaseSpec const& spec, ParticleSet const& particles)
-      : waves_(step_of_waves(spec, particles)), particles_(particles) {}
+      : warn_(spec.run.guards.step_warn),
+        stop_(spec.run.guards.step_stop),
+        waves_(step_of_waves(spec, particles)),
+        particles_(particles) {}
 
   void look(Look const& look) override {
     Moment const& now = look.moment;
@@ -61,7 +63,8 @@ class StepGuard : public Guard {
     if (!(now.dt < m_.least)) return;
     m_.least = now.dt;
     m_.time = now.time;
-    if (!(fraction() < least_fraction) || !(m_.least < worse * m_.searched)) return;
+    bool const first_to_stop = fraction() < stop_ && !(m_.searched / reference_ < stop_);
+    if (!(fraction() < std::max(warn_, stop_)) || !(first_to_stop || m_.least < worse * m_.searched)) return;
     m_.searched = m_.least;
     find_where(look);
   }
@@ -70,10 +73,10 @@ class StepGuard : public Guard {
     return GuardNumbers{"step", {{"least", m_.least}, {"share", fraction()}, {"time", m_.time}}, words()};
   }
   std::string words() const override {
-    if (!(fraction() < least_fraction)) return "";
+    if (!(fraction() < warn_)) return "";
     std::string const what =
         fmt::format("the step fell to {} at t = {:.6g} s, {:.2g} of the {} that waves at rest allow (limit {})",
-                    quantity_text(m_.least, "s"), m_.time, fraction(), quantity_text(reference_, "s"), least_fraction);
+                    quantity_text(m_.least, "s"), m_.time, fraction(), quantity_text(reference_, "s"), warn_);
     std::string const particle =
         m_.where.known() ? fmt::format("{} has det F = {:.3g}", m_.where.text(particles_), m_.jacobian) : "";
     constexpr double deformed = 0.1;  // change of volume
@@ -84,6 +87,19 @@ class StepGuard : public Guard {
     return what + "; no particle is crushed or torn (" + particle +
            ") - the formulation itself asks for it, as of a body that is too thin for it: take more particles across, "
            "give run.cfl, or take another formulation";
+  }
+  std::optional<Objection> objection() const override {
+    if (!(fraction() < stop_)) return std::nullopt;
+    Objection o;
+    if (m_.where.known()) take_particle(o.failure, m_.where, particles_);
+    o.failure.what = m_.where.known() ? "has changed its volume most where the time step fell" : "time step fell";
+    o.failure.values = {{"step / step of waves at rest", fraction()}, {"step of waves at rest [s]", reference_}};
+    if (m_.where.known()) o.failure.values.emplace_back("det F", m_.jacobian);
+    o.causes = fmt::format(
+        "a particle is crushed or torn, or the body is too thin for its formulation: take more particles or a law that "
+        "fails, or end the run earlier; run.guards.step_stop is {}",
+        stop_);
+    return o;
   }
   void save(StateWriter& writer) const override {
     writer.put("guard_step", std::array{m_.least, m_.time, m_.searched, m_.jacobian, reference_, m_.where.id,
@@ -119,6 +135,7 @@ class StepGuard : public Guard {
     double jacobian = 1;
     Suspect where = {};
   };
+  double warn_, stop_;            ///< limits of fraction()
   double waves_, reference_ = 0;  ///< [s]
   ParticleSet const& particles_;
   Memory m_;

@@ -27,9 +27,9 @@ struct Pair {
 
 /// Particles that were far from each other at the start (or belong to different bodies) and now are so near that one
 /// must have gone through the surface of the other.
-class StrangerGuard : public Guard {
+class ProximityGuard : public Guard {
  public:
-  StrangerGuard(CaseSpec const& spec, ParticleSet const& particles)
+  ProximityGuard(CaseSpec const& spec, ParticleSet const& particles)
       : limit_(spec.run.guards.strangers),
         merging_(spec.contact && spec.contact->law == ContactRule::Law::none),
         particles_(particles) {
@@ -172,7 +172,7 @@ class StrangerGuard : public Guard {
 }  // namespace
 
 std::unique_ptr<Guard> make_stranger_guard(CaseSpec const& spec, ParticleSet const& particles) {
-  return std::make_unique<StrangerGuard>(spec, particles);
+  return std::make_unique<ProximityGuard>(spec, particles);
 }
 
 }  // namespace piola

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/observers.hpp"
+#include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/free_memory.hpp"
 #include "piola/exec/instruction_sets.hpp"
@@ -28,6 +29,24 @@ void take_units(CaseSpec const& spec, std::vector<HistoryColumn>& columns) {
 }
 
 }  // namespace
+
+void EmptyCells::add(std::vector<std::string> const& columns, double time) {
+  std::vector<std::string> fresh;
+  for (std::string const& column : columns) {
+    bool const known = std::any_of(rows_.begin(), rows_.end(), [&](auto const& at) {
+      return std::find(at.second.begin(), at.second.end(), column) != at.second.end();
+    });
+    if (!known) fresh.push_back(column);
+  }
+  if (!fresh.empty()) rows_.emplace_back(time, std::move(fresh));
+}
+
+std::string EmptyCells::text(std::size_t first) const {
+  std::string text;
+  for (std::size_t k = first; k < rows_.size(); ++k)
+    text += fmt::format("{}{} at t = {} s", text.empty() ? "" : ", then ", joined(rows_[k].second), rows_[k].first);
+  return fmt::format("history.csv: not a number in {}; such cells are left empty", text);
+}
 
 HistoryObserver::HistoryObserver(Results results)
     : results_(std::move(results)),
@@ -58,11 +77,10 @@ void HistoryObserver::write_row(Formulation const& formulation, Moment const& mo
   last_step_ = moment.step;
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
   for (auto const& more : probes_.evaluate(formulation, moment.time)) row.insert(row.end(), more.begin(), more.end());
-  for (std::string const& column : file_->append(row)) {
-    if (!warned_.insert(column).second) continue;
-    results_.journal.warn(
-        fmt::format("history.csv: {} is not a number at t = {} s; such cells are left empty", column, moment.time));
-  }
+  std::size_t const rows_before = empty_cells_.rows();
+  empty_cells_.add(file_->append(row), moment.time);
+  // The first such row is reported at once, columns that follow it in one warning at the end of the run.
+  if (rows_before == 0 && empty_cells_.rows() > 0) results_.journal.warn(empty_cells_.text(0));
 }
 
 void HistoryObserver::see(Formulation const& formulation, Moment const& moment) {
@@ -74,6 +92,7 @@ void HistoryObserver::finish(Formulation const& formulation, Moment const& momen
   bool const written = !rows.empty() && rows.back()[1] == static_cast<double>(moment.step);
   // A stopped run gets no extra row, so that the history of a resumed run equals that of an uninterrupted one.
   if (!written && ending != Ending::stopped) write_row(formulation, moment);
+  if (empty_cells_.rows() > 1) results_.journal.warn(empty_cells_.text(1));
 }
 
 void HistoryObserver::save(StateWriter& writer) const {

@@ -15,8 +15,8 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -51,6 +51,21 @@ struct Results {
   Journal& journal;
 };
 
+/// The columns of a history whose cells are left empty because they are not numbers.
+class EmptyCells {
+ public:
+  /// columns: without a number in the row of `time` [s].
+  void add(std::vector<std::string> const& columns, double time);
+  /// Number of rows that had empty cells in columns that had none before.
+  std::size_t rows() const { return rows_.size(); }
+  /// One warning that lists the columns of these rows from number `first` on, each with the time of its first empty
+  /// cell.
+  std::string text(std::size_t first) const;
+
+ private:
+  std::vector<std::pair<double, std::vector<std::string>>> rows_;  ///< time [s] and columns
+};
+
 /// history.csv: one row at each due time and at the end.
 class HistoryObserver : public Observer {
  public:
@@ -73,8 +88,8 @@ class HistoryObserver : public Observer {
   Schedule schedule_;
   ProbeRow probes_;
   std::optional<HistoryFile> file_;
-  HistoryMark mark_;              ///< of the checkpoint that the run was resumed from
-  std::set<std::string> warned_;  ///< columns with cells that were not numbers
+  HistoryMark mark_;  ///< of the checkpoint that the run was resumed from
+  EmptyCells empty_cells_;
   std::optional<Diagnostics> last_;
   bool seen_at_start_ = false;  ///< last_ is of the state before the first step
   std::int64_t last_step_ = -1;
