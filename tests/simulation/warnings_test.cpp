@@ -81,6 +81,19 @@ TEST(Warnings, TellOfMetalsWhoseTensionNothingLimits) {
   EXPECT_EQ(about("nothing limits the tension", warnings(adaptle(", convert_strain = 0.5", "", failing))), "");
 }
 
+TEST(Warnings, TellWhereAdaptleIsKnownToBeInaccurateInBending) {
+  std::string const elastic = "law = \"neo_hookean\", poissons_ratio = 0.3";
+  auto const bar = [&](std::string const& material, std::string const& held) {
+    return test::replaced(test::replaced(adaptle(", description = \"total_lagrangian\"", held, material),
+                                         "max = [0.8, 0.8]", "max = [0.5, 2.5]"),
+                          "particles = [8, 8]", "particles = [5, 25]");
+  };
+  EXPECT_NE(about("5 particles across may bend", warnings(bar(elastic, support))), "");
+  EXPECT_EQ(about("across may bend", warnings(bar(elastic, ""))), "");
+  EXPECT_EQ(about("across may bend", warnings(bar(perfect, support))), "");
+  EXPECT_EQ(about("across may bend", warnings(adaptle(", description = \"total_lagrangian\"", support, elastic))), "");
+}
+
 TEST(Warnings, NameTheLineAndWhatToDo) {
   EXPECT_EQ(warnings(rubber(", filter_passes = 3")),
             std::vector<std::string>{

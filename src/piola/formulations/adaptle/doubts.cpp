@@ -128,6 +128,21 @@ void doubt_damage(BodyOptions const& o, BodyDoubts& doubts) {
   }
 }
 
+/// Slender elastic bodies that are held bend: the period is wrong and the energy may rise (docs/user/formulations.md).
+void doubt_bending(Assembly const& assembly, std::size_t body, BodyOptions const& o, BodyDoubts& doubts) {
+  constexpr int few = 6, slender = 3;
+  auto const& lattice = assembly.particles.bodies[body].lattice;
+  auto const [least, most] = std::minmax_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
+  bool yields = false;
+  with_solid(doubts.material(), [&](auto const& law) { yields = law.yield_stress({}, 0) < unbounded; });
+  bool const bends = *least > 0 && *least <= few && *most >= slender * *least && doubts.has_support();
+  if (!bends || yields || o.description != Description::total_lagrangian || assembly.particles.dimension == 1) return;
+  doubts.add("formulation", fmt::format("an elastic body that is held and {} particles across may bend: the energy of "
+                                        "a cantilever of 5 rises by 12 % in half a period - take nodal, or more "
+                                        "particles across",
+                                        *least));
+}
+
 }  // namespace
 
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
@@ -138,6 +153,7 @@ void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts) {
   doubt_forces(o, all, assembly.particles.dimension, doubts);
   doubt_tension(o, doubts);
   doubt_damage(o, doubts);
+  doubt_bending(assembly, body, o, doubts);
 }
 
 }  // namespace piola::adaptle
