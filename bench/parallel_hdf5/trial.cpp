@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What collective writing by parallel HDF5 takes, and what it says when a rank cannot write: a table of N rows of 9
-// numbers, of which ranks have leaves of 16 rows in turn, as contiguous data or deflated chunks. For record 0125.
+// numbers, of which ranks have leaves of 16 rows in turn, as contiguous data or deflated chunks. For record 26.
 //
 // mpicxx -O2 -std=c++20 -I/usr/include/hdf5/openmpi bench/parallel_hdf5/trial.cpp -lhdf5_openmpi -o trial
 // mpirun -n 2 trial FILE [N [leaves|stretches [deflate]]]       (default: 1000000 leaves)

@@ -108,7 +108,7 @@ std::vector<int> owners(ParticleSet const& set, SlotOrder const& order, int rank
   return owner;
 }
 
-/// The tables of records 0097 and 0110. Runs of pencils are planks along the longest side where bisection of particles
+/// The tables of records 25 and 0110. Runs of pencils are planks along the longest side where bisection of particles
 /// makes cubes; bisection of leaves lies between them.
 TEST(HaloCount, OfRunsOfPencilsAndOfBisection) {
   for (auto const& particles : {std::array{26, 157, 26}, {48, 48, 48}, {120, 80, 24}}) {

@@ -36,7 +36,7 @@ struct BodyCells {
 inline bool has_lattice_cells(Body const& body) { return body.regular && !body.scattered && !body.outline.inside; }
 
 /// Exact for boxes filled from a lattice. Others are sampled by blocks of a sixth of the spacing, aligned with the box
-/// around them, packed ones stretched to their exact volume (record 0098). Volumes and surface are of the same body, so
+/// around them, packed ones stretched to their exact volume (record 21). Volumes and surface are of the same body, so
 /// the divergence theorem holds for quadratic fields to round-off. Needs Body::outline. Cells may be without a block.
 BodyCells measure_cells(ParticleSet const& set, Body const& body);
 

@@ -148,7 +148,7 @@ struct ListLoader {
   }
 
   /// Neighbours of the next particles mostly are the next ones of these, because rows stand in memory in full; from the
-  /// second-level cache they come in time: up to a tenth of both sweeps (record 0099).
+  /// second-level cache they come in time: up to a tenth of both sweeps (record 4).
   template <int Values>
   PIOLA_FN static void fetch_ahead(double const* base, std::ptrdiff_t stride, Index const* neighbour) {
 #if PIOLA_HAS_PACKS

@@ -149,7 +149,7 @@ bool yields(MaterialParameters const& material) {
   return can;
 }
 
-/// zeta by default. What may turn Eulerian is damped more: where it fails, noise would part it (record 0094).
+/// zeta by default. What may turn Eulerian is damped more: where it fails, noise would part it (record 13).
 double default_hourglass(BodyOptions const& o, bool springs, bool yielding) {
   return springs || (yielding && o.description == Description::total_lagrangian) ? 0.1 : 0.7;
 }

@@ -12,7 +12,7 @@ namespace piola::inline PIOLA_MACHINE {
 ///   sy = min(Y0 (1 + beta (ep + ei))^n, Ymax) G/G0,   G/G0 = 1 + b p / eta^(1/3) - h (T - Tr),   eta = rho/rho0,
 /// between 0 and the melting temperature, above which it is 0:
 ///   Tm = Tm0 exp(2 a (1 - 1/eta)) eta^(2 (gamma0 - a - 1/3)).
-/// Of the elastic rate the shear modulus stays G0 (docs/decisions/0059-steinberg-guinan.md).
+/// Of the elastic rate the shear modulus stays G0 (docs/decisions/06-materials.md).
 /// The increment solves mises - 3 mu dep = sy(ep + dep), with pressure, density and temperature of the start of the
 /// step.
 class SteinbergGuinan {
