@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The table of docs/theory/scaling.md: weak scaling of a cube by its formulas, for three cuts.
+"""Table behind docs/theory/scaling.md: weak scaling of a cube by its formulas, for three cuts.
 
 Usage: bench/scaling.py [PARTICLES_PER_RANK ...]      default: 1e6 1e5 1e4
 """
