@@ -28,7 +28,7 @@ namespace {
 
 constexpr char good_end = '+';
 
-/// The child's share: silent, limited, one character at the end that tells that the answer is whole.
+/// Body of the child process: silent, with limited resources. One character at the end marks a complete answer.
 [[noreturn]] void answer_and_end(std::function<std::string()> const& work, int pipe, std::size_t memory) {
   int const nowhere = ::open("/dev/null", O_WRONLY);
   if (nowhere >= 0) {
@@ -72,7 +72,7 @@ bool collect(int pipe, double seconds, std::string& bytes) {
     auto const left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     if (left <= 0) return false;
     pollfd wait{pipe, POLLIN, 0};
-    if (::poll(&wait, 1, static_cast<int>(left)) <= 0) continue;  // interrupted or too late: the clock knows
+    if (::poll(&wait, 1, static_cast<int>(left)) <= 0) continue;  // interrupted or too late: decided by the clock
     auto const count = ::read(pipe, buffer.data(), buffer.size());
     if (count == 0) return true;
     if (count > 0) bytes.append(buffer.data(), static_cast<std::size_t>(count));

@@ -18,8 +18,8 @@ class ContractError : public std::logic_error {
 
 }  // namespace piola
 
-/// What a function asks of its caller, and what it promises in return. Checked when PIOLA_CONTRACTS is 1 (presets dev
-/// and audit); otherwise the condition is not even evaluated. Host code only.
+/// Preconditions and postconditions of functions. Checked when PIOLA_CONTRACTS is 1 (presets dev and audit); otherwise
+/// the condition is not even evaluated. Host code only.
 #if defined(PIOLA_CONTRACTS) && PIOLA_CONTRACTS
 #define PIOLA_EXPECTS(condition) \
   ((condition) ? void(0) : ::piola::contract_broken("expectation", #condition, __FILE__, __LINE__))

@@ -65,8 +65,8 @@ void define_functions(mu::Parser& parser) {
   parser.DefineOprt("|", disjunction, mu::prLOR, mu::oaLEFT, true);
 }
 
-// Of two constants, muParser's own && and || see whole numbers only: 0.5 && 1 is 0 to it. Ours have names that it does
-// not know; the blank keeps the columns of what follows.
+// Between constants, muParser's own && and || truncate to whole numbers: 0.5 && 1 is 0. Replaces them by operators of
+// Piola with other names; the blank keeps the columns of the following text.
 std::string with_own_operators(std::string text) {
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {
     if ((text[i] == '&' || text[i] == '|') && text[i + 1] == text[i]) text[++i] = ' ';
@@ -129,7 +129,7 @@ std::vector<std::string> known_names(Names const& names) {
 struct Meant {
   std::string_view written, advice;
 };
-/// What people write who think of another language.
+/// Operators and functions of other languages, for advice in messages.
 constexpr std::array other_tongues{
     Meant{"if", "\"if\" is not a function - write condition ? value : other_value"},
     Meant{"and", "\"and\" is not an operator - write &&"},
@@ -174,7 +174,7 @@ void refuse_unit(std::string const& text, Word const& word) {
   fail(in_quotes(word.text) + " is not known (known: " + joined(known) + ") - " + advice, word.position);
 }
 
-// Which of the two is meant cannot be told.
+// Refuses names with two possible meanings.
 void refuse_two_meanings(Word const& word, Names const& names) {
   auto const& given = names.variables;
   if (std::find(given.begin(), given.end(), word.text) == given.end()) return;
@@ -279,7 +279,7 @@ std::string explain(mu::Parser::exception_type const& error) {
 
 }  // namespace
 
-/// Parsers hold pointers to the variables beside them, so a compiled formula is built anew for every copy.
+/// Parsers hold pointers to the variables beside them, so every copy compiles its formula again.
 struct Expression::Compiled {
   std::string text = "0";
   Names names;

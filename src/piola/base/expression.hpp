@@ -17,7 +17,7 @@ struct Definition {
   std::string text;
 };
 
-/// What an expression may use besides X, Y, Z (reference position, m), t (time, s) and pi.
+/// Names that an expression may use in addition to X, Y, Z (reference position [m]), t (time [s]) and pi.
 struct Names {
   /// A number that belongs to a reference position [m], such as its depth in a body. Each Expression has a copy, so
   /// that one function is asked by one thread at a time.
@@ -39,7 +39,7 @@ class Expression {
   /// Throws ExpressionError (with a column in `text`) if the text is not a formula in the known names.
   explicit Expression(std::string const& text, Names const& names = {});
   /// A value that a function of the program gives instead of a formula; it depends on time. Copies share the function,
-  /// which is called from any thread. `text` says in messages what it is.
+  /// which may be called from any thread. `text` describes it in messages.
   using Function = std::function<double(std::array<double, 3> const& X, double t)>;
   Expression(std::string text, Function function);
   Expression(Expression const&);
@@ -50,7 +50,7 @@ class Expression {
 
   /// Value at reference position X [m] and time t [s]; may be inf or nan, the caller checks.
   double operator()(std::array<double, 3> const& X, double t = 0) const;
-  /// The same with the values of `Names::variables`, in their order; formulas that use none of them need no values.
+  /// As above, with the values of `Names::variables` in their order; formulas that use none of them need no values.
   double operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const;
   std::string const& text() const;
   bool depends_on_time() const;  ///< t occurs in it, or in a definition that it uses

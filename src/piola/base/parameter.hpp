@@ -38,15 +38,15 @@ struct Condition {
   constexpr bool holds(std::string_view chosen) const { return chosen == word || (!other.empty() && chosen == other); }
 };
 
-/// One number that a user may give. It is declared once, beside the law or the scheme that owns it; reading,
-/// unit check, range check, error text, `piola describe` and the manual come from this entry.
+/// One number that a user may give. Declared once, next to the law or the scheme that owns it; reading, unit check,
+/// range check, error text, `piola describe` and the manual come from this entry.
 struct Parameter {
   std::string_view name;     ///< key in the case file
   std::string_view unit;     ///< SI unit in UDUNITS notation; "1" for a pure number
   std::string_view meaning;  ///< half a sentence for the manual
   Interval allowed = any_value;
   double default_value = no_default;  ///< SI; no_default: required
-  std::string_view standard{};        ///< the default in words, where a number says little ("none")
+  std::string_view standard{};        ///< the default in words, where a number is not informative ("none")
   Condition when{};                   ///< given and needed only with this word
 
   constexpr bool required() const { return default_value != default_value; }

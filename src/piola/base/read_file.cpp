@@ -41,7 +41,7 @@ std::string content_of_file(std::filesystem::path const& path, std::uint64_t mos
 }  // namespace
 
 FileToRead::FileToRead(std::filesystem::path const& path)
-    // Without O_NONBLOCK a pipe is opened only when somebody writes to it.
+    // Without O_NONBLOCK, opening a pipe blocks until a process opens it to write.
     : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
   struct stat found {};
   if (fd_ < 0 || ::fstat(fd_, &found) != 0)

@@ -25,7 +25,7 @@ int edit_distance(std::string_view a, std::string_view b);
 /// it. Capitals count as small letters.
 std::optional<std::string> nearest_name(std::string_view wanted, std::span<std::string const> known);
 
-/// What to do about an unknown word: 'did you mean "x"?' or, if no word is near, 'choose one of these'.
+/// Advice about an unknown word: 'did you mean "x"?' or, if no word is near, 'choose one of these'.
 std::string advice_for_name(std::string_view wanted, std::span<std::string const> known);
 
 /// The known words for a message about `wanted`: all of them if they are few, else the nearest ones and how many more.

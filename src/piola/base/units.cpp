@@ -67,7 +67,7 @@ Unit whole_unit(std::string_view text) {
   return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
 }
 
-/// A unit, or the square of one that ends in a half power such as "MPa m^0.5": UDUNITS knows whole powers only.
+/// A unit, or the square of one that ends in a half power such as "MPa m^0.5": UDUNITS supports whole powers only.
 struct Measure {
   Unit unit;
   bool squared = false;
@@ -93,7 +93,7 @@ class Conversion {
       : converter_(from.unit && to.unit && from.squared == to.squared ? ut_get_converter(from.unit.get(), to.unit.get())
                                                                       : nullptr),
         squared_(from.squared) {
-    // To UDUNITS a time can be converted to a rate, by its inverse; here nobody means that.
+    // UDUNITS converts a time to a rate by its inverse, which is refused here.
     if (converter_ && !std::isfinite(cv_convert_double(converter_.get(), 0))) converter_ = nullptr;
   }
   explicit operator bool() const { return converter_ != nullptr; }

@@ -13,8 +13,8 @@ struct Quantity {
 };
 
 /// Reads "number unit" and converts to `si_unit` (UDUNITS-2 notation; "1" for a pure number). The last factor of a unit
-/// may have the power 0.5, as in "MPa m^0.5", which UDUNITS itself does not know.
-/// A number without unit is taken as SI. Thread safe after first use. Never throws on bad text.
+/// may have the power 0.5, as in "MPa m^0.5", which UDUNITS itself does not support. A number without unit is taken as
+/// SI. Thread safe after first use. Never throws on bad text.
 Quantity read_quantity(std::string_view text, std::string_view si_unit);
 
 /// Reads "number unit" with any unit and converts to the SI base units it is made of ("17 MPa" -> 1.7e7).
@@ -26,7 +26,7 @@ bool is_unit(std::string_view text);
 /// Whether both texts are units and one can be converted to the other.
 bool same_dimension(std::string_view a, std::string_view b);
 
-/// What a quantity of this unit is called in a message: "a length" for "m", "a quantity in X" if it has no common name.
+/// Name of a quantity of this unit for messages: "a length" for "m", "a quantity in X" if it has no common name.
 std::string dimension_noun(std::string_view si_unit);
 
 /// Converts an SI value of `si_unit` to `unit` for printing. Throws std::invalid_argument if they do not fit.

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/exec/parallel.hpp"
 
-/// What machine.cu of every formulation launches its passes with.
+/// Helpers with which machine.cu of every formulation launches its passes.
 namespace piola::inline PIOLA_MACHINE {
 namespace exec {
 
@@ -11,7 +11,8 @@ Pass const& as(void const* pass) {
   return *static_cast<Pass const*>(pass);
 }
 
-/// A sweep by itself: sums go to scratch in device memory instead of a core's cache.
+/// A sweep that is not fused with a point-wise pass: its sums go to scratch in device memory instead of the cache of a
+/// core.
 template <class Sweep>
 struct WithScratch {
   Sweep sweep;

@@ -11,15 +11,15 @@ namespace exec {
 // nvcc does not read it as an alias. NOLINTNEXTLINE(modernize-use-using)
 __extension__ typedef __int128 Wide;
 
-/// N sums whose bits depend on what is added alone: not on its order, nor on how it was split into sums that were added
-/// to each other. Pre-rounded sums (Demmel and Nguyen, Parallel reproducible summation, IEEE Trans. Comput. 64, 2015):
-/// every summand is split into multiples of 2^(21 J), 2^(21 (J - 1)), ... 2^(21 (J - 3)), its folds, each of which adds
-/// up without rounding. J, the level, is the lowest at which the largest summand |x| is below 2^(21 (J + 1) - 1). So
-/// the sum is that of the summands rounded to multiples of 2^(21 (J - 3)), correctly rounded: its error is below
+/// N reproducible sums: their bits do not depend on the order of the summands, nor on how they are split into partial
+/// sums. Pre-rounded sums (Demmel and Nguyen, Parallel reproducible summation, IEEE Trans. Comput. 64, 2015): every
+/// summand is split into multiples of 2^(21 J), 2^(21 (J - 1)), ... 2^(21 (J - 3)), its folds, each of which adds up
+/// without rounding. J, the level, is the lowest at which the largest summand |x| is below 2^(21 (J + 1) - 1). So the
+/// sum is that of the summands rounded to multiples of 2^(21 (J - 3)), correctly rounded: its error is below
 ///   2^-63 n max|x| + half a unit in the last place,
 /// for n summands (at most 2^32) of which one is at least 2^-925; smaller ones are rounded to multiples of 2^-987.
-/// Summands that are not finite are kept aside and decide the sum as IEEE 754 has it: infinite, or not a number. Of
-/// 2^986 or more they count as infinite. Sums of nothing are +0. Test: tests/exec/exact_sum_test.cpp.
+/// Summands that are not finite are summed separately and make the sum infinite or NaN by IEEE 754. Summands of 2^986
+/// or more count as infinite. An empty sum is +0. Test: tests/exec/exact_sum_test.cpp.
 template <int N>
 class ExactSums {
  public:
@@ -27,7 +27,7 @@ class ExactSums {
     for (int c = 0; c < N; ++c) set_level(c, lowest);
   }
 
-  /// One summand for each sum.
+  /// Adds x[c] to sum c.
   void add(double const* x) {
     int outside = 0;
     for (int c = 0; c < N; ++c) outside += std::fabs(x[c]) < limit_[c] ? 0 : 1;
@@ -47,7 +47,7 @@ class ExactSums {
 
   double value(int c = 0) const {
     if (!(std::fabs(special_[c]) <= 0)) return special_[c];
-    // Which fold has how much of the sum may depend on the order; the sum of them does not.
+    // The distribution of the sum over folds may depend on the order; the sum of the folds does not.
     Wide total = 0;
     for (int k = 0; k < folds; ++k)
       total = (total << bits) + static_cast<std::int64_t>(fold_[k][c] * power_of_two(-bits * (level_[c] - k)));
@@ -65,13 +65,13 @@ class ExactSums {
     limit_[c] = power_of_two(bits * (level + 1) - 1);
     magnet_[c] = 1.5 * power_of_two(bits * level + 52);
   }
-  /// Folds that become too fine are left out: what is in the others is what had been there from the start.
+  /// Drops the folds that become too fine; the others are what they would be if this had been the level from the start.
   void raise(int c, int level) {
     int const shift = level - level_[c];
     for (int k = folds - 1; k >= 0; --k) fold_[k][c] = k >= shift ? fold_[k - shift][c] : 0;
     set_level(c, level);
   }
-  /// x, with the level that it needs, or 0 if it is none for the folds.
+  /// Raises the level as |x| requires and returns x. Returns 0 for infinite, NaN or too large x, which go to special_.
   double fit(int c, double x) {
     if (std::fabs(x) < limit_[c]) return x;
     if (!(std::fabs(x) < power_of_two(bits * (highest + 1) - 1))) {
@@ -96,13 +96,13 @@ class ExactSums {
   }
 
   double fold_[folds][N]{};
-  double magnet_[N]{};   ///< added and taken away again it rounds to the level's multiples
-  double limit_[N]{};    ///< summands are below
-  double special_[N]{};  ///< sum of those that are not finite
+  double magnet_[N]{};   ///< rounds a summand to multiples of the level when added and subtracted
+  double limit_[N]{};    ///< upper bound of |x| at the present level
+  double special_[N]{};  ///< sum of the summands that are not finite
   int level_[N]{};
 };
 
-/// One such sum.
+/// One reproducible sum; see ExactSums.
 class ExactSum {
  public:
   ExactSum& operator+=(double x) {

@@ -10,7 +10,7 @@
 
 namespace piola {
 
-/// What a field is for: `reference` never changes, `evolved` is the state (checkpoints), `derived` follows from it.
+/// Purpose of a field: `reference` never changes, `evolved` is the state (checkpoints), `derived` follows from it.
 enum class Role { reference, evolved, derived };
 
 /// Counts of writes by owners and of halo refreshes, so that a forgotten exchange fails on one rank (contract builds).
@@ -18,25 +18,24 @@ struct FieldVersion {
   std::uint64_t owner = 0, halo = 0;
 };
 
-/// Particles of a tile: fields that loops only stream through keep the components of a tile together, so that a loop
-/// over many fields walks along few streams, which the processor's prefetchers can follow.
+/// Particles per tile (2^tile_bits). Fields that loops only stream through store the components of a tile together, so
+/// that a loop over many fields reads few streams, which hardware prefetchers can follow.
 inline constexpr int tile_bits = 4;
 inline constexpr Index tile_size = 1 << tile_bits;
 
-/// Copies of particles, in slots after a body's own, by affine maps: how their values follow from those of the
-/// particles. Mirror images, for example. Value c of copy k is sign[transform[k]][c] * (value of source[k]) +
-/// shift[..].
+/// Copies of particles by affine maps, e.g. mirror images, in slots after those of the body. Value c of copy k is
+/// sign[transform[k]][c] * (value of source[k]) + shift[..]. Does not own its arrays.
 struct Copies {
   Index first = 0, count = 0;  ///< slots of the copies
   Index const* source = nullptr;
   std::int32_t const* transform = nullptr;
-  int values = 0;                                  ///< per particle, from the field's own on
+  int values = 0;  ///< number of components per particle, from the first one of the field
   double const *sign = nullptr, *shift = nullptr;  ///< [transform][values]
 };
 
-/// A field as loops see it: component c of particle i is at
-/// data[c * component_stride + i * particle_stride + (i / tile_size) * tile_extra].
-/// Plain data without functions: it crosses between machines.
+/// Non-owning reference to a field for loops: component c of particle i is at data[c * component_stride + i *
+/// particle_stride + (i / tile_size) * tile_extra]. Plain data without functions, so that code of different instruction
+/// sets may exchange it.
 struct FieldRef {
   double* data = nullptr;
   std::ptrdiff_t component_stride = 0;
@@ -44,10 +43,10 @@ struct FieldRef {
   std::ptrdiff_t tile_extra = 0;  ///< 0: not tiled
   FieldVersion* version = nullptr;
   char const* name = "";
-  /// Reference fields of regular lattices, where most groups of lanes are alike: where a group of lanes is stored,
-  /// counted in groups. nullptr: particle i is stored at i.
+  /// Reference fields of regular lattices, where most groups of lanes have equal values: index of the stored group per
+  /// group of lanes. nullptr: particle i is stored at i.
   std::int32_t const* group = nullptr;
-  Copies const* copies = nullptr;  ///< copies of particles that neighbours read; nullptr: there are none
+  Copies const* copies = nullptr;  ///< copies of particles that neighbours read; nullptr: none
 };
 
 /// Component c of particle i, for set-up and observers.
@@ -55,15 +54,15 @@ inline double& value_at(FieldRef const& f, Index i, int c = 0) {
   return f.data[c * f.component_stride + i * f.particle_stride + (i >> tile_bits) * f.tile_extra];
 }
 
-/// The first D components of particle i as a point, with what `others` has of those that the body does not have.
+/// The first D components of particle i as a point; components from D on are taken from `others`.
 inline std::array<double, 3> point_at(FieldRef const& f, Index i, int D, std::array<double, 3> others = {}) {
   for (int c = 0; c < D; ++c) others[static_cast<std::size_t>(c)] = value_at(f, i, c);
   return others;
 }
 
-/// A particle field. By itself: one array per component, one after the other, with `guard` readable zeros before the
-/// first and after the last particle, so that a loop over lanes may read beyond the ends. Or a part of memory that
-/// several fields share, for loops that read them together.
+/// A particle field. allocate(): one array per component, with `guard` readable zeros before the first and after the
+/// last particle, so that a loop over lanes may read beyond the ends. place(): a view of memory that several fields
+/// share, for loops that read them together; that memory must outlive the field.
 class Field {
  public:
   Field(char const* name, char const* unit, int components, Role role)
@@ -79,7 +78,7 @@ class Field {
     ref_ = {memory_.data() + pad, 8 * lines, 1, 0, &version_, name_};
     particles_ = particles;
   }
-  /// For fields that are only streamed through, never read at neighbours.
+  /// Tiled layout, for fields that are only streamed through and never read at neighbours.
   void allocate_tiled(Index particles) {
     std::ptrdiff_t const tiles = (particles + tile_size - 1) / tile_size,
                          size = std::ptrdiff_t{tile_size} * components_;
@@ -87,8 +86,8 @@ class Field {
     ref_ = {memory_.data(), tile_size, 1, size - tile_size, &version_, name_};
     particles_ = particles;
   }
-  /// Lives in memory that several fields share: component c of particle i at data[first + c * component + i *
-  /// particle]. Fields that are exchanged together share a version.
+  /// Uses memory that several fields share: component c of particle i at data[first + c * component + i * particle].
+  /// Fields that are exchanged together share a version.
   void place(double* data, std::ptrdiff_t component, std::ptrdiff_t particle, std::ptrdiff_t first, Index particles,
              FieldVersion* version = nullptr) {
     ref_ = {data + first, component, particle, 0, version != nullptr ? version : &version_, name_};
@@ -120,7 +119,8 @@ class Field {
   FieldVersion version_;
 };
 
-/// The fields of a body: what is declared as a ListedField of it, in that order. Memory and sizes follow from the list.
+/// The fields of a body, in the order of declaration of its ListedFields. Holds pointers: the fields must outlive the
+/// set.
 class FieldSet {
  public:
   FieldSet() = default;

@@ -7,18 +7,19 @@
 
 namespace piola::exec_host {
 
-/// Whether this processor can run a machine of that name (see base/machine.hpp).
+/// Whether this processor supports the instruction set of that name (see base/machine.hpp).
 bool processor_can_run(std::string_view machine);
 
-/// The instruction sets of a run with that machine ("auto" too), for comparing two runs: "v3 of a processor with v4".
-/// Bits are the same only where this text is the same: the second half counts too, because mathematical functions of
-/// the system choose by processor.
+/// Describes the instruction set of a run ("auto" too) and of the processor: "v3 of a processor with v4". Two runs have
+/// equal bits only if this text is equal. The processor counts too, because mathematical functions of the system choose
+/// by processor.
 std::string machine_text(std::string_view asked);
 
-/// What is wrong with asking for a machine that is not among `usable` (names that end with nullptr), for an InputError.
+/// Error text of an InputError for an instruction set that is not among `usable` (names that end with nullptr).
 std::string not_usable(std::string_view machine, char const* const* usable);
 
-/// The machines of one formulation that are in this program, and how one is chosen. `Machine` has a member `name`.
+/// The back ends of one formulation, one per instruction set of this program that the processor supports. `Machine` has
+/// a member `name`; the objects must outlive the choice.
 template <class Machine>
 class MachineChoice {
  public:
@@ -31,13 +32,13 @@ class MachineChoice {
     }
     names_.push_back(nullptr);
   }
-  /// The machine of that name, the best one for "auto"; nullptr if it is not usable here.
+  /// The back end of that name, the best one for "auto"; nullptr if it is not usable here.
   Machine const* find(std::string_view name) const {
     for (Machine const* machine : usable_)
       if (name == "auto" || name == machine->name) return machine;
     return nullptr;
   }
-  /// The same; throws InputError if it is not usable here.
+  /// As find(); throws InputError if it is not usable here.
   Machine const& choose(std::string_view name) const {
     if (Machine const* machine = find(name)) return *machine;
     throw InputError(not_usable(name, names()));
@@ -51,8 +52,8 @@ class MachineChoice {
 
 }  // namespace piola::exec_host
 
-// PIOLA_EACH_MACHINE(use): use(NAME) for every machine in this program, best first. Each is defined by a formulation's
-// machine.cpp, compiled for that instruction set.
+// PIOLA_EACH_MACHINE(use): use(NAME) for every instruction set in this program, best first. Each is defined by a
+// formulation's machine.cpp, compiled for that instruction set.
 #if defined(PIOLA_HAS_MACHINE_V4)
 #define PIOLA_USE_V4(use) use(v4)
 #else

@@ -45,10 +45,10 @@ Memory::Memory(std::size_t doubles) {
   base_ = std::aligned_alloc(alignment, size == 0 ? alignment : size);
   if (base_ == nullptr) throw std::bad_alloc{};
 #if defined(__linux__)
-  // Of a part that is not far larger than a huge page its edges would take too much.
+  // Huge pages at the edges of a part waste memory unless the part is far larger than a huge page.
   bool const huge = parts_of_arrays == 1 || payload / parts_of_arrays >= many_huge_pages * huge_page;
   if (large) (void)madvise(base_, size, huge ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
-  // Pages that the system takes back are zero when somebody comes to them again.
+  // Pages released by MADV_DONTNEED read as zero on the next access.
   bool const zero = by_parts && madvise(base_, size, MADV_DONTNEED) == 0;
 #else
   bool const zero = false;

@@ -8,7 +8,7 @@ namespace piola {
 /// Zeroed doubles for one field: aligned to cache lines, in huge pages where the system has them.
 ///
 /// Successive arrays start at different offsets within a page: arrays that are equal modulo 4 KiB evict each other from
-/// the first-level cache when a loop walks through many of them (measured: three times slower).
+/// the first-level cache when a loop reads many of them (measured: three times slower).
 class Memory {
  public:
   Memory() = default;

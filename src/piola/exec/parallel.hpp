@@ -153,14 +153,14 @@ struct Totals {
   double v[N]{};
 };
 
-/// Slots whose sums are added up before exact sums are: leaves of 16 may stand anywhere in the order of a body, so that
-/// ranks can share it out finely.
+/// Slots per leaf, the unit of rounded partial sums before reproducible summation. Leaves may have any place in the
+/// order of a body, so that partitions can be finely grained.
 inline constexpr Index leaf_size = 16;
 static_assert(block_size % leaf_size == 0 && leaf_size % lane_count == 0);
 
 inline Index leaf_count(Range r) { return (r.last - r.first + leaf_size - 1) / leaf_size; }
 
-/// One block's share of a reduction, leaf by leaf: lanes are added first, then particles, in fixed order.
+/// Partial sums of one block, leaf by leaf: lanes are added first, then particles, in fixed order.
 template <int N, class Pass>
 struct LeafSums {
   Pass pass;
@@ -181,7 +181,7 @@ struct LeafSums {
   }
 };
 
-/// The exact sums of n partial ones: the same bits for any number of threads, and wherever they stand.
+/// Reproducible sums of n partial sums. The bits do not depend on the number of threads or on the order of the leaves.
 template <int N>
 ExactSums<N> sum_of_partials(double const* partial, Index n) {
   ExactSums<N> sums;
@@ -216,7 +216,8 @@ Totals<N> reduce(Range r, Pass const& pass, double* partial) {
   return add_partials<N>(partial, leaf_count(r));
 }
 
-/// Records a failure at particle i; the lowest id wins, so the report does not depend on threads or places in memory.
+/// Records a failure at particle i; the lowest id wins, so the report does not depend on threads or the order in
+/// memory.
 PIOLA_FN void record(FailureSlot* slot, Index i, int code) {
 #if defined(__CUDA_ARCH__)
   if (atomicMin(&slot->index, i) > i) slot->code = code;

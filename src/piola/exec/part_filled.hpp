@@ -7,8 +7,7 @@
 
 namespace piola {
 
-/// Zeros that take memory where somebody writes, page by page, if there are many of them (as fill_arrays_in_parts()
-/// has it for fields).
+/// Allocator of zeros. Large arrays (calloc) allocate pages on first write; for fields see fill_arrays_in_parts().
 template <class T>
 struct ZeroPages {
   using value_type = T;
@@ -22,7 +21,7 @@ struct ZeroPages {
     return static_cast<T*>(zeros);
   }
   void deallocate(T* p, std::size_t) { std::free(p); }
-  /// They are zero already.
+  /// Does nothing: the memory is zero already.
   template <class U>
   void construct(U*) {}
   template <class U, class... Args>
@@ -32,8 +31,9 @@ struct ZeroPages {
   bool operator==(ZeroPages const&) const = default;
 };
 
-/// For arrays as long as a body of which a rank fills its part: PartFilled<double> x(n) is zero all over, whatever T
-/// says of itself. One that is made smaller must not grow again. Copies are full.
+/// Zero-initialised array whose pages are allocated on first write, for arrays of the length of a body of which a rank
+/// fills only its part. T's constructor is not run. Precondition: never grown after shrinking. A copy allocates all
+/// pages.
 template <class T>
 using PartFilled = std::vector<T, ZeroPages<T>>;
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/exec/parallel.hpp"
 
-/// What this machine can do at best, for the roofline of `piola bench`.
+/// Peak rates of this machine, for the roofline of `piola bench`.
 namespace piola::inline PIOLA_MACHINE {
 namespace exec {
 

@@ -5,10 +5,10 @@
 
 namespace piola::exec_host {
 
-/// How many processors' worth of time the control group of this process may use (cpu.max of cgroup v2,
-/// cpu.cfs_quota_us by cpu.cfs_period_us of v1), rounded up; the least of the group and all groups above it. Nothing
-/// where there is no limit or none can be read. The arguments: the list of groups of the process, and where control
-/// groups are mounted.
+/// Returns the number of processors that the control group of this process may use (cpu.max of cgroup v2,
+/// cpu.cfs_quota_us by cpu.cfs_period_us of v1), rounded up; the least of the group and all groups above it. Nothing if
+/// there is no limit or it cannot be read. groups: list of the groups of the process; mount: mount point of control
+/// groups.
 std::optional<int> processor_quota(std::filesystem::path const& groups = "/proc/self/cgroup",
                                    std::filesystem::path const& mount = "/sys/fs/cgroup");
 

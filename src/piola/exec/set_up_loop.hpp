@@ -6,23 +6,23 @@
 
 namespace piola::exec_host {
 
-/// f(k) for the particles k = 0 ... n - 1, for set-up, checkpoints and contact: each call writes what belongs to k
-/// alone and throws nothing.
+/// Parallel loop of the host over k = 0 ... n - 1. f must be thread-safe and must not throw.
 template <class F>
 void for_each_in_set_up(Index n, F const& f) {
 #pragma omp parallel for schedule(static) num_threads(team(n))
   for (Index k = 0; k < n; ++k) f(k);
 }
 
-/// f(k) for the parts k = 0 ... n - 1 of a work on so many particles: rows of a lattice, for example.
+/// Parallel loop over parts k = 0 ... n - 1, e.g. rows of a lattice, with the team for `particles` particles. f must be
+/// thread-safe and must not throw.
 template <class F>
 void for_each_part_in_set_up(Index n, Index particles, F const& f) {
 #pragma omp parallel for schedule(static) num_threads(team(particles))
   for (Index k = 0; k < n; ++k) f(k);
 }
 
-/// N sums over k = 0 ... n - 1 of what f(k, x) leaves in x[0] ... x[N - 1], which are 0 before: exact, so that it does
-/// not matter which thread adds what. f throws nothing.
+/// N reproducible sums over k = 0 ... n - 1. f(k, x) writes its summands to x[0] ... x[N - 1], which are 0 before. The
+/// bits do not depend on the number of threads. f must not throw.
 template <int N, class F>
 exec::ExactSums<N> sums_of(Index n, F const& f) {
   exec::ExactSums<N> all;
@@ -41,7 +41,7 @@ exec::ExactSums<N> sums_of(Index n, F const& f) {
   return all;
 }
 
-/// The exact sum of f(k) over k = 0 ... n - 1.
+/// Reproducible sum of f(k) over k = 0 ... n - 1.
 template <class F>
 double sum_of(Index n, F const& f) {
   return sums_of<1>(n, [&](Index k, double* x) { *x = f(k); }).value();

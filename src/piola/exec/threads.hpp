@@ -7,15 +7,15 @@ namespace piola::exec_host {
 int set_threads(int threads);
 int threads();
 
-/// How many threads a run takes whose case does not say: OMP_NUM_THREADS if it is set, else SLURM_CPUS_PER_TASK if that
-/// is set, else one for each core that this process may use; the latter two at most as many as the control group of
-/// the process has processor time for.
+/// Default number of threads: OMP_NUM_THREADS if set, else SLURM_CPUS_PER_TASK if set, else the number of cores that
+/// this process may use. The latter two are capped by the quota of the control group (processor_quota()).
 int automatic_threads();
 
-/// Threads for a loop over so many particles: at most threads(), and each has at least the least share to work on.
+/// Number of threads for a loop over `particles` particles: at most threads(), each with at least the least share
+/// (set_least_share()).
 int team(int particles);
-/// Sets the least share of a thread [particles] and returns the one before. Its default is the number from which a
-/// thread is worth its start and its barrier; tests take 1 so that small bodies are shared by all threads.
+/// Sets the least number of particles per thread and returns the previous one. Below the default, a thread costs more
+/// (start, barrier) than it saves. Tests set 1 so that all threads work on small bodies.
 int set_least_share(int particles);
 
 /// Pins each thread to one of the cores that this process may use (benchmarks).

@@ -4,7 +4,7 @@
 #include "piola/math/tensor.hpp"
 
 namespace piola {
-/// Reports a broken promise of the program itself; defined for the host only, never returns.
+/// Reports that a field is read at neighbours without a halo refresh since the last write. Host only; never returns.
 [[noreturn]] void stale_halo(char const* field);
 }  // namespace piola
 
@@ -47,7 +47,7 @@ struct View {
   }
 };
 
-/// Reading access to a reference field, which groups of lanes may share (FieldRef::group).
+/// Reading access to a reference field, whose values groups of lanes may share (FieldRef::group).
 struct ReferenceView {
   View stored;
   std::int32_t const* group;

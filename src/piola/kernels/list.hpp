@@ -18,7 +18,7 @@ struct KernelList {
 
 /// All kernels: adding one is its header and its name here. The first is the usual one.
 using Kernels = KernelList<CubicSpline, QuarticSpline, QuinticSpline, WendlandC2, WendlandC4>;
-/// Those that loops over moving neighbours can evaluate, lane by lane.
+/// Kernels that loops over moving neighbours can evaluate, lane by lane.
 using LaneKernels = KernelList<CubicSpline, WendlandC2>;
 
 /// f.template operator()<K>() for the kernel of the list that was chosen.

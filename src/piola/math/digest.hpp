@@ -9,8 +9,8 @@
 
 namespace piola {
 
-/// A hash of 64 bits of bytes that come in pieces, to tell contents apart: two that differ by accident have the same
-/// one with probability 2^-64. No protection against intent.
+/// Incremental 64-bit hash of bytes, to distinguish contents. Contents that differ by accident collide with probability
+/// 2^-64. Not cryptographic.
 class Digest {
  public:
   /// `bytes`: how many will come in all.

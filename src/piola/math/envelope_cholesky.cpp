@@ -6,7 +6,8 @@
 namespace piola {
 namespace {
 
-/// Of n numbers, in eight sums: several times as fast as in one, whose additions wait for each other.
+/// Dot product of n numbers in eight partial sums: several times as fast as one sum, whose additions depend on each
+/// other.
 double product(double const* a, double const* b, std::size_t n) {
   constexpr std::size_t parts = 8;
   double sum[parts]{};

@@ -24,7 +24,7 @@ class EnvelopeCholesky {
   std::size_t bytes() const { return values_.size() * sizeof(double); }
 
  private:
-  /// Below this share of its scale what is left of a row counts as nothing.
+  /// A pivot below this fraction of the scale of its row counts as zero.
   static constexpr double smallest_pivot = 1e-10;
   double entry(std::size_t i, std::size_t j) const { return values_[begin_[i] + j - first_[i]]; }
 

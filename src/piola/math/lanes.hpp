@@ -26,8 +26,8 @@ using Index = std::int32_t;
 namespace piola::inline PIOLA_MACHINE {
 
 PIOLA_FN double select(bool condition, double yes, double no) { return condition ? yes : no; }
-/// Not a number if one of the two is none, in whichever place, as IEEE 754-2019 has it: a reduction that meets one ends
-/// with it, so that it reaches whoever reports failures. Slots that hold no particle must be left out before.
+/// NaN if either argument is NaN, as minimum() of IEEE 754-2019. A NaN thus survives a reduction and reaches the report
+/// of failures. Slots without a particle must be excluded before.
 PIOLA_FN double minimum(double a, double b) { return b < a || b != b ? b : a; }
 PIOLA_FN double maximum(double a, double b) { return a < b || b != b ? b : a; }
 PIOLA_FN double square_root(double a) { return std::sqrt(a); }
@@ -52,7 +52,7 @@ inline constexpr int lane_count = static_cast<int>(Lanes::size());
   return r;
 #endif
 }
-/// b where it is less (greater), else a, and so a where it is not a number: as the processor's own instruction has it,
+/// b where it is less (greater), else a, and so a where it is not a number: as the instruction of the processor does,
 /// while compilers may take the two of std::experimental::min in either order.
 #if defined(__AVX512F__)
 [[gnu::always_inline]] PIOLA_FN Lanes less_of(Lanes const& a, Lanes const& b) {
@@ -72,7 +72,7 @@ inline constexpr int lane_count = static_cast<int>(Lanes::size());
 PIOLA_FN Lanes less_of(Lanes const& a, Lanes const& b) { return select(b < a, b, a); }
 PIOLA_FN Lanes greater_of(Lanes const& a, Lanes const& b) { return select(b > a, b, a); }
 #endif
-// Of a b that is known when this is compiled, as bounds are, nothing remains but that one instruction.
+// If b is a compile-time constant, as bounds are, one instruction remains.
 [[gnu::always_inline]] PIOLA_FN Lanes minimum(Lanes const& a, Lanes const& b) {
   return select(b != b, b, less_of(a, b));
 }
@@ -121,7 +121,7 @@ PIOLA_FN V load(double const* p) {
   return load(p, V{});
 }
 
-/// How many particles a value of type V stands for.
+/// Number of particles in a value of type V.
 template <class V>
 inline constexpr int width = std::is_same_v<V, double> ? 1 : lane_count;
 

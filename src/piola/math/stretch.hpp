@@ -43,7 +43,7 @@ PIOLA_FN T smallest_stretch_squared(Mat<3, T> const& F) {
 template <class T>
 PIOLA_FN Vec<3, T> principal_stretches_squared(Mat<3, T> const& F) {
   auto const [q, p, d] = stretch_roots(F);
-  // Of t^3 - 3 t = 2 r divided by its smallest root t_1 = -1 - d: t^2 + t_1 t + t_1^2 - 3 = 0.
+  // t^3 - 3 t = 2 r divided by its smallest root t_1 = -1 - d: t^2 + t_1 t + t_1^2 - 3 = 0.
   T const middle = 0.5 * (1.0 + d), apart = square_root(maximum(3.0 - 3.0 * (middle * middle), T(0.0)));
   return {{q - p * (1.0 + d), q + p * (middle - apart), q + p * (middle + apart)}};
 }

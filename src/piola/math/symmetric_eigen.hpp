@@ -12,7 +12,8 @@ struct Eigen {
   Vec<D, V> vector[D];  ///< orthonormal, vector[k] belongs to value[k]; in no particular order
 };
 
-/// No eigenvalue is above this (Gershgorin): the largest sum of a diagonal component and the absolute values beside it.
+/// Upper bound of the eigenvalues (Gershgorin): the largest sum of a diagonal component and the absolute off-diagonal
+/// values of its row.
 template <int D, class V>
 PIOLA_FN V eigenvalue_bound(SymMat<D, V> const& A) {
   V bound(-1e300);

@@ -10,8 +10,8 @@ namespace piola {
 
 /// Points sorted into cubic cells (counting sort): all points within `cell` of a place lie in its 3 x 3 x 3 cells.
 /// Memory and time are bounded by the number of points, wherever they are: cells of a box that fits them closely are
-/// stored one after the other, those of sparse points in a hash table. A point without a finite position is in nobody's
-/// neighbourhood.
+/// stored one after the other, those of sparse points in a hash table. A point without a finite position is not a
+/// neighbour of any place.
 class CellGrid {
  public:
   /// points [m]; cell: edge of a cell [m], at least the search radius.
@@ -27,7 +27,7 @@ class CellGrid {
         for (std::int64_t i = lower(c[0], 0); i <= upper(c[0], 0); ++i) {
           std::size_t const place = place_of({i, j, k});
           for (std::int64_t p = begin_[place]; p < begin_[place + 1]; ++p) {
-            // Cells of a hash table may share a place.
+            // Several cells may have the same place in the hash table.
             if (!cell_at_.empty() && cell_at_[static_cast<std::size_t>(p)] != Cell{i, j, k}) continue;
             f(point_[static_cast<std::size_t>(p)]);
           }
@@ -36,7 +36,7 @@ class CellGrid {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  /// Of a point without a finite position.
+  /// Cell of a point without a finite position.
   static constexpr Cell lost{std::numeric_limits<std::int64_t>::min(), 0, 0};
 
   void find_shape(std::vector<std::array<double, 3>> const& points);

@@ -115,7 +115,7 @@ class Sampling {
         X_(set.X.data() + body.first),
         nearest_(set, body),
         sums_(set.dimension, static_cast<std::size_t>(body.last - body.first)) {
-    // Of a packing the particles share the exact volume. Rings, which have no distance, only come near to theirs.
+    // Particles of a packing get the exact volume. Rings, which have no distance function, only approximate it.
     if (body.scattered && outline_.distance)
       volume_ = std::accumulate(set.volume.begin() + body.first, set.volume.begin() + body.last, 0.0);
     constexpr double per_spacing = 6;
@@ -173,8 +173,8 @@ class Sampling {
       }
     });
   }
-  /// What gives the blocks the exact volume. Axes take part as far as the body's sides along them are steps: flat faces
-  /// on the box around it are where they should be.
+  /// Stretch of the blocks that gives them the exact volume. Each axis is weighted by how far the sides of the body
+  /// along it are steps: flat faces on the bounding box are exact already.
   void find_stretch() {
     double blocks = 0;
     Point rough{}, lower{}, upper{};  // sides: steps, and on both ends of the box

@@ -16,7 +16,7 @@ struct CellMoments {
   std::array<double, 6> spread{};    ///< central second moments over the volume [m2]: XX YY ZZ YZ XZ XY
 };
 
-/// All of a particle's share of the surface that faces one way along an axis.
+/// Sum of a particle's surface patches that face one direction of an axis.
 struct SurfacePatch {
   Index particle = 0;              ///< counted from the body's first
   int axis = 0;                    ///< of the outward normal

@@ -44,7 +44,7 @@ Cells lattice_cells(ParticleSet const& set, Body const& body);
 enum class Diagonals { by_box, by_row, by_column };
 
 /// Every box cut into simplices, with diagonals that alternate: 1D as they are, 2 triangles, 5 tetrahedra. The parity
-/// of a box's lattice position decides, so that the diagonals on a facet are those of the box beside. `boxes`: from
+/// of a box's lattice position decides, so that the diagonals on a facet equal those of the adjacent box. `boxes`: from
 /// lattice_cells of the same body.
 Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body,
                         Diagonals diagonals = Diagonals::by_box);

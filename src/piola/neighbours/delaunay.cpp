@@ -21,7 +21,7 @@ struct Enclosed {
   double spacing = 0;  ///< about the distance between points, scaled
 };
 
-/// The same number in [0, 1) for the same point on every machine (bits mixed by multiplication and shifts).
+/// Hash of a point number in [0, 1), equal on every machine (multiplications and shifts).
 double hash(std::uint64_t number) {
   number = (number + 1) * 0x9E3779B97F4A7C15U;
   number = (number ^ (number >> 30)) * 0xBF58476D1CE4E5B9U;
@@ -119,7 +119,8 @@ Cells between_points(std::vector<Index> const& all, Points const& points, int di
   return cells;
 }
 
-/// Without what spans gaps and bays. The radius of nearly flat simplices says little; they are looked at later.
+/// Removes simplices that span gaps and bays. The radius of nearly flat simplices is not informative; they are checked
+/// later.
 void drop_wide(Cells& cells, Points const& points, double largest_radius) {
   std::vector<Index> kept;
   kept.reserve(cells.corner.size());

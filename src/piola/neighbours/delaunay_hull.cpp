@@ -12,7 +12,7 @@ extern "C" {
 namespace piola {
 namespace {
 
-/// What Qhull would print, kept as text.
+/// Captures the messages of Qhull as text.
 class Messages {
  public:
   Messages() : file_(open_memstream(&text_, &size_)) {}

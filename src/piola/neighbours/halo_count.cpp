@@ -35,7 +35,8 @@ class OwnedCells {
       f(static_cast<std::size_t>(grid_.slots()[k]));
   }
   bool is_empty(Index cell) const { return owner_[static_cast<std::size_t>(cell)] == nobody; }
-  /// Of a cell and of those around it the ones that hold particles of somebody else than this one's, if it is of one.
+  /// Lists the occupied cells among `cell` and its neighbours that another rank owns; all occupied ones if `cell`
+  /// itself has several owners.
   void others_around(Index cell, std::vector<Index>& others) const {
     others.clear();
     int const own = owner_[static_cast<std::size_t>(cell)];

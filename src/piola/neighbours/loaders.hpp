@@ -89,8 +89,8 @@ struct StencilLoader {
   }
 };
 
-/// Lanes are neighbours of one particle, taken from a list; their records are loaded and transposed. On a machine
-/// without packs (and on a GPU) this is the plain loop over neighbours.
+/// Lanes are neighbours of one particle, taken from a list; their records are loaded and transposed. Without SIMD packs
+/// (and on a GPU) this is the plain loop over neighbours.
 template <int D>
 struct ListLoader {
   ListTable table;
@@ -147,8 +147,8 @@ struct ListLoader {
       body.template outer<false>(sums, own, g, f);
   }
 
-  /// Neighbours of the next particles mostly are the next ones of these, because rows stand in memory in full; from the
-  /// second-level cache they come in time: up to a tenth of both sweeps (record 4).
+  /// Prefetches the next neighbours. Rows are contiguous in memory, so neighbours of the next particles mostly follow
+  /// those of this one. Prefetching into the second-level cache saves up to a tenth of both sweeps (record 4).
   template <int Values>
   PIOLA_FN static void fetch_ahead(double const* base, std::ptrdiff_t stride, Index const* neighbour) {
 #if PIOLA_HAS_PACKS

@@ -74,7 +74,7 @@ void MovingGrid::fit(CoordinateBounds const& bounds, Coordinates const& coordina
   }
 }
 
-/// A coordinate in units of a cell, as places have it.
+/// Coordinate in units of a cell, as in place_.
 double MovingGrid::kept(double x, std::size_t axis) const {
   Span const& s = span_[axis];
   return std::clamp(in_cells(x, axis), s.low - farthest, s.low + s.count + farthest) - base_[axis];
@@ -87,7 +87,7 @@ void MovingGrid::lay(CoordinateBounds const& all, Index particles, int dimension
   cell_edge_ = cell;
   origin_ = origin;
   fit(all, coordinates);
-  double extent = 0;  // the largest number in place_, whoever sorts what
+  double extent = 0;  // largest coordinate in cell units, independent of which particles this rank sorts
   for (std::size_t c = 0; c < 3; ++c) {
     count_[c] = static_cast<Index>(span_[c].count) + (c < dimension_ ? 2 : 0);
     base_[c] = far_block * std::round(span_[c].low / far_block);

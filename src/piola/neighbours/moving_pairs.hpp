@@ -10,7 +10,8 @@
 /// Neighbours of particles that move: cells by counting sort in every step, then a search in single precision.
 namespace piola {
 
-/// What a search reads and writes: plain data that crosses between machines. Particles are sorted by cell.
+/// Input and output of a search. Plain data, so that code of different instruction sets may exchange it. Does not own
+/// its arrays. Particles are sorted by cell.
 struct MovingSearch {
   int dimension = 3;
   Index sources = 0;
@@ -29,7 +30,7 @@ struct MovingSearch {
   Index* found = nullptr;   ///< without filling
 };
 
-/// Of the finite coordinates of points along each axis; none: low > high.
+/// Bounds of the finite coordinates of points along each axis; no points: low > high.
 struct CoordinateBounds {
   std::array<double, 3> low, high;
   CoordinateBounds();
@@ -55,20 +56,21 @@ CoordinateBounds bounds_of(double const* x, std::ptrdiff_t stride, SlotList cons
 /// Particles sorted by cubic cells, cell by cell with x fastest; within a cell in an order that is given.
 class MovingGrid {
  public:
-  /// Coordinates of all particles along an axis: asked for where few of them are far from the others.
+  /// Returns the coordinates of all particles along an axis. Called only if few particles are far from the rest.
   using Coordinates = std::function<std::vector<double>(std::size_t axis)>;
-  /// Where cells lie. all: bounds of so many particles. cell: edge [m], not below the largest search radius. origin: a
-  /// corner of cells [m]. With the same edge and origin the order does not depend on how far the particles reach, and
-  /// pairs at the edge of the search hardly do. Particles far outside of the others share cells at the border, which
+  /// Places the cells. all: bounds of `particles` particles. cell: edge [m], not below the largest search radius.
+  /// origin: a corner of cells [m]. For fixed edge and origin, the order does not depend on the extent of the
+  /// particles, and pairs at the edge of the search hardly do. Outlying particles share cells at the border, which
   /// costs time but loses no pair.
   void lay(CoordinateBounds const& all, Index particles, int dimension, double cell,
            std::array<double, 3> const& origin, Coordinates const& coordinates);
-  /// Finds the cells of some of the particles. x: positions, `stride` doubles apart, which stay until they are sorted.
+  /// Finds the cells of the particles in `some`. x: positions, `stride` doubles apart; must stay valid until sort().
   void find_cells(double const* x, std::ptrdiff_t stride, SlotList const& some);
-  /// Both, of all particles.
+  /// Calls lay() and find_cells() for all particles.
   void find_cells(double const* x, std::ptrdiff_t stride, Index particles, int dimension, double cell,
                   std::array<double, 3> const& origin = {});
-  /// Sorts some whose cells are found; in a cell they stay in this order.
+  /// Sorts the particles in `some` by cell. Within a cell the order of `some` is kept. Precondition: find_cells() for
+  /// them.
   void sort(SlotList const& some);
 
   Index const* keys() const { return key_.data(); }                 ///< of each particle: its cell
@@ -77,10 +79,10 @@ class MovingGrid {
   Index const* sorted() const { return sorted_.data(); }            ///< of each particle that is sorted
   Index const* cells() const { return cell_.data(); }               ///< of each sorted particle
   Index const* begins() const { return begin_.data(); }
-  /// Where a particle is, and a corner of a cell, in edges from the origin.
+  /// Position of a particle, and corner of a cell, relative to the origin [edges].
   std::array<double, 3> where(Index slot) const;
   std::array<double, 3> corner(Index cell) const;
-  /// The same of a particle from the corner of a cell.
+  /// Position of a particle relative to the corner of a cell [edges].
   std::array<double, 3> within(Index cell, Index slot) const {
     std::array<double, 3> at = where(slot);
     std::array<double, 3> const from = corner(cell);
@@ -92,7 +94,7 @@ class MovingGrid {
   float const* place(int axis) const { return place_[static_cast<std::size_t>(axis)].data(); }
   /// Largest error of a distance in `place`, in cells.
   double slack() const { return slack_; }
-  /// Whoever is farther from each other than this is not found, in cells.
+  /// Largest distance at which pairs can be found [edges].
   double reach_of_cells() const { return (1 + slack_) * (1 + 1e-6); }
   std::size_t bytes() const;
 

@@ -8,8 +8,8 @@
 
 namespace piola {
 
-/// Finds the particle of a body that is nearest to a place, distances in spacings; of several the first. Particles are
-/// counted from the body's first. Threads may share it.
+/// Finds the particle of a body nearest to a place, the lowest id of several. Distances in spacings; ids relative to
+/// the first particle of the body. Thread-safe.
 class NearestParticle {
  public:
   using Place = std::array<double, 3>;

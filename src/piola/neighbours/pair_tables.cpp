@@ -55,7 +55,7 @@ void ReferencePairs::make_stencils() {
   std::vector<std::int32_t> kinds;
   for (Index first = 0; first < slots_; first += W) {
     auto const from = kind.begin() + first;
-    // Most groups of lanes are like the one before; else their kinds tell which pattern they have.
+    // Most groups of lanes equal the previous one; otherwise the kinds determine the pattern.
     if (kinds.empty() || !std::equal(kinds.begin(), kinds.end(), from)) {
       kinds.assign(from, from + W);
       auto const next = static_cast<std::int32_t>(patterns_.size());

@@ -298,7 +298,7 @@ bool solve_laplacian(Moments const& m, double h, std::array<double, 3>& alpha, d
 
 }  // namespace
 
-/// What a particle has too few neighbours for.
+/// The condition for which a particle has too few neighbours.
 struct ReferencePairs::Refusal {
   int found = 0;
   char const* operation = nullptr;
@@ -306,7 +306,7 @@ struct ReferencePairs::Refusal {
 
 void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder const& order) {
   auto& c = corrections_;
-  // Of a lattice the first particle of each kind stands for all of them; the last kind is that of empty slots.
+  // On a lattice, the first particle of each kind represents all of this kind; the last kind is that of empty slots.
   std::vector<Index> stands_for;
   if (regular_) {
     stands_for.assign(kinds_, absent);

@@ -71,11 +71,11 @@ class ReferencePairs {
     std::vector<double> scale;  ///< d
     std::vector<double> sum;    ///< sum_{b != a} s_ab V_b
   };
-  /// Of ranks, each of which scales its own particles.
+  /// Communication of make_filter() on several ranks, each of which scales its local particles.
   struct FilterShare {
     Range own;
-    std::function<void(std::vector<double>&)> tell;  ///< brings values of others up to date
-    std::function<void(double&)> take_largest;       ///< of all ranks
+    std::function<void(std::vector<double>&)> tell;  ///< updates the ghost values
+    std::function<void(double&)> take_largest;       ///< allreduce of the maximum
   };
   Filter make_filter(std::vector<double> const& volume, FilterShare const* share = nullptr) const;
   /// Corrected gradient of the corrected kernel (Lee et al. eq. 23), for tables with a kernel and one support:
@@ -87,8 +87,8 @@ class ReferencePairs {
   };
   CorrectedKernel correct_kernel() const;
   std::int64_t pair_count() const { return pairs_; }
-  double stencil_fill() const { return fill_; }  ///< share of lanes with a neighbour, regular bodies
-  /// Keeps the tables and the numbers of neighbours alone; nothing else may be asked for after it.
+  double stencil_fill() const { return fill_; }  ///< fraction of lanes with a neighbour, regular bodies
+  /// Releases all data except the tables and the numbers of neighbours. No other member may be called afterwards.
   void keep_tables();
   std::size_t bytes() const;
 
@@ -109,10 +109,10 @@ class ReferencePairs {
   template <class F>
   void each_part(F const& f) const;
   void find_offsets(Body const& body);
-  /// Sorts slots by where in memory their neighbours are: kind_of_ and distance_.
+  /// Classifies slots by the memory offsets of their neighbours: sets kind_of_ and distance_.
   void find_kinds(ParticleSet const& set, SlotOrder const& order);
   void search(SlotOrder const& order);
-  /// Of particles and of their copies, in these slots.
+  /// Slot of the particle of which `slot` holds a copy; `slot` itself for a particle.
   Index source_of(Index slot) const {
     return slot < slots_ ? slot : options_.copies.source[static_cast<std::size_t>(slot - slots_)];
   }

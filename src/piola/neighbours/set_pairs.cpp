@@ -46,7 +46,8 @@ class Search {
     }
     return h;
   }
-  /// Sources within a share of the support. On its very edge they do not count: the kernel vanishes there.
+  /// Number of sources within `share` of the support. Sources on its edge do not count, because the kernel vanishes
+  /// there.
   int within(double h, double share = 1 - 1e-6) const {
     double const reach = request_.support * h * share;
     return static_cast<int>(
@@ -80,7 +81,7 @@ class Search {
   SetPairRequest const& request_;
   double widest_;
   CellGrid near_;
-  std::optional<CellGrid> far_;  // for the few that have to look further
+  std::optional<CellGrid> far_;  // for the few targets that need a wider search
 };
 
 }  // namespace

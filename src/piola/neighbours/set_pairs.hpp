@@ -9,16 +9,17 @@
 /// Pairs between two sets of particles: the neighbours that each target has among the sources.
 namespace piola {
 
-/// Neighbours as loops see them: plain data that crosses between machines. Targets come in groups of lanes; entry k of
-/// lane l of group g is source[(begin[g] + k) * lanes + l]. Shorter lists are filled up with a source so far away that
-/// its kernel vanishes. Sources come in their order in the set, wherever their records are.
+/// Neighbour table for loops. Plain data, so that code of different instruction sets may exchange it. Targets come in
+/// groups of lanes; entry k of lane l of group g is source[(begin[g] + k) * lanes + l]. Shorter lists are filled up
+/// with a source so far away that its kernel vanishes. Sources come in their order in the set, wherever their records
+/// are.
 struct SetPairTable {
   Index const* begin = nullptr;       ///< per group of targets, one more at the end
   Index const* source = nullptr;      ///< records of sources
   double const* inverse_h = nullptr;  ///< 1 / smoothing length of each target [1/m]
 };
 
-/// What is asked of a list.
+/// Input of SetPairs::build(). Holds references: the vectors must outlive the call.
 struct SetPairRequest {
   std::vector<std::array<double, 3>> const& targets;  ///< positions [m]
   std::vector<std::array<double, 3>> const& sources;  ///< positions [m]
@@ -28,7 +29,7 @@ struct SetPairRequest {
   std::vector<int> const& least;  ///< sources that each target needs within its support; h grows until it has them
   std::vector<Index> const& target_in_slot;  ///< which target is in each slot, -1: none; a multiple of the lanes
   std::vector<Index> const& slot_of_source;  ///< record of each source
-  /// Whether a target sees a source (indices into both sets); empty: always.
+  /// Whether a source may be a neighbour of a target (indices into both sets); empty: always.
   std::function<bool(Index, Index)> visible;
 };
 

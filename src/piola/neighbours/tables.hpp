@@ -3,7 +3,7 @@
 #include "piola/math/lanes.hpp"
 #include <cstdint>
 
-/// Reference neighbours of one body as loops see them: plain data that crosses between machines.
+/// Reference neighbours of one body for loops. Plain data, so that code of different instruction sets may exchange it.
 ///
 /// Each pair has three numbers: r = X_b - X_a; s = -V_b W'(|r|) / |r| >= 0, the raw gradient being s r; and l, the raw
 /// Laplacian weight 2 s of the Laplacian's own support. All corrections are per particle:
@@ -28,8 +28,8 @@ struct StencilEntry {
   std::int32_t weights;  ///< position of W factors, 1 where the neighbour exists, else 0; negative: all lanes have it
 };
 
-/// Entries of a group of lanes, as two runs [begin, end), each in the order of lattice offsets. So every lane meets its
-/// neighbours in this order, whatever lies beside it in memory: several entries share an offset where lanes find that
+/// Entries of a group of lanes, as two runs [begin, end), each in the order of lattice offsets. Every lane thus visits
+/// its neighbours in this order, whatever is adjacent in memory. Several entries share an offset where lanes find that
 /// neighbour at different distances.
 struct StencilPattern {
   std::int32_t inner[2], outer[2];

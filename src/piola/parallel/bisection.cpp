@@ -50,8 +50,8 @@ class Bisection {
   }
 
  private:
-  /// Of the cuts across an axis the particles within reach of them are as many as the part has over its length; leaves
-  /// that lie along the axis end here and there along it.
+  /// Estimate for cuts across an axis: particles within the support radius of a cut are those of the part over its
+  /// length. Leaves that lie along the axis end at different places along it.
   std::size_t best_axis(std::span<std::size_t const> some) const {
     Box all;
     Point lengths{};

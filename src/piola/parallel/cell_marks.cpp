@@ -7,7 +7,7 @@
 namespace piola {
 namespace {
 
-constexpr double parts = 256;  ///< of an edge
+constexpr double parts = 256;  ///< per edge
 
 }  // namespace
 
@@ -68,7 +68,8 @@ void CellMarks::finish(bool touching) {
                        });
     reads_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>((flows ? flow : 0) | (meets ? touch : 0));
   });
-  // Bodies touch from both sides, so that those who are read of read, too; beside what flows they need not.
+  // Contact is symmetric: a cell that reads is also read. Next to Eulerian particles it is not, so exports are derived
+  // separately.
   each_occupied([&](Index cell) {
     bool const flows = any_around(cell, [&](std::size_t other) { return (reads_[other] & flow) != 0; });
     int const told = (reads_[static_cast<std::size_t>(cell)] & touch) | (flows ? flow : 0);

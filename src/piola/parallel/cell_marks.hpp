@@ -7,15 +7,16 @@
 
 namespace piola {
 
-/// Where particles are within a cell, to a 256th of its edge.
+/// Bounding box of particles within a cell, rounded outwards to 1/256 of its edge.
 class CellBox {
  public:
-  /// place: seen from the corner of the cell [edges]; outside of 0 to 1, or not a number: they may be anywhere.
+  /// place: position relative to the corner of the cell [edges]. A position outside 0 to 1, or NaN, makes the box
+  /// unbounded.
   void add(std::array<double, 3> const& place);
-  /// Seen from where places are counted from; corner: of the cell [edges].
+  /// Bounds relative to the origin of `corner` [edges].
   struct Bounds {
     std::array<double, 3> low, high;
-    /// Square of the least distance from a place [edges].
+    /// Squared distance of a position from the box [edges^2]; 0 inside.
     double square_from(std::array<double, 3> const& place) const {
       double sum = 0;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -33,56 +34,58 @@ class CellBox {
   std::uint8_t anywhere_ = 0;
 };
 
-/// Which particles read something of others that are near in space, judged by cells as wide as they read: those of a
-/// cell read what lies in it and in those around, as far as an edge reaches. All ranks know a few words of all others
-/// about their cells, and so who reads what.
+/// Determines the spatial halo from cells whose edge is the search radius. A particle reads particles of its own and
+/// the adjacent cells. Every rank holds 16 bytes about each occupied cell of every other rank, from which it derives
+/// which ranks need the particles of its cells.
 class CellMarks {
  public:
-  /// Kinds of reading, as bits: what particles that flow have for each other, and what bodies that touch have.
+  /// Reasons for reading, as bits: Eulerian particles in or next to the cell, contact between bodies.
   enum Kind : std::uint8_t { flow = 1, touch = 2 };
   static constexpr Index several = -2;
 
-  /// What a rank says of a cell in which it has particles.
+  /// Summary of the particles of one rank in one cell.
   struct Cell {
     Index cell;
-    Index body;  ///< whose particles these are, or `several`
+    Index body;  ///< body of these particles, or `several`
     CellBox box{};
-    std::uint8_t flows = 0;  ///< 1 if one does
-    /// place: as CellBox has it.
+    std::uint8_t flows = 0;  ///< 1 if a particle is Eulerian
+    /// place: see CellBox::add().
     void add(Index of_body, bool flows_too, std::array<double, 3> const& place) {
       if (body != of_body) body = several;
       if (flows_too) flows = 1;
       box.add(place);
     }
   };
-  /// Particles of another rank that read what is around.
+  /// A cell of another rank whose particles read particles of the adjacent cells.
   struct Reader {
     int rank;
     Index cell;
     CellBox box;
   };
 
-  /// shape: cells along each axis, x fastest, of which the outermost stay empty; dimension: 2 or 3.
+  /// Clears all cells. shape: cells along each axis, x fastest; the outermost layer must stay empty. dimension: 2 or 3.
   void start(std::array<Index, 3> const& shape, int dimension);
-  /// Before finish(): a particle of a body, which flows or does not.
+  /// Adds a particle of a body. flows: it is Eulerian. Precondition: before finish().
   void add(Index cell, Index body, bool flows) {
     auto const c = static_cast<std::size_t>(cell);
     Index const before = body_[c];
     if (before != body) body_[c] = before == nobody ? body : several;
     if (flows) flows_[c] = 1;
   }
-  /// The same of all particles of a rank.
+  /// Adds the summary of a cell of one rank. Precondition: before finish().
   void add(Cell const& of_rank, int rank);
-  /// touching: whether bodies can touch. Then what follows may be asked.
+  /// Derives what each cell reads and exports. touching: bodies can be in contact. Precondition of all queries below.
   void finish(bool touching);
 
-  /// What particles of a cell read: where something flows in it or around, and where bodies meet.
+  /// Kinds that particles of a cell read: `flow` if a particle in or around it is Eulerian, `touch` if several bodies
+  /// are.
   std::uint8_t reads(Index cell) const { return reads_[static_cast<std::size_t>(cell)]; }
-  /// What others read of particles of a cell.
+  /// Kinds for which particles of a cell are read by particles in it or around it.
   std::uint8_t told(Index cell) const { return told_[static_cast<std::size_t>(cell)]; }
-  /// Those of other ranks than `own` that may read what lies in a cell, rank by rank.
+  /// Cells of other ranks than `own` whose particles may read particles of `cell`, sorted by rank.
   std::vector<Reader> readers(Index cell, int own) const;
-  /// The other way: f(rank) for the ranks whose readers() of some cell has one of rank `own` in this cell.
+  /// Calls f(rank) for each rank other than `own` with exported particles in this cell or around it; does nothing if
+  /// the cell reads nothing. The counterpart of readers(). A rank may be visited several times.
   template <class F>
   void each_teller(Index cell, int own, F const& f) const {
     if (reads(cell) == 0) return;
@@ -99,10 +102,10 @@ class CellMarks {
   struct Said {
     Cell cell;
     int rank;
-    Index next;  ///< of the same cell
+    Index next;  ///< next entry of the same cell
   };
 
-  /// Whether is(cell) for a cell or one around it.
+  /// Returns whether is(c) holds for `cell` or an adjacent cell.
   template <class F>
   bool any_around(Index cell, F const& is) const {
     Index const row = shape_[0], layer = shape_[0] * shape_[1], deep = dimension_ == 3 ? 1 : 0;
@@ -112,7 +115,7 @@ class CellMarks {
           if (is(static_cast<std::size_t>(cell + dz * layer + dy * row + dx))) return true;
     return false;
   }
-  /// f(cell) for a cell and those around it.
+  /// Calls f(c) for `cell` and all adjacent cells.
   template <class F>
   void each_around(Index cell, F const& f) const {
     any_around(cell, [&](std::size_t other) {
@@ -120,13 +123,13 @@ class CellMarks {
       return false;
     });
   }
-  /// f(cell), at once, for those that hold a particle.
+  /// Calls f(cell), in parallel, for all occupied cells.
   template <class F>
   void each_occupied(F const& f) const;
 
   std::array<Index, 3> shape_{};
   int dimension_ = 3;
-  std::vector<Index> body_, first_;  // per cell; first_: of said_
+  std::vector<Index> body_, first_;  // per cell; first_: index into said_
   std::vector<std::uint8_t> flows_, reads_, told_;
   std::vector<Said> said_;
 };

@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// The first failure that a rank has recorded, as ranks tell each other: that of the lowest id is everybody's.
+/// Reduction payload of failures: the failure at the lowest particle id wins on all ranks.
 struct FirstFailure {
   std::uint64_t id = ~std::uint64_t{0};  ///< the largest number where there is none
   Index index = FailureSlot::none;

@@ -12,7 +12,7 @@ void exchange(HaloPlan& plan, std::span<FieldRef const> fields);
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// Gives one copy its values.
+/// Computes the values of one copy (see Copies) from its source particle.
 struct UpdateCopy {
   FieldRef field;
   Copies copies;
@@ -28,12 +28,13 @@ struct UpdateCopy {
   }
 };
 
-/// Brings copies up to date: those of neighbours that other ranks own, of which there are none on one rank, then those
-/// that a body has of particles, which may be of other ranks. Keeps the count that finds forgotten refreshes.
+/// Updates the ghosts of other ranks, then the copies of a body (mirror images), whose sources may be ghosts. Updates
+/// the version that detects forgotten refreshes in contract builds.
 struct Halo {
   HaloPlan* plan = nullptr;  ///< nullptr: one rank
 
-  /// All of them in one message.
+  /// Collective if `plan` is set. Updates the ghosts and copies of all `fields`, with one message per neighbouring
+  /// rank.
   template <class... Ref>
   void refresh(Ref const&... fields) const {
     if (plan != nullptr) piola::exchange(*plan, std::array{fields...});

@@ -8,7 +8,7 @@
 namespace piola {
 namespace {
 
-/// Slots one after the other, in pieces that threads share.
+/// Splits slots into contiguous runs of at most `longest` slots, the unit of work of a thread.
 std::vector<SlotRun> runs_of(std::vector<Index> const& slots) {
   constexpr Index longest = 512;
   std::vector<SlotRun> runs;
@@ -21,7 +21,7 @@ std::vector<SlotRun> runs_of(std::vector<Index> const& slots) {
   return runs;
 }
 
-/// Some values of a field, for the slots of a message; the message has them from `values` on.
+/// Some components of a field for the slots of a message; `values` points to their place in the message.
 struct Copied {
   FieldRef const& field;
   int first, count;
@@ -95,7 +95,7 @@ void HaloPlan::add(FieldRef const& field, int first, int count, int reach) {
   if (field.data != nullptr) values_.push_back({field.data, first, count, reach});
 }
 
-/// f(field, values) of what is told of them, in the order of a message.
+/// Calls f(field, values) for each declared range of components of `fields`, in the order of the message.
 template <class F>
 void HaloPlan::each_of(std::span<FieldRef const> fields, F const& f) const {
   for (FieldRef const& field : fields)

@@ -9,41 +9,42 @@
 
 namespace piola {
 
-/// Slots first ... first + count - 1, of which the first has this place among the slots of a message.
+/// Slots first ... first + count - 1. `place`: position of the first one among the slots of a message.
 struct SlotRun {
   Index first, count, place;
 };
 
-/// What the particles of this rank read of those that others own, and what others read of its own, for one body of
-/// which all ranks have all slots, in the same order. Fields may be read by different sweeps, of which some reach
-/// further than others: each has a reach of the plan, by number, and is told to those who read it.
+/// Communication plan for the ghost particles of one body. Slots are numbered alike on all ranks. A field has a cutoff
+/// level (reach): sweeps with a larger support need more ghosts, and a field is sent only to the ranks that read it at
+/// its level. Values are read and written through the FieldRef of each exchange.
 class HaloPlan {
  public:
-  /// cut: who owns which slots, from 0 on. `read`: slots that the particles of this rank read, in any order, as often
-  /// as they like; reach 0. Collective.
+  /// cut: partition of the slots, which start at 0. `read`: slots that local particles read at level 0, in any order;
+  /// duplicates and local slots are ignored. Collective.
   HaloPlan(Shares cut, std::vector<Index> read);
   HaloPlan(Index slots, std::vector<Index> read) : HaloPlan(Shares({0, slots}), std::move(read)) {}
-  /// Other slots that they read; the number of this reach. Collective.
+  /// Adds a cutoff level with separate slots to read. Returns the number of the level. Collective.
   int add_reach(std::vector<Index> read);
 
-  /// Values [first, first + count) of a field are what neighbours within a reach read of it. A field may have several
-  /// such runs; one of no values, where all that neighbours read of it never changes or comes with another field.
+  /// Declares that neighbours at level `reach` read the components [first, first + count) of a field. A field may have
+  /// several such ranges. count = 0 declares a field that is never sent, because its values are constant or travel with
+  /// another field.
   void add(FieldRef const& field, int first, int count, int reach = 0);
-  /// Brings the values of fields that others own up to date, in one message from each. Only the ranks that read from
-  /// each other take part.
+  /// Updates the ghost values of `fields`, with one message per neighbouring rank. Called by all ranks; only
+  /// neighbouring ranks communicate.
   void exchange(std::span<FieldRef const> fields);
   void exchange(FieldRef const& field) { exchange(std::span(&field, 1)); }
 
-  /// The same slots, of no fields yet.
+  /// Returns a copy of the plan without fields.
   HaloPlan without_fields() const;
 
-  /// Particles of which something comes from others, in ascending order.
+  /// Ghost particles: slots whose values this rank receives, in ascending order.
   std::vector<Index> const& received() const { return received_; }
   std::size_t bytes() const;
 
  private:
   explicit HaloPlan(Shares cut) : cut_(std::move(cut)) {}
-  /// Within one reach.
+  /// Slots of one cutoff level.
   struct Slots {
     Index count = 0;
     std::vector<SlotRun> runs;
@@ -70,9 +71,9 @@ class HaloPlan {
   std::vector<Index> received_;
 };
 
-/// plan.exchange(fields), for code that is compiled once per machine.
+/// Calls plan.exchange(fields); for code that is compiled once per instruction set.
 void exchange(HaloPlan& plan, std::span<FieldRef const> fields);
-/// Of a field that the plan need not know, what is within its first reach.
+/// Updates `components` components of a field that need not be add()ed, for the ghosts of level 0. Called by all ranks.
 void exchange_once(HaloPlan const& plan, FieldRef const& field, int components);
 
 }  // namespace piola

@@ -12,28 +12,29 @@
 #include <utility>
 #include <vector>
 
-/// A body of which every rank has all slots, in the same order, and works on some of them: what the ranks have to tell
-/// each other besides halos. Every function but own_part() is collective, and none does anything on one rank.
+/// Collectives for a body whose slots are numbered alike on all ranks, each of which owns some of them. Halos are in
+/// halo_plan.hpp. Every function except own_part() is collective; on one rank none communicates.
 namespace piola {
 
-/// The part of a range that this rank works on where all have equal ones.
+/// The part of `whole` that this rank works on when the range is divided evenly among ranks.
 Range own_part(Range whole);
 
-/// Of values per slot, `size` of slot i at data[i * size], that each rank has right in its own part of a range: all
-/// ranks have all of them.
+/// Replicates `size` values per slot, of slot i at data[i * size]. In: the values in own_part(whole); out: those of the
+/// whole range. Collective.
 void complete_slots(double* data, std::ptrdiff_t size, Range whole);
 
-/// `size` values per slot, of slot i at data[i * size], of the slots of a range.
+/// `size` values per slot of the range `whole`, of slot i at data[i * size]. Does not own the data.
 struct SlotArray {
   double* data;
   std::ptrdiff_t size;
   Range whole;
 };
-/// The same of several arrays, in one message; what each rank says besides goes with it, and comes back as that of rank
-/// 0, that of rank 1, and so on.
+/// As above for several arrays in one allgather. `said` is appended to the message; returns the `said` of all ranks, in
+/// rank order.
 std::vector<double> complete_slots(std::span<SlotArray const> arrays, std::span<double const> said = {});
 
-/// The same of what has `void add(T const&)`, exact sums for example: afterwards `sum` is that of all ranks.
+/// As above, and reduces `sum` over all ranks in the same message. T has `void add(T const&)`, e.g. exact sums.
+/// Collective.
 template <class T>
 void complete_slots_and_add(std::span<SlotArray const> arrays, T& sum) {
   using Numbers = std::array<double, sizeof(T) / 8>;
@@ -50,18 +51,17 @@ void complete_slots_and_add(std::span<SlotArray const> arrays, T& sum) {
   }
 }
 
-/// A body of which each rank has a share of the slots, as share_of() has it; the first `particles` of all slots hold
-/// one.
+/// Partition of the slots of a body by share_of(); the first `particles` of all slots hold a particle.
 struct SharedSlots {
   Index slots, particles;
-  /// Slots of particles that a rank has.
+  /// Occupied slots of a rank.
   Range of(int rank) const;
   Range own() const { return of(ranks::own()); }
-  /// Of values per slot, `width` of each, that each rank has right in its own part: all ranks have those of all
-  /// particles. Collective.
+  /// Replicates `width` values per particle. In: the values of local particles; out: those of all particles.
+  /// Collective.
   void complete(std::span<double> values, std::size_t width) const;
-  /// `values`: of each slot of this rank `width` of them. take(range, values) on rank 0 for one rank after the other,
-  /// so that it never has more than a share of them besides its own.
+  /// Gathers on rank 0. `values`: `width` values per slot of this rank. Calls take(range, values) on rank 0 for one
+  /// rank after the other, so that it holds at most one more partition at a time. Inverse of deal(). Collective.
   template <class F>
   void collect(std::size_t width, std::vector<double> values, F const& take) const {
     for (int rank = 0; rank < ranks::count(); ++rank) {
@@ -71,7 +71,8 @@ struct SharedSlots {
       if (ranks::own() == 0) take(part, values);
     }
   }
-  /// The other way: give(range, values) on rank 0; each rank has those of its own slots.
+  /// Scatters from rank 0: give(range, values) is called on rank 0 for each rank and fills its values. Returns the
+  /// values of this rank's slots. Inverse of collect(). Collective.
   template <class F>
   std::vector<double> deal(std::size_t width, F const& give) const {
     std::vector<double> mine;
@@ -86,11 +87,11 @@ struct SharedSlots {
   }
 };
 
-/// Of a field that each rank has right in its own slots: these slots, which all ranks name in the same order, are right
-/// on all of them. For few slots: all ranks have a message as long as the list.
+/// Replicates a field at `slots`, a list that is identical on all ranks; each value is taken from the rank that owns
+/// the slot. For short lists: the message has the length of the list on every rank. Collective.
 void merge_slots(FieldRef const& field, Range own, std::span<Index const> slots, int components);
 
-/// The first failure that some rank has recorded is everybody's.
+/// Reduces a failure over ranks: the one at the lowest particle id is set on all ranks. Collective.
 void share_failure(FailureSlot& slot);
 
 }  // namespace piola

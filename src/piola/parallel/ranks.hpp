@@ -10,25 +10,25 @@
 #include <type_traits>
 #include <vector>
 
-/// The processes (ranks) that share a run, by MPI; one rank where Piola is built without it (PIOLA_MPI) or not started
-/// by an MPI launcher. Every function here but start(), own(), count(), traffic() and abort_all() is collective: all
-/// ranks call it, in the same order, outside parallel loops. Numbers that an MPI call counts are ints, so no message
-/// holds more than 2^31 values.
+/// Communication between the MPI processes (ranks) of a run. A build without MPI (PIOLA_MPI), or a start without an MPI
+/// launcher, has one rank. All functions except start(), own(), count(), traffic() and abort_all() are collective: all
+/// ranks call them in the same order, outside parallel loops. MPI counts are ints, so a message holds at most 2^31
+/// values.
 namespace piola::ranks {
 
-/// Joins the other ranks if a launcher (mpirun, srun) started this process as one of several.
+/// Initialises MPI if a launcher (mpirun, srun) started this process as one of several.
 void start();
-/// Leaves them; nothing of this may be called afterwards.
+/// Finalises MPI. No function of this namespace may be called afterwards.
 void finish();
 
-int own();    ///< 0 to count() - 1; rank 0 is the first, which reads, writes and decides
-int count();  ///< 1: nobody else
+int own();    ///< rank of this process, 0 to count() - 1
+int count();  ///< number of ranks; 1: serial
 inline bool several() { return count() > 1; }
 
-/// Adds what `other` is to `mine`. The result must not depend on which is added to which, nor in what order.
+/// Combines `other` into `mine`. Must be associative and commutative to the bit.
 using Combine = void (*)(void const* other, void* mine);
 
-/// Combines items of so many bytes over all ranks; all have the result.
+/// Allreduce of `count` items of `bytes` bytes each by `combine`.
 void combine_bytes(void* items, std::size_t count, std::size_t bytes, Combine combine);
 template <class T>
 void combine(std::span<T> items, Combine how) {
@@ -39,7 +39,7 @@ template <class T>
 void combine(T& item, Combine how) {
   combine(std::span<T>(&item, 1), how);
 }
-/// The same for what has `void add(T const&)`: exact sums, for example.
+/// Allreduce by the member `void add(T const&)`, e.g. of exact sums.
 template <class T>
 void add(std::span<T> sums) {
   combine(sums, [](void const* other, void* mine) { static_cast<T*>(mine)->add(*static_cast<T const*>(other)); });
@@ -48,53 +48,53 @@ template <class T>
 void add(T& sum) {
   add(std::span<T>(&sum, 1));
 }
-/// The larger of both is mine; not a number if one is.
+/// Sets `mine` to the larger of both; NaN if one is NaN.
 inline void keep_larger(double other, double& mine) {
   if (std::isnan(other) || other > mine) mine = other;
 }
-/// The largest of all; not a number if one is.
+/// Allreduce of the maximum; NaN if one value is NaN.
 void take_largest(double& value);
 
-/// Every rank has some of the values and zero (all bits) for the others: afterwards all ranks have all of them.
+/// Allreduce by bitwise or. Each value must be zero in all bits except on the one rank that owns it.
 void merge(std::span<double> values);
-/// The values of rank 0, then those of rank 1, and so on; on rank 0 alone, elsewhere nothing.
+/// Gathers the values of all ranks on rank 0, in rank order. Returns an empty vector on other ranks.
 std::vector<double> gather(std::span<double const> values);
-/// Rank r has values[starts[r]] to values[starts[r + 1] - 1]; afterwards all ranks have all of them.
+/// Allgather in place: rank r contributes values[starts[r]] to values[starts[r + 1] - 1].
 void complete(std::span<double> values, std::span<std::size_t const> starts);
-/// What rank 0 has.
+/// Broadcasts `bytes` bytes from rank 0 to all ranks.
 void broadcast_bytes(void* data, std::size_t bytes);
-/// to[r] goes to rank r; what comes from rank r is in place r.
+/// All-to-all: sends to[r] to rank r. Returns the indices received, by sending rank.
 std::vector<std::vector<Index>> deal(std::vector<std::vector<Index>> const& to);
 
-/// Items of so many bytes, those for rank 0 first, then those for rank 1, and so on, sent[r] of them; they come in the
-/// order of the ranks that send them, received[r] of each.
+/// All-to-all of items of `bytes` bytes. `out` holds sent[r] items for each rank r, `in` receives received[r] items of
+/// each, both in rank order.
 void deal_items(void const* out, std::span<Index const> sent, void* in, std::span<Index const> received,
                 std::size_t bytes);
 
-/// A message from or to a rank.
+/// Buffer of a message from or to `rank`. Does not own `values`.
 struct Message {
   int rank;
   double* values;
   std::size_t count;
 };
-/// Sends and receives these at once; returns when all have arrived. Only the ranks that are named take part.
+/// Sends and receives all messages concurrently; returns when all have arrived. Only the ranks named take part.
 void exchange(std::span<Message const> receives, std::span<Message const> sends);
 
-/// What one rank has goes to another one, which has room for as many values; all others do nothing.
+/// Sends values.size() values from rank `from` to rank `to` (point to point). Other ranks return at once.
 void carry(int from, int to, std::span<double> values);
 
-/// What this rank has sent by exchange().
+/// Messages and bytes that this rank has sent by exchange().
 struct Traffic {
   std::int64_t messages = 0, bytes = 0;
 };
 Traffic traffic();
 
-/// What ended the work of a rank.
+/// Error that stopped a rank.
 struct Trouble {
   int code = 0;  ///< exit code; 0: there is none
   std::string message;
 };
-/// What some rank has found out counts for all of them: that of the lowest one.
+/// Thrown on all ranks when at least one rank has failed. Carries the message and exit code of the lowest failed rank.
 class Disagreement : public std::runtime_error {
  public:
   explicit Disagreement(Trouble const& trouble) : std::runtime_error(trouble.message), code_(trouble.code) {}
@@ -103,9 +103,9 @@ class Disagreement : public std::runtime_error {
  private:
   int code_;
 };
-/// All ranks say whether they can go on; of those that cannot, the lowest one's trouble is everybody's.
+/// Collective. Returns the error of the lowest rank that reports one (code != 0), on all ranks; code 0 if none does.
 Trouble agree(Trouble const& own);
-/// Ends all ranks from one, without the others' doing. Returns only where there are no others.
+/// Ends all ranks (MPI_Abort). Not collective. Returns only if there is one rank.
 void abort_all(int code);
 
 }  // namespace piola::ranks

@@ -23,9 +23,10 @@ struct World {
   int own = 0, count = 1;
   MPI_Comm orders = MPI_COMM_NULL, troubles = MPI_COMM_NULL;  // all ranks, too
   MPI_Op op = MPI_OP_NULL;
-  Combine combine = nullptr;                  // of the call in progress, which `op` has no argument for
-  std::size_t bytes = 0;                      // per item
-  std::map<std::size_t, MPI_Datatype> types;  // of items with so many bytes
+  Combine combine = nullptr;  // combine function of the running allreduce; global because MPI_Op callbacks take no user
+                              // data
+  std::size_t bytes = 0;      // per item
+  std::map<std::size_t, MPI_Datatype> types;  // MPI types of items, by size in bytes
   Traffic traffic;
   Spent spent;
 };
@@ -84,7 +85,7 @@ bool launched() {
   return false;
 }
 
-/// Where the parts of so many items begin.
+/// Offset of each rank's part, from the number of items per rank.
 std::vector<int> starts_of(std::vector<int> const& counts) {
   std::vector<int> starts(counts.size(), 0);
   std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
@@ -100,7 +101,7 @@ void tell_all(void* data, std::size_t bytes, MPI_Comm ranks, double& seconds) {
   wait_for(request);
 }
 
-/// What the lowest rank with trouble has to say.
+/// Broadcasts the error of rank `lowest`, the lowest one that has failed.
 Trouble trouble_of(int lowest, Trouble const& own) {
   if (lowest == world.count) return {};
   Trouble r = own;

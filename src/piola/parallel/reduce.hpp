@@ -6,8 +6,7 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// What ranks say at one place of a step, in one message: exact sums, and beside them the largest of a value and the
-/// first failure.
+/// Payload of one allreduce: N reproducible sums, one maximum and the first failure.
 template <int N>
 struct SaidByRanks {
   exec::ExactSums<N> sums;
@@ -20,14 +19,14 @@ struct SaidByRanks {
   }
 };
 
-/// What a rank has to say beside sums, and then that of all of them.
+/// Values that are reduced in the same message as the sums: in, the local ones; out, the global ones.
 struct Beside {
-  double* largest = nullptr;       ///< not a number if one is; nullptr: nothing
-  FailureSlot* failure = nullptr;  ///< likewise
+  double* largest = nullptr;       ///< maximum, NaN if one value is NaN; nullptr: not reduced
+  FailureSlot* failure = nullptr;  ///< failure at the lowest id; nullptr: not reduced
 };
 
-/// exec::add_partials of the n partial sums of this rank and of those of all others, if they share them: exact, so that
-/// all ranks have the bits of one.
+/// exec::add_partials of the n partial sums of this rank, over all ranks if `shared`. The sums are reproducible: their
+/// bits do not depend on the number of ranks. Collective if `shared`.
 template <int N>
 exec::Totals<N> add_over_ranks(bool shared, double const* partial, Index n, Beside const& beside = {}) {
   if (!shared) return exec::add_partials<N>(partial, n);
@@ -43,7 +42,7 @@ exec::Totals<N> add_over_ranks(bool shared, double const* partial, Index n, Besi
   return totals;
 }
 
-/// exec::reduce over the particles of all ranks, if they share them.
+/// exec::reduce over the particles of this rank, or of all ranks if `shared` (then collective).
 template <int N, class Pass>
 exec::Totals<N> reduce_over_ranks(bool shared, Range r, Pass const& pass, double* partial, Beside const& beside = {}) {
   if (!shared) return exec::reduce<N>(r, pass, partial);

@@ -10,11 +10,11 @@
 
 namespace piola {
 
-/// A table of which each rank has some rows, and all ranks together have each once.
+/// A table distributed over the ranks by rows; each row has one owner.
 struct RowsOfRanks {
-  std::int64_t set = 0;  ///< tables whose rows are dealt out alike have the same number
-  Index count = 0;       ///< of all ranks
-  /// Of the rows of this rank, from 0 to count - 1; nothing: it has all of them, in order.
+  std::int64_t set = 0;  ///< tables with the same distribution of rows have the same number
+  Index count = 0;       ///< rows of all ranks
+  /// Global indices of the rows of this rank, 0 to count - 1; nothing: this rank has all rows, in order.
   std::optional<std::span<Index const>> places = {};
   int columns = 1;
 };
@@ -23,16 +23,18 @@ inline std::size_t numbers_of(RowsOfRanks const& rows) {
   return static_cast<std::size_t>(rows.count) * static_cast<std::size_t>(rows.columns);
 }
 
-/// The way of the rows of a table, wherever they are, to the ranks that read or write them: those have a stretch of the
-/// whole each, of so many blocks of rows; a table of one block is that of rank 0.
+/// Redistributes rows of a table between the ranks that own the particles and the ranks that write or read the file
+/// (two-phase I/O). Each writing rank holds a contiguous range of whole blocks; a table of a single block is written by
+/// rank 0.
 class RowPlan {
  public:
   /// Collective.
   RowPlan(RowsOfRanks const& rows, Index block);
-  /// Rows that a rank reads or writes.
+  /// Rows of the file that a rank reads or writes.
   Range of(int rank) const;
   Range own() const;
-  /// `values`: of each row of this rank so many. Those of the rows of own(), in order. Collective.
+  /// Collective. In: the values of the rows that this rank owns, `columns` per row. Returns the values of the rows that
+  /// it writes, own(), in file order.
   template <class T>
   std::vector<T> collect(std::span<T const> values, int columns) const {
     static_assert(std::is_trivially_copyable_v<T>, "it travels as bytes");
@@ -41,7 +43,7 @@ class RowPlan {
     move(std::as_bytes(values), scattered_, std::as_writable_bytes(std::span(whole)), stretch_, sizeof(T) * width);
     return whole;
   }
-  /// The way back. Collective.
+  /// Inverse of collect(). Collective.
   template <class T>
   void hand_out(std::span<T const> whole, std::span<T> values, int columns) const {
     move(std::as_bytes(whole), stretch_, std::as_writable_bytes(values), scattered_,
@@ -49,9 +51,9 @@ class RowPlan {
   }
 
  private:
-  /// Rows in the order in which they go to, or come from, rank 0, rank 1, and so on.
+  /// Rows in the order of the ranks to which they are sent or from which they are received.
   struct Side {
-    std::vector<Index> rows, counts;  ///< counts: per rank
+    std::vector<Index> rows, counts;  ///< counts: rows per rank
   };
   void move(std::span<std::byte const> from, Side const& there, std::span<std::byte> to, Side const& here,
             std::size_t row) const;

@@ -8,11 +8,11 @@
 
 namespace piola {
 
-/// A sum over steps of which each rank knows a part. Steps ask nobody for the others' parts: ranks put them together
-/// when somebody looks, in the order of the steps, so that the total has the bits of one that is kept up to date.
+/// A running total over steps whose global reduction is deferred. Each step adds the local part without communication.
+/// over_ranks() reduces the parts step by step, so the total is bit-identical to one that is reduced in every step.
 class SharedTotal {
  public:
-  /// What all ranks know.
+  /// Adds a value that is replicated on all ranks.
   void add(double known) {
     if (open_.empty()) {
       total_ += known;
@@ -22,13 +22,13 @@ class SharedTotal {
       add_part(part);
     }
   }
-  /// What all ranks have a part of. Collective, though rarely one has to wait for others.
+  /// Adds the local part of a value that is distributed over the ranks. Collective: every 1000th call reduces.
   void add_part(exec::ExactSum const& part) {
     constexpr std::size_t many = 1000;
     open_.push_back({part});
     if (open_.size() == many) settle();
   }
-  /// What all ranks have added. Collective.
+  /// Returns the total over all ranks. Collective.
   double over_ranks() const {
     std::vector<Part> parts(open_);
     ranks::add(std::span(parts));
@@ -36,11 +36,11 @@ class SharedTotal {
     for (Part const& part : parts) total += part.sum.value();
     return total;
   }
-  /// Collective; value() is over_ranks() then.
+  /// Reduces the open parts, so that value() is over_ranks(). Collective.
   void settle() { set(over_ranks()); }
   bool settled() const { return open_.empty(); }
   double value() const { return total_; }
-  /// Forgets what there was.
+  /// Replaces the total and discards all open parts.
   void set(double total) {
     open_.clear();
     total_ = total;

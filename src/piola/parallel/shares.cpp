@@ -41,7 +41,8 @@ class Runs {
     }
     return last;
   }
-  /// Of each rank the first block from which it and those after it can take all the rest; nothing if rank 0 cannot.
+  /// First block of each rank from which this rank and the later ones can take all remaining blocks; nothing if rank 0
+  /// cannot.
   std::vector<Index> earliest(double bound) const {
     std::vector<Index> first(before_.size() + 1, blocks());
     for (int r = ranks() - 1; r >= 0; --r) {
@@ -54,7 +55,7 @@ class Runs {
           step /= 2;
       }
       if (last - start < least_) return {};
-      // Those before it need blocks, too.
+      // Leaves enough blocks for the lower ranks.
       first[static_cast<std::size_t>(r)] = std::max(start, least_ * r);
     }
     return first.front() == 0 ? first : std::vector<Index>{};

@@ -6,8 +6,8 @@
 
 namespace piola {
 
-/// N exact sums of what f(slot, x) leaves in x[0] ... x[N - 1], which are 0 before, over the slots of this rank, and
-/// over those of all ranks if they share the body: then all ranks call it.
+/// N reproducible sums over the slots of this rank, or of all ranks if `shared` (then collective). f(slot, x) writes
+/// its summands to x[0] ... x[N - 1], which are 0 before.
 template <int N, class F>
 exec::ExactSums<N> sums_over_slots(bool shared, Range own, F const& f) {
   auto sums = exec_host::sums_of<N>(own.last - own.first, [&](Index k, double* x) { f(own.first + k, x); });
@@ -15,7 +15,7 @@ exec::ExactSums<N> sums_over_slots(bool shared, Range own, F const& f) {
   return sums;
 }
 
-/// The same of f(slot).
+/// Reproducible sum of f(slot); see sums_over_slots().
 template <class F>
 double sum_over_slots(bool shared, Range own, F const& f) {
   return sums_over_slots<1>(shared, own, [&](Index i, double* x) { *x = f(i); }).value();

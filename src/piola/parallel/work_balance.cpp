@@ -11,11 +11,11 @@
 namespace piola {
 namespace {
 
-/// Of a thread, on the mean, since the start of the program [s].
+/// CPU time without communication since the start of the program, mean per thread [s].
 double time_of_its_own() { return (exec_host::processor_time() - ranks::spent().processor) / exec_host::threads(); }
 
-/// Seconds that a unit of the work of each rank has taken. Times of ranks that had next to nothing say little, so no
-/// pace is taken for far from the mean.
+/// Seconds per unit of work of each rank. Ranks with little work have uncertain times, so values are clamped to a
+/// factor of 4 about the mean.
 std::vector<double> paces(std::span<double const> seconds, std::span<double const> work) {
   constexpr double farthest = 4;
   double const all = std::accumulate(work.begin(), work.end(), 0.0);
@@ -26,7 +26,8 @@ std::vector<double> paces(std::span<double const> seconds, std::span<double cons
   return pace;
 }
 
-/// The same on all ranks. Few blocks have something to do, so that shares differ much in length.
+/// Random work of a block for tests, equal on all ranks. Most blocks have none, so that partitions differ much in
+/// length.
 double drawn_work(char const* seed, std::int64_t step, std::size_t block) {
   std::seed_seq seeds{static_cast<std::uint32_t>(std::atoi(seed)), static_cast<std::uint32_t>(step),
                       static_cast<std::uint32_t>(block)};

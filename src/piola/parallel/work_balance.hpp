@@ -8,20 +8,20 @@
 
 namespace piola {
 
-/// When a run that ranks share is cut anew, so that all of them have as much to do (run.repartition).
+/// When particles are repartitioned to balance the work of the ranks (run.repartition).
 struct Repartition {
   bool never = false;
-  int every = 0;  ///< steps; 0: when a rank is busier than the others
+  int every = 0;  ///< steps between repartitions; 0: when the imbalance exceeds WorkBalance::least
 };
 
-/// How often it was, and why.
+/// History of repartitions.
 struct Recuts {
-  std::vector<double> imbalance;  ///< before each: busy time of the busiest rank above the mean, as a share of that
-  double last = 0;                ///< when it was looked at for the last time
+  std::vector<double> imbalance;  ///< before each repartition: largest busy time / mean - 1
+  double last = 0;                ///< at the last evaluation
 };
 
-/// Adds the processor time of its life to a sum, divided by threads and without that of messages and collectives [s].
-/// It is as long as the wall time of a rank that has its cores for itself; of one that has not it still tells its work.
+/// RAII timer: adds the CPU time of its scope [s], divided by the number of threads and without communication. Equals
+/// the wall time on dedicated cores and still measures the work on shared ones. `sum` must outlive it.
 class BusyWatch {
  public:
   explicit BusyWatch(double& sum);
@@ -34,35 +34,35 @@ class BusyWatch {
   double before_;
 };
 
-/// The largest above the mean, as a share of the mean; 0 if nothing is above zero.
+/// Returns largest / mean - 1 of the values; 0 if all are zero.
 double imbalance_of(std::span<double const> busy);
 
-/// How long ranks are busy with their own shares, and when this is a reason to cut anew. Times decide about cuts alone,
-/// never about numbers. Tests of ranks have cuts drawn at random, by the environment variable PIOLA_DRAWN_CUTS.
+/// Measures the busy time of the ranks and decides when to repartition. Measured times affect partitions alone, never
+/// results. Tests draw partitions at random by the environment variable PIOLA_DRAWN_CUTS (the seed).
 class WorkBalance {
  public:
   static constexpr int window = 200;      ///< steps over which busy times are compared
-  static constexpr int apart = 500;       ///< steps between two cuts
-  static constexpr double least = 0.1;    ///< imbalance that is worth a cut
-  static constexpr double gained = 0.02;  ///< share of the time of the busiest rank that a cut must save
+  static constexpr int apart = 500;       ///< least number of steps between two repartitions
+  static constexpr double least = 0.1;    ///< imbalance above which a repartition is considered
+  static constexpr double gained = 0.02;  ///< fraction of the largest busy time that a repartition must save
 
   explicit WorkBalance(Repartition when) : when_(when) {}
 
-  /// Time of what this rank alone does for its share, without waiting for others [s]: steps add to it.
+  /// Busy time of this rank without waiting for other ranks [s]; steps add to it.
   double& busy() { return busy_; }
-  /// Once before each step: whether there is a reason to cut anew, the same on all ranks. Collective once in a window,
-  /// or before every forced cut.
+  /// Call once before each step. Returns whether to repartition, alike on all ranks. Collective once per window, or
+  /// before every forced repartition.
   bool due();
-  /// Of each rank, in the steps that due() has looked at [s].
+  /// Busy time of each rank in the last window that due() evaluated [s].
   std::span<double const> seconds() const { return seconds_; }
   struct Plan {
     std::vector<Shares> cuts;  ///< of each body
-    double longest;            ///< expected of the busiest rank, over as many steps as before [s]
+    double longest;            ///< expected busy time of the most loaded rank per window [s]
   };
-  /// now: who has what of each body; work: of each of its blocks, relative to others. What a rank has had is worth the
-  /// time that it was busy with it.
+  /// Proposes partitions. now: present partition of each body. work: relative work of each of its blocks, scaled here
+  /// by the busy time of the rank that owns the block.
   Plan plan(std::vector<Shares> const& now, std::vector<std::vector<double>> work) const;
-  /// Whether a cut is worth it after which the busiest rank would be busy for so long [s].
+  /// Whether a repartition pays after which the most loaded rank is busy for `longest` [s] per window.
   bool pays(double longest) const;
   void was_cut();
   Recuts const& recuts() const { return recuts_; }

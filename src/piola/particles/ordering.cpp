@@ -57,8 +57,8 @@ Shuffle shuffle_of_tests;
 
 constexpr std::size_t tile_size = exec::block_size, leaf_size = exec::leaf_size;
 
-/// Who comes to each place of `count`: tiles change places with others of their kind, those of a negative kind stay,
-/// and so does what fills no tile.
+/// Permutation of `count` places: tiles are permuted within their kind; tiles of a negative kind and an incomplete tile
+/// stay.
 std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind,
                                       std::size_t tile) {
   struct Dealt {

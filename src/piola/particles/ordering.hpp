@@ -23,37 +23,37 @@ struct SlotOrder {
 SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std::size_t, 3> const& axis,
                         std::vector<std::size_t> const& rank);
 
-/// The axes of a body's lattice: the longest, along which its rows lie, and the others as they come.
+/// The axes of a body's lattice: the longest one first, along which its rows lie, then the remaining ones in order.
 std::array<std::size_t, 3> row_axes(Body const& body);
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body);
 
-/// Tests that results do not depend on where particles stand: as if they were dealt out to several owners, tile by tile
-/// at random, each of which keeps its tiles together, in an order of its own. Tiles of 64 particles in the order of the
-/// body stay together as they are, an incomplete one at the end, because sums over blocks start with them.
+/// Random permutation of particles, to test that results do not depend on their order. Tiles are assigned to `owners`
+/// at random; each owner keeps its tiles contiguous, in a random order. Tiles of 64 particles stay intact, because sums
+/// over blocks start with them; an incomplete tile stays at the end.
 struct Shuffle {
-  int owners = 0;  ///< 0: particles stand in the order of the body
+  int owners = 0;  ///< 0: no permutation
   std::uint64_t seed = 1;
-  std::int64_t* moved = nullptr;  ///< counts tiles that stand elsewhere for it; nullptr: nobody wants to know
-  /// Formulations that have loops for whole lattices, which dealt bodies cannot take, take those for lists also where
-  /// nothing is dealt: what a dealt body is compared with.
+  std::int64_t* moved = nullptr;  ///< counts the tiles that the permutation has moved; nullptr: not counted
+  /// Formulations use loops over neighbour lists even for unpermuted lattices, as the reference for permuted bodies,
+  /// which cannot use lattice loops.
   bool lists = false;
 };
-/// The numbers 0 ... count - 1 with the tiles among them dealt out.
+/// The numbers 0 ... count - 1 with their tiles permuted.
 std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle);
-/// The shuffle that is set: who makes orders later takes a copy.
+/// The present shuffle. Copy it to make orders later.
 Shuffle const& shuffle_now();
-/// For all that dealt_order makes from now on; returns the one before. Not while others make orders.
+/// Sets the shuffle of later dealt_order() calls and returns the previous one. Not thread-safe against dealt_order().
 Shuffle set_shuffle(Shuffle const& shuffle);
 
-/// pencil_order, dealt out as the shuffle says, by leaves of 16 slots (exec::leaf_size): of formulations that promise
-/// not to depend on it.
+/// pencil_order(), permuted by the shuffle in leaves of 16 slots (exec::leaf_size). For formulations whose results do
+/// not depend on the order.
 SlotOrder dealt_order(ParticleSet const& set, Body const& body);
 
-/// The same of any order in which the particles of a part stand together: tiles of one part change places with each
-/// other, those with particles of several parts stay.
+/// As dealt_order(), for an order in which the particles of a part are contiguous. Tiles are permuted within a part;
+/// tiles with particles of several parts stay.
 SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order);
-/// Whether bodies are dealt out, or compared with ones that are: see Shuffle::lists.
+/// Whether bodies are permuted, or the reference for permuted ones: see Shuffle::lists.
 bool shuffle_takes_lists();
 
 }  // namespace piola

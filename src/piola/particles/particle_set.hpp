@@ -19,14 +19,15 @@ struct Outline {
   std::function<double(std::array<double, 3> const&)> distance = {};
 };
 
-/// A body: a contiguous range of particles of one material, born on a lattice, on rings about a centre, or packed.
+/// A body: a contiguous range of particles of one material, generated on a lattice, on rings about a centre, or packed.
 struct Body {
   std::string name;
   std::int64_t first = 0, last = 0;  ///< particle ids [first, last)
   std::array<double, 3> spacing{};   ///< lattice spacing [m]; 1 for dimensions that do not exist
   std::array<int, 3> lattice{};      ///< lattice points per direction
   bool regular = true;               ///< positions are exactly on the lattice (no jitter)
-  bool scattered = false;  ///< not born on a lattice: `lattice` and the lattice indices only say who is near whom
+  bool scattered = false;  ///< not generated on a lattice: `lattice` and the lattice indices only serve to find spatial
+                           ///< neighbours
   Outline outline = {};
 };
 
@@ -38,9 +39,9 @@ struct Crack {
   bool tip_at_from = false, tip_at_to = true;
 };
 
-/// The particles of a run in Id order, as setup made them. Reference data only: what evolves belongs to a formulation.
-/// Copies share their arrays (shared_vector.hpp): a formulation that keeps a set takes no memory for it.
-/// All positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
+/// The particles of a run in Id order, as set-up generates them. Reference data only; evolved fields belong to a
+/// formulation. Copies share their arrays (shared_vector.hpp), so a copy in a formulation costs no memory. All
+/// positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
 struct ParticleSet {
   int dimension = 3;
   std::vector<Body> bodies;
@@ -53,11 +54,12 @@ struct ParticleSet {
   /// parts.
   SharedVector<int> part;
   std::vector<Crack> cracks;
-  /// Of particles on the faces of cracks: +1 on the left of from -> to, -1 on the right; 0 elsewhere. Empty: no cracks.
+  /// Side of a crack for particles on its faces: +1 on the left of from -> to, -1 on the right; 0 elsewhere. Empty: no
+  /// cracks.
   SharedVector<std::int8_t> crack_side;
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
-  /// What the arrays take in memory, once for all copies.
+  /// Memory of the arrays, once for all copies.
   std::size_t bytes() const {
     return X.size() * (sizeof(std::array<double, 3>) + sizeof(std::array<int, 3>) + 2 * sizeof(double) + sizeof(int)) +
            crack_side.size() + part.size() * sizeof(int);

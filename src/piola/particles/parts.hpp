@@ -4,13 +4,13 @@
 
 namespace piola {
 
-/// What has the material of a body, or of one of its parts.
+/// Size of the region that has the material of a body or of one of its parts.
 struct PartFacts {
   std::int64_t particles = 0;
   double volume = 0;  ///< tributary [m^dimension]
 };
 
-/// Of the body's own material, then of each of so many parts.
+/// Facts of the region of the body's own material, then of each of its parts.
 std::vector<PartFacts> part_facts(ParticleSet const& particles, Body const& body, std::size_t parts);
 
 }  // namespace piola

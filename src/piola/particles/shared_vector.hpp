@@ -8,9 +8,8 @@
 
 namespace piola {
 
-/// A vector whose copies share its memory until one of them is changed: the particles of a run stand once in memory,
-/// whoever keeps them. Every access that may change an element makes the memory the object's own first, so that a
-/// parallel loop must not write through one that may be shared: it takes `own()` before the loop.
+/// Copy-on-write vector. Copies share memory; any non-const access detaches. Before a parallel loop that writes, call
+/// own() once.
 template <class T>
 class SharedVector {
  public:
@@ -38,7 +37,7 @@ class SharedVector {
       values_ = std::make_shared<std::vector<T>>(*values_);
     return *values_;
   }
-  bool shared() const { return values_.use_count() > 1; }  ///< somebody else has the same memory
+  bool shared() const { return values_.use_count() > 1; }  ///< another copy uses the same memory
 
   std::size_t size() const { return seen().size(); }
   bool empty() const { return seen().empty(); }

@@ -141,8 +141,8 @@ Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& inde
   return X;
 }
 
-/// The shift of a particle is a function of the seed, its place in the lattice (x fastest) and the axis alone: whoever
-/// makes it, beside whichever others, it is the same.
+/// The jitter of a particle depends only on the seed, its lattice position (x fastest) and the axis. It is thus the
+/// same for any choice of boxes and ranks.
 void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, Vec3& X) {
   if (share_of_cell(shape, lattice, index) < 1) return;  // on a face
   std::uint64_t place = 0;

@@ -10,16 +10,16 @@
 
 namespace piola {
 
-/// The lattice on which a body is born: points first + i * spacing [m].
+/// The lattice on which the particles of a body are generated: points first + i * spacing [m].
 struct BirthLattice {
   std::array<double, 3> first{};
   std::array<double, 3> spacing{1, 1, 1};
   std::array<int, 3> count{1, 1, 1};
 };
-/// Of boxes, and of spheres and cylinders that are born on one.
+/// Lattice of a box, or of a sphere or cylinder whose particles are generated on a lattice.
 BirthLattice lattice_of(ShapeSpec const& shape);
 
-/// Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
+/// Number of cells over a length, capped at the largest int, which the caller refuses.
 int cells_over(double length, double spacing);
 /// Whether direction d is the axis of a cylinder.
 bool along_axis(ShapeSpec const& shape, int d);
@@ -36,16 +36,16 @@ struct Birth {
 
 /// Particles of a body, row by row.
 struct BornParticles {
-  std::vector<std::int64_t> id;  ///< counted from the body's first
+  std::vector<std::int64_t> id;  ///< relative to the first particle of the body
   std::vector<std::array<double, 3>> X;
   std::vector<std::array<int, 3>> lattice_index;
   std::vector<double> volume;
   double kernel_volume = 0;  ///< of each
 };
 
-/// The particles of a body on a lattice, made box by box: in whatever boxes a body is cut, each particle has the same
-/// id, place, shift and volumes as in the whole. Ids and counts have 64 bits. What a whole body is needed for is not
-/// done here: volumes of the cells of jittered bodies, random places, both faces of cracks.
+/// Generates lattice particles box by box. Id, position, jitter and volumes of a particle do not depend on the choice
+/// of boxes. Ids and counts have 64 bits. Excludes what needs the whole body: cell volumes of jittered bodies, random
+/// positions, faces of cracks.
 class Births {
  public:
   explicit Births(ShapeSpec const& shape);
@@ -53,7 +53,7 @@ class Births {
   BirthLattice const& lattice() const { return lattice_; }
   double kernel_volume() const { return cell_; }
   LatticeBox everywhere() const { return {{}, lattice_.count}; }
-  std::int64_t size() const { return first_of_plane(lattice_.count[2]); }  ///< particles of the whole
+  std::int64_t size() const { return first_of_plane(lattice_.count[2]); }  ///< particles of the whole body
   std::int64_t count(LatticeBox const& box) const;
   BornParticles in(LatticeBox const& box) const;
   Birth at(std::array<int, 3> const& place) const;
@@ -64,7 +64,7 @@ class Births {
     int j, k;
   };
   std::vector<Run> runs(LatticeBox const& box) const;
-  /// put(number of a run, i) for all places of the runs, by all threads.
+  /// Calls put(number of a run, i) for all places of the runs, in parallel.
   template <class Put>
   static void each_run(std::vector<Run> const& runs, Put const& put) {
     std::int64_t particles = 0;

@@ -24,7 +24,7 @@ std::string counted(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count_text(static_cast<std::int64_t>(count)), what, count == 1 ? "" : "s");
 }
 
-/// Points that stand where another one does.
+/// Points at the position of another point.
 struct SamePlaces {
   std::size_t count = 0;
   std::size_t first = 0, second = 0;  ///< the pair whose later point comes first

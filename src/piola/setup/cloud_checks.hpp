@@ -34,9 +34,9 @@ struct WorstNeighbourhood {
   int neighbours = 0;
   double part() const { return typical > 0 ? least / typical : 0; }
 };
-/// Of one point or more.
+/// Worst of the moments of at least one point.
 WorstNeighbourhood worst_neighbourhood(std::vector<CloudMoment> const& moments);
-/// Of a body that has particles; the point is an id.
+/// Worst neighbourhood of a body with at least one particle; the point is an id.
 WorstNeighbourhood worst_neighbourhood(ParticleSet const& particles, Body const& body);
 
 /// Refuses numbers that are not finite or absurd, and volumes that are not positive.

@@ -22,10 +22,10 @@ std::string header_of(std::vector<DataColumn> const& columns) {
   return header;
 }
 
-/// A name or unit with these would look like something else in a header.
+/// A name or unit with these characters would be misread in a header.
 bool fits_header(std::string_view text) { return text.find_first_of(",;\"[]#\n") == std::string_view::npos; }
 
-/// Takes out what cannot stand in a header; those are lists that mean nothing here.
+/// Drops columns whose name or unit is not allowed in a header; their data are not used.
 void drop_odd_names(DataColumns& found) {
   auto const odd = [&](DataColumn const& column) {
     bool const fits = fits_header(column.name) && fits_header(column.unit);

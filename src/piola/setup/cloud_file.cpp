@@ -61,7 +61,7 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
   return table;
 }
 
-/// Frames are sealed, files of other programs are not. Frames whose end is missing are told by their name.
+/// Frames are sealed, files of other programs are not. Truncated frames are recognised by their name.
 CloudTable read_cloud_hdf5(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems) {
   bool const is_frame = ends_with_seal(path) || std::filesystem::path(path).extension() == ".vtkhdf";
   if (!is_frame) return read_cloud_datasets(path, options.group, options.length_unit, problems);
@@ -103,7 +103,7 @@ void keep_body(CloudTable& table, std::string const& wanted, std::vector<std::st
   keep(table.source.row);
 }
 
-/// Volumes from the file, or equal shares of what the case says.
+/// Takes volumes from the file, or divides the total volume of the case equally.
 void take_volumes(PointCloud& cloud, CloudSource const& source, CloudOptions const& options,
                   std::vector<std::string>& problems) {
   auto const n = static_cast<double>(cloud.X.size());
@@ -153,7 +153,7 @@ PointCloud make_cloud(CloudTable table, CloudOptions const& options, std::vector
   return cloud;
 }
 
-/// A table that cannot be read is not looked at further: its problems would come twice.
+/// Skips further checks of an unreadable table, whose problems would be reported twice.
 PointCloud checked_cloud(CloudTable table, CloudOptions const& options, std::vector<std::string>& problems,
                          std::size_t before) {
   if (problems.size() > before) return {};

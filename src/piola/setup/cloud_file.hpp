@@ -17,13 +17,13 @@ struct PointCloud {
   std::vector<double> kernel_volume;   ///< the volume again unless the file gives it
   double spacing = 0;                  ///< (total volume / number of points)^(1 / dimension)
   std::array<double, 3> min{}, max{};  ///< box around the points; the body may reach half a spacing beyond it
-  std::vector<std::string> notes;      ///< what a user should know and need not change
+  std::vector<std::string> notes;      ///< notes for the user that require no change
 };
 
-/// What the case file says about a file of points.
+/// Settings of the case file for a file of points.
 struct CloudOptions {
   double length_unit = 1;                   ///< m; of a table whose header gives no units; volumes are in its power
-  std::optional<double> total_volume = {};  ///< m^dimension; every point gets an equal share of it
+  std::optional<double> total_volume = {};  ///< [m^dimension], divided equally among the points
   std::string body = {};                    ///< only the rows of this body; empty: all rows
   std::string group = {};                   ///< of an HDF5 file of another program; empty: the file itself
 };
@@ -36,7 +36,7 @@ struct CloudOptions {
 /// volumes that fit the distances, a gradient that can be formed everywhere.
 PointCloud read_cloud(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems);
 
-/// The same for the text of a table; `name` stands for the file in messages.
+/// Reads the text of a table. `name` replaces the file name in messages.
 PointCloud read_cloud_text(std::string_view text, std::string const& name, CloudOptions const& options,
                            std::vector<std::string>& problems);
 

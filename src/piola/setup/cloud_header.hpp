@@ -17,7 +17,7 @@ struct CloudField {
 /// Cuts a line into its fields. Returns the column of a quotation mark that is not closed, or 0.
 std::size_t cut_cloud_line(std::string_view line, char separator, std::vector<CloudField>& fields);
 
-/// What a column of a table means. The first three are components of a position.
+/// Meaning of a column of a table. The first three are components of a position.
 enum class CloudColumn { x, y, z, volume, kernel_volume, body, unused };
 
 /// The columns of a table, from its header.

@@ -18,7 +18,7 @@ constexpr double even_asymmetry = 0.02;    // |sum V r W| / (h sum V W) of neigh
 constexpr double cone_cosine = 0.7071;     // neighbours within 45 degrees of the sparse side
 constexpr double smallest_part = 1e-15;    // of the box: with smaller cells, it has more than a grid can count
 constexpr double cell_growth = 4;          // from one search to the next
-constexpr std::size_t probed_points = 64;  // compared with all others to learn how far apart points are
+constexpr std::size_t probed_points = 64;  // points compared with all others to estimate the spacing
 
 double square_distance(std::array<double, 3> const& a, std::array<double, 3> const& b) {
   double const x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
@@ -114,7 +114,7 @@ class CloudSurroundings {
     return sums;
   }
 
-  /// Whether neighbours stand on the side of point i where fewer are, so that no surface is next to it.
+  /// Whether point i has neighbours even on its sparser side, so that it is not next to a surface.
   bool surrounded(std::size_t i, CloudSums const& sums) const {
     auto const& g = sums.first;
     double const length = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);

@@ -121,7 +121,7 @@ class CloudRows {
   std::map<std::string, int, std::less<>> known_;
 };
 
-/// What is no table at all, however its lines look.
+/// Refuses texts that are no table, whatever their lines contain.
 std::string refuse_text(std::string_view text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     return "is a text in UTF-16 (expected UTF-8) - save it as \"CSV UTF-8\"";

@@ -20,7 +20,7 @@ struct CloudSource {
   std::string name(std::size_t point) const;
 };
 
-/// The points of a file as they stand there, in SI units, not checked yet.
+/// The points of a file in their order there, in SI units, unchecked.
 struct CloudTable {
   CloudSource source;
   int dimension = 3;

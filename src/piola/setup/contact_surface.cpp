@@ -44,8 +44,8 @@ double height_above(ShapeSpec const& shape, Face const& face, std::array<double,
   return face.part == Face::Part::outer ? shape.radius - r : r - shape.inner_radius;
 }
 
-/// How far a place on a tangent plane with this normal lies outside a curved face [m]; 0 where it is beside another
-/// one.
+/// Distance by which a place on the tangent plane with this normal lies outside a curved face [m]; 0 next to another
+/// face.
 double rise_above(geometry::Solid const& solid, Vec<3> const& y, Vec<3> const& normal, double spacing) {
   constexpr double rounding = 1e-9, widest = 0.25;  // of the spacing
   constexpr double same_face = 0.9;                 // cosine
@@ -55,8 +55,8 @@ double rise_above(geometry::Solid const& solid, Vec<3> const& y, Vec<3> const& n
   return curved ? foot.distance : 0;
 }
 
-/// A point for each patch that a particle has a share of. The middle of a share of a curved face lies off the face, by
-/// a third of its sagitta, which is put right.
+/// Adds a point for each patch of which a particle has a part. The centre of a part of a curved face lies off the face
+/// by a third of its sagitta, which is corrected.
 void add_patch_points(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
                       contact::Surface& surface) {
   constexpr double rounding = 1e-6;

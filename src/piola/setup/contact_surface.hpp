@@ -5,9 +5,9 @@
 
 namespace piola {
 
-/// The points of a body's surface that contact sees: one per particle and face of the exact shape, with the share of
-/// the face that the particle stands for. An edge particle of a box has a point on each of its faces. Modulus and faces
-/// of cracks are left to others.
+/// Contact points of a body's surface: one per particle and face of the exact shape, with the particle's part of the
+/// area of the face. An edge particle of a box has a point on each of its faces. Does not set the modulus or add faces
+/// of cracks.
 contact::Surface contact_surface(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
 
 }  // namespace piola

@@ -89,7 +89,7 @@ std::string end_problem(ParticleSet const& set, Body const& body, std::string co
          point_text(nearest);
 }
 
-/// What is wrong with the particles that were found on a line with a particle at each end.
+/// Error text for the particles found on a line with a particle at each end; empty if they form a crack.
 std::string path_problem(ParticleSet const& set, Body const& body, std::vector<std::int64_t> const& ids,
                          Line const& line) {
   std::string const who = "the crack in body " + in_quotes(body.name);

@@ -16,9 +16,9 @@ struct CrackPath {
   std::string key = {};                         ///< the end that is at fault, "from" or "to"; empty: the crack
 };
 
-/// Looks for the particles of a two-dimensional body on the line between two points [m], within 1e-6 of the spacing. A
-/// crack needs three or more, one at each end, each a neighbour of the one before on the lattice (in a row or across a
-/// cell); it must not lie on the boundary of the body or meet another crack.
+/// Finds the particles of a two-dimensional body on the line between two points [m], within 1e-6 of the spacing. A
+/// crack needs three or more particles, one at each end, each a lattice neighbour of the previous one (in a row or
+/// across a cell). It must not lie on the boundary of the body or touch another crack.
 CrackPath trace_crack(ParticleSet const& set, std::size_t body, std::array<double, 3> const& from,
                       std::array<double, 3> const& to);
 

@@ -89,7 +89,7 @@ std::vector<FaceShare> shares_of_patch(ShapeSpec const& shape, ParticleSet const
   for (PatchShare const& share : patch_shares(shape, particles, body)) {
     if (share.patch != patch) continue;
     Vec3 normal = share.vector;
-    // A flat patch looks along its axis exactly.
+    // The normal of a flat patch is exactly along its axis.
     for (double& c : normal) c = std::abs(c) < 1e-9 * share.area ? 0 : c / share.area;
     shares.push_back({share.particle, share.area, normal, share.middle});
   }
@@ -127,7 +127,7 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
     area *= body.spacing[i];
     if (at_end && shape.placement == ShapeSpec::Placement::on_boundary) area /= 2;
   }
-  // Where a crack opens to the face, its two faces share what was one particle.
+  // Where a crack reaches the face, two particles divide the area of one.
   bool const doubled = !particles.crack_side.empty() && particles.crack_side[particle] != 0;
   return doubled ? area / 2 : area;
 }

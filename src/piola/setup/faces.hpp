@@ -23,12 +23,11 @@ std::string face_text(ShapeSpec const& shape, Face const& face);
 /// Ids of the outermost particles of a box towards a face: on it, or half a spacing inside (cell_centred).
 std::vector<std::int64_t> face_particles(ParticleSet const& particles, Body const& body, Face const& face);
 
-/// The part of a face that a particle of it stands for [m^(Dim-1); 1 in 1D]: the product of its tributary lengths along
-/// the face, halved at the ends of on_boundary directions and between the two faces of a crack. The parts sum to the
-/// face.
+/// Area of a face that a particle on it represents [m^(Dim-1); 1 in 1D]: the product of its tributary lengths along the
+/// face, halved at the ends of on_boundary directions and between the two faces of a crack. The parts sum to the face.
 double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int64_t id, Face const& face);
 
-/// What a particle stands for of a face.
+/// Area of a face that a particle represents.
 struct FaceShare {
   std::int64_t particle = 0;       ///< id
   double area = 0;                 ///< [m^(Dim-1); 1 in 1D]

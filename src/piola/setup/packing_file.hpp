@@ -8,15 +8,15 @@
 
 namespace piola {
 
-/// Packings on disk, so that a body is packed once. `key` says all that the places depend on.
+/// Packings on disk, so that a body is packed once. `key` contains all input on which the positions depend.
 
-/// What the file of a packing is called: "packed-0123456789abcdef.cloud", by its key.
+/// File name of a packing, from its key: "packed-0123456789abcdef.cloud".
 std::string packing_name(std::string const& key);
 
 /// Throws FileError.
 void write_packing(std::filesystem::path const& path, std::string const& key, geometry::Packing const& packing);
 
-/// Nothing if there is no such file, if it is damaged or if it is of another key: the body is packed anew then.
+/// Reads a packing. Returns nothing if the file is missing, damaged or of another key; the caller then packs the body.
 std::optional<geometry::Packing> read_packing(std::filesystem::path const& path, std::string const& key);
 
 /// Folder in the results in which a stopped set-up leaves packings, finished or not, for the next run.
@@ -29,7 +29,7 @@ void write_unfinished(std::filesystem::path const& path, std::string const& key,
 /// Nothing in the cases of read_packing().
 std::optional<geometry::UnfinishedPacking> read_unfinished(std::filesystem::path const& path, std::string const& key);
 
-/// 64 bits that stand for a text.
+/// 64-bit hash of a text.
 std::uint64_t digest_of(std::string_view text);
 
 }  // namespace piola

@@ -25,7 +25,7 @@ PolarGrid polar_grid(ShapeSpec const& shape) {
   return {circles, spacing, std::max(3.0, std::round(two_pi * mean / spacing))};
 }
 
-/// A disc as it grows: all particles stand for a square of the spacing.
+/// A disc as it grows: each particle represents a square of the spacing.
 class Disc {
  public:
   explicit Disc(ShapeSpec const& shape)

@@ -20,8 +20,8 @@ struct CaseFile {
   std::filesystem::path path;
 };
 
-/// What a case file says about the shape of a body. Lengths in m. The number of components that the user
-/// gave for `min`/`centre` is the dimension (1, 2 or 3).
+/// Settings of the case file for the shape of a body. Lengths in m. The number of components that the user gave for
+/// `min`/`centre` is the dimension (1, 2 or 3).
 struct ShapeSpec {
   enum class Kind { box, sphere, cylinder, solid, points };
   enum class Placement { on_boundary, cell_centred };
@@ -41,7 +41,7 @@ struct ShapeSpec {
   geometry::SolidPtr solid{};       ///< solid: the region
   double volume = 0;                ///< solid: of it [m^dimension]
   std::shared_ptr<SolidParticles> solid_particles{};  ///< solid: never null
-  std::shared_ptr<PointCloud const> cloud{};          ///< points: as they stand in the file
+  std::shared_ptr<PointCloud const> cloud{};          ///< kind points: in the order of the file
   std::vector<CaseFile> files{};                      ///< that it was read from
   std::vector<std::string> notes{};                   ///< on these files
   Placement placement = Placement::on_boundary;       ///< box, and cylinder along its axis; the rest is cell centred

@@ -62,7 +62,7 @@ void cut_lattice(ShapeSpec const& shape, SolidParticles& to) {
     }
 }
 
-/// What is packed by itself.
+/// A region that is packed by itself.
 struct Piece {
   geometry::SolidPtr solid;
   double volume = 0;
@@ -200,7 +200,7 @@ void SolidParticles::make(ShapeSpec const& shape) {
   if (!cache.empty() && !rough) save(cache);
 }
 
-/// The particles of all packings, those of a cell together: what is near in space is near in memory.
+/// The particles of all packings, those of a cell together: spatial neighbours are close in memory.
 void SolidParticles::take(ShapeSpec const& shape) {
   std::size_t count = 0;
   for (geometry::Packing const& packing : packings_) {

@@ -11,20 +11,20 @@
 
 namespace piola {
 
-/// What a particle stands for of one patch of a solid's surface.
+/// Part of one patch of a solid's surface that a particle represents.
 struct PatchShare {
   int patch = 0;
   std::int64_t particle = 0;       ///< id
-  double area = 0;                 ///< [m2; 2D m]; the shares sum to the patch
+  double area = 0;                 ///< [m2; 2D m]; the parts sum to the patch
   std::array<double, 3> vector{};  ///< vector area, outward; those of a closed surface sum to zero
   std::array<double, 3> middle{};  ///< of this part of the surface [m]
 };
 
-/// What follows a sweep of a packing: the next one; or the packing is taken as it is; or it is kept for a later run,
-/// and set-up ends with SetUpStopped.
+/// Action after a sweep of a packing: do the next sweep; take the packing as it is; or keep it for a later run and end
+/// set-up with SetUpStopped.
 enum class AfterSweep { go_on, take, keep };
 
-/// The particles of a solid, made when they are first asked for and then kept; shapes that are copies share them.
+/// The particles of a solid, generated on first access and then kept. Copies of a shape share them.
 class SolidParticles {
  public:
   std::vector<std::array<double, 3>> X;           ///< [m]
@@ -36,26 +36,27 @@ class SolidParticles {
   int sweeps = 0;               ///< packed
   bool rough = false;           ///< packed: taken before it was finished (AfterSweep::take)
 
-  /// Of a shape of the kind `solid`, which must be the one that it belongs to.
+  /// Returns the particles of a shape, generated on the first call. Precondition: `shape` is of kind `solid` and holds
+  /// this object.
   static SolidParticles const& of(ShapeSpec const& shape);
 
-  // Set before anybody asks.
-  /// Packed solids are cut along these, and each part, and the rest, is packed by itself: no particle's cell lies
-  /// across. What several of them hold belongs to the first.
+  // Set these before the first access.
+  /// Regions of a packed solid. Each part and the rest is packed by itself, so that no particle's cell crosses their
+  /// surfaces. A place in several parts belongs to the first.
   std::vector<geometry::SolidPtr> parts = {};
   std::function<AfterSweep(double)> progress = {};  ///< called after each sweep of a packing with the fraction done
-  std::string key = {};                             ///< all that the places depend on; empty: nothing is looked for
-  std::vector<std::filesystem::path> folders{};     ///< where the packing may lie from an earlier run
-  std::filesystem::path cache = {};                 ///< folder to which it goes once it is made; empty: none
-  /// Folder for what a set-up that was stopped has packed, and where a later one looks for it; empty: none.
+  std::string key = {};  ///< all input on which the positions depend; empty: no stored packing is read
+  std::vector<std::filesystem::path> folders{};  ///< searched for the packing of an earlier run
+  std::filesystem::path cache = {};              ///< folder into which a new packing is written; empty: none
+  /// Folder for the unfinished packing of a stopped set-up, from which a later one continues; empty: none.
   std::filesystem::path unfinished = {};
 
   /// Writes the packing into a folder, if there is one. Throws FileError.
   void save(std::filesystem::path const& folder) const;
 
-  /// patch_shares, found once.
+  /// Returns patch_shares(), computed on the first call.
   std::vector<PatchShare> shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
-  /// Where the solid is thinnest, by pieces of a spacing; found once.
+  /// Returns the thinnest place of the solid, by pieces of a spacing; computed on the first call.
   std::optional<geometry::Thinnest> thinnest(ShapeSpec const& shape);
 
  private:
@@ -68,13 +69,15 @@ class SolidParticles {
   std::vector<PatchShare> shares_;
 };
 
-/// Appends them to a set; lattice indices, volumes and the outline of `body` with them. Called by `fill`.
+/// Appends the particles of a solid to a set; lattice indices, volumes and the outline of `body` with them. Called by
+/// `fill`.
 void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body);
 
-/// The same for points from a file, which keep their order and have no outline.
+/// Appends points from a file to a set. They keep their order and have no outline.
 void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body);
 
-/// Each piece of the surface, a quarter of a spacing wide, goes to the nearest particle. Ordered by patch, then by id.
+/// Assigns each piece of the surface, a quarter of a spacing wide, to the nearest particle. Ordered by patch, then by
+/// id.
 std::vector<PatchShare> patch_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
 
 }  // namespace piola
