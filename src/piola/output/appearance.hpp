@@ -23,7 +23,7 @@ struct CutPlane {
 enum class Quality { normal, high };
 inline constexpr std::array<std::string_view, 2> quality_words{"normal", "high"};
 
-/// What is drawn of a scene.
+/// Selects the parts of a scene that are drawn.
 struct Appearance {
   std::vector<Representation> as = {};  ///< per body; those beyond its end: automatic
   bool outline = true;                  ///< edges of the reference shape of bodies that have moved, dashed

@@ -55,7 +55,7 @@ std::uint32_t premultiplied(Colour const& colour, unsigned alpha) {
   return alpha << 24 | part(0) << 16 | part(1) << 8 | part(2);
 }
 
-/// What was multiplied by its opacity, back again.
+/// Divides a premultiplied colour component by its opacity.
 std::uint32_t opaque_part(std::uint32_t part, std::uint32_t alpha) {
   return alpha == 0 ? 0 : std::min<std::uint32_t>(255, (255 * part + alpha / 2) / alpha);
 }

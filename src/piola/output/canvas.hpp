@@ -10,7 +10,7 @@ namespace piola {
 
 enum class Align { left, centre, right };
 
-/// How letters look: the size of the font [pixels] and its colour.
+/// Font size [pixels] and colour of letters.
 struct Letters {
   double size = 16;
   Colour colour{};
@@ -36,7 +36,7 @@ class Canvas {
 
   /// Length of a line of text in a font of this size [pixels].
   double width_of(std::string_view text, double size) const;
-  /// What has been drawn. Throws FileError if Cairo could not draw (for want of memory, say).
+  /// Returns the image drawn so far. Throws FileError if Cairo could not draw (for want of memory, say).
   Image image() const;
 
  private:

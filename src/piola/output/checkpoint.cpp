@@ -181,7 +181,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
     save(state);
   else
     put_all(c.state, state);
-  if (!ranks::several()) state.end_rows();  // of several, the formulation says when all have written
+  if (!ranks::several()) state.end_rows();  // on several ranks, the formulation calls end_rows() after all have written
   GroupWriter observers(file, "/observers");
   put_all(c.observers, observers);
   file.finish();

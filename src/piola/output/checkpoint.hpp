@@ -12,7 +12,7 @@
 
 namespace piola {
 
-/// Named arrays of doubles in memory: what a formulation or an observer saves.
+/// Named arrays of doubles in memory, saved by a formulation or an observer.
 class NamedState : public StateWriter, public StateReader {
  public:
   void put(std::string_view name, std::span<double const> values) override;
@@ -39,12 +39,13 @@ struct Checkpoint {
   std::string source;                    ///< the case as run
   std::string particles;                 ///< particle_record of them in reference configuration
   NamedState state;                      ///< of the formulation
-  std::shared_ptr<StateReader> in_file;  ///< has it in place of `state`, and reads it array by array
+  std::shared_ptr<StateReader> in_file;  ///< source of the formulation's state in place of `state`; reads it array by
+                                         ///< array
   NamedState observers;                  ///< next output times, twist angles, times of frames
 };
 
-/// Writes one file (whole, synced, renamed). Throws FileError. `save`: puts the state of the formulation, which is not
-/// in the checkpoint then: array by array it goes into the file, so that it stands once more in memory and not twice.
+/// Writes one file (whole, synced, renamed). Throws FileError. `save`: writes the state of the formulation array by
+/// array in place of checkpoint.state, which avoids a second copy of it in memory.
 void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint,
                       std::function<void(StateWriter&)> const& save = {});
 /// Reads one file after its seal has been verified. Throws FileError.
@@ -52,19 +53,19 @@ Checkpoint read_checkpoint(std::filesystem::path const& path);
 
 /// checkpoints/000001234.h5 in a results folder, for this step.
 std::filesystem::path checkpoint_path(std::filesystem::path const& results, std::int64_t step);
-/// Checkpoint files of a results folder, newest first; that of a failed state is not among them.
+/// Checkpoint files of a results folder, newest first; excludes that of a failed state.
 std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const& results);
-/// Beside the checkpoints: how long the run took up to each of them, which is all that differs between two runs of the
-/// same case on the same machine, so that their checkpoints are equal byte by byte.
+/// File next to the checkpoints with the wall time of the run up to each of them. Wall times alone differ between two
+/// runs of a case on one machine, so the checkpoints themselves are equal byte by byte.
 inline constexpr char const* durations_name = "wall_times.txt";
 
-/// Writes the checkpoint of its step and how long the run took, and removes all but the last two.
+/// Writes a checkpoint and its wall times; removes all but the last two checkpoints. Throws FileError.
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint,
                      std::function<void(StateWriter&)> const& save = {});
-/// Hands the newest checkpoint to `use`, with its state in_file. One that is damaged, or that `use` throws at, is
-/// passed over for the one before it, with a line in `warnings`; one for which `use` returns false without a word.
-/// Returns whether one was used. InputError and std::bad_alloc come through; throws InputError with the reasons if
-/// there is none to choose from.
+/// Calls use(checkpoint) for the newest checkpoint, with its state in `in_file`. Falls back to the previous one if the
+/// file is damaged or `use` throws, with a line in `warnings`, or if `use` returns false, without a warning. Returns
+/// whether one was used. InputError and std::bad_alloc of `use` propagate. Throws InputError with the reasons if no
+/// checkpoint remains.
 bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
                            std::function<bool(Checkpoint&)> const& use);
 

@@ -60,7 +60,7 @@ std::array<Colour, 256> table_of(std::span<Colour const> points) {
   return out;
 }
 
-/// Digits and a minus sign as they stand in exponents.
+/// Digits and a minus sign as superscripts.
 std::string raised(std::string_view digits) {
   constexpr std::array<char const*, 10> superscripts{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                                      "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};

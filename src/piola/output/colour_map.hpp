@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 8> palette_words{"auto", "viridis"
 
 /// The colours of a map from its low to its high end; those of `automatic` are viridis.
 std::array<Colour, 256> palette_colours(Palette palette);
-/// What `automatic` means for a field: heat_on_grey for plastic strain and damage, else still automatic.
+/// Resolves `automatic` for a field: heat_on_grey for plastic strain and damage, else still automatic.
 Palette palette_for(std::string_view field, Palette asked);
 
 /// From numbers to colours over a range.

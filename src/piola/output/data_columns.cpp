@@ -21,7 +21,7 @@ bool is_called_places(std::string name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What the child finds: everything in lists that can be packed.
+/// Result of the child process, in lists that can be serialised.
 struct FoundColumns {
   std::vector<std::string> names, units, others, problems;
   std::vector<std::vector<double>> values;

@@ -11,7 +11,7 @@
 namespace piola {
 namespace {
 
-/// Pixels are the mean of so many samples squared.
+/// Samples per pixel in each direction.
 int samples_across(Quality quality) { return quality == Quality::high ? 4 : 2; }
 
 std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const& scene, ColourMap const& map,
@@ -23,7 +23,8 @@ std::vector<SurfaceFinish> finish_of_bodies(PictureData const& data, Scene const
   } else {
     finish.map = [&scene](double value) {
       auto const last = static_cast<double>(scene.colours.size() - 1);
-      return scene.colours[value > 0 ? static_cast<std::size_t>(std::min(value, last)) : 0];  // nobody is not a number
+      return scene.colours[value > 0 ? static_cast<std::size_t>(std::min(value, last)) : 0];  // NaN compares false and
+                                                                                              // gets the first colour
     };
   }
   std::vector<SurfaceFinish> all(scene.spacing.size(), finish);
@@ -41,7 +42,7 @@ std::vector<SurfaceFinish> finish_of_tools(PictureData const& data, float spacin
   return all;
 }
 
-/// How far stripes stand apart [samples]: the same share of every picture.
+/// Distance of stripes [samples]: a fixed fraction of the picture.
 int hatch_of(SceneArea const& area, int fine) {
   double const unit = std::sqrt(static_cast<double>(area.width) * area.height / 800000.0);
   return fine * std::max(4, static_cast<int>(std::lround(9 * unit)));
@@ -93,7 +94,7 @@ std::vector<float> outlines(PictureData const& data, Appearance const& appearanc
   return coverage;
 }
 
-/// What does not depend on buffers.
+/// Shading parameters that do not depend on the buffers.
 Shading shading_of(Scene const& scene, Appearance const& appearance, ColourMap const& map,
                    std::optional<Colour> background) {
   Shading shading;

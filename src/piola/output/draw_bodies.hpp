@@ -11,7 +11,7 @@ namespace piola {
 /// The size of a picture and where rigid shapes may be drawn in it [pixels].
 struct SceneArea {
   int width = 0, height = 0;
-  int top = 0, right = 0;  ///< letters stand above and beyond
+  int top = 0, right = 0;  ///< margins for letters
   int bottom = 0;          ///< and below; 0: nothing does
 };
 

@@ -7,7 +7,7 @@
 namespace piola {
 namespace {
 
-/// An edge between two particles, and the normal of a facet beside it.
+/// An edge between two particles, and the normal of an adjacent facet.
 struct FacetEdge {
   std::array<Index, 2> ends{};
   Place3 normal{};
@@ -69,7 +69,7 @@ std::vector<std::array<Index, 2>> sharp_edges(ReferenceMesh& mesh) {
   return sharp;
 }
 
-/// Joins edges to lines that end where other than two of them meet.
+/// Joins edges to lines. A line ends at particles with other than two edges.
 class Joiner {
  public:
   explicit Joiner(std::vector<std::array<Index, 2>> const& edges, std::size_t particles)

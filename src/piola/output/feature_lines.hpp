@@ -7,8 +7,8 @@
 namespace piola {
 
 /// Finds the edges of a body's reference shape: in 3D where outer facets meet at more than 55 degrees, in 2D the whole
-/// boundary; joined to lines as long as they go, so that dashes run on [m]. A body without cells has none. What is
-/// smooth in 3D is kept in mesh.round.
+/// boundary; joined to lines as long as they go, so that dashes run on [m]. A body without cells has none. Smooth edges
+/// in 3D are stored in mesh.round.
 void find_feature_lines(ReferenceMesh& mesh);
 
 /// The outline of what is round [m], seen by a viewer in that direction.

@@ -11,12 +11,12 @@
 
 namespace piola {
 
-/// The fields of one moment, each sampled at most once. Besides the formulation's own fields it knows "Position"
-/// (X + Displacement [m]), "Body" and "Id". Valid until the next step.
+/// Fields at one time, each sampled at most once. Contains the formulation's fields and "Position" (X + Displacement
+/// [m]), "Body" and "Id". Valid until the next step; formulation and particles must outlive it.
 class FieldCache {
  public:
-  /// Values of all particles, or of those that this rank owns (Formulation::owned): then all ranks ask for the same
-  /// fields, in the same order, and `id` below is the place among those.
+  /// all: values of all particles. owned: values of local particles only (Formulation::owned); `id` below is then the
+  /// index among these, and values() is collective: all ranks request the same fields in the same order.
   enum class Of { all, owned };
   FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of = Of::all);
   bool knows(std::string_view field) const;
@@ -26,7 +26,7 @@ class FieldCache {
   std::span<double const> values(std::string_view field);
   std::vector<FieldInfo> const& fields() const { return fields_; }
   ParticleSet const& particles() const { return particles_; }
-  /// Of Of::owned: whose values those are; nothing if this rank owns all.
+  /// For Of::owned, the ids of the local particles; nothing if this rank owns all.
   std::optional<std::vector<std::int64_t>> const& owned() const { return owned_; }
 
  private:

@@ -12,13 +12,13 @@
 
 namespace piola {
 
-/// How a file of a results folder is opened: `replace` makes a new one in its place, `append` and
-/// `change` need it to exist.
+/// How a file of a results folder is opened: `replace` creates a new file; `append` and `change` require an existing
+/// one.
 enum class Opening { replace, append, change };
 
-/// Opens a file of a results folder to write: the only way to do so. A link at the end of the path is never followed:
-/// `replace` removes it, the others refuse it. A file with several names (hard links) is copied before it is changed.
-/// Returns a descriptor that the caller closes. Throws FileError.
+/// Opens a file of a results folder for writing; all such files are opened here. A link at the end of the path is never
+/// followed: `replace` removes it, `append` and `change` refuse it. A file with several names (hard links) is copied
+/// before it is changed. Returns a descriptor that the caller closes. Throws FileError.
 int open_result(std::filesystem::path const& path, Opening how);
 
 /// A stream of open_result(). Null if there is no memory for one.
@@ -28,8 +28,8 @@ ResultFile open_result_file(std::filesystem::path const& path, Opening how);
 /// Whether the open file is still the one with that name.
 bool still_there(int fd, std::filesystem::path const& path);
 
-/// A file of which a reader sees either the old content or all of the new one: it is "PATH.part" until finish(), and is
-/// removed if that is never called or fails. Other files are untouched.
+/// Replaces a file atomically: readers see the old content or all of the new one. The file is "PATH.part" until
+/// finish(), and is removed if finish() fails or is never called.
 class NewFile {
  public:
   /// Throws FileError with path, reason and advice if it cannot be made.
@@ -38,17 +38,17 @@ class NewFile {
   NewFile& operator=(NewFile const&) = delete;
   ~NewFile();
 
-  /// Never throws: the first failure is kept, what comes after it is not written.
+  /// Never throws. The first failure is stored; later data are not written.
   void write(std::uint64_t at, std::span<std::byte const> bytes) noexcept;
-  /// Zeros where nothing has been written.
+  /// Reads bytes; zeros where nothing has been written.
   void read(std::uint64_t at, std::span<std::byte> bytes) const noexcept;
-  /// Throws FileError if something could not be written so far.
+  /// Throws FileError if a write has failed.
   void demand_written() const;
-  /// Where it stands until it has its name.
+  /// Path of the file until finish().
   std::filesystem::path const& part() const { return part_; }
   std::filesystem::path const& path() const { return path_; }
-  /// Gives the file this end behind its `bytes` first ones, syncs it to the disk and gives it its name. Throws
-  /// FileError with path, reason and advice.
+  /// Truncates the file to `bytes`, appends `end`, syncs it to the disk and renames it to path(). Throws FileError with
+  /// path, reason and advice.
   void finish(std::uint64_t bytes, std::string_view end = {});
 
  private:
@@ -58,23 +58,24 @@ class NewFile {
   int error_ = 0;  ///< errno of the first failure
 };
 
-/// A NewFile of another process, to write to beside it, or a file to read.
+/// A NewFile that another process has created, for concurrent writing, or a file to read.
 class JoinedFile {
  public:
-  /// `number` is that of the file there; see number(). Nothing can be written if it is another one, or none.
+  /// `number`: identity of the file on the creating process, see number(). The file is not opened if the local one
+  /// differs or is missing.
   enum class To { write, read };
   JoinedFile(std::filesystem::path const& path, std::uint64_t number, To to = To::write);
   JoinedFile(JoinedFile const&) = delete;
   JoinedFile& operator=(JoinedFile const&) = delete;
   ~JoinedFile() { close(); }
-  /// What tells a file from others of its name on other machines; 0 if there is none.
+  /// Identity of a file, to distinguish it from files of the same name on other machines; 0 if there is no file.
   static std::uint64_t number(std::filesystem::path const& path);
   bool is_open() const { return fd_ >= 0; }
-  /// Never throws: the first failure is kept, what comes after it is not written.
+  /// Never throws. The first failure is stored; later data are not written.
   void write(std::uint64_t at, std::span<std::byte const> bytes) noexcept;
-  /// Returns whether all of them could be read.
+  /// Returns whether all bytes could be read.
   bool read(std::uint64_t at, std::span<std::byte> bytes) const noexcept;
-  /// All is on the disk afterwards; the errno of the first failure, or 0.
+  /// Syncs to the disk and closes. Returns the errno of the first failure, or 0.
   int close() noexcept;
 
  private:

@@ -35,8 +35,8 @@ std::filesystem::path program_ffmpeg() {
   return {};
 }
 
-/// The program runs beside this one and reads pictures from a socket, which tells when it has ended. It writes a file
-/// that gets its name at the end, and what it complains of beside that.
+/// Runs the encoder as a child process, which reads pictures from a socket; a closed socket shows that it has ended.
+/// Its output file is renamed at the end; its error messages go to a file next to it.
 class Mp4Maker : public Film::Maker {
  public:
   Mp4Maker(std::filesystem::path const& path, std::filesystem::path const& program, int width, int height,
@@ -48,7 +48,7 @@ class Mp4Maker : public Film::Maker {
     std::vector<std::string> words{
         program.string(), "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
         fmt::format("{}x{}", width, height), "-r", fmt::format("{}", pace.pictures_per_second), "-i", "-", "-vf",
-        // H.264 wants even sizes in this format of pixels, the one that all players know.
+        // H.264 requires even sizes in this pixel format, the only one that all players support.
         "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18",
         "-movflags", "+faststart", "-bitexact", "-f", "mp4", part_.string()};
     start(words);
@@ -88,7 +88,7 @@ class Mp4Maker : public Film::Maker {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    close(open_result(part_, Opening::replace));  // no link that stands there is followed
+    close(open_result(part_, Opening::replace));  // removes a link of that name instead of following it
     int const complaint = open_result(complaints_, Opening::replace);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);

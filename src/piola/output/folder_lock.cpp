@@ -16,7 +16,7 @@
 namespace piola {
 namespace {
 
-/// What the file says about its holder: "process 1234 on host 'node7' since 2026-01-31 12:00:00".
+/// Content of the lock file: "process 1234 on host 'node7' since 2026-01-31 12:00:00".
 std::string holder_text() {
   std::array<char, 256> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) host = {'?'};
@@ -85,7 +85,7 @@ bool FolderLock::take() {
 
 FolderLock::~FolderLock() {
   if (descriptor_ < 0) return;
-  ::unlink(file_.c_str());  // while it is still locked: nobody can have taken it
+  ::unlink(file_.c_str());  // while it is still locked, so that no other process holds it
   ::close(descriptor_);
 }
 

@@ -4,9 +4,8 @@
 
 namespace piola {
 
-/// The right to write into a results folder: an flock on the file "lock" in it, which names the process. The system
-/// gives the lock back when the process ends, however it ends, so that a file left behind by a killed run blocks
-/// nobody.
+/// Exclusive write access to a results folder: an flock on the file "lock" in it, which names the process. The system
+/// releases the lock when the process ends for any reason, so the file of a killed run does not block later runs.
 class FolderLock {
  public:
   /// Throws InputError if another process (or another lock of this one) has the folder, FileError if the file cannot be
@@ -15,7 +14,7 @@ class FolderLock {
   FolderLock(FolderLock const&) = delete;
   FolderLock& operator=(FolderLock const&) = delete;
   ~FolderLock();
-  /// False where the file system knows no locks: the folder is then unprotected.
+  /// False if the file system does not support locks; the folder is then unprotected.
   bool held() const { return held_; }
 
  private:

@@ -14,10 +14,10 @@ class FrameIndex {
  public:
   using Entry = std::pair<double, std::string>;  ///< time [s], name of the file
   explicit FrameIndex(std::filesystem::path file) : file_(std::move(file)) {}
-  /// Starts the file anew with these frames. Throws FileError.
+  /// Replaces the file by one with these frames. Throws FileError.
   void write(std::vector<Entry> const& entries);
-  /// Adds a frame in place. Returns false, with nothing changed, if the file is not as it was left here: write it anew.
-  /// Throws FileError if it cannot be written; what it held before is still there then.
+  /// Adds a frame in place. Returns false, with nothing changed, if the file was modified since the last call; use
+  /// write() then. Throws FileError if it cannot be written; its previous content is then preserved.
   bool add(Entry const& entry);
 
  private:

@@ -8,8 +8,8 @@
 
 namespace piola {
 
-/// One frame, part by part and in single precision as it lies on the disk: for those who need several fields of it, or
-/// not all of it in memory. The seal is checked once. Everything throws FileError if the file is damaged.
+/// Reads one frame part by part, in single precision as stored; for callers that need several fields or only a part of
+/// it in memory. The seal is checked once. All members throw FileError if the file is damaged.
 class FrameReader {
  public:
   explicit FrameReader(std::filesystem::path const& path);

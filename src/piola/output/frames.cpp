@@ -27,7 +27,7 @@ std::vector<float> to_float(std::span<double const> values) {
 
 bool is_integer(std::string_view field) { return field == "Body" || field == "Id"; }
 
-/// Of the rows [0, count) of a table that follow from their places: those that this rank makes.
+/// Rows of [0, count) that this rank computes, for tables whose rows follow from their index alone.
 std::vector<Index> own_rows(Index count) {
   std::int64_t const n = ranks::count(), rank = ranks::own();
   auto const first = static_cast<Index>(count * rank / n), last = static_cast<Index>(count * (rank + 1) / n);
@@ -38,7 +38,7 @@ std::vector<Index> own_rows(Index count) {
 
 std::string path_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
 
-/// Tables of a frame whose rows are dealt out alike.
+/// Sets of tables of a frame whose rows have the same distribution over ranks.
 enum Set : int { of_particles, of_cells, of_offsets };
 
 }  // namespace
@@ -53,7 +53,7 @@ FrameContent::FrameContent(std::vector<std::string> const& fields, bool compress
   for (FieldInfo const& info : cache.fields()) {
     bool const always = info.name == "Id" || info.name == "Body";
     bool const asked = std::find(fields.begin(), fields.end(), info.name) != fields.end();
-    bool const wanted = fields.empty() ? !is_derived(info.name) : asked;  // what follows from others only if asked for
+    bool const wanted = fields.empty() ? !is_derived(info.name) : asked;  // derived fields only on request
     if (info.name != "Position" && (always || wanted)) chosen_.push_back(info);
   }
   if (cache.owned()) places_.assign(cache.owned()->begin(), cache.owned()->end());

@@ -11,15 +11,15 @@
 
 namespace piola {
 
-/// The tables of one frame. Where ranks share the particles, all of them put theirs.
+/// The tables of one frame. With distributed particles, every rank writes those of its local particles.
 class FrameContent {
  public:
-  /// `fields` empty: every field of the formulation; names that it does not have are left out. `cache`: of the
-  /// particles that this rank owns. Both outlive it.
+  /// `fields` empty: every field of the formulation; unknown names are skipped. `cache`: fields of the local particles.
+  /// Both must outlive this object.
   FrameContent(std::vector<std::string> const& fields, bool compress, FieldCache& cache);
   /// Collective. Throws FileError on rank 0.
   void put(RowWriter& rows);
-  /// What stands beside the tables, in words; on rank 0, after them.
+  /// Writes attributes that describe the tables. On rank 0, after put().
   void describe(hdf5::Writer& file) const;
 
  private:
@@ -38,7 +38,7 @@ class FrameWriter {
  public:
   /// `fields` empty: every field of the formulation. Names that the formulation does not have are left out.
   FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress);
-  /// Calls a function that puts tables, on ranks that share the particles when all of them put theirs.
+  /// Calls a function that writes tables; with distributed particles, at a time when all ranks write theirs.
   using WithAll = std::function<void(std::function<void()> const&)>;
   /// Writes the next frame and its line in the index. Throws FileError; earlier frames stay as they are. `cache`: of
   /// the particles that this rank owns.

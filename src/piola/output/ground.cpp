@@ -76,7 +76,7 @@ std::vector<double> heights(PictureData const& data, Appearance const& appearanc
   return out;
 }
 
-/// The share of the sky that is hidden from each patch.
+/// Fraction of the sky that is hidden from each patch.
 std::vector<float> hidden_sky(std::vector<double> const& height, double side) {
   double const patch = side / patches_across, area = patch * patch, least = 0.6 * patch;
   struct Above {

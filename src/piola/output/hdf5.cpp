@@ -31,7 +31,7 @@ Handle::Handle(hid_t id, Close close, std::string_view what) : id_(id), close_(c
 
 struct Writer::Parts {
   explicit Parts(std::filesystem::path path) : disk(std::move(path)), file(create_on(disk)) {}
-  /// What all that comes is put into. Throws FileError if something before could not be written.
+  /// Identifier of the open file. Throws FileError if an earlier write has failed.
   hid_t id() const {
     disk.on_disk.demand_written();
     return file->id();
@@ -110,7 +110,7 @@ std::vector<std::uint64_t> Writer::reserve_chunks(std::string const& path, std::
                                                   std::span<std::uint64_t const> bytes) {
   std::uint64_t const chunk = chunk_rows(rows, columns, sizeof(T));
   Handle const set = make_dataset(path, native_type<T>(), rows, columns, chunk, false);
-  // HDF5 finds room for a chunk when it writes one, and the driver tells where it would have gone.
+  // HDF5 allocates a chunk when it is written. In reserving mode the driver records the offset instead of writing.
   std::vector<std::byte> const nothing(bytes.empty() ? 0 : *std::max_element(bytes.begin(), bytes.end()));
   std::vector<std::uint64_t> places;
   for (std::size_t k = 0; k < bytes.size(); ++k) {
@@ -154,7 +154,7 @@ template void Writer::dataset(std::string const&, std::span<std::uint8_t const>,
 template void Writer::dataset(std::string const&, std::span<char const>, int);
 
 void Writer::attribute(std::string const& object, std::string const& name, std::string_view text) {
-  // VTK wants a plain ASCII string of fixed length.
+  // VTK requires a plain ASCII string of fixed length.
   Handle const type(H5Tcopy(H5T_C_S1), H5Tclose, name);
   check(H5Tset_size(type.id(), std::max<std::size_t>(text.size(), 1)), name);
   check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), name);

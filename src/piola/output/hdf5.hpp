@@ -37,20 +37,20 @@ class Handle {
 
 WrittenPart part_of(std::uint64_t at, std::span<std::byte const> bytes);
 
-/// Rows of a compressed chunk of a table with so many rows, of values of so many bytes.
+/// Rows per compressed chunk of a table with `rows` rows and `columns` columns of values of `bytes` bytes.
 std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes);
 
-/// Writes a file, which has its name when it is finished. HDF5 never hears that a disk is full (hdf5_driver.hpp), so
-/// that this ends in a FileError with a clear reason and never inside the library; of the content only what HDF5 keeps
-/// of its own is in memory.
+/// Writes a file, which gets its name in finish(). Write errors are not reported to HDF5 (hdf5_driver.hpp), so that a
+/// full disk causes a FileError with a clear reason instead of an error inside the library. Data sets are not buffered
+/// in memory.
 class Writer {
  public:
-  /// Throws FileError, as all that follows, if the file cannot be written.
+  /// This and all other members except put_at() throw FileError if the file cannot be written.
   explicit Writer(std::filesystem::path path);
   Writer(Writer const&) = delete;
   Writer& operator=(Writer const&) = delete;
   ~Writer();
-  /// Makes a group and those above it; "/" exists already.
+  /// Creates a group and its parents; "/" exists already.
   void group(std::string const& path);
   /// values[row * columns + c]; columns = 1 gives a one-dimensional data set.
   template <class T>
@@ -58,22 +58,22 @@ class Writer {
   void attribute(std::string const& object, std::string const& name, std::string_view text);
   void attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values);
   void attribute(std::string const& object, std::string const& name, double value);
-  /// Makes a data set whose values others write: returns where in the file the first one goes; the others follow.
+  /// Creates a contiguous data set without writing its values. Returns the file offset of the first value.
   template <class T>
   std::uint64_t reserve(std::string const& path, std::uint64_t rows, int columns);
-  /// The same of chunks of so many rows, as chunk_rows() has it, of so many bytes when they are deflated: where each
-  /// of them goes.
+  /// Creates a data set in chunks of chunk_rows() rows without writing them. bytes: deflated size of each chunk.
+  /// Returns the file offset of each chunk.
   template <class T>
   std::vector<std::uint64_t> reserve_chunks(std::string const& path, std::uint64_t rows, int columns,
                                             std::span<std::uint64_t const> bytes);
-  /// What was reserved. Never throws: finish() does.
+  /// Writes values at a reserved offset. Never throws; finish() throws if the write has failed.
   void put_at(std::uint64_t at, std::span<std::byte const> bytes);
-  /// Some other process has written these bytes with this check sum.
+  /// Adds the check sum of bytes that another process has written.
   void note(WrittenPart part);
-  /// Where the file stands until it has its name.
+  /// Path of the file until finish().
   std::filesystem::path const& part() const;
   std::filesystem::path const& path() const;
-  /// Gives the file its seal and its name. Nothing can be written after this.
+  /// Appends the seal and renames the file. Nothing can be written afterwards.
   void finish();
 
  private:
@@ -83,27 +83,26 @@ class Writer {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Reads a file. The whole file is checked against its seal before HDF5 opens it; then every answer is checked against
-/// what the file says about kind, shape and size before a byte of it is read. What is not there, or is something else
-/// than asked for, throws FileError with path and name.
+/// Reads a file. The whole file is verified by its seal before HDF5 opens it. Kind, shape and size of an object are
+/// checked before its values are read. A missing object, or one of another kind, throws FileError with path and name.
 class Reader {
  public:
   explicit Reader(std::filesystem::path const& path);
-  /// Without a seal, for files of other programs, whose texts may have any length. HDF5 itself may crash or hang on a
-  /// damaged one: only for a child.
+  /// Opens a file without a seal, for files of other programs, whose texts may have any length. HDF5 may crash or hang
+  /// on a damaged file: call only in a child process.
   static Reader unsealed(std::filesystem::path const& path);
   bool has(std::string const& path) const;
   std::vector<std::string> names(std::string const& group) const;  ///< members, sorted
   /// Numbers per row of a data set: 1 if it has one dimension.
   std::uint64_t columns(std::string const& dataset) const;
-  /// Rows, and columns if it has two dimensions, of a data set of numbers; empty for what is something else.
+  /// Rows, and columns if it has two dimensions, of a data set of numbers; empty for any other object.
   std::vector<std::uint64_t> shape_of_numbers(std::string const& path) const;
   bool has_attribute(std::string const& object, std::string const& name) const;
-  /// All numbers of a data set with this many columns and any number of rows, row by row. Whole numbers may be asked
-  /// for as floating-point ones, not the other way round.
+  /// All numbers of a data set with this many columns and any number of rows, row by row. Integers may be read as
+  /// floating-point numbers, not the reverse.
   template <class T>
   std::vector<T> dataset(std::string const& path, std::uint64_t columns = 1) const;
-  /// Where in the file the numbers of a list of doubles stand, one after the other; nothing if they do not.
+  /// File offset of a list of doubles that is stored contiguously; nothing otherwise.
   std::optional<std::uint64_t> place_of_doubles(std::string const& path) const;
   std::string text(std::string const& object, std::string const& name) const;
   double number(std::string const& object, std::string const& name) const;

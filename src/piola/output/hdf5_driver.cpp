@@ -15,7 +15,7 @@ namespace {
 
 constexpr haddr_t most_bytes = (haddr_t{1} << 62) - 1;
 
-/// An open file as HDF5 knows it.
+/// An open file in the format that HDF5 requires of drivers.
 struct Open : H5FD_t {
   GrowingFile* file;
   haddr_t end;  ///< of what is allocated
@@ -67,7 +67,7 @@ H5FD_class_t driver() {
   H5FD_class_t d{};
 #ifdef H5FD_CLASS_VERSION
   d.version = H5FD_CLASS_VERSION;
-  d.value = static_cast<H5FD_class_value_t>(600);  // of the range for drivers that nobody has registered
+  d.value = static_cast<H5FD_class_value_t>(600);  // in the range for unregistered drivers
 #endif
   d.name = "piola";
   d.maxaddr = most_bytes;
@@ -100,7 +100,7 @@ Handle create_on(GrowingFile& file) {
   constexpr hsize_t page = 4096;
   if (H5Pset_alignment(access.id(), page, page) < 0)
     throw FileError("HDF5 cannot align data sets - this is a defect of the program, please report it");
-  // The name is nobody's: the driver has the file.
+  // The name is not used: the driver holds the file.
   return {H5Fcreate("piola", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "a file"};
 }
 

@@ -6,19 +6,19 @@
 #include <filesystem>
 #include <utility>
 
-/// How HDF5 reaches the disk. Included by output/hdf5*.cpp only.
+/// HDF5 file driver. Included by output/hdf5*.cpp only.
 namespace piola::hdf5 {
 
-/// A file that HDF5 writes as it likes, never told of a failure, which NewFile keeps.
+/// File behind the HDF5 driver. Write errors are stored in NewFile and not reported to HDF5; callers check NewFile.
 struct GrowingFile {
   explicit GrowingFile(std::filesystem::path path) : on_disk(std::move(path)) {}
   NewFile on_disk;
-  bool reserving = false;      ///< values of data sets are not written, but where they would be is kept
-  std::uint64_t reserved = 0;  ///< that place
-  std::uint64_t bytes = 0;     ///< that HDF5 has made use of: the length of the file once HDF5 has closed it
+  bool reserving = false;      ///< values of data sets are not written; their offset is recorded in `reserved`
+  std::uint64_t reserved = 0;  ///< offset of the last values not written
+  std::uint64_t bytes = 0;     ///< used by HDF5: the length of the file after HDF5 has closed it
 };
 
-/// A new file of HDF5. `file` must live longer than the handle, and stay where it is.
+/// Creates a new HDF5 file. `file` must outlive the handle and must not be moved.
 Handle create_on(GrowingFile& file);
 
 }  // namespace piola::hdf5

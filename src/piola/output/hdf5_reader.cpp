@@ -12,13 +12,13 @@
 namespace piola::hdf5 {
 namespace {
 
-// Deflate packs at most 1032 bytes into one: a file cannot hold more, whatever it says about itself.
+// Deflate packs at most 1032 bytes into one, which bounds the content of a file whatever its header claims.
 constexpr std::uintmax_t most_packing = 1032;
 constexpr std::size_t longest_text = 65536;  // HDF5 itself allows no longer attribute in these files
 
 Handle open_file(std::filesystem::path const& path) {
   silence();
-  if (FileToRead const file(path); !file.problem().empty())  // HDF5 would wait for who writes to a pipe
+  if (FileToRead const file(path); !file.problem().empty())  // HDF5 would block on a pipe without a writer
     throw FileError(path.string() + ": " + file.problem());
   hid_t const id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw FileError(fmt::format("{}: is no HDF5 file or is cut off - write it again", path.string()));

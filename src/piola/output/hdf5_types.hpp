@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <hdf5.h>
 
-/// What writing and reading of HDF5 files share. Included by output/hdf5*.cpp only.
+/// Types common to writing and reading of HDF5 files. Included by output/hdf5*.cpp only.
 namespace piola::hdf5 {
 
 /// The type of HDF5 for a number in memory.

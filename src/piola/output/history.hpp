@@ -32,7 +32,7 @@ HistoryTable read_history(std::filesystem::path const& path);
 
 /// The columns of every run, then those that only this formulation has.
 std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics);
-/// Their values, in the same order.
+/// Values of the diagnostic columns, in their order.
 std::vector<double> diagnostic_values(double time, std::int64_t step, double dt, Diagnostics const& diagnostics);
 
 /// How much of history.csv a checkpoint counts on.
@@ -46,16 +46,15 @@ class HistoryFile {
  public:
   /// Starts a new file; an empty path: rows are kept in the table only. Throws FileError.
   HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns);
-  /// Continues a file after its last row with time <= `time`; later rows are cut off. What differs from the `mark` of
-  /// the checkpoint is told by `complaint`; a missing file is begun anew. Throws FileError if the file has other
-  /// columns.
+  /// Continues a file after its last row with time <= `time`; later rows are removed. complaint() describes differences
+  /// from the `mark` of the checkpoint. Creates a missing file. Throws FileError if the file has other columns.
   HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns, double time,
               std::optional<HistoryMark> mark = {});
   /// Adds a line. Numbers that are not finite become empty cells; returns the names of their columns.
   std::vector<std::string> append(std::vector<double> const& row);
   HistoryTable const& table() const { return table_; }
   HistoryMark mark() const { return {table_.rows.size(), bytes_, sum_.value()}; }
-  /// What was missing or changed when the file was continued, in one sentence; empty if nothing was.
+  /// Describes what was missing or changed when the file was continued, in one sentence; empty if nothing was.
   std::string const& complaint() const { return complaint_; }
   /// Waits until every row is on the disk. Throws FileError.
   void sync();

@@ -17,7 +17,7 @@ struct Image {
   std::vector<std::uint8_t> rgb;
   std::vector<std::uint8_t> alpha = {};  ///< one per pixel, 0 (nothing is there) to 255; empty: opaque
 
-  /// What is said about an image: keys (ASCII, at most 79 characters) and texts (UTF-8).
+  /// Metadata of an image: keys (ASCII, at most 79 characters) and texts (UTF-8).
   std::vector<std::pair<std::string, std::string>> notes = {};
 
   Image() = default;

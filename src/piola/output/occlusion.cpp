@@ -11,13 +11,13 @@ namespace {
 constexpr float least_openness = 0.4F;
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-/// Where one looks from a pixel.
+/// Offset of a sample from a pixel.
 struct Tap {
   int x = 0, y = 0;
 };
 
-/// The spiral is turned from pixel to pixel in a pattern of so many by so many, and the mean over as many evens it out:
-/// few directions are enough, and none of them shows.
+/// The spiral is rotated from pixel to pixel in a pattern of `pattern` x `pattern` pixels, and results are averaged
+/// over one pattern. Few directions then suffice without visible artefacts.
 constexpr int pattern = 4;
 
 /// Places on a golden spiral that fill a disc evenly, without the pixel itself.
@@ -37,7 +37,7 @@ std::vector<Tap> spiral(float radius, int turn, int directions) {
 /// How much two radii darken an inner corner of a right angle: measured so that it is in the middle of 0.5 to 0.8.
 constexpr float strength = 2.6F;
 
-/// Every so many pixels of a row, from the first one to before the last one.
+/// Every `pattern`-th pixel of a row in a half-open range.
 struct Pixels {
   int row = 0, first = 0, last = 0;
 };
@@ -51,7 +51,7 @@ Pixels shown(PixelSurface const& here, int row) {
   return {row, static_cast<int>(first - begin), static_cast<int>(last - begin)};
 }
 
-/// Adds what the surfaces at one offset hide, for every so many pixels of a row.
+/// Adds the occlusion by the surfaces at one offset, for every `pattern`-th pixel of a row.
 void add_row(PixelSurface const& here, std::span<float const> around, Tap const& tap, Pixels const& pixels, float reach,
              std::span<float> sum) {
   constexpr float bias = 0.12F;  // of the sine: what a rounded surface of triangles shows of itself

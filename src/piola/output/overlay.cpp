@@ -67,7 +67,7 @@ class Writer {
     constexpr std::array<char const*, 3> axis_names{"x", "y", "z"};
     for (std::size_t k = 0; k < std::min<std::size_t>(what_.axes.size(), 3); ++k) {
       double const dx = what_.axes[k][0] * length, dy = -what_.axes[k][1] * length, on_paper = std::hypot(dx, dy);
-      if (!(on_paper > 0.25 * length)) continue;  // points at the viewer, its letter would lie on others
+      if (!(on_paper > 0.25 * length)) continue;  // axis towards the viewer: its letter would overlap other letters
       canvas_.line(std::array{origin, Corner{origin[0] + dx, origin[1] + dy}}, 1.6 * at_.unit, colours_.faint_ink);
       double const beyond = 1 + 9 * at_.unit / on_paper;
       canvas_.write(origin[0] + dx * beyond, origin[1] + dy * beyond + 0.3 * at_.small, axis_names[k],

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// What stands in a picture beside the bodies: title, time, colour bar or legend, axes, scale bar.
+/// Annotations of a picture: title, time, colour bar or legend, axes, scale bar.
 namespace piola {
 
 /// The colours around the bodies. A transparent picture has the letters of a light one.
@@ -28,29 +28,30 @@ struct TimeFormat {
   int decimals = 3;
   std::string text(double time) const;  ///< e.g. "12.5 ms"
 };
-/// For times up to `longest`, `step` apart [s]. The decimals suffice to tell the step to 1 % of it; at most six.
+/// For times up to `longest`, `step` apart [s]. The decimals resolve the step to 1 %; at most six.
 TimeFormat time_format(double longest, double step);
 
-/// What a colour stands for.
+/// Meaning of a colour.
 struct LegendEntry {
   std::string name;
   Colour colour{};
 };
 
-/// Where things stand [pixels]; all sizes follow the picture, so that a large one is not one with tiny letters.
+/// Positions of the annotations [pixels]. All sizes scale with the picture, so that letters of a large one stay
+/// readable.
 struct Layout {
   int width = 0, height = 0;
   double unit = 1;                                  ///< of all distances: 1 in a picture of 1000 x 800
   double small = 13, text = 16, large = 20;         ///< sizes of fonts
   double left = 0, right = 0, top = 0, bottom = 0;  ///< the area for the bodies
-  bool two_rows = false;                            ///< time below a title that leaves no room beside it
+  bool two_rows = false;                            ///< time below a title that leaves no room to its right
 };
 /// Without letters the bodies have the whole picture.
 Layout layout_of(int width, int height, std::string_view title, bool letters);
 
 /// The words and numbers of a picture.
 struct Overlay {
-  std::string title, at_right;  ///< at_right: the time, or what else there is to say
+  std::string title, at_right;  ///< at_right: the time or another text
   /// A bar for these colours, unless there is a legend.
   ColourMap const* map = nullptr;
   std::string label, unit;  ///< of the values; SI

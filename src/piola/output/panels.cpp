@@ -8,11 +8,11 @@
 namespace piola {
 namespace {
 
-/// Where the panels of a sheet stand.
+/// Positions of the panels of a sheet.
 struct PanelCells {
   Layout layout;
   int columns, rows, width, height;
-  double caption;  ///< height of what stands below each
+  double caption;  ///< height of the caption below each panel
   PanelCells(PictureStyle const& style, Sheet const& sheet, std::size_t panels, bool marks)
       : layout(layout_of(style.width, style.height, sheet.title, style.labels)),
         columns(std::max(1, sheet.columns)),

@@ -40,7 +40,7 @@ ColourMap map_of(PictureStyle const& style, Spread const& spread) {
   return {range[0], range[1], style.palette};
 }
 
-/// What a picture and its letters have in common.
+/// Settings common to a picture and its letters.
 struct Setting {
   View view;
   Layout layout;
@@ -77,7 +77,7 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
   out.map = named ? nullptr : &map;
   out.label = data.label;
   out.unit = data.unit;
-  double const rounding = 1e-3 * (map.high() - map.low());  // what nobody sees on the bar
+  double const rounding = 1e-3 * (map.high() - map.low());  // differences too small to be visible on the bar
   out.extremes = {spread.extremes[0] < map.low() - rounding ? spread.extremes[0] : map.low(),
                   spread.extremes[1] > map.high() + rounding ? spread.extremes[1] : map.high()};
   out.not_a_number = spread.not_a_number;
@@ -86,7 +86,7 @@ Overlay overlay_of(PictureData const& data, View const& view, Projection const& 
   return out;
 }
 
-/// What flew out of the window, or lies beyond it where a picture is enlarged, must not lie under letters.
+/// Clears the area of letters from particles that have left the window or lie outside an enlarged one.
 void clear_for_letters(Image& image, Layout const& layout, std::optional<Colour> background) {
   double const air = 8 * layout.unit;
   for (int y = 0; y < image.height; ++y) {
@@ -100,7 +100,7 @@ void clear_for_letters(Image& image, Layout const& layout, std::optional<Colour>
   }
 }
 
-/// What tells where a picture comes from.
+/// Adds notes on the origin of a picture.
 void add_notes_to(Image& image, PictureData const& data, ColourMap const& map) {
   image.notes.emplace_back("Title", data.title);
   image.notes.emplace_back("Software", "Piola " + std::string(version()));

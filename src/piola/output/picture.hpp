@@ -17,7 +17,7 @@
 
 namespace piola {
 
-/// What the values in all pictures of a run have in common.
+/// Range of the values in all pictures of a run.
 struct Spread {
   std::array<double, 2> typical{infinite, -infinite};   ///< of all typical ranges
   std::array<double, 2> extremes{infinite, -infinite};  ///< lowest and highest finite value
@@ -30,7 +30,7 @@ struct Spread {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
-/// What one picture shows; one entry per particle.
+/// Data of one picture, one entry per particle. Does not own the arrays.
 struct PictureData {
   std::span<std::array<double, 3> const> points;  ///< m
   std::span<double const> radius;                 ///< m
@@ -40,10 +40,10 @@ struct PictureData {
   std::string title;
   double time = 0;  ///< s
   int dimension = 3;
-  std::span<RigidShape const> rigid_shapes = {};    ///< as they stand at that time
+  std::span<RigidShape const> rigid_shapes = {};    ///< at their positions at that time
   std::array<double, 3> stage_low{}, stage_high{};  ///< the box around the bodies at the start [m]
-  /// If given, particles have these colours, a legend stands in place of the bar, and the label in place of the time;
-  /// values and unit are not used.
+  /// If given, particles have these colours, a legend replaces the bar, and the label replaces the time; values and
+  /// unit are not used.
   std::span<Colour const> colours = {};
   std::span<LegendEntry const> legend = {};
   std::optional<Spread> spread = {};           ///< of all pictures of the run; else of these values
@@ -54,7 +54,7 @@ struct PictureData {
   std::span<ReferenceMesh const> meshes = {};  ///< per body; none: particles are balls that do not stretch
   std::span<std::uint8_t const> loose = {};    ///< not 0: has lost its neighbours for good; empty: none has
   std::span<std::uint8_t const> held = {};     ///< not 0: hatched; empty: none is
-  /// Per body, the cells of its mesh that count as torn; empty: as the points say.
+  /// Torn cells of the mesh of each body; empty: determined from the points.
   std::span<std::vector<Index> const> torn = {};
 };
 
@@ -73,8 +73,8 @@ struct PictureStyle {
 /// the check sum of the case.
 Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window);
 
-/// The letters of a picture alone, over `image`: title, what stands at the right (the time, usually), the colour bar of
-/// the style's range, and the axes and the scale that a picture of the style's size without labels has.
+/// Draws only the letters of a picture over `image`: title, `at_right` (usually the time), the colour bar of the
+/// style's range, and the axes and the scale that a picture of the style's size without labels has.
 void draw_letters(Image& image, Layout const& layout, PictureData const& data, PictureStyle const& style,
                   Window const& window, std::string const& at_right, bool marks = true);
 
@@ -82,18 +82,18 @@ void draw_letters(Image& image, Layout const& layout, PictureData const& data, P
 Image draw_marks(Layout const& layout, int height, PictureData const& data, PictureStyle const& style,
                  Window const& window);
 
-/// Radius of the ball that stands for each particle: half the spacing (from the largest volume of its body) and a
-/// little more, so that a body looks closed.
+/// Radius of the ball drawn for each particle: half the spacing (from the largest volume of its body) and a little
+/// more, so that a body looks closed.
 std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension);
 
 /// One number per particle for the picture: that component or, of the whole field, scalars as they are, vectors by
 /// their length, of six stress components the von Mises stress, of other tensors the largest absolute component.
 std::vector<double> picture_values(std::span<double const> values, int components, int component = whole_field);
 /// The range between the lowest and the highest hundredth of the values, so that a few extreme particles (at the edge
-/// of a clamp, say) do not take the colours from all others. All values if there are fewer than a hundred; (0, 0) if
+/// of a clamp, say) do not compress the colours of the rest. All values if there are fewer than a hundred; (0, 0) if
 /// there are none.
 std::array<double, 2> typical_range(std::span<double const> values);
-/// What that number is called, e.g. "velocity magnitude", "Cauchy stress xx".
+/// Label of the values of picture_values(), e.g. "velocity magnitude", "Cauchy stress xx".
 std::string picture_label(std::string const& field, int components, int component = whole_field);
 /// "Pressure-000012.png", "Velocity-x-000012.png"
 std::string picture_name(std::string const& field, int components, int component, std::size_t number);

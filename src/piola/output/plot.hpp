@@ -22,7 +22,7 @@ struct PlotAxis {
 
 /// Curves over one axis, with their names at their ends.
 struct Plot {
-  std::string title, note;  ///< the note stands at the right, above the frame
+  std::string title, note;  ///< the note is at the right, above the frame
   std::string remark = {};  ///< in the middle of the frame
   PlotAxis x, y;
   std::vector<Curve> curves;
@@ -33,7 +33,7 @@ struct Plot {
 /// is nothing to draw (no finite value, none above zero on a logarithmic axis); FileError if it cannot be written.
 void write_plot(std::filesystem::path const& path, Plot const& plot);
 
-/// The same picture as the text of an SVG, and where its horizontal axis lies: for a cursor that moves over it.
+/// A plot as the text of an SVG, with the position of its frame, for a cursor that moves over it.
 struct PlotText {
   std::string svg = {};
   double left = 0, right = 0, top = 0, bottom = 0;  ///< of the frame, in pixels from the top left

@@ -18,7 +18,7 @@ inline Place3 cross(Place3 const& a, Place3 const& b) {
 }
 inline double length(Place3 const& a) { return std::sqrt(dot(a, a)); }
 inline double distance(Place3 const& a, Place3 const& b) { return length(minus(a, b)); }
-/// Of length one; zero stays zero.
+/// Unit vector along `a`; zero for a = 0.
 inline Place3 unit(Place3 const& a) {
   double const size = length(a);
   return size > 0 ? Place3{a[0] / size, a[1] / size, a[2] / size} : a;

@@ -4,7 +4,7 @@
 #include "piola/output/points.hpp"
 #include <array>
 
-/// What the parts of a picture share: from metres to pixels.
+/// Projection from metres to pixels, common to all parts of a picture.
 namespace piola {
 
 /// A line of sight; `towards` the viewer has length 1.

@@ -89,8 +89,8 @@ class TileLists {
   std::vector<std::uint32_t> item_;
 };
 
-/// One tile while it is drawn. For blocks of samples it knows how far away the farthest one is, so that what lies
-/// behind a full block costs nothing.
+/// One tile during drawing. Stores the largest depth of each block of samples, so that surfaces behind a full block are
+/// skipped.
 class Tile {
  public:
   Tile(Surfaces const& surfaces, SurfaceBuffers& buffers, Cut const& cut)

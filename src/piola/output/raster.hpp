@@ -75,7 +75,7 @@ struct Triangle {
   Owner owner = 0;
 };
 
-/// What is drawn.
+/// Surfaces to be drawn.
 struct Surfaces {
   std::vector<Ellipsoid> ellipsoids;
   std::vector<Vertex> vertices;

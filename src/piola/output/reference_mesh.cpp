@@ -69,7 +69,7 @@ Place3 facet_normal(Points const& X, std::span<Index const> corner, std::array<i
                            : cross(minus(at(2), at(0)), minus(at(3), at(1))));
 }
 
-/// The sum of the normals of the outer facets beside each particle.
+/// Sum of the normals of the adjacent outer facets, per particle.
 std::vector<Place3> normals_outside(ReferenceMesh const& mesh) {
   std::vector<Place3> sum(mesh.count, Place3{});
   if (mesh.cells.count() == 0) return sum;
@@ -87,7 +87,7 @@ std::vector<Place3> normals_outside(ReferenceMesh const& mesh) {
   return sum;
 }
 
-/// How a particle gets to the surface of its shape along the facets beside it.
+/// Moves a particle to the surface of its shape along the normals of the adjacent facets.
 class WayOut {
  public:
   WayOut(Outline const& shape, double spacing) : shape_(shape), spacing_(spacing) {}
@@ -95,7 +95,7 @@ class WayOut {
   /// `direction`: the sum of the unit normals of these facets. Flat ends of the box around the shape come first, so
   /// that the edge between an end and a side stays sharp.
   Place3 operator()(Place3 const& X, Place3 const& direction) const {
-    constexpr double slanted = 0.1;           // below it no facet looks that way
+    constexpr double slanted = 0.1;           // smaller components of a normal count as zero
     constexpr double just_inside = 1 - 1e-6;  // what is on the surface but for rounding counts as inside
     if (!inside(X)) return {};
     Place3 way{}, rest = direction;

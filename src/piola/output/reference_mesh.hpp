@@ -23,7 +23,7 @@ struct ReferenceMesh {
   int dimension = 3;
   double spacing = 0;              ///< the largest of the lattice [m]
   Points X;                        ///< [m]
-  Cells cells;                     ///< boxes of the lattice, or simplices; none: the particles stand for themselves
+  Cells cells;                     ///< boxes of the lattice, or simplices; none: particles are drawn as balls
   std::vector<Index> across;       ///< per cell and facet: the cell on the other side, or -1
   std::vector<Place3> outward;     ///< from particles at the surface to the surface of the shape [m]; else zero
   std::vector<std::size_t> begin;  ///< where the neighbours of a particle begin; one more at the end
@@ -37,9 +37,9 @@ struct ReferenceMesh {
   }
 };
 
-/// The cells of a lattice where there is one, else Delaunay's, without what lies outside of the body. Outer particles
-/// reach the surface of the shape along the normals of the facets beside them, to 1e-3 spacings. Particles on a line,
-/// too few, or in the same place have no cells.
+/// Cells of the lattice if there is one, else of a Delaunay triangulation without the cells outside the body. Outer
+/// particles are moved to the surface of the shape along the normals of adjacent facets, to 1e-3 spacings. Particles on
+/// a line, too few, or in the same place have no cells.
 ReferenceMesh reference_mesh(ParticleSet const& set, Body const& body);
 std::vector<ReferenceMesh> reference_meshes(ParticleSet const& set);
 

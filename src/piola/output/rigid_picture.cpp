@@ -117,7 +117,7 @@ Solid solid_of(RigidShape const& shape, Stage const& stage) {
   return solid;
 }
 
-/// Puts what a ray through a sample meets of one shape.
+/// Draws the first intersection of a ray through a sample with one shape.
 struct RigidSample {
   RigidCanvas const& canvas;
   SurfaceBuffers& buffers;
@@ -167,7 +167,7 @@ void RigidCanvas::draw(SurfaceBuffers& buffers, std::span<RigidShape const> shap
   for (RigidShape const& shape : shapes) {
     Solid const solid = solid_of(shape, stage);
     auto const centre = project(project.eye.seen(solid.centre));
-    // Of what reaches near the eye nobody knows where its image ends.
+    // The image of a shape that reaches the eye is unbounded.
     Point const front = plus(solid.centre, solid.reach(), project.towards);
     double const larger = project.eye.magnification(front);
     double const reach = std::isnan(larger)

@@ -16,9 +16,9 @@ struct Stage {
   double size() const;  ///< length of the diagonal [m]
 };
 
-/// Draws rigid shapes. A plane is a thin plate behind its face, of the size of the stage, opposite its middle.
-/// In two dimensions the shapes lie behind all particles. Nothing is drawn in columns from `width` on and in rows above
-/// `top`, where the letters stand. `fine`: samples per pixel of the projection.
+/// Draws rigid shapes. A plane is a thin plate behind its face, of the size of the stage, opposite its middle. In two
+/// dimensions the shapes lie behind all particles. Nothing is drawn in columns from `width` on and in rows above `top`,
+/// which are reserved for letters. `fine`: samples per pixel of the projection.
 struct RigidCanvas {
   static constexpr Owner bright = 0, dark = 1;  ///< every other part of balls that turn is dark
   static constexpr std::array<Colour, 2> colours{Colour{176, 180, 186}, Colour{138, 143, 151}};

@@ -12,18 +12,19 @@
 
 namespace piola {
 
-/// Rows of pages that ranks read or write: no two of them have a page in common.
+/// Rows per block of whole pages, so that no two ranks access the same page of a file.
 inline constexpr Index rows_of_pages = 4096;
 
-/// The file of this path, which rank 0 alone needs to say, for this rank; nothing on all ranks unless all of them see
-/// it. Collective.
+/// Opens a file on all ranks; `of_first` is used on rank 0 only. Returns null on all ranks unless all see the file.
+/// Collective.
 std::unique_ptr<JoinedFile> open_on_all(std::filesystem::path const& of_first, JoinedFile::To to);
 
-/// Reads what RowWriter has written: each rank a stretch of the whole, whose rows go to the ranks that want them then.
+/// Reads tables written by RowWriter. Each rank reads a contiguous range of rows, which are then redistributed to their
+/// owners.
 class RowReader {
  public:
-  /// Of tables in one file; `place`: that of rank 0. `values`: those of the rows of this rank. Returns false, on all
-  /// ranks, if not all of them can read the file. Collective.
+  /// Reads a table; all tables must be in one file. place: used on rank 0 only. values: receives the rows of this rank.
+  /// Returns false on all ranks if some rank cannot read the file. Collective.
   bool read(std::optional<PlaceInFile> const& place, RowsOfRanks const& rows, std::span<double> values);
 
  private:

@@ -15,28 +15,27 @@
 
 namespace piola {
 
-/// Tables that all ranks write into one file: HDF5 on rank 0 says where each goes, their rows go to the ranks that
-/// write them, a stretch of whole pages each, and these compress and write at the same time. So a file has the same
-/// bytes for any number of ranks. Where not all see the file, because their machines share no disk, rank 0 writes all.
+/// Collective writer of tables in one HDF5 file. Rank 0 reserves the file space; rows are redistributed to page-aligned
+/// ranges that the ranks compress and write concurrently. The bytes of the file do not depend on the number of ranks.
+/// If not all ranks see the file, rank 0 writes everything.
 class RowWriter {
  public:
-  /// The file, on rank 0; on others nothing.
+  /// file: the open file on rank 0, which must outlive this object; null on other ranks.
   explicit RowWriter(hdf5::Writer* file) : file_(file) {}
-  /// A data set with this path, which only rank 0 needs to know. Collective. Does not throw if it cannot be written:
-  /// end() does.
+  /// Writes a data set; `path` is used on rank 0 only. Collective. Does not throw if it cannot be written: end() does.
   template <class T>
   void put(std::string const& path, RowsOfRanks const& rows, std::span<T const> values,
            hdf5::Storage storage = hdf5::Storage::contiguous);
-  /// Whether rank 0 knows of no trouble so far.
+  /// On rank 0: whether no error has been recorded so far. Errors of other ranks are included after end().
   bool good() const { return !trouble_; }
-  /// All is on the disk. Collective; nothing if it was called before. Throws FileError on rank 0 if some rank could not
-  /// write its part.
+  /// Completes all writes to the disk. Collective; a second call does nothing. Throws FileError on rank 0 if a rank
+  /// could not write its part.
   void end();
 
  private:
   void join();
   RowPlan const& plan(RowsOfRanks const& rows, Index block);
-  /// What f() makes on rank 0, on all ranks; nothing if it threw.
+  /// Calls f() on rank 0 and broadcasts its result; nothing if it threw.
   template <class F>
   std::optional<std::vector<std::uint64_t>> by_first(std::size_t count, F const& f);
   template <class T>

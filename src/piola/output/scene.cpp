@@ -216,7 +216,7 @@ void each_body(PictureData const& data, F const& f) {
   }
 }
 
-/// What stands in the buffers for each particle: its value, or the number of its colour among all that there are.
+/// Sets the value of each particle in the buffers: its field value, or the index of its colour.
 void set_values(PictureData const& data, Scene& scene) {
   std::map<Colour, float> number;
   for (Colour const& colour : data.colours) {

@@ -8,17 +8,17 @@
 
 namespace piola {
 
-/// The bodies of a picture as surfaces, in samples. The owner of a surface is the number of its body; of what is
-/// hatched, the number of bodies more.
+/// The bodies of a picture as surfaces, in samples. The owner of a surface is the number of its body, plus the number
+/// of bodies if it is hatched.
 struct Scene {
   Surfaces bodies;
-  Surfaces ghosts;             ///< what a cut has taken away
+  Surfaces ghosts;             ///< parts removed by a section plane
   float radius = 0;            ///< of a typical ball [samples]
   std::vector<float> spacing;  ///< of the particles of each body [samples]
   bool hatched = false;        ///< there are particles that are
   Owner bodies_in_all = 0;
-  std::vector<float> value;     ///< of each particle as it stands in the buffers: with colours, a number of these
-  std::vector<Colour> colours;  ///< all that particles have
+  std::vector<float> value;     ///< per particle, in the buffers: field value, or index of its colour
+  std::vector<Colour> colours;  ///< distinct colours of the particles
 };
 
 /// Skins, balls and sections. A body has a skin if its mesh has cells and it is drawn as one; its particles that belong

@@ -30,7 +30,7 @@ std::uint32_t product(std::uint32_t a, std::uint32_t b) {
   return sum;
 }
 
-/// The rest of what so many more bytes multiply all before them by.
+/// Factor, modulo the polynomial, by which `bytes` further bytes multiply the check sum of all previous ones.
 std::uint32_t shift_by(std::uint64_t bytes) {
   std::uint32_t power = x_to_the_8, shift = one;
   for (; bytes != 0; bytes >>= 1) {

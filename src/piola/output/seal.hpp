@@ -10,13 +10,13 @@
 
 namespace piola {
 
-/// CRC-32 (IEEE 802.3) of bytes that come piece by piece: every change of up to 32 bits in a row shows, any other with
-/// probability 1 - 2^-32.
+/// CRC-32 (IEEE 802.3) of bytes that are added in pieces. Detects every change of up to 32 consecutive bits, and any
+/// other with probability 1 - 2^-32.
 class CheckSum {
  public:
   void add(std::span<std::byte const> bytes);
   void add(std::string_view text);
-  /// Of so many bytes that come next, whose own check sum this is.
+  /// Appends `bytes` further bytes of which only the check sum is given.
   void add(std::uint32_t check_sum, std::uint64_t bytes);
   std::uint32_t value() const { return value_; }
 
@@ -25,16 +25,16 @@ class CheckSum {
 };
 
 /// The seal is the last line of a binary file: "piola seal: CRC-32 1a2b3c4d over 00000000000000001234 bytes\n". Readers
-/// of HDF5 ignore what stands behind the end that a file states itself, so that sealed files stay ordinary HDF5 files.
+/// of HDF5 ignore bytes after the end that a file states itself, so that sealed files stay ordinary HDF5 files.
 std::string seal_of(std::span<std::byte const> content);
 std::string seal_of(CheckSum const& sum, std::uint64_t bytes);
 void append_seal(std::vector<std::byte>& file);
 
-/// Whether the last line of a file is a seal, whatever it says. False, too, for a file that cannot be read.
+/// Whether the last line of a file has the form of a seal; it is not verified. False for a file that cannot be read.
 bool ends_with_seal(std::filesystem::path const& path);
 
-/// Reads the whole file once, before anything else looks inside. Throws FileError unless its last line is the seal of
-/// all that stands before it.
+/// Verifies a file; call before any other access. Throws FileError unless its last line is the seal of all preceding
+/// bytes. Reads the whole file.
 void verify_seal(std::filesystem::path const& path);
 
 }  // namespace piola

@@ -47,7 +47,7 @@ Light3 mixed(Light3 const& a, Light3 const& b, float share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
 }
 
-/// The colours of one owner, looked up once for so many steps of the range.
+/// Colours of one owner, tabulated for Shading::steps values of the range.
 class Paint {
  public:
   Paint(SurfaceFinish const& finish, std::array<double, 2> const& range) : one_(linear(finish.colour)) {
@@ -133,7 +133,7 @@ std::vector<float> nearest_of(std::vector<PixelSurface> const& layers) {
   return depth;
 }
 
-/// What a sample shows.
+/// Colour of a sample.
 struct Sampler {
   Shading const& shading;
   Prepared const &bodies, &tools, &ghosts;
@@ -142,7 +142,7 @@ struct Sampler {
   /// Whether a sample shows the background, if only through a shade.
   bool shows_background(std::size_t at) const { return bodies.depth(at) == nothing && tools.depth(at) == nothing; }
 
-  /// Whether a pixel from (x, y) on shows the background alone, so that one sample tells what all do.
+  /// Whether the pixel with the first sample (x, y) shows the background alone, so that one sample suffices.
   bool is_empty(int x, int y) const {
     return shading.ground.empty() && !any_sample(x, y, [&](std::size_t at) {
              return bodies.depth(at) > nothing || tools.depth(at) > nothing || ghosts.depth(at) > nothing ||

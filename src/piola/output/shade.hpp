@@ -15,14 +15,14 @@ using Light3 = std::array<float, 3>;
 Light3 linear(Colour colour);
 Colour encoded(Light3 const& light);
 
-/// What an owner's surfaces look like.
+/// Appearance of the surfaces of one owner.
 struct SurfaceFinish {
   /// The colour of a value; nothing: `colour` for all.
   std::function<Colour(double)> map = {};
   Colour colour{};
   float spacing = 0;  ///< of its particles [samples]: jumps of depth above 1.5 of them are edges
   bool flat = false;  ///< a plane seen straight on: colours as they are in the bar
-  int hatch = 0;      ///< dark stripes so many samples apart; 0: none
+  int hatch = 0;      ///< distance of dark stripes [samples]; 0: none
 };
 
 /// Surfaces that are drawn together.
@@ -36,7 +36,7 @@ struct GroundLight {
   float share = 0, light = 1;
 };
 
-/// What a picture is made of.
+/// Input of shade(). Does not own buffers and lines.
 struct Shading {
   static constexpr int steps = 1024;  ///< of the table of colours
   ShadedLayer bodies;
@@ -44,7 +44,7 @@ struct Shading {
   ShadedLayer ghosts = {};            ///< a shade of 12 % over what they hide
   std::span<float const> lines = {};  ///< coverage per sample of lines behind everything; empty: none
   int fine = 2;                       ///< pixels are the mean of fine x fine samples
-  float radius = 0;                   ///< of a typical ball [samples]: occlusion looks 1.2 and 5 of them far
+  float radius = 0;                   ///< of a typical ball [samples]: occlusion radii are 1.2 and 5 times this
   std::array<double, 2> range{0, 1};  ///< of values: colours in between are taken from a table
   Colour background{255, 255, 255};
   bool transparent = false;                  ///< there is no background: the picture has opacity
@@ -62,7 +62,7 @@ Reflected reflected(std::array<float, 3> const& normal);
 /// How open each pixel of a layer is to light from around, 1 in the open to 0.4 (ambient occlusion in screen space,
 /// Mittring 2007 in idea): over some directions on a golden spiral and two radii, the mean of how steeply the surfaces
 /// that are near stand over the tangent plane; blurred where depths are equal. A plane has 1 whatever its slope.
-/// `around`: the nearest depth at each pixel of all that stands there; sizes in pixels.
+/// `around`: the nearest depth of all layers at each pixel; sizes in pixels.
 struct PixelSurface {
   int width = 0, height = 0;
   std::vector<float> depth;  ///< minus infinity: nothing [pixels]

@@ -24,7 +24,7 @@ bool has_parted(ReferenceMesh const& mesh, Configuration const& now, Index a, In
   return !std::binary_search(now.drawn_out.begin(), now.drawn_out.end(), edge);
 }
 
-/// Whether an edge of a cell is as `f` says, which takes its ends.
+/// Whether f(a, b) holds for an edge (a, b) of a cell.
 template <class F>
 bool any_edge(ReferenceMesh const& mesh, Index cell, F const& f) {
   auto const corner = mesh.cells.of(cell);
@@ -41,7 +41,7 @@ double volume_of(std::array<Place3, 3> const& d, int dimension) {
 }
 
 /// By how much the volume of a cell has grown at the corner where it has grown most. Flat simplices, which packed
-/// bodies have, count as a tenth of a cube: their own volume says nothing.
+/// bodies have, count as a tenth of a cube: their own volume is not informative.
 double growth_of(ReferenceMesh const& mesh, Configuration const& now, Index cell) {
   auto const corner = mesh.cells.of(cell);
   auto const dimension = static_cast<std::size_t>(mesh.dimension);
@@ -217,7 +217,7 @@ void find_area(ReferenceMesh const& mesh, Skin& skin) {
   for (SkinFacet& facet : skin.facets) facet.normal.fill({0, 0, 1});
 }
 
-/// Of each particle, the facets that it is a corner of.
+/// Facets at each particle.
 struct Incidence {
   std::vector<std::size_t> begin;
   std::vector<std::uint32_t> facet;
@@ -232,8 +232,8 @@ struct Incidence {
   }
 };
 
-/// Normals at corners: the sum over the facets around that meet this one at less than the angle of an edge, each with
-/// its area.
+/// Normals at corners: area-weighted sum over the facets at the corner whose angle to this one is below that of a
+/// feature edge.
 void smooth_normals(Skin& skin) {
   constexpr double cosine_of_edge = 0.574;  // 55 degrees
   auto const count = static_cast<Index>(skin.facets.size());

@@ -12,14 +12,14 @@ namespace piola {
 
 /// When a cell of the mesh is torn: an edge is longer than `stretch` times its length in the reference configuration,
 /// and the cell has opened (at a corner, its volume has grown to more than `growth` times what it was), or is sheared
-/// off (an edge is longer than `sheared_off` times). Stretch alone does not tell: a metal that flows is drawn out to
-/// three times its length and keeps its volume within a tenth, while a gap is volume that was not there.
+/// off (an edge is longer than `sheared_off` times). Stretch alone is not sufficient: plastic metal is drawn out to
+/// three times its length with less than a tenth of change in volume, while a gap adds volume.
 struct TearBounds {
   double stretch, growth, sheared_off;
 };
 inline constexpr TearBounds parting{2.5, 2, 8};
-/// What is torn belongs together again where it is below all of these: in between, it stays as it was, so that skins do
-/// not flicker from picture to picture.
+/// A torn cell is whole again below all of these bounds. Between both sets of bounds it keeps its state, so that skins
+/// do not flicker from picture to picture.
 inline constexpr TearBounds joining{2, 1.5, 6};
 
 /// The particles of one body at one moment: positions [m], and which have lost their neighbours for good (not 0;
@@ -27,22 +27,23 @@ inline constexpr TearBounds joining{2, 1.5, 6};
 struct Configuration {
   std::span<Place3 const> x;
   std::span<std::uint8_t const> loose;
-  std::optional<std::span<Index const>> torn = {};  ///< cells that are, rising; nothing: as `parting` says
+  std::optional<std::span<Index const>> torn = {};  ///< torn cells in ascending order; nothing: determined by the
+                                                    ///< bounds `parting`
   /// Edges of cells that are whole although these are longer than parting.stretch, each with its lower end first,
   /// rising.
   std::span<std::array<Index, 2> const> drawn_out = {};
 };
 
-/// The cells that are torn, rising: as `parting` says, one of their particles is loose or not a number, or they were
-/// torn (`before`, rising) and are not below `joining` again.
+/// Torn cells in ascending order: above the bounds `parting`, with a loose or NaN particle, or torn before (`before`,
+/// ascending) and not below `joining`.
 std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& now, std::span<Index const> before);
 
-/// F of a particle: the linear map that fits the places of those around it best (least squares over the edges of the
-/// mesh that are not longer than parting.stretch, or drawn out), with a little of the identity, which decides in
-/// directions that nobody marks. Exact to 1e-3 of F - I for a linear motion.
+/// F of a particle: the linear map that best fits the positions of its mesh neighbours (least squares over edges that
+/// are not longer than parting.stretch, or drawn out). A small weight of the identity determines directions without
+/// neighbours. Exact to 1e-3 of F - I for a linear motion.
 Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle);
 
-/// What the balls of pictures and pages are stretched by, at the least and at most.
+/// Bounds of the principal stretches of balls in pictures and pages.
 inline constexpr double least_ball_stretch = 1.0 / 3, most_ball_stretch = 4;
 
 /// F with its principal stretches brought between these bounds.
@@ -54,7 +55,7 @@ struct SkinFacet {
   std::array<Place3, 3> normal{};  ///< at the corners; smooth but for edges of more than 55 degrees
 };
 
-/// What a body looks like at one moment.
+/// Surface of a body at one time.
 struct Skin {
   std::vector<Place3> place;         ///< of each particle's corner, at the surface for outer particles: x + F S [m]
   std::vector<Place3> reference;     ///< the same in the reference configuration: X + S
@@ -63,9 +64,9 @@ struct Skin {
   std::vector<SkinFacet> facets;
 };
 
-/// The surface of what hangs together: outer facets of the cells that are not torn; in 2D all of these cells. At a tear
-/// the skin ends half a cell beyond its last particles, carried by F, as material does: a gap is as wide as it has
-/// opened, and cells that count as torn but have not opened (damage, conversion) leave no gap.
+/// Computes the skin: outer facets of the cells that are not torn; in 2D all of these cells. At a tear the skin extends
+/// half a cell beyond its last particles, mapped by F. So a gap has its true width, and cells that count as torn but
+/// have not opened (damage, conversion) leave no gap.
 Skin make_skin(ReferenceMesh const& mesh, Configuration const& now);
 
 /// The section of a body of three dimensions with the surface on which `beyond`, one value per particle, is zero:

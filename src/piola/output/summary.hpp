@@ -20,26 +20,26 @@ struct MeasuredQuantity {
 /// How a dynamic relaxation ended.
 struct RelaxationReport {
   bool at_rest = false;
-  double residual = 0;  ///< forces out of balance beside the largest of the run
+  double residual = 0;  ///< unbalanced force / its maximum in the run
   long stops = 0;       ///< how often the bodies were brought to rest
 };
 
-/// What a guard of a run has seen.
+/// Values recorded by a guard.
 struct GuardNumbers {
   std::string name;
   std::vector<std::pair<std::string, double>> values;
-  std::string words;  ///< what the user should know; empty: all is well
+  std::string words;  ///< message to the user; empty: none
 };
 
-/// What a rank said to others in a step, on average: messages to neighbours, and what all ranks did together; and the
-/// wall time in these, with waiting for others, and for what rank 0 does alone [s].
+/// Communication of a rank, mean per step: messages to neighbouring ranks and collectives; and the wall time in both,
+/// with waiting, and in waiting for serial work of rank 0 [s].
 struct RankTraffic {
   double messages = 0, bytes = 0, collectives = 0;
   double message_seconds = 0, collective_seconds = 0, idle_seconds = 0;
   double bytes_to_all = 0;
 };
 
-/// What summary.json says about a run.
+/// Content of summary.json.
 struct Summary {
   std::string status;  ///< "completed", "failed" or "stopped"
   std::string title, version, formulation;
@@ -50,17 +50,18 @@ struct Summary {
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone
   int threads = 1;
   std::vector<RankTraffic> ranks;               ///< empty on one rank
-  std::optional<Recuts> recuts;                 ///< on several ranks, if the formulation can be cut anew
+  std::optional<Recuts> recuts;                 ///< on several ranks, if the formulation supports repartitioning
   double energy_initial = 0, energy_final = 0;  ///< J
   /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
   double energy_max_increase = 0;
-  /// Largest fall of it below any earlier value, likewise.
+  /// Largest fall of (total energy - external work) below any earlier value, by the largest total energy.
   double energy_max_decrease = 0;
   /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
   std::optional<double> linear_drift, angular_drift;
-  /// What values of a unit are large or small beside: "kg m/s", "kg m^2/s", "Pa".
+  /// Reference magnitude per unit, to judge values: "kg m/s", "kg m^2/s", "Pa".
   std::vector<std::pair<std::string, double>> scales;
-  std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation tells
+  std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation
+                                                        ///< measures it
   /// How good the set-up is, if the formulation measures it: residuals and errors of areas, 0 at best.
   std::vector<std::pair<std::string, double>> set_up;
   std::optional<RelaxationReport> relaxation;

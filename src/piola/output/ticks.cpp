@@ -13,7 +13,7 @@ std::string with_true_minus(std::string text) {
   return text;
 }
 
-/// A number with so many decimals; in powers of ten if it is far from 1.
+/// A number with `decimals` decimals; in powers of ten if it is far from 1.
 std::string tick_text(double value, int decimals, double largest) {
   if (largest >= 1e6 || largest < 1e-4) return with_true_minus(fmt::format("{:.3g}", value));
   std::string const text = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
@@ -59,7 +59,7 @@ Prefix prefix_for(double largest, std::string_view unit) {
   if (!takes_prefix(unit) || !(largest > 0)) return {"", 1};
   constexpr std::array prefixes{Prefix{"G", 1e9},  Prefix{"M", 1e6},       Prefix{"k", 1e3}, Prefix{"", 1},
                                 Prefix{"m", 1e-3}, Prefix{"\u00b5", 1e-6}, Prefix{"n", 1e-9}};
-  // Seconds and metres above a thousand stay as they are; nobody says ks or Mm.
+  // Seconds and metres above a thousand get no prefix: ks and Mm are not in use.
   bool const small_only = unit == "s" || unit == "m" || unit == "m/s";
   for (Prefix const& prefix : prefixes)
     if (largest >= prefix.factor && !(small_only && prefix.factor > (unit == "s" ? 1 : 1e3))) return prefix;

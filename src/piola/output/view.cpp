@@ -50,7 +50,7 @@ struct Extent {
   }
 };
 
-/// Where all but a little of the volume lies along a direction; of very many particles a sample tells.
+/// Interval along a direction that contains almost all of the volume; estimated from a sample for very many particles.
 Extent most_of(Subject const& subject, Point const& direction) {
   constexpr double left_out = 0.002;
   constexpr std::size_t sample = 100000;

@@ -12,7 +12,7 @@ namespace piola {
 enum class Up { y, z, x, minus_y, minus_z, minus_x };
 inline constexpr std::array<std::string_view, 6> up_words{"y", "z", "x", "-y", "-z", "-x"};
 
-/// Where one looks from: azimuth about the axis that points up and elevation above the plane across it [deg]. At (0, 0)
+/// Direction of view: azimuth about the axis that points up and elevation above the plane across it [deg]. At (0, 0)
 /// with y upwards x points to the right, with z upwards x to the right and y away from the viewer, with x upwards -y to
 /// the right. Parallel projection. In two dimensions z cannot point upwards and counts as y.
 struct View {
@@ -42,7 +42,7 @@ struct Eye {
   bool near() const { return distance > 0; }
   /// How much nearer than the axis a point is [m].
   double height(std::array<double, 3> const& p) const;
-  /// How much larger something at this point looks; not a number near the eye and behind it.
+  /// Magnification at a point; NaN near the eye and behind it.
   double magnification(std::array<double, 3> const& p) const;
   std::array<double, 3> seen(std::array<double, 3> const& p) const;
   /// How far a point at `p` would move in the picture [m] if it were magnified by another factor.
@@ -75,13 +75,13 @@ struct Window {
 struct Camera {
   View view;
   double zoom = 1;
-  std::optional<std::array<double, 3>> look_at = {};  ///< what stands in the middle [m]
+  std::optional<std::array<double, 3>> look_at = {};  ///< point in the centre of the picture [m]
   Eye eye = {};
   int follow = -1;  ///< number of the body that stays in the middle and fills the window; -1: none
 };
 
-/// The eye that sees a box, that of the bodies at the start, under an angle [deg] over its diagonal; 0: endless. Its
-/// axis is what the camera looks at, else the middle of the box.
+/// The eye from which the box of the bodies at the start has an angle [deg] over its diagonal; 0: parallel projection.
+/// The axis passes through the point that the camera is aimed at, else through the centre of the box.
 Eye eye_before(Camera const& camera, double angle, std::array<double, 3> const& low, std::array<double, 3> const& high);
 /// The eye at one moment: with a body to follow its axis is the body's centre.
 Eye eye_at(Camera const& camera, Subject const& now);
