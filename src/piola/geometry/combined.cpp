@@ -86,7 +86,8 @@ class Combined final : public Solid {
     return foot;
   }
 
-  /// What of a piece of part k the others leave: each cuts it along a straight line, by its distance at the middle.
+  /// Fraction of a surface piece of part k that the other parts leave. Each part cuts it along a straight line, by its
+  /// distance at the centre.
   double share_of(std::size_t k, SurfacePiece const& piece) const {
     double const area = std::sqrt(dot(piece.area, piece.area));
     double const size = dimension() == 3 ? std::sqrt(area) : area;
@@ -98,7 +99,7 @@ class Combined final : public Solid {
       Foot foot = seen(other, piece.X);
       double const along = dot(foot.normal, n);
       if (std::abs(foot.distance) < 1e-9 * size && std::abs(along) > 1 - 1e-9) {
-        // A common face: the first part's if both look the same way; inside a union if they look at each other.
+        // Common face: belongs to the first part if both normals agree; interior to a union if they are opposite.
         share = along > 0 && k < other ? share : 0;
         continue;
       }

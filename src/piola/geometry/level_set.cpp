@@ -9,7 +9,7 @@
 namespace piola::geometry {
 namespace {
 
-/// Formulas are not for two threads at once: each call takes a copy that nobody else has.
+/// Formulas are not thread-safe: each call uses a copy of its own.
 class FormulaPool {
  public:
   explicit FormulaPool(Expression const& f) : first_(f) {}

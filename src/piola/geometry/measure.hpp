@@ -4,8 +4,8 @@
 
 namespace piola::geometry {
 
-/// The volume [m3; 2D m2]: exact where the solid knows it, else by blocks of an eighth of `spacing` [m], each counted
-/// with its share by the distance and direction at its middle (errors of 1e-4 and less).
+/// The volume [m3; 2D m2]: exact_volume() of the solid if it has one. Otherwise the sum over blocks of an eighth of
+/// `spacing` [m], each weighted by its inner fraction from distance and normal at its centre (errors of 1e-4 and less).
 double volume_of(Solid const& solid, double spacing);
 
 /// A patch of the surface, added up.

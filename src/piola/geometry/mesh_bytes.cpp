@@ -49,7 +49,7 @@ void check_stl(std::string_view bytes, std::string const& name, std::vector<std:
     check_binary_stl(bytes, name, problems);
 }
 
-/// Where the line "end_header" of a PLY file begins. Without such a line, assimp looks for it for ever.
+/// Where the line "end_header" of a PLY file begins. Without such a line, assimp searches endlessly.
 std::size_t end_of_header(std::string_view bytes) {
   constexpr std::string_view word = "end_header", line_ends = "\r\n";
   for (auto at = bytes.find(word); at != std::string_view::npos; at = bytes.find(word, at + 1)) {

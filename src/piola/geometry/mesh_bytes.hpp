@@ -9,7 +9,7 @@ namespace piola::geometry {
 /// The last part of a path, for messages.
 std::string mesh_name(std::string const& path);
 
-/// "stl", "obj", "ply", or what else stands behind the last dot, in small letters.
+/// File extension in lower case: "stl", "obj", "ply" or another one.
 std::string mesh_format(std::string const& name);
 
 /// The whole file; without problems it is not empty.

@@ -151,7 +151,7 @@ std::vector<Vec<3>> places_to_ask(Surface const& surface) {
   return places;
 }
 
-/// The thinnest wall: from the middle of a face straight inside to a face that looks about the other way.
+/// The thinnest wall: from the centre of a face along its inward normal to a face of about opposite normal.
 struct ThinWall {
   double thickness = std::numeric_limits<double>::infinity();
   Vec<3> X{};

@@ -5,12 +5,12 @@
 
 namespace piola::geometry {
 
-/// What is wrong with a welded surface by its faces and edges alone: all of it goes to report.problems.
+/// Checks faces and edges of a welded surface. Adds all errors to report.problems.
 void check_links(Surface const& surface, Links const& links, std::string const& name, MeshOptions const& options,
                  MeshReport& report);
 
-/// Whether the surface passes through itself: at random places and beside faces, crossings of rays and normals must
-/// agree on what is inside. Finds what is larger than about a face.
+/// Whether the surface passes through itself: at random places and next to faces, ray crossings and normals must agree
+/// on inside and outside. Finds intersections larger than about a face.
 void check_crossing(Surface const& surface, MeshDistance const& distance, std::string const& name, MeshReport& report);
 
 /// Notes about the size of the mesh and its thinnest wall against the spacing.

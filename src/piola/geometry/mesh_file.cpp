@@ -61,7 +61,7 @@ class OneFile : public Assimp::IOSystem {
   std::string name_;
 };
 
-/// What went wrong or was left out while the meshes of a file were put together.
+/// Defects and omissions found while the meshes of a file are combined.
 struct MeshDefects {
   std::int64_t not_finite = 0, odd_index = 0, no_area = 0, too_many = 0;
   std::int64_t first_not_finite = 0;
@@ -76,7 +76,7 @@ void append_corners(aiMesh const& mesh, double scale, Surface& surface, MeshDefe
   }
 }
 
-/// Beyond this, cutting a polygon takes longer than anybody waits.
+/// Triangulating a polygon with more corners takes too long.
 constexpr unsigned most_corners = 5000;
 
 void append_faces(aiMesh const& mesh, int first, Surface& surface, MeshDefects& defects) {
@@ -143,7 +143,7 @@ void report_defects(MeshDefects const& defects, Surface const& surface, std::str
     problems.push_back(fmt::format("{}: there are no faces in it - export the surface, not lines or points", name));
 }
 
-/// What the child finds out.
+/// Result of the child process.
 struct ReadSurface {
   Surface surface;
   std::vector<std::string> problems, notes;

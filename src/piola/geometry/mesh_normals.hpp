@@ -11,9 +11,9 @@ struct TriangleFoot {
 };
 TriangleFoot foot_on_triangle(Vec<3> const& X, Vec<3> const& a, Vec<3> const& b, Vec<3> const& c);
 
-/// Normals that tell the sides of a closed surface wherever the nearest place lies: of faces, of edges (sum of the two
-/// faces) and of corners (faces weighted by their angles). A flat face, which has no normal, takes the neighbour's over
-/// its longest side, and hands on what lies behind its short sides.
+/// Normals that determine the side of a closed surface for any nearest place: of faces, of edges (sum of the two faces)
+/// and of corners (faces weighted by their angles). A degenerate face, which has no normal, takes that of the neighbour
+/// across its longest side, and passes it on across its short sides.
 class SurfaceNormals {
  public:
   SurfaceNormals(Surface const& surface, Links const& links);

@@ -72,7 +72,7 @@ bool box_contains(Bounds const& box, Vec<3> const& X) {
   return true;
 }
 
-/// Per shell, whether it lies inside an odd number of others. All shells are outward.
+/// Per shell, whether it lies inside an odd number of other shells. All shells are outward.
 std::vector<char> cavities(Surface const& surface, Shells const& shells) {
   std::vector<Bounds> boxes(shells.size());
   for (std::size_t s = 0; s < shells.size(); ++s) boxes[s] = bounds_of_shell(surface, shells[s]);

@@ -19,9 +19,9 @@ struct RemovedFaces {
   int without_area = 0;  ///< with corners on a line, at edges that have not two faces
 };
 
-/// Keeps one of the faces with the same three corners: of those that are turned alike, one; of as many turned either
-/// way none, because nothing lies between them, unless the whole surface is given twice, from either side. Then removes
-/// faces without area that stand at open or crowded edges. The surface must be welded.
+/// Removes duplicate faces, i.e. faces with the same three corners. Keeps one of those with equal orientation. Keeps
+/// none of equally many of either orientation, which enclose nothing, unless the whole surface is given twice, once
+/// from each side. Then removes faces without area at open or crowded edges. The surface must be welded.
 RemovedFaces remove_needless_faces(Surface& surface);
 
 }  // namespace piola::geometry

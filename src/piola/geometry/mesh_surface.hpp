@@ -22,7 +22,7 @@ struct Surface {
   int longest_side(int face) const;
 };
 
-/// Which faces meet at which edge. A half-edge is 3 * face + side; side k goes from corner k to the next.
+/// Adjacency of faces at edges. A half-edge is 3 * face + side; side k goes from corner k to the next.
 struct Links {
   std::vector<int> across;   ///< per half-edge, the one of the neighbour; -1 where there is not exactly one
   std::vector<int> open;     ///< half-edges of edges used once
@@ -39,10 +39,10 @@ int weld(Surface& surface);
 Links link_faces(Surface const& surface);
 
 /// Turns faces so that neighbours agree, each shell encloses a positive volume, and shells inside an odd number of
-/// others a negative one (cavities). Surfaces without two sides stay as they are in part. Returns the turned faces.
+/// other shells a negative one (cavities). Non-orientable surfaces stay unchanged in part. Returns the turned faces.
 int orient(Surface& surface, Links const& links);
 
-/// What the surface encloses [m3], by the divergence theorem.
+/// Enclosed volume [m3], by the divergence theorem.
 double enclosed_volume(Surface const& surface);
 double area_of(Surface const& surface);
 Bounds bounds_of(Surface const& surface);

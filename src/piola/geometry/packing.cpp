@@ -89,9 +89,9 @@ class Start {
   }
 
  private:
-  /// Places that are as deep but for a hundredth of a spacing are ties: in a bar those of a whole row. Any share of
-  /// them is spread evenly over the body by the fractional parts of i times the golden section; one end would else be
-  /// denser, and the sweeps move nothing that far.
+  /// Places whose depths differ by less than a hundredth of a spacing are ties, e.g. a whole row in a bar. Any subset
+  /// of them is spread evenly over the body by the fractional parts of i times the golden section. Otherwise one end
+  /// would be denser, and the sweeps do not move particles that far.
   std::pair<double, double> rank_of(double phi, std::size_t i) const {
     constexpr double golden = 0.6180339887498949, steps = 100, aside = 0.37;
     double whole = 0;

@@ -29,9 +29,10 @@ struct Packing {
 
 struct PackingOptions {
   int sweeps = 100;  ///< at most
-  /// Told after each sweep how many are done; false ends the packing early.
+  /// Called after each sweep with the number of sweeps done; false ends the packing early.
   std::function<bool(int)> progress = {};
-  /// Of the same solid, volume and spacing, with as many values everywhere as particles; else from the start.
+  /// State to continue from, of the same solid, volume and spacing; ignored unless all its arrays have one value per
+  /// particle.
   std::optional<UnfinishedPacking> from = {};
 };
 
@@ -47,7 +48,7 @@ Packing pack(Solid const& solid, double volume, double spacing, PackingOptions c
 /// How good a packing is.
 struct PackingQuality {
   double nearest_least = 0, nearest_mean = 0;  ///< distance to the nearest particle, in spacings
-  double in_place = 0;  ///< share of the outer layer (depth below 0.9 spacings) at half a spacing, to 0.02
+  double in_place = 0;  ///< fraction of the outer layer (depth below 0.9 spacings) at half a spacing, to 0.02
   double gap = 0;       ///< largest distance of the surface from a particle, in spacings
 };
 PackingQuality quality_of(Solid const& solid, Packing const& packing);

@@ -19,7 +19,7 @@ Mat<3> rotation_from_z(Vec<3> const& axis);
 /// A solid in another place. Half-spaces stay half-spaces.
 SolidPtr placed(SolidPtr solid, Placing const& placing);
 
-/// A half-space knows its surface only where others bound it.
+/// A half-space has a finite surface only where other solids bound it.
 class HalfSpace final : public Solid {
  public:
   HalfSpace(Vec<3> const& point, Vec<3> const& normal, int dimension)

@@ -44,7 +44,7 @@ SolidPtr ball(Vec<3> const& centre, double radius, double inner_radius, int dime
     if (hollow) loops.push_back({arc({}, inner_radius, 0, -2 * pi, 1)});
     return moved(std::make_shared<Flat>(Profile(loops, names)), centre);
   }
-  // The ends of arcs stand exactly on the axis.
+  // Sets the ends of arcs exactly on the axis.
   auto const pole = [](ProfileEdge edge) {
     edge.from[0] = edge.to[0] = 0;
     return edge;

@@ -18,7 +18,7 @@ struct ProfileEdge {
   double sweep = 0;   ///< arc: angle from there to `to`, negative if clockwise [rad]
 
   double length() const;
-  /// The place at a share of its length, 0 to 1, and the unit normal there, away from the region.
+  /// Point at a fraction of the length, 0 to 1, and the unit normal there, away from the region.
   std::pair<Vec<2>, Vec<2>> point(double share) const;
 };
 
@@ -37,14 +37,14 @@ class Profile {
   /// The edges of each loop follow one another; outer loops run anticlockwise, holes clockwise. `names` are those of
   /// the patches.
   Profile(std::vector<std::vector<ProfileEdge>> const& loops, std::vector<std::string> names);
-  /// The same, as half of a body of revolution about the second axis: edges on that axis are no surface.
+  /// Half profile of a body of revolution about the second axis. Edges on that axis are no surface.
   static Profile half(std::vector<ProfileEdge> const& loop, std::vector<std::string> names);
 
   ProfileFoot at(Vec<2> const& x) const;
   std::pair<Vec<2>, Vec<2>> bounds() const;
   double area() const;
   std::vector<std::string> const& names() const { return names_; }
-  /// Those that are surface.
+  /// Edges that are surface, i.e. not on the axis of revolution.
   std::vector<ProfileEdge> const& edges() const { return edges_; }
   /// 2 pi times its static moment about the second axis: the volume of the body of revolution [m3].
   double revolved_volume() const;

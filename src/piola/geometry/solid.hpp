@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-/// What shapes are, whatever they are made of: a place is so far inside or outside, and the surface consists of
-/// patches. Particles, supports, loads and contact all ask this one face.
+/// Common interface of shapes: signed distance of a place, and a surface that consists of patches. Used by particles,
+/// supports, loads and contact.
 namespace piola::geometry {
 
-/// What a solid tells of a place.
+/// Signed distance and normal of a solid at a place.
 struct Foot {
   double distance = 0;  ///< to the surface, negative inside [m]
   Vec<3> normal{};      ///< unit vector straight away from the solid, also inside it
@@ -33,7 +33,7 @@ struct Patch {
   std::string name;  ///< "+x", "side", "3", "bore"
 };
 
-/// A region with a surface, in its reference place. Solids never change: threads share them.
+/// A region with a surface, in the reference configuration. Immutable, hence thread-safe.
 class Solid {
  public:
   Solid() = default;
@@ -41,17 +41,18 @@ class Solid {
   Solid& operator=(Solid const&) = delete;
   virtual ~Solid() = default;
 
-  virtual int dimension() const { return 3; }  ///< 2: everything is the same for all z, and surfaces are curves
+  virtual int dimension() const { return 3; }  ///< 2: independent of z, and surfaces are curves
 
-  /// The signed distance of a place to the surface and the direction straight away from the solid there. Exact close to
-  /// the surface but for seams of combined solids; never larger than the true distance in size. On the axis of a
-  /// cylinder, say, any of the directions to the nearest places of the surface.
+  /// Signed distance of X to the surface and unit normal away from the solid. Exact close to the surface except at
+  /// seams of combined solids; |distance| is never above the true one if distance_is_bound(). Where several places are
+  /// nearest, as on the axis of a cylinder, the normal belongs to any of them.
   virtual Foot at(Vec<3> const& X) const = 0;
 
-  /// Whether the distance is never larger in size than the true one, so that a far place tells of all around it.
+  /// Whether |distance| is never above the true one, so that the ball of this radius about X does not cross the
+  /// surface.
   virtual bool distance_is_bound() const { return true; }
 
-  /// A box around the solid, tight where that is cheap; infinite for half-spaces.
+  /// Bounding box, tight where that is cheap; infinite for half-spaces.
   virtual Bounds bounds() const = 0;
 
   /// The volume [m3; 2D m2] where a formula or a sum over the surface gives it: to round-off but for level sets.

@@ -86,7 +86,7 @@ void Extruded::cut_surface(double edge, std::vector<SurfacePiece>& pieces) const
   cut_ends(edge, pieces);
 }
 
-// Squares of a grid; one that the outline cuts counts with its share, and all are scaled to the exact area.
+// Squares of a grid. A square that the outline cuts counts with its inner fraction; all are scaled to the exact area.
 void Extruded::cut_ends(double edge, std::vector<SurfacePiece>& pieces) const {
   auto const [min, max] = profile_.bounds();
   int const nx = parts_over(max[0] - min[0], edge), ny = parts_over(max[1] - min[1], edge);
@@ -146,7 +146,7 @@ void Revolved::cut_surface(double edge, std::vector<SurfacePiece>& pieces) const
       int const around = std::max(8, parts_over(2 * std::numbers::pi * std::max(a[0], b[0]), edge));
       double const step = 2 * std::numbers::pi / around;
       for (int k = 0; k < around; ++k) {
-        // Bands are staggered, so that pieces do not stand in line.
+        // Bands are staggered, so that pieces are not aligned.
         double const angle = (k + 0.5 * (i % 2)) * step, c = std::cos(angle), s = std::sin(angle);
         pieces.push_back(
             {{{r * c, r * s, middle[1]}}, {{step * radial * c, step * radial * s, step * axial}}, e.patch});

@@ -55,7 +55,7 @@ void thin_out(std::vector<SurfacePiece>& pieces, double side) {
 }  // namespace
 
 std::optional<Thinnest> thinnest(Solid const& solid, double edge) {
-  constexpr std::size_t together = 4096;  // all of them know what those before found
+  constexpr std::size_t together = 4096;  // pieces per batch; a batch uses the result of earlier batches as its bound
   constexpr double shortest = 1e-3;       // of a piece
   std::vector<SurfacePiece> pieces;
   solid.cut_surface(edge, pieces);

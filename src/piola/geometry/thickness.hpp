@@ -11,9 +11,9 @@ struct Thinnest {
   Vec<3> X{};            ///< the middle between the two faces [m]
 };
 
-/// From each piece of the surface, `edge` [m] wide, straight inwards to the face that looks the other way (within 37
-/// degrees); nothing where no two faces do. Tips of cones, and edges sharper than that, are as thin as the piece
-/// nearest to them tells. The same for any number of threads.
+/// Measures from each piece of the surface, `edge` [m] wide, along the inward normal to a face of opposite normal
+/// (within 37 degrees). Returns the thinnest place; nothing if no two faces are opposite. Tips of cones, and edges
+/// sharper than that, are measured at the piece nearest to them. The result does not depend on the number of threads.
 std::optional<Thinnest> thinnest(Solid const& solid, double edge);
 
 }  // namespace piola::geometry

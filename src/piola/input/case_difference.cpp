@@ -17,7 +17,7 @@ constexpr char const* nothing = "nothing";
 constexpr std::array<std::string_view, 8> changeable{"run.end",         "run.threads", "run.machine", "run.min_step",
                                                      "run.repartition", "run.guards",  "output",      "quantity"};
 
-/// Names of the tables of a list; numbers if they have none, or share one.
+/// Names of the tables of a list; numbers if names are missing or not unique.
 std::vector<std::string> steps_of(Node const& list) {
   std::vector<std::string> names, numbers;
   for (Node const& item : list.items) {

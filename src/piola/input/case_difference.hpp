@@ -12,8 +12,8 @@ struct CaseDifference {
   std::string before, after;  ///< TOML; "nothing" where the key is not given
 };
 
-/// What differs between two cases, in the order of the second; comments and layout do not count. Throws InputError if
-/// one of them is not TOML.
+/// Returns the differences between two cases, in the order of the second. Comments and layout are ignored. Throws
+/// InputError if one of them is not TOML.
 std::vector<CaseDifference> case_differences(std::string_view before, std::string_view after);
 
 /// Whether a run may be resumed with another value there: where it ends, when it breaks off, what it writes, how it

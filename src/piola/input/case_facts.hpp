@@ -10,7 +10,7 @@
 
 namespace piola {
 
-/// What a body of a case comes to, in SI units.
+/// Derived facts of a body of a case, in SI units.
 struct BodyFacts {
   std::string name;
   std::int64_t particles = 0;
@@ -36,14 +36,14 @@ double smallest_spacing(BodyFacts const& body, int dimension);
 /// may be smaller.
 double step_estimate(CaseSpec const& spec, std::vector<BodyFacts> const& facts, double default_cfl = 0.3);
 
-/// Notes numbers that are allowed but look like a slip (units, a missing zero, a body too thin), one sentence each with
-/// its place in the file: the rules of plausible.hpp. `step` is the expected time step [s].
+/// Reports allowed but implausible numbers (units, a missing zero, a body too thin) by the rules of plausible.hpp, one
+/// sentence each with its place in the file. `step` is the expected time step [s].
 void find_slips(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts, double step,
                 Problems& slips);
 /// Whether an expression is a formula that may be evaluated at any time; a function of a program that uses the library
 /// is not, because its author counts the calls. Told by its text, in which functions are described in words.
 bool is_formula(Expression const& expression);
-/// The part of find_slips that looks at loads and driven supports and shapes.
+/// The part of find_slips() for loads, driven supports and driven shapes.
 void find_slips_of_loads(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts,
                          Problems& slips);
 

@@ -33,7 +33,7 @@ CaseFile case_file(Section const& section, std::string const& given);
 /// Hash of what is in a file, 16 hexadecimal digits (math/digest.hpp). Throws FileError if it cannot be read.
 std::string content_hash(std::filesystem::path const& path);
 
-/// The same; empty if it is no ordinary file or cannot be read.
+/// Digest of the content of a file; empty if it is no ordinary file or cannot be read.
 std::string digest_of_file(std::filesystem::path const& path);
 
 /// All files that a case reads, each once, in the order of the case.

@@ -38,12 +38,12 @@ std::span<SectionInfo const> case_sections();
 std::vector<KeyInfo> keys_of(std::string_view section);
 KeyInfo const& key_info(std::string_view section, std::string_view key);
 
-/// What may be written for a key, e.g. 'a number in s or a text such as "2 s"'.
+/// Describes the allowed form of a value, e.g. 'a number in s or a text such as "2 s"'.
 std::string value_text(KeyInfo const& info);
 
-/// What a value must satisfy, e.g. "above 0", "between -1 and 0.5, ends excluded"; empty if everything is allowed.
+/// Describes an interval, e.g. "above 0", "between -1 and 0.5, ends excluded"; empty if everything is allowed.
 std::string interval_text(Interval const& allowed);
-/// What a user must write for a condition to hold: eos = "polynomial"; empty if it always holds.
+/// Setting that makes a condition hold: eos = "polynomial"; empty if it always holds.
 std::string condition_text(Condition const& condition);
 
 }  // namespace piola

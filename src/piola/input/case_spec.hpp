@@ -15,8 +15,8 @@
 
 namespace piola {
 
-/// Where the keys that a section gives stand in the case file, or which setting gives them, for messages that are found
-/// out later. "" is the section itself. A key that is left out has no entry: see place_of() and is_given().
+/// Place in the case file, or setting, of each key that a section gives, for messages of later checks. "" is the
+/// section itself. A missing key has no entry: see place_of() and is_given().
 using Places = std::map<std::string, Place, std::less<>>;
 
 /// [run]
@@ -28,7 +28,7 @@ struct RunSpec {
   int threads = 0;               ///< 0: all cores
   double damping = 0;            ///< rate at which velocities decay [1/s]
   bool relax = false;            ///< dynamic relaxation: ends at rest
-  double rest = 1e-3;            ///< relax: the residual force at rest, beside the largest of the run
+  double rest = 1e-3;            ///< relax: residual force at rest / its maximum in the run
   std::string machine = "auto";  ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;       ///< on ranks
   GuardLimits guards;
@@ -160,13 +160,13 @@ struct ProbeSpec {
   /// point: the nearest particle is used; stress_intensity: that is the crack tip; fragment, rim, hole: a point of the
   /// axis [m]
   std::array<double, 3> at{};
-  std::optional<Expression> where;           ///< where it has a meaning: particles that count (default all)
-  int axis = 1;                              ///< twist, extent, fragment, rim, hole: 0 x, 1 y, 2 z
-  std::string field;                         ///< error: name of a field, e.g. "FirstPiolaStress"
-  std::vector<Expression> reference;         ///< error: one formula in X, Y, Z, t per component of the field [SI]
-  std::vector<std::string> quantities;       ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
-                                             ///< error: "relative_error"; stress_intensity: "stress_intensity";
-                                             ///< the others: see own_quantities
+  std::optional<Expression> where;      ///< where it has a meaning: particles that count (default all)
+  int axis = 1;                         ///< twist, extent, fragment, rim, hole: 0 x, 1 y, 2 z
+  std::string field;                    ///< error: name of a field, e.g. "FirstPiolaStress"
+  std::vector<Expression> reference;    ///< error: one formula in X, Y, Z, t per component of the field [SI]
+  std::vector<std::string> quantities;  ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
+                                        ///< error: "relative_error"; stress_intensity: "stress_intensity"; other kinds:
+                                        ///< see own_quantities
   std::array<double, 3> direction{1, 0, 0};  ///< stress_intensity: ahead of the tip, unit vector
   double from = 0, to = 0;                   ///< stress_intensity: distances from the tip [m]
   double link = 1.5;                         ///< fragment, rim, hole: linked if closer than this many spacings
@@ -230,7 +230,7 @@ struct AppearanceSpec {
   std::optional<Cut> cut = {};
 };
 
-/// What a picture, or a panel of one, shows and how.
+/// Content and style of a picture or of a panel of one.
 struct PictureSpec {
   std::string field = "Pressure";
   std::string component = {};                       ///< of that field, e.g. "x"; empty: see picture_values
@@ -249,7 +249,7 @@ struct PictureSpec {
   bool labels = true;
   AppearanceSpec appearance = {};
   std::string quality = "normal";  ///< normal, high
-  double warp = 1;                 ///< displacements are drawn so many times as large
+  double warp = 1;                 ///< magnification of displacements
   bool ground = false;             ///< a plane below the bodies, with their shadow
   bool supports = false;           ///< what supports hold is hatched
   std::string caption = {};        ///< of a panel
@@ -258,7 +258,7 @@ struct PictureSpec {
 /// [output.pictures]
 struct PicturesSpec : PictureSpec {
   double every = 0;                      ///< s
-  std::vector<PictureSpec> panels = {};  ///< beside each other in one picture; none: the picture is one
+  std::vector<PictureSpec> panels = {};  ///< panels of one picture; none: a single view
   int columns = 0;                       ///< of panels; 0: as many as fit
   std::vector<double> times = {};        ///< of the moments that one more picture shows [s]
 };

@@ -150,7 +150,7 @@ Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& pa
   return hold;
 }
 
-/// Whether condition and velocity are sound, so that the support can be compared with others.
+/// Whether condition and velocity are valid, so that the support can be compared with other supports.
 bool check_support(SupportSpec const& support, ParticleSet const& particles, Body const& body, Problems& problems) {
   if (support.where &&
       !check_where(*support.where, "support.where", place_of(support.places, "where"), particles, body, problems))

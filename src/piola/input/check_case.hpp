@@ -6,19 +6,18 @@
 
 namespace piola {
 
-/// The particles that a case describes, body after body, with its cracks. Throws InputError where no crack can be.
+/// Generates the particles of a case, body after body, with its cracks. Throws InputError if a crack is impossible.
 ParticleSet make_particles(CaseSpec const& spec);
-/// The same; cracks that cannot be are problems, and are left out.
+/// As above; impossible cracks are added to `problems` and skipped.
 ParticleSet make_particles(CaseSpec const& spec, Problems& problems);
 
-/// What can be found out only with the particles: bodies without any, regions of supports, loads and probes that select
-/// none, points of probes outside their body, formulas whose value is not a finite number at a particle, initial
-/// deformation gradients that turn a particle inside out, supports and mirrors that contradict each other, rigid
-/// shapes that hold particles. Also cracks, mirrors, rings, rigid shapes and contact that the formulation does not
-/// know.
+/// Checks that require the particles: bodies without particles, regions of supports, loads and probes that select none,
+/// points of probes outside their body, formulas whose value is not a finite number at a particle, initial deformation
+/// gradients that turn a particle inside out, supports and mirrors that contradict each other, rigid shapes that hold
+/// particles. Also cracks, mirrors, rings, rigid shapes and contact that the formulation does not support.
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
-/// What the ties of a case find at the start, in their order; nothing if one of them cannot be.
+/// Pairs found by each tie of a case at the start, in the order of the ties; empty if a tie is impossible.
 std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSet const& particles);
 
 /// Ids of a body's particles that a condition selects; all of them without a condition.
@@ -28,22 +27,22 @@ std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body co
 std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body const& body,
                                               SupportSpec const& support);
 
-/// Of a support on a patch: with their parts of it.
+/// Particles along the patch that a support holds, with their parts of its area.
 std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const& body, SupportSpec const& support);
-/// Whether a support holds a patch itself, where its formulation can, and not the particles along it.
+/// Whether a support holds a patch itself, if its formulation supports that, instead of the particles along it.
 bool holds_surface(CaseSpec const& spec, SupportSpec const& support);
 
-/// The particle of a body whose reference position is nearest to a place [m]; of several, the first. The body has one
-/// or more.
+/// The particle of a body whose reference position is nearest to a place [m]; of several, the first. Precondition: the
+/// body has particles.
 std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, std::array<double, 3> const& at);
 
-/// Ids of the particles that a probe of kind stress_intensity looks at: straight ahead of the particle nearest to `at`,
-/// off that line by at most 1e-3 of the distance, at distances in [from, to] with a slack of 1e-6 of them.
+/// Ids of the particles that a probe of kind stress_intensity evaluates: straight ahead of the particle nearest to
+/// `at`, off that line by at most 1e-3 of the distance, at distances in [from, to] with a slack of 1e-6 of them.
 std::vector<std::int64_t> particles_ahead(ParticleSet const& particles, Body const& body, ProbeSpec const& probe);
 
 /// Ids of the particles that a load acts on; of a traction or a pressure, only those of its face.
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load);
-/// Of a traction or a pressure: with their parts of the face.
+/// Particles that a traction or a pressure acts on, with their parts of the area of the face.
 std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& body, LoadSpec const& load);
 
 }  // namespace piola

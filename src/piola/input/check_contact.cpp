@@ -10,21 +10,21 @@ namespace {
 constexpr std::string_view who_has_one =
     " (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without skew mirrors)";
 
-/// Of a case in which no body can be pushed: by its formulation, or as it is there.
+/// Error text if no body has a contact surface, because of its formulation or its settings.
 std::string no_surface(CaseSpec const& spec, FormulationInfo const& first, std::string const& what) {
   if (!first.pushable) return refusal(first, what);
   return what + " found no surface: body " + in_quotes(spec.bodies[0].name) + " has none, " +
          why_without_surface(spec, 0) + std::string(who_has_one) + " - remove it, or change the body";
 }
 
-// Contact and rigid shapes need one body that knows them; the others are warned of.
+// Contact and rigid shapes require at least one body that supports them; other bodies cause a warning.
 void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   auto const all = formulations_of(spec);
   bool none = !all.empty();
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) none = none && !meets_rigids(spec, b);
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   if (!none || (off && spec.rigids.empty())) return;
-  if (spec.contact && spec.contact->law == ContactRule::Law::surface && all.front().contact) return;  // told there
+  if (spec.contact && spec.contact->law == ContactRule::Law::surface && all.front().contact) return;  // reported there
   bool const able =
       off && std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.pushable; });
   for (RigidSpec const& rigid : spec.rigids)
@@ -78,7 +78,7 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
         "= \"none\") - remove the table, or change one of them");
 }
 
-/// What is asked for of all bodies, of one that has no surface for it.
+/// Reports a setting for all bodies that body b, which has no surface, cannot satisfy.
 void refuse_setting(CaseSpec const& spec, char const* key, std::size_t b, Problems& problems) {
   problems.add(place_of(spec.contact->places, key), std::string("contact.") + key + " has nothing to act on: body " +
                                                         in_quotes(spec.bodies[b].name) + " has no surface, " +
@@ -86,7 +86,8 @@ void refuse_setting(CaseSpec const& spec, char const* key, std::size_t b, Proble
                                                         " - remove it, or change the body");
 }
 
-/// The same where surfaces of others meet. A pair without friction of its own may be said to slide freely.
+/// Reports friction and self-contact of bodies without a surface, if other bodies are in surface contact. A pair with
+/// an entry of its own may slide without friction.
 void check_some_surfaces(CaseSpec const& spec, Problems& problems) {
   if (spec.contact->self && spec.bodies.front().shape.dimension == 1)
     problems.add(place_of(spec.contact->places, "self"),
@@ -102,14 +103,14 @@ void check_some_surfaces(CaseSpec const& spec, Problems& problems) {
   }
 }
 
-/// Friction, or contact of bodies with themselves, that is asked for where bodies meet by no surface.
+/// Reports friction or self-contact if no bodies are in surface contact.
 void check_surface_settings(CaseSpec const& spec, Problems& problems) {
   if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
   if (surfaces_meet(spec)) return check_some_surfaces(spec, problems);
   bool const rubs = spec.contact->friction.kinetic > 0 && (spec.bodies.size() > 1 || !spec.rigids.empty());
   if (!rubs && !spec.contact->self) return;
   char const* const key = rubs ? "friction" : "self";
-  bool able = false;  // else told already
+  bool able = false;  // otherwise reported already
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) able = able || meets_rigids(spec, b);
   for (std::size_t b = 0; able && b < spec.bodies.size(); ++b)
     if (!has_surface(spec, b)) refuse_setting(spec, key, b, problems);
@@ -127,7 +128,7 @@ void check_strangers(CaseSpec const& spec, Problems& problems) {
     for (RigidSpec const& rigid : spec.rigids)
       if (!rigid.turns() && spec.bodies.size() > 1 && !meets_rigids(spec, b) && !is_off(spec, name, rigid.name))
         through.push_back("the rigid shape " + in_quotes(rigid.name));
-    // Of two bodies the one that cannot be pushed is told of.
+    // Reports the body without a surface, not its partner.
     if (through.empty() || has_surface(spec, b)) continue;
     problems.add(
         place_of(spec.bodies[b].places, "formulation"),

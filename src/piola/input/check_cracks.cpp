@@ -63,7 +63,7 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
     if (info && !info->mirrors) problems.add(place_of(mirror.places, ""), refusal(*info, "mirrors"));
     BodySpec const& body = *std::find_if(spec.bodies.begin(), spec.bodies.end(),
                                          [&](BodySpec const& candidate) { return candidate.name == mirror.body; });
-    // Those that know where bodies end see the plane where the face is.
+    // Formulations that use the outline of bodies place the plane on the face itself.
     if (info && info->mirrors && !info->outline && body.shape.kind == ShapeSpec::Kind::box &&
         body.shape.placement != ShapeSpec::Placement::on_boundary)
       problems.add(place_of(mirror.places, "body"),

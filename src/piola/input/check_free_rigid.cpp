@@ -5,7 +5,7 @@
 #include "piola/mechanics/contact/rigid_pairs.hpp"
 #include <algorithm>
 
-/// What cannot be done with rigid shapes that are free, or turn.
+/// Checks of rigid shapes that are free or rotate.
 namespace piola {
 namespace {
 

@@ -12,7 +12,7 @@ namespace {
 
 using Vec3 = std::array<double, 3>;
 
-// Where the shape itself stands in the file.
+// Place of the shape in the file.
 Place place_of_shape(RigidSpec const& rigid) {
   constexpr std::array<std::string_view, 4> keys{"plane", "sphere", "cylinder", "box"};
   return place_of(rigid.places, keys[static_cast<std::size_t>(rigid.kind)]);

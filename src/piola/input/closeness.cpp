@@ -42,7 +42,7 @@ struct BodyPlaces {
       high[c] = std::max(high[c], p[c]);
     }
   }
-  /// Those that are in a box, or nearer to it than `margin`.
+  /// Places in a box or within `margin` of it.
   BodyPlaces near(BodyPlaces const& box, double margin) const {
     BodyPlaces some;
     for (Vec3 const& p : x) {
@@ -77,7 +77,7 @@ bool find_nearest(BodyPlaces const& a, BodyPlaces const& b, double reach, Closen
 
 /// How far inside a shape a point is [m]; negative outside.
 double depth_in(ShapeSpec const& shape, Vec3 const& x) {
-  if (shape.kind == ShapeSpec::Kind::points) return -1;  // nobody knows where it ends
+  if (shape.kind == ShapeSpec::Kind::points) return -1;  // point clouds have no known boundary
   if (shape.kind == ShapeSpec::Kind::solid) return -shape.solid->at(vector_of(x)).distance;
   auto const D = static_cast<std::size_t>(shape.dimension);
   double least = std::numeric_limits<double>::infinity(), square = 0;

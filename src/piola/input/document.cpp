@@ -78,8 +78,8 @@ class Converter {
     }
   }
 
-  // Columns count characters, so this holds only if the text stands in the file as it is: no escapes, nothing beyond
-  // ASCII before it on the line.
+  // Columns count characters, so this holds only if the text is literal in the file: no escapes, nothing beyond ASCII
+  // before it on the line.
   int text_offset(Node const& node) const {
     auto const line = static_cast<std::size_t>(node.place.line), column = static_cast<std::size_t>(node.place.column);
     if (line == 0 || line > lines_.size() || column == 0) return 0;
@@ -126,7 +126,7 @@ std::string lower_start(std::string_view text) {
   return lowered;
 }
 
-/// The first number with a unit on a line that stands where a value begins, outside quotes; empty if there is none.
+/// The first number with a unit at the start of a value on a line, outside quotes; empty if there is none.
 std::string unquoted_quantity(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -10,7 +10,7 @@
 
 namespace piola {
 
-/// One value of a case file and where it stands. Tables keep their entries in the order of the file.
+/// One value of a case file and its place. Tables keep their entries in the order of the file.
 struct Node {
   enum class Kind { table, array, text, integer, real, flag, date };
   struct Entry;
@@ -19,7 +19,7 @@ struct Node {
   Place place;
   std::string base;            ///< file from whose folder relative paths in the value start; empty: place.file
   std::string text;            ///< text; date: as it is written
-  int text_offset = 0;         ///< columns from `place` to the first character of a text; 0 if it cannot be told
+  int text_offset = 0;         ///< columns from `place` to the first character of a text; 0 if unknown
   std::string found_at;        ///< text that names a file: where a results folder keeps it; empty: see case_file
   std::int64_t integer = 0;    ///< integer
   double real = 0;             ///< real
@@ -45,26 +45,26 @@ struct Node::Entry {
   Node value;
 };
 
-/// A case file before anybody asks what it means.
+/// A parsed case file, not interpreted yet.
 struct Document {
   Node root;
   std::string source;  ///< TOML that reads back as this document: the file itself, or rewritten after overrides
 };
 
-/// Reads TOML. Never throws on bad text: what is wrong goes to `problems`, and nothing is returned. Refused besides bad
-/// TOML: NUL bytes, more than 4 MB, keys with more than 64 dots.
+/// Parses TOML. Never throws on bad text: errors are added to `problems`, and nothing is returned. Also refuses NUL
+/// bytes, more than 4 MB, and keys with more than 64 dots.
 std::optional<Document> parse_document(std::string_view text, std::string const& name, Problems& problems);
 
 /// Applies "path=value" settings to a document: a dotted path of keys, with the number or the name of an array's table
 /// ("body.0.material.density", "body.column.material.density"), and a TOML value; a value that is no TOML is a text.
-/// Places of changed values name the setting; relative paths in them start from the folder of the document, which
-/// root.place.file tells. Rewrites `source` if there are any.
+/// Places of changed values name the setting; relative paths in them start from the folder of the document
+/// (root.place.file). Rewrites `source` if there are any.
 void apply_overrides(Document& document, std::span<std::string const> overrides, Problems& problems);
 
 /// TOML text of a table, entries in their order.
 std::string toml_text(Node const& root);
 
-/// A value as it stands behind "key = ".
+/// TOML text of a value, as after "key = ".
 std::string toml_value(Node const& node);
 
 }  // namespace piola

@@ -46,7 +46,7 @@ std::size_t end_of_string(std::string_view text, std::size_t i, bool& closed) {
 /// First positions, npos: none.
 struct Findings {
   std::size_t long_key = std::string_view::npos;    ///< the dot too many in one dotted key
-  std::size_t deep = std::string_view::npos;        ///< the bracket too many in others
+  std::size_t deep = std::string_view::npos;        ///< position of the bracket in excess, for other texts
   std::size_t open_quote = std::string_view::npos;  ///< where a quoted text begins that does not end
 };
 

@@ -14,7 +14,7 @@ template <class Formulas, class F>
 void for_each_with_formulas(Formulas const& formulas, Body const& body, F const& f) {
   auto const particles = static_cast<Index>(body.last - body.first);
   Index const parts = exec_host::team(particles);
-  if (parts <= 1) {  // copies are compiled anew
+  if (parts <= 1) {  // every copy compiles its formula again
     for (auto id = body.first; id < body.last; ++id) f(formulas, static_cast<std::size_t>(id));
     return;
   }

@@ -72,7 +72,7 @@ bool can_be_pushed(CaseSpec const& spec, std::size_t body) {
 bool can_have_surface(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
-  bool const open_ended = b.shape.kind == ShapeSpec::Kind::points;  // nobody knows its surface
+  bool const open_ended = b.shape.kind == ShapeSpec::Kind::points;  // its surface is unknown
   if (!can_be_pushed(spec, body) || open_ended) return false;
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
                                     [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });

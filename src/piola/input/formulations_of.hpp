@@ -10,26 +10,26 @@ namespace piola {
 /// The formulations of a case's bodies, each once, in the order of the bodies. Unknown names are left out.
 std::vector<FormulationInfo> formulations_of(CaseSpec const& spec);
 
-/// Whether a contact of its formulation's own acts on a body, between such bodies and with rigid shapes: not where the
-/// case gives that to surfaces.
+/// Whether the contact of its own formulation acts on a body, between such bodies and with rigid shapes. False if the
+/// case sets surface contact instead.
 bool knows_contact(CaseSpec const& spec, std::size_t body);
 
-/// Whether any body's formulation has.
+/// Whether knows_contact() holds for any body.
 bool knows_contact(CaseSpec const& spec);
 
-/// Whether the case says of two, bodies or rigid shapes, by name, that nothing keeps them apart.
+/// Whether the case switches off contact between two bodies or rigid shapes, by name.
 bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b);
 
-/// Whether a body has a surface by which others and rigid shapes can push it: a body without skew mirrors whose
-/// formulation can be pushed, and which does not turn Eulerian.
+/// Whether a body has a surface for contact with other bodies and rigid shapes. Requires a formulation that supports
+/// it, no skew mirrors, and no conversion to Eulerian.
 bool has_surface(CaseSpec const& spec, std::size_t body);
 
-/// The same, whether or not contact is switched off: ties need it, too.
+/// As has_surface(), even if contact is switched off; for ties.
 bool can_have_surface(CaseSpec const& spec, std::size_t body);
-/// Why a body has no surface that others could push, in words.
+/// Reason, in words, why a body has no surface for contact.
 std::string why_without_surface(CaseSpec const& spec, std::size_t body);
 
-/// Whether a tie of the case names the body.
+/// Whether a tie of the case refers to the body.
 bool is_tied(CaseSpec const& spec, std::size_t body);
 
 /// Whether two bodies of a formulation with a contact of its own have surface contact first, which their particles lose
@@ -43,30 +43,30 @@ bool can_lose_surface(CaseSpec const& spec, std::size_t body);
 /// contact.
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether something keeps two bodies apart: the contact of their formulation, their surfaces or colours.
+/// Whether any contact acts between two bodies: that of their formulation, of surfaces or of colours.
 bool kept_apart(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether two bodies push each other by their surfaces: not if their formulation keeps them apart itself. Of a body
-/// and itself: whether its surface does.
+/// Whether surface contact acts between two bodies. False if the contact of their formulation does. a = b:
+/// self-contact.
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether two bodies, at least one of them without a surface, push each other by their colour: not at mirror planes.
+/// Whether colour contact acts between two bodies, at least one of which has no surface. Not at mirror planes.
 bool pushed_by_colour(CaseSpec const& spec, std::size_t a, std::size_t b);
 
-/// Whether something pushes bodies between steps: contact other than that of their formulation, or ties.
+/// Whether contact other than that of a formulation, or ties, change velocities between steps.
 bool bodies_are_pushed(CaseSpec const& spec);
 
-/// Whether a rigid shape pushes a body by its surface: not if the body's formulation keeps them apart itself, which it
-/// cannot where the shape is free or turns.
+/// Whether surface contact acts between a rigid shape and a body. False if the contact of the body's formulation does,
+/// which requires a shape that is neither free nor rotates.
 bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid);
 
-/// Whether something keeps a body apart from rigid shapes.
+/// Whether any contact acts between a body and rigid shapes.
 bool meets_rigids(CaseSpec const& spec, std::size_t body);
 
-/// Whether surfaces of this case can push each other or be pushed by rigid shapes.
+/// Whether surface contact acts between any bodies, or between a body and a rigid shape.
 bool surfaces_meet(CaseSpec const& spec);
 
-/// Whether anything keeps bodies apart from others or from rigid shapes.
+/// Whether any contact acts between bodies, or between bodies and rigid shapes.
 bool any_contact(CaseSpec const& spec);
 
 }  // namespace piola

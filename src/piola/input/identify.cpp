@@ -13,7 +13,7 @@
 namespace piola {
 namespace {
 
-/// Keys of [run] that change no result, or whose effect Identity::machine tells.
+/// Keys of [run] that change no result, or whose effect is recorded in Identity::machine.
 constexpr std::array<std::string_view, 3> keys_without_effect{"threads", "machine", "repartition"};
 
 std::string digest_text(std::uint64_t digest) { return fmt::format("{:016x}", digest); }

@@ -203,7 +203,7 @@ constexpr std::array output_keys{
 constexpr KeyInfo caption_key{"output.pictures.panel",    "caption", text, "", {}, "the view, if it has a name",
                               "what stands at the panel", {}};
 
-/// Keys of a picture that a panel has, too. What a panel does not say is as the picture has it.
+/// Keys common to a picture and its panels. A panel takes missing values from the picture.
 bool is_of_panels(KeyInfo const& info) {
   constexpr std::array<std::string_view, 8> not_these{"every",   "up",    "size",   "theme",
                                                       "columns", "times", "labels", "panel"};

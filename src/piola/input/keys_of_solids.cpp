@@ -11,7 +11,7 @@ constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr std::array<std::string_view, 2> filling_words{"packed", "lattice"};
 constexpr std::array<std::string_view, 4> repair_words{"none", "orient", "holes", "faces"};
 
-/// The kinds of solids that stand in a shape and in the parts of others.
+/// Kinds of solids, allowed as shapes and as parts of combined solids.
 struct SolidKey {
   std::string_view key, meaning;
   KeyInfo::Kind kind = table;

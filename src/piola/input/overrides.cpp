@@ -62,7 +62,7 @@ Node text_node(std::string_view text) {
   return node;
 }
 
-// What looks like the start of a structured value must be TOML; anything else that is not is a bare word.
+// A text that looks like the start of a structured value must be TOML; any other text that is not TOML is a bare word.
 std::optional<Node> value_of(std::string_view text, Place const& place, Problems& problems) {
   Problems found;
   bool const one_line = text.find('\n') == std::string_view::npos;

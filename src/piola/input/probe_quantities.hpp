@@ -7,8 +7,8 @@
 
 namespace piola {
 
-/// The numbers that a kind of probe stands for, in the order in which it computes them; empty for the kinds that take
-/// any quantities of fields. Those of kind fragment that count volume take a body in 2D as one metre thick.
+/// Quantities that a kind of probe computes, in its order; empty for kinds that sample fields. Volumes of kind fragment
+/// assume a thickness of 1 m in 2D.
 std::span<HistoryName const> own_quantities(ProbeSpec::Kind kind);
 
 /// SI unit of a quantity of a probe, of a kind's own or of a field; "1" if it is not known.

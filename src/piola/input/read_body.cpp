@@ -31,7 +31,7 @@ class DefinitionOrder {
                                            in_quotes(entry.key));
       return;
     }
-    // Chains are followed by recursion; nobody writes one this long by hand.
+    // Chains are followed by recursion; the limit is far above chains written by hand.
     if (open_.size() >= 200) return;
     open_.insert(entry.key);
     if (entry.value.is_text()) {

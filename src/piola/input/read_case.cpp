@@ -72,7 +72,7 @@ void add_owners(std::vector<ColumnOwner>& owners, std::vector<Section> const& se
   for (std::size_t k = 0; k < specs.size(); ++k) owners.push_back({sections[k], specs[k].name, kind});
 }
 
-/// Names that sections of different kinds share: their columns could be taken for each other's.
+/// Refuses equal names in sections of different kinds, whose columns could be confused.
 void refuse_shared_names(std::vector<ColumnOwner> const& owners) {
   for (std::size_t i = 0; i < owners.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -233,7 +233,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
   Problems problems;
   auto document = parse_document(text, name, problems);
   if (document) {
-    // Places that only say "somewhere in the file" are better without a position.
+    // A place without a known line is reported without a position.
     document->root.place = {name, 0, 0};
     apply_overrides(*document, overrides, problems);
     if (limits.of_results) use_kept_files(document->root, std::filesystem::path(name).parent_path(), problems);

@@ -12,7 +12,7 @@
 
 namespace piola {
 
-/// What a case may ask for at most.
+/// Limits for a case.
 struct ReadLimits {
   std::int64_t particles = 2147483647;  ///< of all bodies together; Ids fit in 32 bits
   bool memory = true;                   ///< refuse cases that cannot fit into the memory of this machine
@@ -34,7 +34,7 @@ inline constexpr double least_bytes_per_particle = 500;
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides = {},
                    ReadLimits const& limits = {}, ParticleSet* made = nullptr);
 
-/// The same for a text; `name` stands for the file in messages.
+/// As read_case(), for a text. `name` replaces the file name in messages.
 CaseSpec read_case_text(std::string_view text, std::string const& name, std::vector<std::string> const& overrides = {},
                         ReadLimits const& limits = {}, ParticleSet* made = nullptr);
 

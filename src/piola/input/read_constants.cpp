@@ -61,7 +61,7 @@ class ConstantsReader {
     return found == usable_.end() ? nullptr : found->second;
   }
 
-  /// Whether a constant stands at the end of a chain that is longer than anybody writes, and than the stack holds.
+  /// Whether a constant ends a chain too long for recursion on the stack, far above chains written by hand.
   bool is_too_deep(Node::Entry const& entry) {
     constexpr std::size_t deepest = 200;
     if (open_.size() < deepest) return false;

@@ -24,7 +24,7 @@ void read_stiffness(Section const& section, int dimension, ContactRule& contact)
   }
 }
 
-/// What the whole of contact and a pair have in common. The coefficient at rest fades with the speed of sliding.
+/// Friction keys common to [contact] and its pairs. The static coefficient decays with the sliding speed.
 void read_friction(Section const& section, contact::FrictionLaw& friction) {
   section.read("friction", friction.kinetic);
   bool const still = section.read("static_friction", friction.still);
@@ -72,7 +72,7 @@ ContactSpec read_whole(Section const& section, int dimension) {
   return contact;
 }
 
-/// What holds for all is what a pair has where it says nothing else.
+/// Missing values of a pair are those of [contact].
 ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
   ContactPairSpec pair;
   pair.scale = whole.scale;

@@ -39,7 +39,7 @@ std::optional<Rows> read_rows(Section const& section, Value const& value) {
   return rows;
 }
 
-/// What no body has; empty if there is nothing wrong.
+/// Error text for an inertia tensor that no body can have; empty if it is valid.
 std::string impossible(Rows const& rows) {
   constexpr double rounding = 1e-9;
   SymMat<3> I;

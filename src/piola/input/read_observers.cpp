@@ -34,7 +34,7 @@ void read_distance(Section const& section, std::string_view key, double& target)
     section.read(key, target);
 }
 
-// What the kind "stress_intensity" looks at ahead of a crack tip.
+// Reads the range ahead of a crack tip that the kind "stress_intensity" evaluates.
 void read_ahead(Section const& section, int dimension, ProbeSpec& probe) {
   if (probe.kind != Kind::stress_intensity) {
     for (std::string_view const key : {"direction", "from", "to"})

@@ -41,7 +41,7 @@ void read_size(Section const& section, PictureSpec& picture) {
   if (height) picture.height = static_cast<int>(*height);
 }
 
-// Plain numbers are in degrees here, unlike SI, because nobody thinks of a view in radians.
+// Plain numbers are in degrees here, unlike SI, as is usual for views.
 void read_view(Section const& section, PictureSpec& picture) {
   auto const view = section.find("view");
   if (view && view->node.kind == Node::Kind::text) {
@@ -91,8 +91,8 @@ void check_component(Section const& section, PictureSpec const& picture) {
   }
 }
 
-/// What a picture and a panel have in common. A panel with another field does not take the picture's component and
-/// range.
+/// Reads the keys common to a picture and a panel. A panel with another field does not take component and range from
+/// the picture.
 void read_picture(Section const& section, PictureSpec& picture, std::span<BodySpec const> bodies) {
   if (auto const field = section.find("field")) {
     std::string const before = picture.field;

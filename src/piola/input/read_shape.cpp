@@ -136,7 +136,7 @@ void read_box_particles(Section const& section, ShapeSpec& shape) {
   }
 }
 
-// A box says how fine it is by particles or by spacing; round bodies only by spacing.
+// The resolution of a box is given by particles or spacing, that of round bodies only by spacing.
 void read_fineness(Section const& section, ShapeSpec& shape) {
   bool const box = shape.kind == ShapeKind::box;
   if (box && section.has("particles") && section.has("spacing")) {

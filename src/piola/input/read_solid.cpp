@@ -128,7 +128,7 @@ class SolidReader {
                               std::move(parts));
   }
 
-  /// What `transform` says.
+  /// Applies `transform`.
   static SolidPtr placed_by(Section const& node, SolidPtr solid) {
     auto const section = node.has("transform") ? inner(node, "transform") : std::nullopt;
     if (!section) return solid;
@@ -184,7 +184,7 @@ class SolidReader {
   double spacing_;
 };
 
-/// What can be told of a solid as a whole.
+/// Checks and measures a solid as a whole.
 void measure(Section const& section, ShapeSpec& shape) {
   geometry::Bounds const box = shape.solid->bounds();
   double cells = 1;

@@ -15,14 +15,15 @@ namespace piola {
 Place place_of(Places const& places, std::string_view key);
 /// Whether the section gives the key, in the case file or by a setting (--set, Python).
 bool is_given(Places const& places, std::string_view key);
-/// Of a key in a table of the section; else of the table.
+/// Place of a key in a table of the section; of the table if it does not give the key.
 Place place_in_table(Places const& places, std::string_view table, std::string_view key);
 /// "(0.5, 6, 0.5) m".
 std::string point_text(std::array<double, 3> const& X, int dimension);
 /// "its particles reach from ... to ...".
 std::string box_of(ParticleSet const& particles, Body const& body);
 
-/// One body's formulas looked at on its particles; each formula complains at most once.
+/// Evaluates formulas on the particles of a body. Reports at most one problem per formula. Holds references, which must
+/// outlive it.
 class FormulaCheck {
  public:
   FormulaCheck(ParticleSet const& particles, Body const& body, Problems& problems)
@@ -30,7 +31,7 @@ class FormulaCheck {
 
   /// Whether the value at t = 0 is a finite number at every particle; reports the first particle where it is not.
   bool finite(Expression const& formula, std::string const& name, Place const& place) const;
-  /// The same for some particles of the body.
+  /// As above, for the particles `ids` of the body.
   bool finite(Expression const& formula, std::string const& name, Place const& place,
               std::span<std::int64_t const> ids) const;
   /// Finite components and a positive determinant at every particle.
@@ -48,41 +49,41 @@ class FormulaCheck {
 bool check_where(Expression const& where, std::string const& name, Place const& place, ParticleSet const& particles,
                  Body const& body, Problems& problems);
 
-/// Whether what the case asks of contact can be had by its bodies: rules, pairs, rigid shapes.
+/// Checks that the bodies support the contact settings of the case: rules, pairs, rigid shapes.
 void check_contact(CaseSpec const& spec, Problems& problems);
 
-/// Opens the cracks of the last body of the set; those that cannot be are problems.
+/// Opens the cracks of the last body of the set. Adds impossible cracks to `problems`.
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems);
-/// Reports the cracks, mirrors, rings, rigid shapes and contact that the formulation of the bodies does not know.
+/// Reports the cracks, mirrors, rings, rigid shapes and contact that the formulation of the bodies does not support.
 void check_abilities(CaseSpec const& spec, Problems& problems);
 
-/// Where a particle with the reference position X is at the start [m].
+/// Position at the start of a particle with the reference position X [m].
 std::array<double, 3> start_of(BodySpec const& body, std::array<double, 3> const& X);
 /// Distance of a point from the surface of a rigid shape [m], negative inside.
 double distance_to(RigidShape const& shape, std::array<double, 3> const& x, int dimension);
 
 /// Reports rigid shapes that hold particles at the start, and velocities of theirs that are not finite then.
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
-/// Reports what cannot be done with rigid shapes that are free, or turn.
+/// Reports unsupported settings of rigid shapes that are free or rotate.
 void check_free_rigids(CaseSpec const& spec, int dimension, Problems& problems);
 
 /// Reports ties between bodies that cannot be held, that hold nothing, or whose stiffness or spacing does not fit their
 /// law.
 void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
-/// Ties whose spacing cannot resolve how they fail.
+/// Warns of ties whose spacing cannot resolve their failure.
 void warn_of_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& found);
 
 /// Reports bodies that overlap at the start.
 void check_overlap(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
-/// Bodies that meet one with a mirror plane have the same one, or stay off it.
+/// Reports bodies in contact with a body that has a mirror plane, unless they have the same plane or keep clear of it.
 void check_mirrored_contact(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
-/// Gives the particles of bodies with parts the number of theirs.
+/// Sets the part number of the particles of bodies with parts.
 void mark_parts(CaseSpec const& spec, ParticleSet& particles);
 /// Reports parts without particles, parts that take all of a body, and bodies that cannot have any.
 void check_parts(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
-/// The parts of check_regions that look at supports, loads and mirrors.
+/// The part of check_regions() for supports, loads and mirrors.
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 }  // namespace piola

@@ -7,8 +7,8 @@
 
 namespace piola {
 
-/// What formulas of a body may say of a place besides X, Y, Z: how deep it lies below the surface [m], negative
-/// outside, and the direction straight away from the body at the nearest place of the surface.
+/// Names in formulas of a body in addition to X, Y, Z: depth below the surface [m], negative outside, and the outward
+/// unit normal at the nearest place of the surface.
 inline constexpr std::array<std::string_view, 4> own_names_of_places{"depth", "NX", "NY", "NZ"};
 
 /// Adds them for a shape in 2D or 3D that has a surface; constants of the same name keep their meaning. `usable`: the

@@ -8,7 +8,7 @@
 namespace piola {
 namespace {
 
-// A value that a person could paste, to show what a missing key looks like.
+// Example value for the message about a missing key.
 std::string example_of(KeyInfo const& info) {
   std::string const unit(info.unit);
   switch (info.kind) {

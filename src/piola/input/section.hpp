@@ -11,13 +11,13 @@
 
 namespace piola {
 
-/// A value that a reader looks at: the node and what it is called in messages, e.g. "run.end".
+/// A value of a section: the node and its name in messages, e.g. "run.end".
 struct Value {
   Node const& node;
   std::string name;
 };
 
-/// What is wrong with a value, in words: "run.end is true (allowed: ...)".
+/// Text of a value for messages such as "run.end is true (allowed: ...)".
 std::string shown(Node const& node);
 
 /// A number in SI from a number or a text with a unit; an empty unit accepts pure numbers only. Adds to `problems` and
@@ -38,8 +38,8 @@ std::optional<std::vector<Value>> read_list(Value const& value, std::size_t leas
 /// Whether a text starts like a quantity: a number directly followed by a unit ("5 m/s"), not by an operator ("5*X").
 bool looks_like_quantity(std::string_view text);
 
-/// A table of the case file while it is read: knows the keys of its section from the table of keys, and reports
-/// missing, unknown and wrong ones. Every read function leaves the target as it is if the key is missing or wrong.
+/// Reads a table of the case file. Reports missing, unknown and wrong keys by the table of keys of its section. Every
+/// read function leaves the target as it is if the key is missing or wrong.
 class Section {
  public:
   /// `node` must be a table (the caller has looked); `section` names the rows of the table of keys.

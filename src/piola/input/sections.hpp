@@ -10,10 +10,10 @@
 
 namespace piola {
 
-/// The readers of the sections of a case file. Each adds what is wrong to the section's problems and returns what could
-/// be read, so that one bad section does not hide the problems of another. Internal to input/.
+/// Readers of the sections of a case file. Each adds errors to the section's problems and returns what could be read,
+/// so that one bad section does not hide the problems of another. Internal to input/.
 
-/// What the readers of later sections must know about the bodies: `names` may be used in formulas.
+/// Facts about a body for readers of later sections. `names` may be used in formulas.
 struct BodyNames {
   std::string name;
   int dimension = 3;
@@ -30,7 +30,7 @@ std::optional<std::vector<Expression>> read_formulas(Value const& value, std::st
                                                      Names const& names, Problems& problems);
 /// A point or a direction with as many components as the body has.
 std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension);
-/// The same as a unit vector.
+/// As read_components(), normalised to a unit vector.
 std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension);
 /// Places of the section and of those of `keys` that it gives.
 Places places_of(Section const& section, std::initializer_list<char const*> keys);
@@ -41,7 +41,7 @@ void read_output(Section const& section, OutputSpec& output, std::span<BodySpec 
 void read_pictures(Section const& section, PicturesSpec& pictures, std::span<BodySpec const> bodies);
 /// Names of all fields.
 std::vector<std::string> known_fields();
-/// The part of it that reads how bodies are drawn. What a panel does not say stays as it is.
+/// The part of read_pictures() for the appearance of bodies. Missing keys of a panel leave `appearance` unchanged.
 void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, AppearanceSpec& appearance);
 std::map<std::string, double> read_constants(Value const& value, Problems& problems);
 
@@ -49,7 +49,7 @@ std::map<std::string, double> read_constants(Value const& value, Problems& probl
 ShapeSpec read_shape(Section const& section, Names const& names);
 /// `names`: constants.
 RegionSpec read_region(Section const& section, Names const& names);
-/// `common`: constants and regions; `names` are the body's own in the end.
+/// `common`: constants and regions. Sets `names` to those of the body.
 BodySpec read_body(Section const& section, Names const& common, BodyNames& names);
 /// The key `part` of a body. `regions`: for parts that are a region's shape.
 std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions);
@@ -65,21 +65,21 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
-/// Whether a probe measures what became of a whole body: the kinds fragment, rim and hole.
+/// Whether a probe measures the debris of a whole body: kinds fragment, rim and hole.
 bool measures_debris(ProbeSpec::Kind kind);
-/// The keys that only those kinds have, and those that they share with others; of other kinds refuses the former.
-/// Without a body only what does not depend on it is read.
+/// Reads the keys of kinds with measures_debris(), including keys that other kinds have, too. Refuses the former for
+/// other kinds. Without a body, reads only keys that do not depend on it.
 void read_debris(Section const& section, BodyNames const* body, ProbeSpec& probe);
 /// `dimension` is that of the bodies; `constants` may be used in the velocity.
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
 /// The part of read_rigid that reads how the shape moves.
 void read_rigid_motion(Section const& section, int dimension, std::map<std::string, double> const& constants,
                        RigidSpec& rigid);
-/// Its key `inertia`, of a free shape in 2D or 3D.
+/// The part of read_rigid() for the key `inertia` of a free shape in 2D or 3D.
 void read_inertia(Section const& section, int dimension, RigidSpec& rigid);
-/// The rule for all, and those of pairs: a table, a list of tables, or "none".
+/// Reads the rule for all bodies and those of pairs: a table, a list of tables, or "none".
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
-/// `rigids` only for what is said of them.
+/// `rigids`: only for messages.
 TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids);
 /// Ties have columns whether they are named or not.
 void name_ties(std::vector<TieSpec>& ties);

@@ -12,7 +12,7 @@ namespace {
 
 std::string body_words(BodyFacts const& body) { return "body " + in_quotes(body.name) + ": "; }
 
-/// A material of a body or of one of its parts, and where its numbers stand.
+/// A material of a body or of one of its parts, and the places of its numbers in the file.
 struct MaterialLooked {
   MaterialParameters const& material;
   LawInfo law;
@@ -40,7 +40,7 @@ void check_parameters(MaterialLooked const& of, Problems& slips) {
   }
 }
 
-/// Strengths beside moduli.
+/// Checks strengths against moduli.
 void check_strength(MaterialLooked const& of, Problems& slips) {
   double const youngs = of.value("youngs_modulus"), yield = yield_at_start(of.material);
   of.note(slips, "yield_stress", implausible(plausible_range("yield_stress"), yield, youngs, "Pa"));
@@ -76,7 +76,7 @@ bool check_material(MaterialLooked const& of, Problems& slips) {
   return slips.count() > before;
 }
 
-/// The speed of waves tells about the numbers of any law.
+/// Checks the wave speed, which depends on the numbers of any law.
 void check_waves(MaterialLooked const& of, Problems& slips) {
   constexpr double dense = 2500;  // kg/m^3
   with_any_law(of.material, [&](auto const& law) {

@@ -60,7 +60,7 @@ std::size_t number_of_body(CaseSpec const& spec, std::string const& name) {
 
 double density_of_body(BodyFacts const& body) { return body.modulus / (body.p_wave * body.p_wave); }
 
-/// A traction or a pressure beside the modulus and the yield stress.
+/// Compares a traction or a pressure with the modulus and the yield stress.
 std::string odd_face_load(double size, BodyFacts const& body) {
   auto const odd = implausible(plausible_range("load"), size, body.modulus, "Pa");
   return odd.empty() ? implausible(plausible_range("load_on_metal"), size, body.yield, "Pa") : odd;
@@ -85,7 +85,7 @@ void compare_load(CaseSpec const& spec, LoadSpec const& load, ParticleSet const&
                       : implausible(plausible_range("weight"), size * density * length, body.modulus, "Pa"));
 }
 
-/// A driven support or rigid shape beside the speed of waves.
+/// Compares the speed of a driven support or rigid shape with the wave speed.
 void check_drive(LookedAt const& looked, double wave, std::string const& subject, Place const& place, Problems& slips) {
   if (!looked.not_finite.empty()) slips.add(place, subject + "the velocity " + looked.not_finite);
   auto const odd = implausible(plausible_range("driven_speed"), looked.largest, wave, "m/s");

@@ -37,7 +37,7 @@ std::string real_value(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   std::string text = exact_text(value);
-  // TOML tells a real number from an integer by its point or exponent.
+  // TOML distinguishes a real number from an integer by its point or exponent.
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }

@@ -20,7 +20,7 @@ void complain(Value const& value, std::string const& what, Problems& problems) {
   problems.add(value.node.place, value.name + " " + what);
 }
 
-// The column of an error inside a text, where the text stands in the file as it is.
+// Place of an error inside a text that is literal in the file.
 Place place_in_text(Node const& node, int column) {
   Place place = node.place;
   if (column > 0 && node.text_offset > 0 && place.column > 0) place.column += node.text_offset + column - 1;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr int table_size = 64;
 
-/// A log may be long; what matters stands at its end.
+/// Logs may be long; the relevant lines are at the end.
 std::string end_of(std::string const& log) {
   constexpr std::size_t most = 200'000;
   return log.size() <= most ? log : "...\n" + log.substr(log.find('\n', log.size() - most) + 1);
@@ -46,7 +46,7 @@ Json shape_json(RigidShape const& shape) {
           {"axis", shape.axis},         {"turns", shape.turns()}};
 }
 
-/// Where shapes stand: centre, then the three edges, 12 numbers each.
+/// Poses of shapes: centre, then the three edges, 12 numbers each.
 Json poses_json(std::vector<RigidShape> const& shapes) {
   Json list = Json::array();
   for (RigidShape const& shape : shapes) {
@@ -57,7 +57,7 @@ Json poses_json(std::vector<RigidShape> const& shapes) {
   return list;
 }
 
-/// What a list says of the frames of a plan.
+/// Entries of a list for the frames of a plan.
 Json chosen(Plan const& plan, auto const& list) {
   Json some = Json::array();
   for (std::size_t const k : plan.frames) some.push_back(list[k]);
@@ -78,7 +78,7 @@ Json fields_json(Survey const& survey, Plan const& plan) {
   return fields;
 }
 
-/// Where only some particles are shown, their balls fill the space of the others.
+/// If only some particles are shown, their balls are enlarged to fill the space of the omitted ones.
 Json bodies_json(RunFolder const& run, Survey const& survey, Plan const& plan) {
   double const growth = std::pow(static_cast<double>(plan.every), 1.0 / survey.dimension);
   Json bodies = Json::array();
@@ -145,7 +145,7 @@ Json facets_json(Plan const& plan, Shaping const& shaping) {
   return shaping.surfaces ? chosen(plan, shaping.surfaces->list_of) : Json();
 }
 
-/// Where the pictures of the case look from, whether it says so by angles or by a name.
+/// Direction of view of the pictures of the case, given by angles or by a name.
 View view_of(RunFolder const& run) {
   if (!run.spec) return {30, 20, Up::y};
   return camera_of(run.spec->output.pictures, upwards(*run.spec), run.spec->bodies, 3).view;
@@ -213,7 +213,7 @@ Json about_plots(RunFolder const& run, std::size_t most, std::size_t& left) {
 }
 
 Json about_pictures(RunFolder const& run, std::uintmax_t most_bytes) {
-  std::map<std::string, fs::path> last;  // of each field, by what stands before the number
+  std::map<std::string, fs::path> last;  // last picture of each field, by the file name before the number
   std::error_code error;
   for (auto const& entry : fs::directory_iterator(run.path / "pictures", error)) {
     std::string const name = entry.path().stem().string();

@@ -14,23 +14,23 @@ namespace piola::report {
 
 using Json = nlohmann::ordered_json;
 
-/// All that a page says in words and numbers, as the script of the page reads it (web/): title, outcome, summary,
-/// warnings, failure, case, log.
+/// Texts and numbers of a page, in the format of its script (web/): title, outcome, summary, warnings, failure, case,
+/// log.
 Json about_run(RunFolder const& run);
 
-/// What the script needs to show the frames: coding, times, fields with their ranges, bodies, rigid shapes.
+/// Data for the script to show the frames: coding, times, fields with their ranges, bodies, rigid shapes.
 Json about_frames(RunFolder const& run, Survey const& survey, Plan const& plan, Shaping const& shaping = {});
 
-/// Plots of the history: the energies as a ledger, what quantities look at, probes, other columns of parts; at most
-/// `most`; `left` counts the columns without one. Empty if there is no history yet.
+/// Plots of the history: energies as a ledger, columns used by quantities, probes, other columns of parts; at most
+/// `most`. `left`: number of columns without a plot. Empty if there is no history yet.
 Json about_plots(RunFolder const& run, std::size_t most, std::size_t& left);
 
-/// The last pictures of the run, up to so many bytes.
+/// The last pictures of the run, at most `most_bytes` bytes in total.
 Json about_pictures(RunFolder const& run, std::uintmax_t most_bytes);
 
 Json about_rows(std::vector<VerificationRow> const& rows);
 
-/// JSON as text that may stand inside a script element: no end tag can arise.
+/// JSON as text that is safe inside a script element: it cannot contain an end tag.
 std::string script_text(Json const& json);
 
 }  // namespace piola::report

@@ -97,7 +97,8 @@ BodySurfaces BodyShapes::surfaces(FrameReader const& frame) const {
 }
 
 ByteScale BodyShapes::stretch_scale(std::size_t component) {
-  // 1 and 0, those of a ball that is none yet, are met exactly; largest: 4, and half of 4 - 1/3 beside the diagonal.
+  // Codes represent 1 and 0, the components of an unstretched ball, exactly. Largest values: 4 on the diagonal, half of
+  // 4 - 1/3 off it.
   if (component < 3) return {0.3, 0.3 + 0.7 * 254 / 44};
   return {-1.905, 1.905};
 }

@@ -12,24 +12,24 @@
 
 namespace piola::report {
 
-/// What bodies look like in one frame; numbers of particles are those of the run.
+/// Surfaces of the bodies in one frame. Particles are numbered as in the run.
 struct BodySurfaces {
   std::vector<Place3> place;  ///< of each particle: at the surface where it has a part in it [m]
   std::vector<std::array<std::uint32_t, 3>> facets;
   std::vector<std::uint8_t> alone;  ///< per particle: belongs to no surface, not 0: seen as a ball
 };
 
-/// How the particles of a run hang together at its start, from its case: what surfaces and stretched balls need.
+/// Reference meshes of the bodies of a run, from its case; for surfaces and stretched balls.
 class BodyShapes {
  public:
   static constexpr std::size_t stretch_components = 6;
-  /// Of the particles whose bodies are `body`; nothing if the case in the folder cannot be read any more, or makes
+  /// Builds the meshes. body: body of each particle. Returns nothing if the case in the folder cannot be read or yields
   /// other particles.
   static std::optional<BodyShapes> of(RunFolder const& run, int dimension, std::vector<std::uint16_t> const& body);
 
-  /// Finds which cells are torn in each frame of the run, in the order of time, as pictures of all frames have it.
+  /// Finds which cells are torn in each frame of the run, in the order of time, as for pictures of all frames.
   void follow(RunFolder const& run);
-  /// What pictures show of a frame that was followed; of another one, as if it were the first.
+  /// Surfaces of a frame as in pictures. A frame that follow() has not visited is treated as the first one.
   BodySurfaces surfaces(FrameReader const& frame) const;
   /// V of F = V R for each `every`-th particle, XX YY ZZ XY YZ XZ: what makes an ellipsoid of a ball. Stretches are
   /// bounded as in pictures; particles whose F is unknown have V = I.

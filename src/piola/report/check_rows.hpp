@@ -8,9 +8,9 @@
 
 namespace piola::report {
 
-/// The checks of a checks.toml that look at this run alone, judged by its summary. `variant` empty: the one whose case
-/// is that of the folder, but for what leaves the state as it is; `note` says if there is none. Throws InputError for a
-/// file that cannot be read, or a variant that it does not have.
+/// Rows of a checks.toml that need this run alone, judged by its summary. `variant` empty: the one whose case equals
+/// that of the folder, up to keys that do not affect the state; `note` reports if there is none. Throws InputError for
+/// a file that cannot be read, or a variant that it does not have.
 std::vector<VerificationRow> rows_of_run(RunFolder const& run, std::filesystem::path const& checks,
                                          std::string const& variant, std::string& note);
 

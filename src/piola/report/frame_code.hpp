@@ -18,7 +18,7 @@ struct Lattice {
   static Lattice of(std::array<double, 3> const& low, std::array<double, 3> const& high, int bits);
   std::uint16_t missing() const { return static_cast<std::uint16_t>((1u << bits) - 1); }
   std::uint16_t code(double value, std::size_t axis) const;
-  /// At most step / 2 beside what was coded; nan if it is missing.
+  /// Decoded value, within step / 2 of the coded one; NaN if it is missing.
   double value(std::uint16_t code, std::size_t axis) const;
 };
 
@@ -29,15 +29,16 @@ struct ByteScale {
   double value(std::uint8_t code) const;
 };
 
-/// What a page holds of one state; all lists have one entry per particle.
+/// Codes of one state in a page; all lists have one entry per particle.
 struct FrameCodes {
   std::array<std::vector<std::uint16_t>, 3> x;
   std::vector<std::vector<std::uint8_t>> fields;
 };
 
-/// Turns frames into bytes that pack well, and back. A key frame stands alone. Others are differences to what the frame
-/// before lets expect, or the two before by linear extrapolation; then follows the difference to the particle before,
-/// signs folded into the lowest bit, low bytes of an axis before high ones. All modulo 2^16, so that nothing is lost.
+/// Encodes frames as bytes that compress well, and decodes them. A key frame is independent. Other frames are
+/// differences to a prediction from the previous frame, or by linear extrapolation from the previous two. Then follows
+/// the difference to the particle before, signs folded into the lowest bit, low bytes of an axis before high ones. All
+/// modulo 2^16, so that nothing is lost.
 class FrameCoder {
  public:
   static constexpr int key_every = 10;

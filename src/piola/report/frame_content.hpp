@@ -6,14 +6,14 @@
 
 namespace piola::report {
 
-/// What makes more of particles than round balls, where a page has it.
+/// Optional data to show particles as surfaces or stretched balls.
 struct Shaping {
   std::optional<BodyShapes> shapes = {};
   std::optional<PageSurfaces> surfaces = {};  ///< then only with `shapes`
 };
 
-/// The codes of a frame as a plan has it: positions, of particles at a surface on that surface, then fields, then the
-/// components of V if balls are stretched.
+/// Codes of a frame as in a plan: positions (on the surface for particles at one), then fields, then the components of
+/// V if balls are stretched.
 FrameCodes planned_codes(FrameReader const& frame, Survey const& survey, Lattice const& lattice, Plan const& plan,
                          Shaping const& shaping);
 

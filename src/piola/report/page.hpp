@@ -12,9 +12,9 @@ namespace web {
 extern std::string_view const style, body, script;
 }  // namespace web
 
-/// A page that is written piece by piece to "PATH.part" and gets its name when it is whole. It needs nothing from
-/// outside and may fetch nothing (Content-Security-Policy); texts of a case stand in JSON only, or are escaped. All
-/// throws FileError; what was there before stays then.
+/// A page that is written piece by piece to "PATH.part" and renamed when it is complete. The page is self-contained and
+/// may not fetch anything (Content-Security-Policy). Texts of a case occur in JSON only, or escaped. All members throw
+/// FileError; a previous page is then kept.
 class PageFile {
  public:
   PageFile(std::filesystem::path path, std::string const& title);

@@ -7,8 +7,8 @@
 
 namespace piola::report {
 
-/// The surfaces of all frames of a survey as a page holds them: particles that are part of one at some time, or alone,
-/// and lists of triangles, of which most frames share one.
+/// Surfaces of all frames of a survey in the format of a page: particles on a surface at some time, or alone, and lists
+/// of triangles, one of which most frames have in common.
 struct PageSurfaces {
   std::vector<std::uint32_t> particles = {};           ///< their numbers in the run, rising
   std::vector<std::vector<std::uint32_t>> lists = {};  ///< three places in `particles` for each triangle

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t least_frames = 12;
 constexpr int few_bits = 12;
 
-/// Characters of the page that the frames of a plan take, from one key frame and one that follows two others.
+/// Estimated characters of the frames of a plan in the page, from one key frame and one extrapolated from two frames.
 double expected_size(RunFolder const& run, Survey const& survey, Plan const& plan, Shaping const& shaping) {
   Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
   FrameCoder coder;

@@ -15,10 +15,10 @@ struct PlotEnds {
 };
 PlotEnds ends_of(Plot const& plot);
 
-/// What rows of checks expect of quantities that are taken from columns over time, within a plot of these ends: a
-/// broken line across for a value, an upright one for a time, a ring for a value at a time, a curve for a formula.
-/// Rows of other quantities, of quantities that are no value and no time of their column, such as a change, and bounds
-/// are left out; what is expected twice is there once.
+/// Curves of the expected values of check rows whose quantities come from columns over time, within a plot of these
+/// ends: a broken line across for a value, an upright one for a time, a ring for a value at a time, a curve for a
+/// formula. Rows of other quantities, of quantities that are no value and no time of their column, such as a change,
+/// and bounds are skipped; duplicates are drawn once.
 std::vector<Curve> reference_curves(RunFolder const& run, std::vector<VerificationRow> const& rows,
                                     std::vector<std::string> const& columns, PlotEnds const& ends);
 

@@ -120,7 +120,8 @@ PageSize write_page(fs::path const& page, RunFolder const& run, Json const& abou
   return {file.size(), after - before};
 }
 
-/// What a plan takes is known when it is written: then what was expected is put right, and less is written if need be.
+/// The size of a plan is known only after writing. Then the expectation is corrected and a smaller plan written if
+/// necessary.
 void write_within_budget(fs::path const& page, RunFolder const& run, ReportOptions const& options, Json& about,
                          std::vector<std::string> const& notes, ReportResult& result) {
   Shown shown = survey_of(run, options);

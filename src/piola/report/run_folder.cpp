@@ -29,7 +29,7 @@ std::string title_in_log(std::string const& log) {
   return colon == std::string::npos ? "" : first.substr(colon + 2);
 }
 
-/// The last lines of log.txt, from where it says at which step the run stopped.
+/// The last lines of log.txt, from the line with the step at which the run stopped.
 std::string failure_in_log(std::string const& log) {
   auto const at = log.rfind("\nstopped at step ");
   if (at == std::string::npos) return "";
@@ -51,8 +51,8 @@ void read_summary(RunFolder& run) {
   if (!text("title").empty()) run.title = text("title");
 }
 
-/// Whether somebody holds the folder and has written since the summary, which may be that of a part before. A run that
-/// was killed leaves its lock and cannot be told from one that goes on.
+/// Whether the lock file exists and summary.json is missing or older than history.csv. A killed run leaves its lock
+/// file and is reported as running.
 bool goes_on(RunFolder const& run) {
   std::error_code error;
   if (!fs::exists(run.path / lock_name, error)) return false;

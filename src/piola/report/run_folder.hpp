@@ -11,11 +11,12 @@
 
 namespace piola::report {
 
-/// What the folder of a run holds, as far as it is there: a run that goes on has no summary yet.
+/// Content of the folder of a run, as far as present: a running one has no summary yet.
 struct RunFolder {
   std::filesystem::path path;
   std::string title = {};   ///< of the case; the name of the folder if it is not known
-  std::string status = {};  ///< "completed", "failed", "stopped", "running", or "broken off": no summary, nobody writes
+  std::string status = {};  ///< "completed", "failed", "stopped", "running", or "broken off": no summary and no writing
+                            ///< process
   std::string summary = {};           ///< text of summary.json; empty: none, or damaged
   std::string log = {};               ///< text of log.txt
   std::string case_text = {};         ///< text of case.toml

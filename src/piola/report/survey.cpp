@@ -66,7 +66,7 @@ ByteScale scale_of_values(Extent& extent) {
   return scale.low < scale.high ? scale : ByteScale{extent.low, extent.high};
 }
 
-/// The ends of an axis: all that is there, unless a few particles flew so far that nothing would be seen of the others.
+/// The ends of an axis: the range of all particles, unless a few outliers would make the rest too small to see.
 std::array<double, 2> ends_of_axis(Extent& extent) {
   if (!(extent.low <= extent.high)) return {0, 0};
   constexpr double far = 5;  // times the box of all but one per mille
@@ -94,7 +94,7 @@ std::string label_of(FieldInfo const& info) {
   return info.name == "CauchyStress" ? "von Mises stress" : picture_label(info.name, info.components);
 }
 
-/// Begins a survey with what the first frame says. Throws InputError for fields that it does not have.
+/// Begins a survey with the data of the first frame. Throws InputError for fields that it does not have.
 Survey begin(FrameReader const& first, std::vector<std::string> const& fields, std::filesystem::path const& path) {
   Survey survey{.dimension = first.dimension()};
   auto const known = first.fields();

@@ -19,12 +19,12 @@ struct ShownField {
   std::vector<std::array<double, 2>> extremes = {};  ///< least and largest of each frame, nan if it has none
 };
 
-/// All that must be known of the frames of a run before one of them can be coded.
+/// Data of all frames of a run that are required to code any of them.
 struct Survey {
   int dimension = 3;
   std::size_t particles = 0;
-  std::vector<std::size_t> frames = {};  ///< numbers of those that were looked at
-  std::vector<double> times = {};        ///< of these [s]
+  std::vector<std::size_t> frames = {};  ///< numbers of the frames surveyed
+  std::vector<double> times = {};        ///< of these frames [s]
   std::vector<ShownField> fields = {};
   std::array<double, 3> low{}, high{};              ///< the box that the page shows [m]
   std::array<double, 3> stage_low{}, stage_high{};  ///< the box of the first frame [m]
@@ -36,11 +36,11 @@ struct Survey {
 /// Numbers of `wanted` of `count` frames, evenly, the first and the last among them.
 std::vector<std::size_t> spread(std::size_t count, std::size_t wanted);
 
-/// The fields of a frame that say most; at most `most`. `first`: that which comes before all.
+/// The most informative fields of a frame, at most `most`. `first`: the field placed before all.
 std::vector<std::string> usual_fields(FrameReader const& frame, std::string const& first, std::size_t most);
 
-/// Looks through frames. Throws FileError if one is damaged or has other particles than the first, InputError for a
-/// field that they do not have.
+/// Surveys frames. Throws FileError if one is damaged or has other particles than the first, InputError for a field
+/// that they do not have.
 Survey survey_frames(RunFolder const& run, std::vector<std::size_t> const& frames,
                      std::vector<std::string> const& fields);
 

@@ -9,7 +9,7 @@
 namespace piola::report {
 namespace {
 
-/// What each of so many runs may have, so that the page stays below 30 MB.
+/// Budget of each run, so that the page stays below 30 MB.
 struct Share {
   std::size_t plots;
   std::uintmax_t picture_bytes;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array curve_colours{0, 1, 2, 3, 5, 6};  // black is what is expected
 
-/// A variant with the rows that look at it alone.
+/// A variant with the rows that need it alone.
 struct JudgedRun {
   std::string variant;
   RunFolder folder;
@@ -55,7 +55,7 @@ std::optional<Plot> plot_of_run(JudgedRun const& run, std::string const& column)
   return std::nullopt;
 }
 
-/// What is expected of all runs is black, what of one of several alone has the colour of its curve. The plot holds the
+/// Expectations of all runs are black; those of one of several runs have the colour of its curve. The plot holds the
 /// curves of the runs, in their order.
 void add_expected(Plot& plot, std::vector<JudgedRun const*> const& runs, std::string const& column) {
   PlotEnds const ends = ends_of(plot);

@@ -7,10 +7,10 @@
 
 namespace piola::report {
 
-/// The columns that checks of a case look at, over time: the runs of its variants, at most six in a plot, and what is
-/// expected of them. A column of which nothing is expected that can be drawn (reference_curves) has no plot, nor have
-/// variants of which nothing is. `results` holds the folders of the runs, CASE/VARIANT (VerifyOptions::out). Throws
-/// FileError if a history cannot be read.
+/// Plots over time of the columns used by checks of a case: the runs of its variants, at most six per plot, with the
+/// expected values. Columns and variants without an expectation that can be drawn (reference_curves) are skipped.
+/// `results` holds the folders of the runs, CASE/VARIANT (VerifyOptions::out). Throws FileError if a history cannot be
+/// read.
 std::vector<Plot> verification_plots(CaseVerification const& c, std::filesystem::path const& results);
 
 }  // namespace piola::report

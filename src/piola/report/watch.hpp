@@ -7,8 +7,8 @@
 
 namespace piola::report {
 
-/// How a run stands, as lines for a terminal: the energies with their shares of the largest total, a column over time
-/// in one line, and the last row of the history. Reads files only, anew each time: the run may be on another machine.
+/// State of a run as lines for a terminal: energies as fractions of the largest total, a column over time in one line,
+/// and the last row of the history. Reads all files again at each call, so the run may be on another machine.
 class Watch {
  public:
   struct Look {
