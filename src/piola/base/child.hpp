@@ -16,8 +16,8 @@ struct ChildAnswer {
   std::string trouble;  ///< empty, or why there is no answer: "took longer than 5 s"
 };
 
-/// Does work that may crash, hang or devour memory in a copy of this process, which ends after it, and waits for the
-/// answer. The work must not use threads, nor anything that other threads of this process may hold.
+/// Runs work that may crash, hang or exhaust memory in a forked child process and waits for its result. The work must
+/// not use threads, nor locks that other threads of this process may hold.
 ChildAnswer done_by_child(std::function<std::string()> const& work, ChildLimits const& limits);
 
 }  // namespace piola

@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// A promise between two parts of the program was broken: the programmer's mistake, never the user's.
+/// Thrown when a contract is violated: a programming error, never an error of the user.
 class ContractError : public std::logic_error {
  public:
   using std::logic_error::logic_error;

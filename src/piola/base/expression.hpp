@@ -19,8 +19,8 @@ struct Definition {
 
 /// Names that an expression may use in addition to X, Y, Z (reference position [m]), t (time [s]) and pi.
 struct Names {
-  /// A number that belongs to a reference position [m], such as its depth in a body. Each Expression has a copy, so
-  /// that one function is asked by one thread at a time.
+  /// A number that belongs to a reference position [m], such as its depth in a body. Each Expression has a copy, so one
+  /// function object is called by one thread at a time.
   using OfPlace = std::function<double(std::array<double, 3> const& X)>;
   std::map<std::string, double> constants;  ///< SI values
   std::vector<Definition> definitions;      ///< in order; each may use those before it
@@ -68,7 +68,7 @@ struct ExpressionError {
 /// The names that a formula uses, in order of appearance (variables, constants, definitions, functions).
 std::vector<std::string> expression_words(std::string const& text);
 
-/// Whether a name has a meaning in every formula (X, Y, Z, t, pi and the functions), so that no constant may take it.
+/// Whether a name is reserved in all formulas (X, Y, Z, t, pi and the functions), so that no constant may use it.
 bool is_reserved_name(std::string_view name);
 
 }  // namespace piola

@@ -33,7 +33,7 @@ class Packed {
   std::string bytes_;
 };
 
-/// Takes them apart again; false: the bytes do not hold what is asked for.
+/// Unpacks the values; returns false if the bytes do not have the expected content.
 class Unpacked {
  public:
   explicit Unpacked(std::string_view bytes) : left_(bytes) {}

@@ -28,7 +28,7 @@ inline constexpr Interval not_negative{0, unbounded, false, true};
 /// A parameter without default must be given by the user.
 inline constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
 
-/// Which word of a choice makes a parameter count. Without a choice it always counts.
+/// Word of a choice for which a parameter is used. Without a choice it is always used.
 struct Condition {
   std::string_view choice{};  ///< Choice::name
   std::string_view word{};    ///< the word, or one of two

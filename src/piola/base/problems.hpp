@@ -13,15 +13,15 @@ struct Place {
   int column = 0;
 };
 
-/// All that is wrong with what a user gave, collected so that it can be reported in one message.
-/// Grammar of an entry: what is wrong (what is allowed) - what to do.
+/// Collects all errors of the user's input for one message. Grammar of an entry: what is wrong (what is allowed) - what
+/// to do.
 class Problems {
  public:
   void add(Place const& place, std::string text);
   bool empty() const { return lines_.empty(); }
   std::size_t count() const { return lines_.size(); }
   std::vector<std::string> const& lines() const { return lines_; }  ///< "file:line:column: text", in order of adding
-  /// Puts the lines into the order of the file; those without a position come first.
+  /// Sorts the lines by position in the file; lines without a position come first.
   void sort_by_place();
   /// Throws InputError with every line if there is any problem.
   void raise_if_any() const;

@@ -8,7 +8,7 @@
 namespace piola {
 
 /// A regular file, opened to read. Folders, pipes, sockets and devices are refused when they are opened: reading them
-/// may wait for ever or never end. Links are followed. Not thread-safe.
+/// may block or never end. Links are followed. Not thread-safe.
 class FileToRead {
  public:
   explicit FileToRead(std::filesystem::path const& path);

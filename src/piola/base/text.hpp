@@ -9,7 +9,7 @@
 
 namespace piola {
 
-/// Small helpers for the sentences that a user reads. All pure; none depends on the locale.
+/// Helpers for texts of messages. Pure functions, independent of the locale.
 
 /// The text in double quotes, with control characters and bytes beyond ASCII that are not UTF-8 made harmless.
 std::string in_quotes(std::string_view text);
@@ -37,7 +37,7 @@ bool is_name(std::string_view text);
 /// Copies of views, for the functions above.
 std::vector<std::string> to_strings(std::span<std::string_view const> words);
 
-/// A number for people: `digits` significant digits, no trailing zeros ("0.3", "1.7e+07").
+/// A number for display: `digits` significant digits, no trailing zeros ("0.3", "1.7e+07").
 std::string number_text(double value, int digits = 6);
 
 /// The shortest text that reads back as the same double.

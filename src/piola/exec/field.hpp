@@ -13,7 +13,8 @@ namespace piola {
 /// Purpose of a field: `reference` never changes, `evolved` is the state (checkpoints), `derived` follows from it.
 enum class Role { reference, evolved, derived };
 
-/// Counts of writes by owners and of halo refreshes, so that a forgotten exchange fails on one rank (contract builds).
+/// Counts writes by owners and halo refreshes, so that a forgotten exchange is detected even on one rank (contract
+/// builds).
 struct FieldVersion {
   std::uint64_t owner = 0, halo = 0;
 };

@@ -12,7 +12,7 @@ struct Range {
   Index first = 0, last = 0;
 };
 
-/// Where a parallel loop records the first particle (lowest id) whose physics is not admissible.
+/// Record of the first particle (lowest id) of a parallel loop whose state is not admissible.
 struct FailureSlot {
   static constexpr Index none = 2147483647;
   Index index = none;
@@ -31,11 +31,11 @@ struct FailureSlot {
 
 }  // namespace piola
 
-/// The only launchers of loops over particles, and the only place with OpenMP or CUDA.
+/// Launchers of loops over particles; all OpenMP and CUDA code of such loops is here.
 namespace piola::inline PIOLA_MACHINE {
 namespace exec {
 
-/// Particles that one thread works on at a time: the scratch of fused sweeps stays in the first-level cache, and
+/// Particles per block, the unit of work of a thread. The scratch of fused sweeps stays in the first-level cache, and
 /// partial sums belong to blocks, not threads, so that results do not depend on the number of threads.
 inline constexpr Index block_size = 64;
 

@@ -69,7 +69,7 @@ struct ReferenceView {
   }
 };
 
-/// Writing access; the pass that holds it owns the particles it writes.
+/// Writing access. A pass may write only particles that it owns.
 struct WriteView {
   double* data;
   std::ptrdiff_t component_stride, particle_stride, tile_extra = 0;
@@ -94,7 +94,8 @@ struct WriteView {
   }
 };
 
-/// The only three ways from a field to a view: they show the data flow of a step and count it in contract builds.
+/// Views are created by these functions only. They make the data flow of a step explicit and are counted in contract
+/// builds.
 inline View read(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
 inline ReferenceView read_reference(FieldRef const& f) { return {read(f), f.group}; }
 inline View read_neighbours(FieldRef const& f) {

@@ -26,7 +26,7 @@ class MeshDistance {
   MeshDistance& operator=(MeshDistance const&) = delete;
 
   Foot at(Vec<3> const& X) const;
-  /// The opinion of most of seven rays: inside if they cross the surface an odd number of times. Single precision.
+  /// Majority of seven rays: inside if they cross the surface an odd number of times. Single precision.
   bool inside_by_rays(Vec<3> const& X) const;
   /// First intersection of a ray beyond `start` [m]. Single precision.
   std::optional<Hit> ahead(Vec<3> const& X, Vec<3> const& direction, double start) const;

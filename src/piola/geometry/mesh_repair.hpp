@@ -4,9 +4,9 @@
 
 namespace piola::geometry {
 
-/// Makes corners that lie within `distance` [m] of each other one, at the place of the first of them, and drops the
-/// faces that this leaves with fewer than three corners. Chains of near corners become one corner, too. Does nothing
-/// for distances below 1e-12 of the surface's extent. The surface must be welded. Returns how many corners are gone.
+/// Merges corners within `distance` [m] of each other at the first of them, and drops faces left with fewer than three
+/// corners. Chains of near corners become one corner, too. Does nothing for distances below 1e-12 of the surface's
+/// extent. The surface must be welded. Returns the number of merged corners.
 int merge_corners(Surface& surface, double distance);
 
 /// The distance [m] that merges the corners of all open edges so that the surface is closed; 0 if there is none below

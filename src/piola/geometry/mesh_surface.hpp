@@ -32,8 +32,8 @@ struct Links {
   int shells = 0;
 };
 
-/// Makes corners at the same place one and drops faces with fewer than three corners and corners without faces.
-/// Returns the number of dropped faces.
+/// Merges corners at the same place and drops faces with fewer than three corners and corners without faces. Returns
+/// the number of dropped faces.
 int weld(Surface& surface);
 
 Links link_faces(Surface const& surface);

@@ -31,8 +31,8 @@ struct PackingOptions {
   int sweeps = 100;  ///< at most
   /// Called after each sweep with the number of sweeps done; false ends the packing early.
   std::function<bool(int)> progress = {};
-  /// State to continue from, of the same solid, volume and spacing; ignored unless all its arrays have one value per
-  /// particle.
+  /// State to continue from; nothing: start. Precondition: same solid, volume and spacing, and one value per particle
+  /// in each array.
   std::optional<UnfinishedPacking> from = {};
 };
 
@@ -41,8 +41,8 @@ double packed_count(double volume, double spacing, int dimension);
 
 /// Packs n = packed_count(volume, spacing) particles. They start on the places of a lattice that lie deepest inside and
 /// are pushed apart by a constant pressure, as in Zhu et al. (J. Hydrodyn. 33, 2021) and Neher et al. (arXiv
-/// 2506.21206, 2025); what the kernel misses outside is the exact integral of W n over the surface. The same places for
-/// any number of threads.
+/// 2506.21206, 2025); the kernel support outside is completed by the exact integral of W n over the surface. The
+/// positions do not depend on the number of threads.
 Packing pack(Solid const& solid, double volume, double spacing, PackingOptions const& options = {});
 
 /// How good a packing is.

@@ -4,8 +4,8 @@
 
 namespace piola::geometry {
 
-/// The primitives of a case file. Lengths in m; a dimension of 2 gives regions of the plane. What cannot be (a radius
-/// that is not positive, ...) is the caller's to refuse.
+/// The primitives of a case file. Lengths in m; a dimension of 2 gives regions of the plane. The caller must refuse
+/// invalid input (a radius that is not positive, ...).
 
 /// Patches "-x", "+x", "-y", ...
 SolidPtr box(Vec<3> const& min, Vec<3> const& max, int dimension);

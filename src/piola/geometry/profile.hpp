@@ -25,7 +25,7 @@ struct ProfileEdge {
 ProfileEdge straight(Vec<2> const& from, Vec<2> const& to, int patch);
 ProfileEdge arc(Vec<2> const& centre, double radius, double start, double sweep, int patch);
 
-/// The place of a profile's outline that is nearest to some place.
+/// Distance and normal of the nearest point of a profile's outline.
 struct ProfileFoot {
   double distance = 0;  ///< signed, negative inside
   Vec<2> normal{};      ///< unit vector away from the region
@@ -60,7 +60,7 @@ class Profile {
 };
 
 /// A closed polygon as a loop: each corner's edge to the next one. Patches change where the normal turns by more than
-/// `feature_angle` [rad], counted from `first_patch`; turned round if it runs the wrong way. `names` gets "1", "2", ...
+/// `feature_angle` [rad], counted from `first_patch`; reversed if its orientation is wrong. `names` gets "1", "2", ...
 std::vector<ProfileEdge> polygon_loop(std::vector<Vec<2>> corners, bool hole, double feature_angle,
                                       std::vector<std::string>& names);
 

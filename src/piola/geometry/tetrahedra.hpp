@@ -12,9 +12,9 @@ struct Triangles {
   std::vector<std::array<int, 3>> face;  ///< anticlockwise from outside
 };
 
-/// Where a function changes its sign in a box: its cubes of about `edge` [m], cut into six tetrahedra each (squares
-/// into two triangles), are crossed by planes. Closed if the function is positive on the faces of the box, which counts
-/// as surrounded by positive values. Calls the function from several threads.
+/// Zero surface of a function in a box. Cubes of about `edge` [m] are divided into six tetrahedra each (squares into
+/// two triangles), which planes intersect. Closed if the function is positive on the faces of the box, which counts as
+/// surrounded by positive values. Calls the function from several threads.
 Triangles level_surface(std::function<double(Vec<3> const&)> const& value, Bounds const& box, double edge,
                         int dimension);
 

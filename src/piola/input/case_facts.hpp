@@ -41,7 +41,7 @@ double step_estimate(CaseSpec const& spec, std::vector<BodyFacts> const& facts, 
 void find_slips(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts, double step,
                 Problems& slips);
 /// Whether an expression is a formula that may be evaluated at any time; a function of a program that uses the library
-/// is not, because its author counts the calls. Told by its text, in which functions are described in words.
+/// is not, because its author may count the calls. Determined from its text, in which functions are described in words.
 bool is_formula(Expression const& expression);
 /// The part of find_slips() for loads, driven supports and driven shapes.
 void find_slips_of_loads(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyFacts> const& facts,

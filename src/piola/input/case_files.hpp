@@ -26,11 +26,11 @@ struct KeptFile {
   std::string hash;  ///< of its content
 };
 
-/// Where the file is that the key `file` of a section names: where use_kept_files found it, else at its path, which is
+/// Path of the file that the key `file` of a section names: as found by use_kept_files(), else at its path, which is
 /// relative to the case file.
 CaseFile case_file(Section const& section, std::string const& given);
 
-/// Hash of what is in a file, 16 hexadecimal digits (math/digest.hpp). Throws FileError if it cannot be read.
+/// Hash of the content of a file, 16 hexadecimal digits (math/digest.hpp). Throws FileError if it cannot be read.
 std::string content_hash(std::filesystem::path const& path);
 
 /// Digest of the content of a file; empty if it is no ordinary file or cannot be read.

@@ -35,7 +35,7 @@ struct RunSpec {
   Places places;
 };
 
-/// [[region]]: places that formulas of supports, loads, probes, ties and parts call by a name.
+/// [[region]]: a named set of places for formulas of supports, loads, probes, ties and parts.
 struct RegionSpec {
   std::string name;
   Names::OfPlace holds;         ///< 1 or 0 at a reference position [m]; never empty
@@ -101,7 +101,7 @@ struct LoadSpec {
   Places places;
 };
 
-/// [[mirror]]: the body goes on across a face as its mirror image.
+/// [[mirror]]: symmetry plane at a face of a body.
 struct MirrorSpec {
   std::string body;
   Face face;

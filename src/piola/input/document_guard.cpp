@@ -45,8 +45,8 @@ std::size_t end_of_string(std::string_view text, std::size_t i, bool& closed) {
 
 /// First positions, npos: none.
 struct Findings {
-  std::size_t long_key = std::string_view::npos;    ///< the dot too many in one dotted key
-  std::size_t deep = std::string_view::npos;        ///< position of the bracket in excess, for other texts
+  std::size_t long_key = std::string_view::npos;    ///< the first dot beyond the limit in one key
+  std::size_t deep = std::string_view::npos;        ///< the first bracket beyond the allowed depth of nesting
   std::size_t open_quote = std::string_view::npos;  ///< where a quoted text begins that does not end
 };
 

@@ -9,7 +9,7 @@
 
 namespace piola {
 
-/// Bytes of a case file at most; no more need be read of a file to refuse it.
+/// Largest size of a case file [bytes]; at most this is read before a file is refused.
 inline constexpr std::size_t most_case_bytes = 4'000'000;
 
 /// Refuses what the TOML parser could not survive: NUL bytes, files beyond 4 MB, keys and brackets whose nesting would
@@ -19,8 +19,8 @@ void refuse_dangerous_text(std::string_view text, std::string const& name, Probl
 /// Where a quoted text begins that does not end: on its line, or in the file if three quotes begin it.
 std::optional<Place> find_open_quote(std::string_view text, std::string const& name);
 
-/// Refuses texts of more than 10 000 characters, keys of more than 200, and control characters in both, before anything
-/// computes with them or shows them. Adds to `problems`.
+/// Refuses texts of more than 10 000 characters, keys of more than 200, and control characters in both, before they are
+/// used or displayed. Adds to `problems`.
 void refuse_unusable_texts(Node const& node, Problems& problems);
 
 }  // namespace piola

@@ -32,14 +32,15 @@ std::string why_without_surface(CaseSpec const& spec, std::size_t body);
 /// Whether a tie of the case refers to the body.
 bool is_tied(CaseSpec const& spec, std::size_t body);
 
-/// Whether two bodies of a formulation with a contact of its own have surface contact first, which their particles lose
-/// one by one to that contact: a [[contact]] table names the two, or they start within its reach (see
-/// add_surface_contact), and both have surfaces.
+/// Whether two bodies start with surface contact, which their particles later replace one by one by the contact of
+/// their formulation. Requires that both have surfaces, and that a [[contact]] table names the two or they start within
+/// its reach (see add_surface_contact).
 bool starts_with_surface_contact(CaseSpec const& spec, std::size_t a, std::size_t b);
-/// Whether a body has a surface at the start that its particles may lose, one by one, to a contact of their own.
+/// Whether a body starts with a surface that its particles may replace, one by one, by the contact of their
+/// formulation.
 bool can_lose_surface(CaseSpec const& spec, std::size_t body);
 
-/// Whether the contact of their formulation alone keeps two bodies apart: not if they are tied or start with surface
+/// Whether the contact of their formulation alone acts between two bodies. False if they are tied or start with surface
 /// contact.
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b);
 

@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// [run] guards: from where on a run warns of its own answer, or stops. A limit of infinity is never passed.
+/// [run] guards: limits above which a run warns or stops. Infinity disables a limit.
 struct GuardLimits {
   static constexpr double never = std::numeric_limits<double>::infinity();
 

@@ -6,9 +6,8 @@
 
 namespace piola {
 
-/// A bound that a number of a case is compared with. A number outside of [low, high] is allowed, but more likely a slip
-/// (of a unit, of a digit) than intended. docs/user/when-it-stops.md lists the rules; tests/input/slips_test.cpp has
-/// one test for each of them.
+/// Plausible range of a number of a case. A number outside [low, high] is allowed but probably an error of unit or
+/// digit. docs/user/when-it-stops.md lists the rules; tests/input/slips_test.cpp has one test for each of them.
 struct PlausibleRange {
   std::string_view name;       ///< as the manual lists it; of a parameter of a law: the name of that parameter
   std::string_view quantity;   ///< subject of the message

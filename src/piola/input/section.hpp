@@ -42,7 +42,7 @@ bool looks_like_quantity(std::string_view text);
 /// read function leaves the target as it is if the key is missing or wrong.
 class Section {
  public:
-  /// `node` must be a table (the caller has looked); `section` names the rows of the table of keys.
+  /// Precondition: `node` is a table. `section` names the rows of the table of keys.
   Section(Node const& node, std::string section, Problems& problems);
 
   Node const& node() const { return node_; }
@@ -75,7 +75,7 @@ class Section {
 
   /// Reports the keys that are neither in the table of keys nor in `more`.
   void refuse_unknown(std::vector<std::string> const& more = {}) const;
-  /// Reports a required key that is missing; `about` and `example` are for the reader of the message.
+  /// Reports a missing required key; `about` and `example` are texts for the message.
   void report_missing(std::string_view key, std::string_view about, std::string_view example) const;
   /// Reports a key that has no meaning here, if it is given.
   void refuse(std::string_view key, std::string const& reason) const;

@@ -79,7 +79,7 @@ void read_rigid_motion(Section const& section, int dimension, std::map<std::stri
 void read_inertia(Section const& section, int dimension, RigidSpec& rigid);
 /// Reads the rule for all bodies and those of pairs: a table, a list of tables, or "none".
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
-/// `rigids`: only for messages.
+/// `rigids`: the rigid shapes that a tie may name.
 TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids);
 /// Ties have columns whether they are named or not.
 void name_ties(std::vector<TieSpec>& ties);

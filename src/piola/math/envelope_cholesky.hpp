@@ -6,8 +6,8 @@
 
 namespace piola {
 
-/// Solves A x = b for a symmetric positive semidefinite matrix whose rows are stored from their first entry on. An
-/// equation that depends on those before it is found and left out; its unknown is zero. Host only.
+/// Solves A x = b for a symmetric positive semidefinite matrix whose rows are stored from their first entry on.
+/// Equations that depend linearly on earlier ones are detected and skipped; their unknowns are zero. Host only.
 class EnvelopeCholesky {
  public:
   /// first[i] <= i: the first column of row i that may differ from zero.
@@ -15,7 +15,7 @@ class EnvelopeCholesky {
 
   /// Entry of the lower triangle, first[i] <= j <= i; to be filled before `factorise`.
   double& at(std::size_t i, std::size_t j) { return values_[begin_[i] + j - first_[i]]; }
-  /// scale[i]: what the rest of row i is compared with; nothing: its diagonal.
+  /// scale[i]: reference of the pivot of row i; nothing: its diagonal.
   void factorise(std::span<double const> scale = {});
   /// b becomes x.
   void solve(std::span<double> b) const;

@@ -37,7 +37,7 @@ PIOLA_FN double power_minus_third_exact(double a) { return 1.0 / std::cbrt(a); }
 PIOLA_FN double logarithm_exact(double a) { return std::log(a); }
 
 #if PIOLA_HAS_PACKS
-/// One value for each of several neighbouring particles, as wide as the processor likes it.
+/// One value for each of several consecutive particles, in the SIMD width of the instruction set.
 using Lanes = std::experimental::native_simd<double>;
 inline constexpr int lane_count = static_cast<int>(Lanes::size());
 

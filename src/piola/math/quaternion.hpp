@@ -5,7 +5,7 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// A turn in space: w + x i + y j + z k of length one; the identity by default.
+/// A rotation as a unit quaternion w + x i + y j + z k; the identity by default.
 struct Quaternion {
   double w = 1;
   Vec<3> v;
@@ -27,7 +27,7 @@ inline Quaternion turn_by(Vec<3> const& vector) {
   return angle > 0 ? turn_about((1 / angle) * vector, angle) : Quaternion{};
 }
 
-/// Against what rounding adds to the length over many products.
+/// Removes the drift of the length by rounding over many products.
 inline Quaternion of_unit_length(Quaternion const& q) {
   double const scale = 1 / std::sqrt(q.w * q.w + dot(q.v, q.v));
   return {scale * q.w, scale * q.v};

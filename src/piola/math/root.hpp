@@ -10,8 +10,8 @@ struct Sloped {
   double value, slope;
 };
 
-/// Where a falling function is zero, between low, where it is positive, and high, where it is not: Newton's method,
-/// halving where that leaves the interval which is known to hold the root. `small`: a value that counts as zero.
+/// Root of a decreasing function between `low`, where it is positive, and `high`, where it is not. Newton's method with
+/// bisection where a step leaves the bracketing interval. `small`: a value that counts as zero.
 template <class F>
 PIOLA_FN double falling_root(F const& f, double low, double high, double small) {
   double x = high;

@@ -59,8 +59,8 @@ Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& 
 /// the extent), points on a line (in 3D: in a plane), positions that are not finite.
 Cells delaunay(Points const& points, int dimension, double largest_radius);
 
-/// Moves the corners of cells beside a crack to the particles of their side: after a triangulation in which only one
-/// particle of each pair took part. `X`: reference positions; `side`: as ParticleSet::crack_side; `twin[k]`: the other
+/// Moves the corners of cells next to a crack to the particles of their side. Call after a triangulation with only one
+/// particle of each doubled pair. `X`: reference positions; `side`: as ParticleSet::crack_side; `twin[k]`: the other
 /// particle at the same place, or -1. A cell lies on the side of its centroid; each doubled particle belongs to the
 /// crack nearest to it. Cracks must run along edges between particles.
 void open_cracks(Cells& cells, Points const& X, std::vector<std::int8_t> const& side, std::vector<Index> const& twin,

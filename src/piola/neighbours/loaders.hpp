@@ -4,7 +4,7 @@
 #include "piola/neighbours/records.hpp"
 #include "piola/neighbours/tables.hpp"
 
-/// Loaders: how the values of neighbours arrive. What is summed is a Body's business, written once:
+/// Loaders define how values of neighbours are loaded. The summed terms are defined once, by a Body:
 ///
 ///   static constexpr int sums;    // number of sums
 ///   static constexpr int fields;  // values it reads of a neighbour; those of outer pairs first

@@ -36,7 +36,7 @@ struct PairOptions {
   std::optional<Range> own{};  ///< bodies without lattice patterns: particles to make tables for; nothing: all
 };
 
-/// Per-particle corrections; SoA. Particles of a lattice with the same neighbours have the same ones, which are stored
+/// Per-particle corrections; SoA. Lattice particles with equal neighbours have equal corrections, which are stored
 /// once. See tables.hpp for the operators.
 struct Corrections {
   std::vector<std::int32_t> kind;  ///< regular bodies: per slot, where its corrections are; empty: slot by slot
@@ -102,7 +102,7 @@ class ReferencePairs {
     double r2;
     bool inner;
   };
-  /// Set-up shares slots among threads in parts of this many, so that what it finds does not depend on the threads.
+  /// Slots per part, the unit of work of a thread in set-up. Results do not depend on the number of threads.
   static constexpr Index part_size = 4096;
   Index parts() const { return (own_.last - own_.first + part_size - 1) / part_size; }
   /// f(part, first slot, end) for all parts at once; of slots that hold a particle of this rank only.

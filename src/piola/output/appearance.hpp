@@ -8,18 +8,18 @@
 
 namespace piola {
 
-/// How a body is drawn. Automatic: with a skin where its particles hang together, balls for the rest.
+/// How a body is drawn. Automatic: a skin where particles are connected, balls for the rest.
 enum class Representation { automatic, skin, balls, points, none };
 inline constexpr std::array<std::string_view, 5> representation_words{"auto", "skin", "balls", "points", "none"};
 
-/// A plane that cuts bodies open: what lies on the side of its normal is taken away.
+/// A section plane: removes the parts on the side of its normal.
 struct CutPlane {
   Place3 point{}, normal{1, 0, 0};  ///< [m]; of any length
   bool ghost = false;               ///< what is taken away stays as a shade of 12 %
   bool in_reference = false;        ///< cuts the bodies as they were at the start
 };
 
-/// How many samples a pixel has, and how many directions the light from around.
+/// Number of samples per pixel and of directions of ambient light.
 enum class Quality { normal, high };
 inline constexpr std::array<std::string_view, 2> quality_words{"normal", "high"};
 

@@ -36,7 +36,7 @@ class Canvas {
 
   /// Length of a line of text in a font of this size [pixels].
   double width_of(std::string_view text, double size) const;
-  /// Returns the image drawn so far. Throws FileError if Cairo could not draw (for want of memory, say).
+  /// Returns the image drawn so far. Throws FileError if Cairo could not draw (e.g. for lack of memory).
   Image image() const;
 
  private:

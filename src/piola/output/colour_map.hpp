@@ -35,7 +35,7 @@ class ColourMap {
   std::array<Colour, 256> colours_;
 };
 
-/// A field name as people write it: "VonMisesStress" -> "von Mises stress".
+/// A field name as text: "VonMisesStress" -> "von Mises stress".
 std::string field_words(std::string_view field);
 
 /// The decimal prefix for showing values of this size: {1e6, "MPa"} for 3e7 and "Pa"; a unit that takes no prefix gets

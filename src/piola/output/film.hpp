@@ -25,7 +25,7 @@ class Film {
 
   /// Throws FileError if the picture cannot be added.
   void add(Image const& picture);
-  /// Writes the file; nothing is added after that. Throws FileError.
+  /// Writes the file; no picture can be added afterwards. Throws FileError.
   void finish();
 
   struct Maker;  ///< of one kind of film

@@ -29,7 +29,7 @@ struct Image {
 /// The mean of factor x factor pixels for each pixel of the result.
 Image reduce(Image const& fine, int factor);
 
-/// The image with opacity whose pictures on black and on white these two are.
+/// Computes the image with opacity from its renderings on black and on white.
 Image without_background(Image const& on_black, Image const& on_white);
 
 /// Writes a PNG file, with the notes as international text chunks. Throws FileError.

@@ -89,8 +89,8 @@ std::vector<double> ball_radii(std::span<double const> volume, std::span<int con
 /// One number per particle for the picture: that component or, of the whole field, scalars as they are, vectors by
 /// their length, of six stress components the von Mises stress, of other tensors the largest absolute component.
 std::vector<double> picture_values(std::span<double const> values, int components, int component = whole_field);
-/// The range between the lowest and the highest hundredth of the values, so that a few extreme particles (at the edge
-/// of a clamp, say) do not compress the colours of the rest. All values if there are fewer than a hundred; (0, 0) if
+/// The range between the lowest and the highest hundredth of the values, so that a few extreme particles (e.g. at the
+/// edge of a clamp) do not compress the colours of the rest. All values if there are fewer than a hundred; (0, 0) if
 /// there are none.
 std::array<double, 2> typical_range(std::span<double const> values);
 /// Label of the values of picture_values(), e.g. "velocity magnitude", "Cauchy stress xx".

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-/// Little arithmetic of places and directions, three components each, as pictures need it.
+/// Arithmetic of points and directions with three components, for pictures.
 namespace piola {
 
 inline double dot(Place3 const& a, Place3 const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

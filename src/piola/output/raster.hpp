@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
-/// From surfaces to samples: which surface is the nearest at each of them, its depth, normal and value. No colour and
-/// no light: those are the business of shade.hpp. Lengths are in samples: x to the right, y downwards, depth towards
-/// the viewer. Sample (i, j) lies at (i + 0.5, j + 0.5).
+/// Rasterises surfaces: the nearest surface at each sample, its depth, normal and value. Colour and light are in
+/// shade.hpp. Lengths are in samples: x to the right, y downwards, depth towards the viewer. Sample (i, j) lies at (i +
+/// 0.5, j + 0.5).
 namespace piola {
 
-/// A surface's name in the buffers: what it is decides its colour.
+/// Number of a surface in the buffers, which determines its colour.
 using Owner = std::uint16_t;
 inline constexpr Owner nobody = std::numeric_limits<Owner>::max();
 
@@ -83,10 +83,10 @@ struct Surfaces {
   bool nearest_value = false;  ///< values of triangles are names, not numbers: that of the nearest corner counts
 };
 
-/// Draws over what the buffers hold already. A pure function of what is drawn and of the buffers, for any number of
-/// threads: of surfaces at the same depth the first one in the list counts, triangles before ellipsoids. Places
-/// that are not finite are left out. In parallel projection depth and normal of an ellipsoid are exact to single
-/// precision: z = (-b + sqrt(b^2 - a c)) / a with a = Q_zz, b = Q_xz x + Q_yz y and c = p.Q.p - 1 at z = 0.
+/// Draws into the buffers, on top of their content. The result does not depend on the number of threads: of surfaces at
+/// the same depth the first one in the list counts, triangles before ellipsoids. Non-finite places are skipped. In
+/// parallel projection depth and normal of an ellipsoid are exact to single precision: z = (-b + sqrt(b^2 - a c)) / a
+/// with a = Q_zz, b = Q_xz x + Q_yz y and c = p.Q.p - 1 at z = 0.
 void rasterise(Surfaces const& surfaces, SurfaceBuffers& buffers);
 
 }  // namespace piola

@@ -10,14 +10,14 @@ namespace piola {
 
 using Polyline = std::vector<Place3>;
 
-/// Where two outer facets meet smoothly: an outline seen from where one faces the viewer and the other does not.
+/// Smooth edge between two outer facets: an outline if one faces the viewer and the other does not.
 struct RoundEdge {
   std::array<Index, 2> ends{};
   std::array<Place3, 2> normal{};
 };
 
-/// How the particles of a body hang together in the reference configuration: what skins are made of. Indices count
-/// from the body's first particle.
+/// Mesh that connects the particles of a body in the reference configuration, for skins. Indices are relative to the
+/// body's first particle.
 struct ReferenceMesh {
   std::size_t first = 0, count = 0;  ///< particles of the body in the run
   int dimension = 3;

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-/// From samples to pixels: colour, light, occlusion and edges. Everything is a pure function of the buffers, pixel by
-/// pixel, so that pictures are the same for any number of threads.
+/// Shades samples to pixels: colour, light, occlusion and edges. Each pixel is a pure function of the buffers, so
+/// pictures do not depend on the number of threads.
 namespace piola {
 
 /// Red, green and blue in proportion to light (sRGB's curve undone), 0 to 1.
@@ -59,10 +59,10 @@ struct Reflected {
 };
 Reflected reflected(std::array<float, 3> const& normal);
 
-/// How open each pixel of a layer is to light from around, 1 in the open to 0.4 (ambient occlusion in screen space,
-/// Mittring 2007 in idea): over some directions on a golden spiral and two radii, the mean of how steeply the surfaces
-/// that are near stand over the tangent plane; blurred where depths are equal. A plane has 1 whatever its slope.
-/// `around`: the nearest depth of all layers at each pixel; sizes in pixels.
+/// Ambient light at each pixel of a layer, 1 (open) to 0.4 (ambient occlusion in screen space, Mittring 2007 in idea):
+/// over some directions on a golden spiral and two radii, the mean elevation of nearby surfaces over the tangent plane;
+/// blurred where depths are equal. A plane has 1 whatever its slope. `around`: the nearest depth of all layers at each
+/// pixel; sizes in pixels.
 struct PixelSurface {
   int width = 0, height = 0;
   std::vector<float> depth;  ///< minus infinity: nothing [pixels]

@@ -22,8 +22,8 @@ inline constexpr TearBounds parting{2.5, 2, 8};
 /// do not flicker from picture to picture.
 inline constexpr TearBounds joining{2, 1.5, 6};
 
-/// The particles of one body at one moment: positions [m], and which have lost their neighbours for good (not 0;
-/// empty: none).
+/// Particles of one body at one time: positions [m], and a flag of those permanently without neighbours (not 0; empty:
+/// none). Does not own the arrays.
 struct Configuration {
   std::span<Place3 const> x;
   std::span<std::uint8_t const> loose;

@@ -62,7 +62,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> scales;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation
                                                         ///< measures it
-  /// How good the set-up is, if the formulation measures it: residuals and errors of areas, 0 at best.
+  /// Quality of the set-up, if the formulation measures it: residuals and errors of areas, ideally 0.
   std::vector<std::pair<std::string, double>> set_up;
   std::optional<RelaxationReport> relaxation;
   std::vector<MeasuredQuantity> quantities;

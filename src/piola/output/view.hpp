@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-/// From where bodies are seen, and which part of what is seen a picture shows.
+/// Direction of view, and the part of the projection that a picture shows.
 namespace piola {
 
 /// The direction that points upwards in a picture.
@@ -32,8 +32,8 @@ inline constexpr std::array<std::string_view, 8> view_words{"x", "y", "z", "-x",
 /// Azimuth and elevation of a named view [deg]; nothing for another name.
 std::optional<std::array<double, 2>> named_view(std::string_view word, Up upwards);
 
-/// An eye at a finite distance. A picture in perspective is the parallel projection of what `seen` has moved: lines
-/// stay lines, and what hides what stays, too.
+/// An eye at a finite distance. A perspective picture is the parallel projection of points moved by seen(), which
+/// preserves lines and the order of depth.
 struct Eye {
   double distance = 0;                 ///< from `axis` [m]; 0: endless
   std::array<double, 3> axis = {};     ///< the point that stays where it is
@@ -49,7 +49,7 @@ struct Eye {
   double shift(std::array<double, 3> const& p, double other) const;
 };
 
-/// The bodies at one moment, as far as a window is concerned; one entry per particle.
+/// Particles of the bodies at one time, for fitting a window; one entry per particle.
 struct Subject {
   std::span<std::array<double, 3> const> points;  ///< m
   std::span<double const> volume = {};            ///< m^dimension; empty: all count the same
@@ -66,12 +66,12 @@ struct Window {
   /// Strays do not count: what lies further than a fifth of its size from the box that holds all but 0.2 % of the
   /// volume at each of its sides.
   void include(View const& view, Subject const& subject);
-  /// Makes room for what another window shows: both then have one size where the other covers this one, too.
+  /// Extends the window to the extent of another one. If the other also covers this one, both then have one size.
   void cover(Window const& other);
   bool operator==(Window const&) const = default;
 };
 
-/// How a picture is framed, beyond the window of all that there is.
+/// Framing of a picture, if it differs from the window of all bodies.
 struct Camera {
   View view;
   double zoom = 1;

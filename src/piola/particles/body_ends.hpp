@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// Where a body ends along the axes, as far as mirror planes are concerned.
+/// Ends of a body along the axes, for mirror planes.
 struct BodyEnds {
   std::array<double, 3> low, high;          ///< of its particles [m]
   std::array<std::array<double, 2>, 3> at;  ///< where the lower and the upper plane across an axis are, if any [m]

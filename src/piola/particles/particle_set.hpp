@@ -15,7 +15,7 @@ struct Outline {
   std::array<double, 3> min{}, max{};  ///< the box around it [m]
   /// Whether a point of that box belongs to it; nothing: all do.
   std::function<bool(std::array<double, 3> const&)> inside = {};
-  /// If it is known, the same as a signed distance, negative inside, in size no larger than the true one [m].
+  /// Optional signed distance, negative inside, in absolute value at most the true one [m].
   std::function<double(std::array<double, 3> const&)> distance = {};
 };
 
@@ -31,8 +31,8 @@ struct Body {
   Outline outline = {};
 };
 
-/// A straight crack through a two-dimensional body. The particles on it exist twice, once for each face, but for those
-/// at the ends inside the body, the tips.
+/// A straight crack through a two-dimensional body. Particles on it are doubled, one for each face, except at ends
+/// inside the body (tips).
 struct Crack {
   int body = 0;                        ///< index into bodies
   std::array<double, 3> from{}, to{};  ///< ends in the reference configuration [m]

@@ -55,7 +55,7 @@ class FrameCoder {
   FrameCodes last_, before_;
 };
 
-/// Numbers as differences to the one before, low bytes, then high bytes: for what does not change in time.
+/// Numbers as differences to the one before, low bytes, then high bytes: for data that are constant in time.
 std::vector<std::uint8_t> encode_numbers(std::span<std::uint16_t const> numbers);
 
 /// Deflated in zlib's format, as text that a page may hold (base64). Throws std::bad_alloc.

@@ -35,7 +35,7 @@ class PageFile {
   double size_ = 0;
 };
 
-/// Throws InputError if a page would not have the name of one, NAME.html: no case or table is overwritten by a slip.
+/// Throws InputError unless the file name is NAME.html, so that no case or table is overwritten by mistake.
 void require_page_name(std::filesystem::path const& path);
 
 /// &, <, > and quotes as what HTML shows so.

@@ -15,7 +15,7 @@ struct PageSurfaces {
   std::vector<std::size_t> list_of = {};               ///< of each frame of the survey
 };
 
-/// Looks through the frames of a survey, whose box grows by what surfaces are wider than their particles.
+/// Reads the frames of a survey. Enlarges the box of the survey where surfaces extend beyond their particles.
 PageSurfaces find_surfaces(RunFolder const& run, BodyShapes const& shapes, Survey& survey);
 
 /// Numbers below 2^32 for encode_numbers(): all lower halves, then all upper ones.

@@ -42,8 +42,9 @@ WorstNeighbourhood worst_neighbourhood(ParticleSet const& particles, Body const&
 /// Refuses numbers that are not finite or absurd, and volumes that are not positive.
 void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std::vector<std::string>& problems);
 
-/// Refuses clouds of too few points, with points too close to each other, with volumes that do not fit the distances,
-/// or with places where no gradient can be formed. Notes what is uneven. Needs numbers that passed.
+/// Refuses clouds with too few points, points too close to each other, volumes inconsistent with the distances, or
+/// places where no gradient can be formed. Adds notes on uneven spacing. Precondition: the numbers have passed their
+/// check.
 void check_cloud_places(PointCloud& cloud, CloudSource const& source, std::vector<std::string>& problems);
 
 }  // namespace piola

@@ -22,9 +22,9 @@ struct CrackPath {
 CrackPath trace_crack(ParticleSet const& set, std::size_t body, std::array<double, 3> const& from,
                       std::array<double, 3> const& to);
 
-/// Opens a crack in the last body of a set: each particle on it becomes two, one for each face, which share the
-/// tributary volume and keep everything else; a tip stays single. The original is on the left of from -> to
-/// (crack_side +1), the copy (-1) at the end of the body. Throws InputError where no crack can be.
+/// Opens a crack in the last body of a set: each particle on it becomes two, one for each face, with half the tributary
+/// volume each and all other data kept; a tip stays single. The original is on the left of from -> to (crack_side +1),
+/// the copy (-1) at the end of the body. Throws InputError if no crack is possible.
 void open_crack(ParticleSet& set, std::size_t body, std::array<double, 3> const& from, std::array<double, 3> const& to);
 
 }  // namespace piola

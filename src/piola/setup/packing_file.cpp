@@ -129,7 +129,7 @@ std::string content_of(std::filesystem::path const& path) {
   return file.read(content) == content.size() ? content : std::string();
 }
 
-/// Nothing if there is no such file, if mark or key are others, or if it is damaged. Inverse of write_content().
+/// Returns nothing if the file is missing, has another mark or key, or is damaged. Inverse of write_content().
 template <class Packing>
 std::optional<Packing> read_content(std::filesystem::path const& path, std::string_view mark, std::string const& key) {
   std::string const content = content_of(path);
