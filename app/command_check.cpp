@@ -141,7 +141,7 @@ std::string held_text(SupportSpec const& support, int dimension) {
   return "held " + text;
 }
 
-/// What a support holds: particles, or the surface that they stand for.
+/// The object of a support: particles, or the surface that they represent.
 std::string object_text(CaseSpec const& spec, SupportSpec const& support, ParticleSet const& particles) {
   auto const count = supported_particles(particles, body_named(particles, support.body), support).size();
   std::string const some = count_text(static_cast<std::int64_t>(count)) + " particles";
@@ -220,7 +220,7 @@ std::string friction_text(contact::FrictionLaw const& law) {
   return text;
 }
 
-/// Who is pushed without a surface.
+/// Prints the pairs of bodies in colour contact, without surfaces.
 void print_colours(CaseSpec const& spec) {
   std::vector<std::string> pairs;
   auto const& bodies = spec.bodies;
@@ -230,7 +230,7 @@ void print_colours(CaseSpec const& spec) {
   if (!pairs.empty()) say("contact by colour, without friction: {}\n", joined(pairs));
 }
 
-/// Who is pushed by whom, where surfaces meet.
+/// Prints the pairs in surface contact with their friction and stiffness scale.
 void print_surfaces(CaseSpec const& spec) {
   if (!surfaces_meet(spec)) return;
   std::vector<std::string> pairs;

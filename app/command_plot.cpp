@@ -20,7 +20,7 @@ struct PlotArguments {
   std::vector<int> size{800, 500};
 };
 
-/// What a checks.toml expects of what is drawn; the rest of the file is left out.
+/// Adds the expected values of a checks.toml for the drawn quantities; ignores the rest of the file.
 void add_references_of(PlotArguments const& options, Plot& drawn) {
   report::RunFolder const run = report::open_run(options.folder);
   std::string note;

@@ -88,7 +88,7 @@ std::vector<double> times_of(std::string const& text) {
   return times;
 }
 
-/// What is said of one field.
+/// Checks the options that concern a single field.
 void check_fields(RenderArguments const& options) {
   bool const more = options.fields.size() > 1;
   if (more && (!options.component.empty() || !options.range.empty() || !options.times.empty() || options.side_by_side))
@@ -161,7 +161,7 @@ int render(RenderArguments options) {
   return completed;
 }
 
-/// What is not given is as the case in the folder has it for its pictures.
+/// Adds the options of the view; defaults are the picture settings of the case in the folder.
 void add_look_options(CLI::App& command, RenderArguments& options) {
   LookOptions& look = options.look;
   command
@@ -191,7 +191,7 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
       ->check(CLI::Range(200, 20000));
 }
 
-/// What is drawn beside the bodies, and how well.
+/// Adds the options of further objects and of picture quality.
 void add_drawing_options(CLI::App& command, LookOptions& look) {
   command.add_option("--quality", look.quality, "normal; high: more samples and a smoother shade")
       ->check(CLI::IsMember(std::vector<std::string>(quality_words.begin(), quality_words.end())));

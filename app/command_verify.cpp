@@ -44,7 +44,7 @@ fs::path find_case_folder() {
   return "cases";
 }
 
-/// A new folder, of a name that nobody else has or guesses, that is removed in the end.
+/// A new folder with a unique, unpredictable name, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -99,7 +99,7 @@ double work_of(fs::path const& file, std::vector<std::string> const& overrides) 
   return static_cast<double>(particles.size()) * spec.run.end / step_estimate(spec, body_facts(spec, particles));
 }
 
-// What only the page shows: one small picture, of the end.
+// For the page only: one small picture of the end.
 void keep_the_last_picture(OutputSpec& output, double end) {
   constexpr int width = 500;
   if (output.pictures.every <= 0) return;

@@ -32,7 +32,7 @@ int watch(WatchArguments const& options) {
     if (terminal && !options.once) clear_terminal();
     write_out(text);
     if (over || options.once) return with_output(completed);
-    if (!wait_unless_stopped(options.every)) return completed;  // whoever has seen enough leaves so
+    if (!wait_unless_stopped(options.every)) return completed;  // the user may stop watching
   }
 }
 

@@ -10,10 +10,10 @@ namespace piola::app {
 /// Exit codes that scripts rely on.
 enum ExitCode : int { completed = 0, internal_error = 1, bad_input = 2, physics_failed = 3, stopped_by_signal = 4 };
 
-/// What the chosen command does; returns the exit code. Errors are thrown and turned into messages and codes by main.
+/// Action of the chosen command; returns the exit code. Errors are thrown and turned into messages and codes by main.
 using Action = std::function<int()>;
 
-/// Each adds its command with its options to the program and, when the user chose it, stores what to do in `action`.
+/// Each adds its command with its options to the program and, when the user chose it, stores its action in `action`.
 void add_run(CLI::App& program, Action& action);
 void add_resume(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
@@ -27,7 +27,7 @@ void add_study(CLI::App& program, Action& action);
 void add_converge(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 
-/// Options that several commands share: how a case is changed on the command line before it is read.
+/// Common options of several commands: changes of a case on the command line before it is read.
 struct CaseOptions {
   std::string file;              ///< the case file
   std::vector<std::string> set;  ///< --set key=value

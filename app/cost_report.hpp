@@ -4,7 +4,7 @@
 
 namespace piola::app {
 
-/// Steps, times, memory and disk of a run, for `piola check`.
+/// Prints steps, times, memory and disk of a run, for `piola check`.
 void say_cost(CasePlan const& plan);
 
 }  // namespace piola::app

@@ -64,7 +64,7 @@ int perform(app::Action const& action) {
   }
 }
 
-/// What the user typed asks for help, or is wrong.
+/// Handles a help request or an error in the command line.
 int explain(CLI::App const& program, CLI::ParseError const& error, std::span<char const* const> arguments) {
   std::ostringstream out, err;
   bool const asked = program.exit(error, out, err) == 0;
@@ -74,7 +74,7 @@ int explain(CLI::App const& program, CLI::ParseError const& error, std::span<cha
   return asked ? app::with_output(app::completed) : app::bad_input;
 }
 
-/// What the program does as one of several ranks.
+/// The action of the program as one of several ranks.
 app::Action shared(CLI::App const& program, app::Action action) {
   if (!ranks::several() || program.got_subcommand("run") || program.got_subcommand("resume")) return action;
   return []() -> int {

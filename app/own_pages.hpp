@@ -5,10 +5,10 @@
 
 namespace piola::app {
 
-/// The manual page piola(1), from the commands and options that the program has.
+/// The manual page piola(1), generated from the commands and options of the program.
 std::string man_page(CLI::App const& program);
 
-/// A script for bash that completes commands, options and files, likewise.
+/// A bash completion script for commands, options and files, generated likewise.
 std::string bash_completion(CLI::App const& program);
 
 }  // namespace piola::app

@@ -26,7 +26,7 @@ std::string between(Scaling const& scaling, F const& f, std::string (*text)(doub
 }
 
 std::string count(double n) { return count_text(static_cast<std::int64_t>(std::llround(n))); }
-/// What steps do on average need not be whole.
+/// Averages over steps need not be whole.
 std::string mean(double n) {
   std::string const text = fmt::format("{:.1f}", n);
   return n < 1000 && !text.ends_with(".0") ? text : count(n);

@@ -6,7 +6,7 @@
 
 namespace piola::app {
 
-/// Says what a case would be on so many ranks. Throws InputError if it cannot run on them.
+/// Prints the prediction of a case for several ranks. Throws InputError if it cannot run on them.
 void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks);
 
 }  // namespace piola::app

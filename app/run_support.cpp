@@ -83,7 +83,7 @@ std::string start_report(Simulation const& s, std::filesystem::path const& folde
 
 namespace {
 
-/// What the scheme made of the energy, as the guard of dissipation counted it.
+/// Energy change by the scheme, as measured by the guard of dissipation.
 std::string dissipation_text(Summary const& summary) {
   if (!summary.guards) return "";
   for (GuardNumbers const& guard : *summary.guards)

@@ -8,7 +8,7 @@
 
 namespace piola::app {
 
-/// A line on stderr that is renewed on a terminal; elsewhere a new one about every ten seconds.
+/// A status line on stderr: replaced in place on a terminal; elsewhere a new line about every ten seconds.
 class StatusLine {
  public:
   StatusLine();
@@ -24,7 +24,7 @@ class StatusLine {
   std::chrono::steady_clock::time_point last_;
 };
 
-/// Shows progress by a status line. Warnings always.
+/// Shows progress by a status line, and all warnings.
 class Console : public Listener {
  public:
   explicit Console(bool quiet) : quiet_(quiet) {}
@@ -37,15 +37,15 @@ class Console : public Listener {
   StatusLine line_;
 };
 
-/// When the program was started.
+/// Start time of the program.
 extern WallLimit::Clock::time_point const program_start;
 
-/// What is about to run, in a few lines.
+/// A summary of a run before its start, in a few lines.
 std::string start_report(Simulation const& simulation, std::filesystem::path const& folder);
-/// What came out.
+/// The result of a run.
 std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& folder);
 
-/// --wall-time, and what it says [s]: a time such as "2 h", without a unit in seconds; nothing if it is not given.
+/// Adds --wall-time, and parses its value [s]: a time such as "2 h", without a unit in seconds; empty if not given.
 /// Throws InputError for anything else.
 void add_wall_time(CLI::App& command, std::string& text);
 double read_wall_time(std::string const& text);
@@ -54,7 +54,7 @@ double read_wall_time(std::string const& text);
 /// Returns the exit code.
 int run_and_report(Simulation& simulation, RunOptions options, bool quiet);
 
-/// Throws InputError if an error says that the links at a path lead in a circle.
+/// Throws InputError if an error reports a loop of symbolic links at a path.
 void refuse_link_loop(std::filesystem::path const& path, std::error_code const& error);
 
 /// case.toml itself, or the one in a folder. Throws InputError if there is none.

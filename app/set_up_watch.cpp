@@ -94,7 +94,7 @@ void SetUpWatch::end_if_due() {
   bool const asked = stop_signal != 0 && !packs();
   if (!(late || asked) || ranks::own() != 0) return;
   line_.clear();
-  // A rank that ends all of them has the launcher send signals to the others: that rank has said why.
+  // If a rank stops all ranks, the launcher sends signals to the others; that rank has printed the reason.
   bool const launcher_may_have_sent_it = !late && ranks::several();
   if (!launcher_may_have_sent_it)
     tell("piola: set-up was stopped {} while {} ({} after the start); there is nothing to continue from - {}\n",

@@ -4,8 +4,9 @@
 
 namespace piola::app {
 
-/// Says of a solid: its exact volume, how good a packing is, where it is thinnest, and the patches that supports and
-/// loads can name; of a packing and of points from a file: where a gradient is hardest to form. Of others nothing.
+/// Prints for a solid: its exact volume, the quality of a packing, its thinnest place, and the patches for supports and
+/// loads; for a packing and points from a file: where a gradient is most ill-conditioned. Prints nothing for other
+/// shapes.
 void say_solid(ShapeSpec const& shape, ParticleSet const& particles, Body const& body);
 
 }  // namespace piola::app

@@ -15,8 +15,8 @@ namespace {
 int out_error = 0;  // the first error of standard output
 bool silent = false;
 
-/// Writes all of it; returns 0 or the errno of the failure. A descriptor that does not block is waited for, at most so
-/// many milliseconds (-1: for ever).
+/// Writes the whole text; returns 0 or the errno of the failure. Waits for a non-blocking descriptor for at most
+/// `patience` [ms] (-1: no limit).
 int write_all(int descriptor, std::string_view text, int patience) {
   while (!text.empty()) {
     ::ssize_t const written = ::write(descriptor, text.data(), text.size());

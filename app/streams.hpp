@@ -6,20 +6,20 @@
 
 namespace piola::app {
 
-/// First thing in main. Descriptors 0 to 2 that are closed become /dev/null, so that no file of a run ever gets their
-/// number and messages as content; what is written to such a standard output or error fails, as it did before. A
-/// reader who has left (SIGPIPE) and a file size limit (SIGXFSZ) become ordinary write errors.
+/// Call first in main. Opens closed descriptors 0 to 2 as /dev/null, so that no file of a run gets their number and
+/// messages as content; writing to such a standard output or error still fails. A closed pipe (SIGPIPE) and a file size
+/// limit (SIGXFSZ) become ordinary write errors.
 void secure_streams();
 
-/// From now on nothing is written, or it is again: of ranks that share a run the first one speaks.
+/// Switches output off or on: of the ranks of a run only the first one prints.
 void be_silent(bool silent);
 
-/// Writes to standard output, and to standard error; control characters (base/controls.hpp) are escaped. Neither
-/// throws, nor ends the program: a run goes on whether anybody listens or not.
+/// Writes to standard output, and to standard error; control characters (base/controls.hpp) are escaped. Neither throws
+/// nor ends the program, so that a run continues without a reader.
 void write_out(std::string_view text);
 void write_err(std::string_view text);
 
-/// Empties the terminal that is the standard output.
+/// Clears the terminal of the standard output.
 void clear_terminal();
 
 template <class... T>
@@ -31,8 +31,8 @@ void tell(fmt::format_string<T...> format, T&&... values) {
   write_err(fmt::format(format, std::forward<T>(values)...));
 }
 
-/// The exit code of a command whose result is its standard output: `code`, or internal_error in place of success if
-/// not all of it could be written; then standard error says why, unless the reader has left.
+/// The exit code of a command whose result is its standard output: `code`, or internal_error in place of success if not
+/// all of it could be written; then the reason goes to standard error, unless the pipe was closed.
 int with_output(int code);
 
 }  // namespace piola::app

@@ -7,17 +7,17 @@
 
 namespace piola::app {
 
-/// Reads the case of every run of a study before the first one begins. Returns their identities. Throws InputError,
+/// Reads the case of every run of a study before the first one starts. Returns their identities. Throws InputError,
 /// with the settings of the run that cannot be read.
 std::vector<std::string> identities_of(StudySpec const& study, std::vector<StudyRun> const& runs);
 
-/// Makes the runs of a study in its folder, several at a time, each by this program in a process of its own; runs that
-/// are completed there with the same identity are not made again. Tells of each, and writes study.csv. A stop signal
-/// ends those that are under way. Throws FileError.
+/// Runs a study in its folder, several runs at a time, each in a process of its own; skips runs that are completed
+/// there with the same identity. Prints the status of each, and writes study.csv. A stop signal ends running ones.
+/// Throws FileError.
 std::vector<RunOutcome> make_runs(StudySpec const& study, std::filesystem::path const& folder,
                                   std::vector<StudyRun> const& runs, std::vector<std::string> const& identities);
 
-/// Threads of each run if nothing is said: the cores divided by the runs at a time.
+/// Default threads of each run: the cores divided by the runs at a time.
 int share_of_cores(int jobs);
 
 /// The exit code of a study.

@@ -3,11 +3,10 @@
 
 namespace piola::app {
 
-/// Lets threads that wait for others sleep after some microseconds instead of turning idly for milliseconds, which
-/// takes the time of other programs where cores are shared. OpenMP reads such wishes from the environment before main
-/// starts, so this writes them there and starts the program once more in the same process; it returns where the user
-/// has wishes of their own (OMP_WAIT_POLICY, GOMP_SPINCOUNT, KMP_BLOCKTIME) and where the program cannot be started
-/// again.
+/// Makes waiting threads sleep after some microseconds instead of spinning for milliseconds, which would take the time
+/// of other programs on shared cores. OpenMP reads such settings from the environment before main starts, so this sets
+/// them there and restarts the program in the same process. Returns if the user has set them (OMP_WAIT_POLICY,
+/// GOMP_SPINCOUNT, KMP_BLOCKTIME) or if the program cannot be restarted.
 void sleep_while_waiting(char** arguments);
 
 }  // namespace piola::app

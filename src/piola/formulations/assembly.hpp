@@ -22,36 +22,37 @@ struct MirrorPlane {
   std::size_t body = 0;
   int axis = 0;
   bool upper = false;  ///< at the largest coordinate, else at the smallest
-  bool skew = false;   ///< the image moves the opposite way: zero velocity along the plane; small strains
+  bool skew = false;   ///< antisymmetric image motion: zero velocity along the plane; small strains only
 };
 
-/// What keeps bodies of one run apart.
+/// Contact law between the bodies of a run.
 struct ContactRule {
   enum class Law {
-    none,     ///< bodies see each other as one
+    none,     ///< no contact; Eulerian bodies merge
     kernel,   ///< repulsion by the kernel, stiffness from the impedances
     linear,   ///< linear spring with the stiffness of the material: slow impacts
     printed,  ///< repulsion by the kernel with a constant and current volumes, as published
-    surface   ///< surfaces push each other, also those of a formulation that has a contact of its own
+    surface   ///< surface contact, also for formulations that have a kernel contact of their own
   };
   Law law = Law::kernel;
   double scale = 1;                                                 ///< factor on the stiffness
   double stiffness = std::numeric_limits<double>::quiet_NaN();      ///< printed: K [Pa/m^D]; nan: not given
   double closing_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]; nan: from the initial velocities
-  contact::FrictionLaw friction;  ///< between surfaces and on rigid shapes that surfaces meet
-  bool self = false;              ///< whether surfaces meet themselves
-  double exponent = std::numeric_limits<double>::quiet_NaN();  ///< n of eq. (15); nan: 4 to 8, by what bodies bear
+  contact::FrictionLaw friction;  ///< between surfaces and on rigid shapes in surface contact
+  bool self = false;              ///< self-contact of surfaces
+  double exponent = std::numeric_limits<double>::quiet_NaN();  ///< n of eq. (15); nan: 4 to 8, from the strength of the
+                                                               ///< bodies
 };
 
-/// What is different between two bodies, a body and a rigid shape, or a body and itself, where surfaces meet.
+/// Settings of surface contact that differ for one pair: two bodies, a body and a rigid shape, or a body and itself.
 struct ContactPair {
   std::array<std::string, 2> between;  ///< names
-  bool off = false;                    ///< nothing keeps them apart
+  bool off = false;                    ///< no contact between the two
   double scale = 1;                    ///< factor on the stiffness
   contact::FrictionLaw friction;
 };
 
-/// What is said of two, in either order; null: nothing.
+/// The pair that names `a` and `b`, in either order; null if there is none.
 template <class Pair>
 Pair const* find_pair(std::vector<Pair> const& pairs, std::string const& a, std::string const& b) {
   for (Pair const& pair : pairs)
@@ -63,7 +64,8 @@ Pair const* find_pair(std::vector<Pair> const& pairs, std::string const& a, std:
 struct Assembly {
   ParticleSet particles;
   std::vector<MaterialParameters> materials;                ///< one per body
-  std::vector<std::vector<MaterialParameters>> parts;       ///< per body those of its parts; empty: no body has any
+  std::vector<std::vector<MaterialParameters>> parts;       ///< per body the materials of its parts; empty: no body has
+                                                            ///< parts
   std::vector<FormulationSpec> formulations;                ///< one per body
   std::vector<std::array<double, 3>> initial_velocity;      ///< m/s, one per particle, or empty: at rest
   std::vector<std::array<double, 3>> initial_displacement;  ///< m, one per particle, or empty: none
@@ -81,12 +83,12 @@ struct Assembly {
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;                                ///< on ranks
-  /// For estimates: nobody works on any particle, so that what is made is what every rank knows of those of others.
-  /// Only of formulations whose FormulationInfo says `tells_of_space`.
+  /// For memory estimates: builds the formulation as a rank that owns no particle would, i.e. only the data that every
+  /// rank holds of all particles. Only if FormulationInfo::tells_of_space.
   bool only_known = false;
 };
 
-/// The materials of a body: its own, then those of its parts, as ParticleSet::part counts them.
+/// The materials of a body: the main one, then those of its parts, in the order of ParticleSet::part.
 inline std::vector<MaterialParameters> materials_of(Assembly const& assembly, std::size_t body) {
   std::vector<MaterialParameters> all{assembly.materials[body]};
   if (!assembly.parts.empty()) all.insert(all.end(), assembly.parts[body].begin(), assembly.parts[body].end());

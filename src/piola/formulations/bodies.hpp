@@ -8,10 +8,10 @@
 #include <limits>
 #include <type_traits>
 
-/// What a formulation says of bodies that do not touch each other, of all of them together.
+/// Sums and step limits over all bodies of a formulation.
 namespace piola {
 
-/// The sum of of(body) over the bodies that these point to.
+/// The sum of of(body) over the bodies; `bodies` holds pointers.
 template <class Bodies, class F>
 auto sum_of(Bodies const& bodies, F const& of) {
   std::decay_t<decltype(of(*bodies.front()))> sum{};
@@ -19,8 +19,8 @@ auto sum_of(Bodies const& bodies, F const& of) {
   return sum;
 }
 
-/// What acts on such bodies. Of what supports and loads give in a step each rank knows its part: ranks add up when
-/// somebody asks, or before anything else would be added to it.
+/// Impulses of supports and loads on several bodies. They are accumulated per rank, and reduced over ranks only when
+/// read or before the next step adds to them.
 class ActionsOnBodies : public Actions {
  public:
   using Actions::Actions;
@@ -35,7 +35,7 @@ class ActionsOnBodies : public Actions {
     due_ = true;
     if (!ranks::several()) settle(bodies);
   }
-  /// With what all ranks have given. Collective.
+  /// Returns a copy with the impulses of all ranks. Collective.
   template <class Bodies>
   ActionsOnBodies over_ranks(Bodies const& bodies) const {
     ActionsOnBodies all(*this);
@@ -44,7 +44,7 @@ class ActionsOnBodies : public Actions {
       if (due_) body->boundary().hand_over(all);
     return all;
   }
-  /// Collective.
+  /// Reduces the pending impulses over ranks. Collective.
   template <class Bodies>
   void settle(Bodies const& bodies) {
     if (!due_) return;
@@ -62,7 +62,7 @@ class ActionsOnBodies : public Actions {
   bool due_ = false;
 };
 
-/// dt [s], or less, so that a step from `time` ends where a support or a load of a body does.
+/// Returns dt [s], or a shorter step, so that a step from `time` ends where a support or a load of a body ends.
 template <class Bodies>
 double up_to_release_of(Bodies const& bodies, double time, double dt) {
   double rest = std::numeric_limits<double>::infinity();

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-/// How fields and parts of a body go into checkpoints and come back.
+/// Saves fields and parts of a body in checkpoints and loads them.
 namespace piola {
 
-/// f(position in values, slot, component) for the values of the body's particles; threads share the particles.
+/// Calls f(position in values, slot, component) for all particles of the body, in a parallel loop.
 template <class Body, class F>
 void each_in_id_order(Body const& body, int components, F const& f) {
   exec_host::for_each_in_set_up(body.particles(), [&](Index i) {
@@ -20,7 +20,7 @@ void each_in_id_order(Body const& body, int components, F const& f) {
   });
 }
 
-/// value(slot, c) of the particles of this rank, in the order of slots.
+/// Returns value(slot, c) of the local particles, in the order of slots.
 template <class Body, class F>
 std::vector<double> in_slot_order(Body const& body, int components, F const& value) {
   auto const n = static_cast<std::size_t>(components);
@@ -32,7 +32,7 @@ std::vector<double> in_slot_order(Body const& body, int components, F const& val
   });
   return mine;
 }
-/// The way back: put(slot, c, value).
+/// Inverse of in_slot_order(): calls put(slot, c, value).
 template <class Body, class F>
 void from_slot_order(Body const& body, int components, std::span<double const> mine, F const& put) {
   auto const n = static_cast<std::size_t>(components);
@@ -43,8 +43,7 @@ void from_slot_order(Body const& body, int components, std::span<double const> m
   });
 }
 
-/// value(slot, c) of all particles in the order of ids; on ranks that share the body on rank 0 alone, elsewhere
-/// nothing.
+/// Gathers value(slot, c) of all particles on rank 0, in the order of ids; empty on other ranks. Collective.
 template <class Body, class F>
 std::vector<double> in_id_order(Body const& body, int components, F const& value) {
   auto const n = static_cast<std::size_t>(components);
@@ -63,7 +62,8 @@ std::vector<double> in_id_order(Body const& body, int components, F const& value
   return all;
 }
 
-/// The way back: put(slot, c, value) of the particles of this rank. `all`: on ranks that of rank 0.
+/// Inverse of in_id_order(): scatters `all` of rank 0 and calls put(slot, c, value) for the local particles.
+/// Collective.
 template <class Body, class F>
 void from_id_order(Body const& body, int components, std::span<double const> all, F const& put) {
   auto const n = static_cast<std::size_t>(components);
@@ -80,7 +80,7 @@ void from_id_order(Body const& body, int components, std::span<double const> all
   from_slot_order(body, components, mine, put);
 }
 
-/// Of a body, of which ranks that share it have their own particles, the rows of those in the order of ids.
+/// The rows of the local particles of a body in a table in the order of ids.
 class OwnRows {
  public:
   template <class Body>
@@ -101,7 +101,7 @@ class OwnRows {
   std::vector<Index> places_;
 };
 
-/// A field of a body, of which ranks that share it have their own particles. Collective.
+/// Saves a field of a body. Collective.
 template <class Body>
 void save_own(StateWriter& writer, std::string const& name, Body const& body, FieldRef const& field, int components) {
   OwnRows const rows(body);
@@ -118,7 +118,7 @@ void load_own(StateReader& reader, std::string const& name, Body const& body, Fi
   ranks::several() ? from_slot_order(body, components, mine, put) : from_id_order(body, components, mine, put);
 }
 
-/// Of what says its state in numbers, always as many, and takes it back.
+/// Loads a part whose state() is a fixed number of values and which restore() accepts.
 template <class Part>
 void load_part(StateReader& reader, std::string const& name, Part& part) {
   std::vector<double> values = part.state();

@@ -8,9 +8,9 @@
 
 namespace piola {
 
-/// A run whose bodies go on behind their mirror planes, as far as surfaces near a plane feel what is behind it. Points
-/// of surfaces behind a plane are marked as images; a face that is a mirror is no surface. Images follow the particles
-/// of their body, so that ids are not those of the run.
+/// An assembly whose bodies are continued behind their mirror planes, as far as surface contact near a plane reaches.
+/// Surface points behind a plane are marked as images; a mirror face is no surface. Images follow the particles of
+/// their body, so ids differ from those of the run.
 struct Continued {
   explicit Continued(Assembly const& whole);
 

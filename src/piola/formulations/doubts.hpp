@@ -7,18 +7,17 @@
 
 namespace piola {
 
-/// Something that a case may ask for, but does not get, or gets in a way that its author may not expect.
+/// A setting that has no effect here, or an effect that users may not expect.
 struct Doubt {
   std::size_t body = 0;
   std::string key;   ///< within the body: "formulation.blend", "material.poissons_ratio", "initial_displacement"
-  std::string text;  ///< what is odd (why) - what to do
+  std::string text;  ///< what is unusual (why) - what to do
 };
 
-/// What a formulation finds odd about the bodies of a case that it can run: settings without effect here, laws that
-/// lock or cannot fail.
+/// Returns warnings about the bodies of a valid case: settings without effect, laws that lock or cannot fail.
 std::vector<Doubt> doubts(Assembly const& assembly);
 
-/// Collects the doubts about one body.
+/// Collects the warnings about one body.
 class BodyDoubts {
  public:
   BodyDoubts(Assembly const& assembly, std::size_t body, std::vector<Doubt>& found)
@@ -30,9 +29,9 @@ class BodyDoubts {
   bool has_mirror() const;
   /// Whether the case gives a setting of the formulation.
   bool gives(std::string_view name) const;
-  /// Whether the case gives this word for it.
+  /// Whether the case gives this word for the choice `name`.
   bool gives(std::string_view name, std::string_view word) const;
-  /// Notes a setting that is given, but has no effect; `why`: when it has one.
+  /// Adds a warning that a given setting has no effect; `why`: when it has one.
   void ignored(std::string_view name, std::string_view why);
   void add(std::string key, std::string text);
 
@@ -42,7 +41,7 @@ class BodyDoubts {
   std::vector<Doubt>& found_;
 };
 
-/// Poisson's ratio of a law at rest, from its bulk and shear moduli.
+/// Poisson's ratio of a law in the undeformed state, from its bulk and shear moduli.
 double poissons_ratio_of(MaterialParameters const& material);
 
 }  // namespace piola

@@ -35,7 +35,8 @@ void add_columns(std::vector<std::pair<std::string, double>>& sum,
   }
 }
 
-/// The energy of a formulation that does not rise by itself: where it books energies half a step apart it tells one.
+/// The total energy minus external work that does not rise by itself. A formulation whose energies are half a step
+/// apart supplies such a sum.
 double balanced_energy(Diagnostics const& d) {
   for (auto const& [name, value] : d.more)
     if (name == "centred_energy") return value;
@@ -87,7 +88,7 @@ class Ensemble : public Formulation, public SetUpChecked {
   }
   StepRule step_rule() const override;
 
-  /// What acts between bodies acts before and after the steps of the parts, when all bodies stand at one instant.
+  /// Contact and ties act before and after the steps of the parts, when all bodies are at the same time.
   void step(double time, double dt) override {
     if (meeting_) meeting_->begin(formulations_, time, dt);
     for (auto const& formulation : formulations_) formulation->step(time, dt);
@@ -182,7 +183,7 @@ class Ensemble : public Formulation, public SetUpChecked {
 
   std::vector<EnsemblePart> parts_;
   std::vector<std::unique_ptr<Formulation>> formulations_;
-  std::unique_ptr<Meeting> meeting_;  ///< where surfaces meet
+  std::unique_ptr<Meeting> meeting_;  ///< if there is surface contact
   Actions nothing_;                   ///< all that can act, in the order of the case, at rest
   std::vector<double> counts_;        ///< particles by part
   std::size_t body_count_ = 0, support_count_ = 0, load_count_ = 0;
@@ -261,8 +262,8 @@ Diagnostics Ensemble::diagnose() const {
   return sum;
 }
 
-/// Supports, loads with a name and rigid shapes in the order of the case, then pairs of bodies that meet. Parts of the
-/// same support or shape are added up.
+/// Supports, named loads and rigid shapes in the order of the case, then pairs of bodies in contact. Parts of the same
+/// support or shape are summed.
 std::vector<Action> Ensemble::actions_of(std::vector<Diagnostics> const& of_parts) const {
   std::vector<Action> sum = meeting_ ? meeting_->actions() : nothing_.report();
   auto const take = [&](Action const& action, std::size_t place) {
@@ -306,7 +307,7 @@ std::vector<FieldInfo> Ensemble::fields_of(std::size_t body) const {
   return {};
 }
 
-/// That of this name among `fields`, as long as they live; nullptr: there is none.
+/// The field of this name among `fields`, valid during their lifetime; nullptr if there is none.
 FieldInfo const* find_field(std::span<FieldInfo const> fields, std::string_view name) {
   auto const found = std::find_if(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == name; });
   return found == fields.end() ? nullptr : &*found;
@@ -362,7 +363,7 @@ void Ensemble::sample_owned(std::string_view field, std::span<double> values) co
   }
 }
 
-/// Of a part, in its own numbers.
+/// Ids of local particles of a part, numbered in the part.
 std::vector<std::int64_t> Ensemble::owned_of(std::size_t part) const {
   if (auto ids = formulations_[part]->owned()) return *std::move(ids);
   std::vector<std::int64_t> all(static_cast<std::size_t>(counts_[part]));

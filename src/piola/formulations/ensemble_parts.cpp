@@ -96,7 +96,7 @@ void take_contact(Assembly const& whole, EnsemblePart& part) {
     a.contact = whole.contact;
     a.contact_pairs = whole.contact_pairs;
     for (std::size_t k = 0; k < whole.rigid_shapes.size(); ++k) {
-      if (whole.rigid_shapes[k].turns()) continue;  // surfaces alone meet those
+      if (whole.rigid_shapes[k].turns()) continue;  // only surface contact with these
       a.rigid_shapes.push_back(whole.rigid_shapes[k]);
       part.rigid_shapes.push_back(k);
     }

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-/// How the state of one of several formulations goes into the checkpoint of all of them and comes back.
+/// Saves the state of several formulations in one checkpoint and loads it.
 namespace piola {
 
-/// Which of how many formulations, each of which numbers the sets of its rows by itself.
+/// Index of a formulation and their number; each formulation numbers its sets of rows independently.
 struct PartNumber {
   std::size_t part, parts;
   RowsOfRanks of_whole(RowsOfRanks rows) const {
@@ -20,7 +20,7 @@ struct PartNumber {
   }
 };
 
-/// Names of a part's arrays in a checkpoint begin with its formulation.
+/// Prefixes the names of a part's arrays in a checkpoint with its formulation.
 class PartWriter : public StateWriter {
  public:
   PartWriter(StateWriter& whole, std::string prefix, PartNumber number)

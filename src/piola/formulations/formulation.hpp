@@ -24,20 +24,20 @@ struct FieldInfo {
   int components;    ///< 1 scalar, 3 vector, 6 symmetric tensor (XX YY ZZ XY YZ XZ), 9 tensor (row by row)
 };
 
-/// That of this name. Throws std::invalid_argument if there is none.
+/// Returns the field of this name. Throws std::invalid_argument if there is none.
 FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view name);
 
-/// What one body has of the quantities below.
+/// The contribution of one body to the quantities below.
 struct BodyShare {
   std::string name;
   double kinetic_energy = 0, strain_energy = 0;  ///< J
   std::array<double, 3> linear_momentum{};       ///< kg m/s
 };
 
-/// Surface points that went through another surface since the start: they were deep behind it, and left at its far
-/// side.
+/// Surface points that have passed through another surface since the start: they were deep behind it and left at its
+/// far side.
 struct Passage {
-  std::string of, through;  ///< of what, through what, e.g. body "plate"
+  std::string of, through;  ///< surface of the points, and the surface passed, e.g. body "plate"
   std::int64_t points = 0;
 };
 
@@ -57,7 +57,7 @@ struct Diagnostics {
   std::vector<std::pair<std::string, double>> more;  ///< columns of this formulation only
   std::vector<BodyShare> bodies;
   std::vector<Action> actions;
-  std::vector<RigidState> rigids;  ///< shapes that are free or turn
+  std::vector<RigidState> rigids;  ///< free or rotating shapes
   std::vector<Passage> passages;
   double total_energy() const { return kinetic_energy + strain_energy; }
 };
@@ -71,73 +71,74 @@ struct Failure {
   std::vector<std::pair<std::string, double>> values;  ///< e.g. {"det F", -0.02}, {"neighbours", 27}
 };
 
-/// How long the steps of a run will be, for estimates and for words.
+/// Estimate of the step lengths of a run.
 struct StepRule {
   double settled = 0;       ///< s, the step once the run has settled
   double first = 0;         ///< s
   double growth = 1;        ///< a step may be longer than the one before by this factor; 1: no bound
-  double late_growth = 0;   ///< the same once a step is longer than `late_from`; 0: as before
+  double late_growth = 0;   ///< growth once a step is longer than `late_from`; 0: unchanged
   double late_from = 0;     ///< s
   std::string limit;        ///< what limits the step, in words
-  double more_stages = 0;   ///< right-hand sides a step on average besides stages_per_step
+  double more_stages = 0;   ///< mean number of right-hand sides per step in addition to stages_per_step
   double setup_stages = 0;  ///< right-hand sides before the first step
 };
 
-/// What particles of a body tell their neighbours, those of other ranks too: for estimates.
+/// Communication pattern of one body, for estimates of parallel efficiency.
 struct Talk {
-  /// So many numbers per particle, to those who read them.
+  /// Values per particle of one ghost exchange, sent to the ranks within `reach`.
   struct Told {
-    double reach;  ///< m, as the particles stood at the start
+    double reach;  ///< cutoff in the reference configuration [m]
     int numbers;
   };
-  std::vector<std::vector<Told>> messages;  ///< of a right-hand side, to each rank that reads any of it
-  /// What is told of particles that are near others in space, to each rank that reads any of it (CellMarks), after all
-  /// have told all of their cells.
+  std::vector<std::vector<Told>> messages;  ///< per exchange of one right-hand side: groups sent together
+  /// Exchange with spatial neighbours (CellMarks), after an allgather of the occupied cells.
   struct Near {
     struct Numbers {
-      int any, flow, touch;  ///< per particle, whatever is read of it and by kind of reading
+      int any, flow, touch;  ///< values per particle: for any reader, for Eulerian readers, for contact
     };
-    std::vector<Numbers> messages;    ///< of a step
-    std::size_t group = 0;            ///< bodies with the same one have common cells, whose edge is the largest of all
+    std::vector<Numbers> messages;    ///< per step
+    std::size_t group = 0;            ///< bodies of a group use the same cells, whose edge is the largest of their
+                                      ///< `cell`
     double cell = 0;                  ///< edge [m]
-    bool touching = false;            ///< bodies of the group can touch
-    std::vector<std::uint8_t> flows;  ///< per particle of the body, or one for all
+    bool touching = false;            ///< bodies of the group can be in contact
+    std::vector<std::uint8_t> flows;  ///< Eulerian or not, per particle of the body, or one value for all
   };
   std::optional<Near> near{};
-  double stages = 0;             ///< right-hand sides of a step; 0: as step_rule() says of all bodies
-  double collectives = 0;        ///< per step: what all ranks add, or take the largest of, or are told
-  double more_if_shortened = 0;  ///< of these in steps that others make shorter than the formulation would
-  double to_all = 0;             ///< per step: numbers that all ranks are told of the particles of the body
-  /// Of which each of so many ranks has its share.
+  double stages = 0;             ///< right-hand sides per step; 0: as in step_rule()
+  double collectives = 0;        ///< allreduces and broadcasts per step
+  double more_if_shortened = 0;  ///< additional ones when the common step is shorter than the step of this formulation
+  double to_all = 0;             ///< values per step that are replicated on all ranks
+  /// Order of the particles for a given number of ranks; each rank owns a contiguous range of it (share_of).
   SlotOrder (*order)(ParticleSet const&, Body const&, int ranks) = &bisected_pencils;
 
-  /// The formulation would take steps `own`, all take `step` [s].
+  /// Adds the collectives that the formulation needs when the common time step `step` [s] is shorter than `own`, the
+  /// step that it would take by itself.
   void take_shorter_steps(double own, double step) {
     if (step < own) collectives += std::exchange(more_if_shortened, 0.0);
   }
-  /// What pushes bodies reads so many of its particles in every step: positions and velocities, at once.
+  /// Adds the cost of replicating position and velocity of `particles` particles in every step, for surface contact.
   void read_motion_of(std::size_t particles) {
     collectives += particles > 0 ? 1 : 0;
     to_all += 6 * static_cast<double>(particles);
   }
 };
 
-/// Receives or returns the evolved state by name, in Id order; bit-exact doubles.
+/// Receives the evolved state by name, in Id order, as bit-exact doubles.
 class StateWriter {
  public:
   virtual ~StateWriter() = default;
   virtual void put(std::string_view name, std::span<double const> values) = 0;
-  /// Of what ranks have rows of: `values` are those of this rank, row by row. Collective; here rank 0 gets all of them
-  /// and puts them.
+  /// Saves a distributed table. `values`: the rows of this rank. Collective. The default gathers all rows on rank 0 and
+  /// calls put() there.
   virtual void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values);
-  /// What put_rows() does with the rows of other ranks: brings them to rank 0; writes them into one file, end_rows()
-  /// following then; nothing, since only the size matters.
+  /// Destination of the rows in put_rows(): rank 0; one file, then followed by end_rows(); or nowhere, since only the
+  /// size is needed.
   enum class Rows { to_first, to_file, counted };
   virtual Rows rows() const { return Rows::to_first; }
   virtual void end_rows() {}  ///< collective
 };
 
-/// Counts what is saved.
+/// Counts the saved values.
 class StateSize : public StateWriter {
  public:
   void put(std::string_view, std::span<double const> values) override { numbers_ += values.size(); }
@@ -151,7 +152,7 @@ class StateSize : public StateWriter {
   std::size_t numbers_ = 0;
 };
 
-/// Where the numbers of a name stand, one after the other, as they are in memory.
+/// Location of a contiguous array in a file, in the byte order of memory.
 struct PlaceInFile {
   std::string path;
   std::uint64_t at;  ///< [bytes]
@@ -161,22 +162,24 @@ class StateReader {
   virtual ~StateReader() = default;
   /// Throws FileError if the name or the length does not fit.
   virtual void get(std::string_view name, std::span<double> values) = 0;
-  /// The same for what rank 0 alone has room for, because it deals it out then; other ranks give none.
+  /// As get(), for data that rank 0 scatters afterwards: rank 0 passes a buffer of the full length, other ranks pass an
+  /// empty span.
   virtual void get_to_deal(std::string_view name, std::span<double> values) { get(name, values); }
-  /// What put_rows() has put: `values` are those of this rank. Collective; here rank 0 gets all of them and hands out.
+  /// Inverse of put_rows(). `values`: the rows of this rank. Collective. The default reads all rows on rank 0 and
+  /// scatters them.
   virtual void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values);
-  /// Of so many numbers, if they are in a file that other processes can read, too. Throws as get().
+  /// Returns the location of `count` values if other processes can read the file; else empty. Throws as get().
   virtual std::optional<PlaceInFile> place(std::string_view /*name*/, std::size_t /*count*/) { return std::nullopt; }
 };
 
-/// The narrow face of every formulation: called at most a few times per step, holds no data.
-/// Particles are addressed in Id order (the order of the ParticleSet), whatever the formulation uses inside.
+/// Interface of every formulation: called at most a few times per step, holds no data. Particles are addressed in Id
+/// order (the order of the ParticleSet), whatever the internal order.
 class Formulation {
  public:
   virtual ~Formulation() = default;
 
   virtual double stable_time_step() const = 0;  ///< s, the step to take from the current state
-  /// The step that runs go at once they have settled, where the first steps are shorter: for estimates [s].
+  /// For estimates: the step after the first, shorter steps [s].
   virtual double settled_time_step() const { return stable_time_step(); }
   virtual StepRule step_rule() const {
     StepRule rule;
@@ -185,48 +188,48 @@ class Formulation {
     return rule;
   }
   virtual void step(double time, double dt) = 0;  ///< from time to time + dt
-  /// Multiplies the velocities that nothing prescribes by `factor`, from 0 to 1; the kinetic energy that they lose is
+  /// Multiplies the velocities that are not prescribed by `factor`, from 0 to 1. The lost kinetic energy is added to
   /// the damping loss. Called between steps.
   virtual void damp(double factor) = 0;
   virtual double kinetic_energy() const { return diagnose().kinetic_energy; }  ///< [J]
-  /// What acts between bodies pushes them between steps, when all stand at one instant. Only of formulations whose
-  /// FormulationInfo says `pushable`, built from an Assembly that says `pushed`. On ranks all read, and push, the same.
+  /// Contact and ties change velocities between steps, when all formulations are at the same time. The three functions
+  /// below are their interface. Only if FormulationInfo::pushable and Assembly::pushed. All ranks pass the same ids and
+  /// get the same values.
   virtual void read_motion(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3>> /*x*/,
                            std::span<std::array<double, 3>> /*v*/) const {}                          ///< [m], [m/s]
   virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]
   /// Adds to velocities, also to prescribed ones [m/s].
   virtual void push(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3> const> /*change*/) {}
 
-  /// Rigid shapes that are free or turn, as they stand; of the others the case tells where they are.
+  /// Current state of free and rotating rigid shapes; that of the others follows from the case.
   virtual std::vector<RigidState> rigids() const { return {}; }
 
-  virtual std::optional<Failure> failure() const = 0;  ///< set once the state is not admissible any more
-  /// Where ranks share the particles, all of them call this, sample(), save() and load(), and rank 0 has what comes
-  /// out.
+  virtual std::optional<Failure> failure() const = 0;  ///< set once the state is inadmissible
+  /// Collective, like sample(), save() and load(), if the body is distributed over ranks; the result is on rank 0.
   virtual Diagnostics diagnose() const = 0;
 
   virtual std::vector<FieldInfo> fields() const = 0;
-  /// The fields that one body has, where several formulations run together; others show zero for it.
+  /// The fields of one body of coupled formulations; bodies without a field show zero.
   virtual std::vector<FieldInfo> fields_of(std::size_t /*body*/) const { return fields(); }
-  /// Values of one field, particle by particle: values[id * components + c]; ranks other than 0 give no room for them.
+  /// Samples one field: values[id * components + c]. Ranks other than 0 pass an empty span.
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
-  /// The particles that this rank looks at for observers, of which all ranks together have each once; the same
-  /// until they are cut anew (recuts). Nothing: all of them, in Id order.
+  /// Ids of the particles that this rank evaluates for observers: each particle is on exactly one rank. Valid until the
+  /// next repartition (recuts()). Empty: all particles, in Id order.
   virtual std::optional<std::vector<std::int64_t>> owned() const;
-  /// Values of one field of those: values[k * components + c] of the k-th. All ranks call it.
+  /// Samples one field of the particles owned(): values[k * components + c] for the k-th. Collective.
   virtual void sample_owned(std::string_view field, std::span<double> values) const { sample(field, values); }
 
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;
 
   virtual int stages_per_step() const = 0;  ///< right-hand sides per step
-  /// Wall time by part of the work since the formulation was built [s], for the summary.
+  /// Wall time since construction by part of the work [s], for the summary.
   virtual std::vector<std::pair<std::string, double>> costs() const { return {}; }
   virtual std::size_t memory_bytes() const = 0;
 
-  /// Of one body, if the formulation runs on ranks.
+  /// Communication pattern of one body; empty if the formulation does not run on ranks.
   virtual std::optional<Talk> talk(std::size_t /*body*/) const { return std::nullopt; }
-  /// How often ranks were cut anew, if the formulation can be.
+  /// Number of repartitions; empty if the formulation cannot repartition.
   virtual std::optional<Recuts> recuts() const { return std::nullopt; }
 };
 

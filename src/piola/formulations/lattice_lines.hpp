@@ -8,14 +8,14 @@
 
 namespace piola {
 
-/// Who stands where in a box of a lattice, and who comes before and after on its lines.
+/// Maps lattice positions of a box to particle slots, with access to the previous and next particle along an axis.
 class LatticeLines {
  public:
   using At = std::array<int, 3>;
   static constexpr Index nobody = -1;
 
   LatticeLines() = default;
-  /// Of the places [first, first + size), where nobody stands yet.
+  /// Creates empty positions [first, first + size).
   LatticeLines(At const& first, At const& size) : first_(first), size_(size) {
     std::size_t places = 1;
     for (int const n : size) places *= static_cast<std::size_t>(n);
@@ -26,12 +26,12 @@ class LatticeLines {
       if (at[c] < first_[c] || at[c] >= first_[c] + size_[c]) return false;
     return true;
   }
-  /// At a place that it holds.
+  /// The slot at a position. Precondition: holds(at).
   Index& operator[](At const& at) {
     PIOLA_EXPECTS(holds(at));
     return who_[place(at)];
   }
-  /// Before and after a place along an axis; `nobody` for both if one is missing.
+  /// Slots before and after a position along an axis; `nobody` for both if either is missing.
   std::array<Index, 2> neighbours(At const& at, std::size_t axis) const {
     At before = at, after = at;
     --before[axis];

@@ -6,8 +6,8 @@
 
 namespace piola {
 
-/// Builds the formulation that the bodies ask for. Throws InputError if they ask for what cannot be built together, and
-/// what the formulation itself refuses.
+/// Builds the formulation of the bodies, or their combination. Throws InputError if they cannot be combined or a
+/// formulation rejects its input.
 std::unique_ptr<Formulation> make_formulation(Assembly const& assembly);
 
 }  // namespace piola

@@ -17,7 +17,7 @@ using Point = std::array<double, 3>;
 /// Share of the stability limit of a pair of kicks that is used; the steps of formulations have theirs in them.
 constexpr double margin = 0.85;
 
-/// Of a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
+/// For a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
 double with_frequency(double step, double omega2) {
   return omega2 > 0 ? 1 / std::sqrt(1 / (step * step) + omega2 / (4 * margin * margin)) : step;
 }
@@ -170,14 +170,15 @@ void Meeting::give(Formulations const& formulations, double time, double half) {
   work_ -= kept_work.value();
 }
 
-/// The same, and what rigid shapes take.
+/// Applies the contact impulse of `half` [s] to the bodies (give), adds it to the energy balance (book) and to the
+/// rigid shapes (kick).
 void Meeting::push(Formulations const& formulations, double time, double half) {
   give(formulations, time, half);
   book(half);
   motion_.kick(system_, time, half);
 }
 
-/// Impulses against the vibration of what rubs, after those of contact. They are in the place of forces meanwhile.
+/// Applies impulses of chatter damping, after those of contact. They temporarily replace the forces.
 void Meeting::damp_chatter(Formulations const& formulations, double time) {
   if (!system_.damps_chatter()) return;
   contact::ChatterDamping const& damping = system_.chatter(x_, v_);
@@ -201,7 +202,7 @@ void Meeting::damp_chatter(Formulations const& formulations, double time) {
   std::swap(pushed, pushed_);
 }
 
-/// What rigid shapes and pairs of bodies did to each other in `half` [s].
+/// Records the impulses between rigid shapes and pairs of bodies in `half` [s].
 void Meeting::book(double half) {
   for (std::size_t r = 0; r < shapes_.size(); ++r) {
     auto const on = motion_.on(system_, r);

@@ -15,42 +15,44 @@
 
 namespace piola {
 
-/// Surface contact between the bodies of a run, whatever moves them, and with rigid shapes, and ties between them. It
-/// pushes them at the instants between steps: half of a step's impulse with the forces before it, half with those after
-/// it. For formulations that kick, drift and kick this is velocity Verlet with the force of contact among the others.
+/// Surface contact and ties between the bodies of a run, of any formulation, and with rigid shapes. It changes
+/// velocities between steps: half of a step's impulse with the forces before the step, half with those after it. For
+/// kick-drift-kick formulations this is velocity Verlet with the contact force included.
 class Meeting {
  public:
   using Formulations = std::vector<std::unique_ptr<Formulation>>;
   Meeting(Assembly const& whole, std::vector<EnsemblePart> const& parts);
 
-  /// Forces of the state as it is: before the first step, and after a checkpoint has been read.
+  /// Evaluates the forces of the current state: before the first step and after loading a checkpoint.
   void look(Formulations const& formulations);
-  void begin(Formulations const& formulations, double time, double dt);   ///< before the parts step
-  void finish(Formulations const& formulations, double time, double dt);  ///< after it; time [s] at the end
+  void begin(Formulations const& formulations, double time, double dt);   ///< before the step of the parts
+  void finish(Formulations const& formulations, double time, double dt);  ///< after the step of the parts; time [s] at
+                                                                          ///< its end
 
-  /// The step that contact leaves of one that the bodies bear [s].
+  /// Returns the step limit of contact [s], given the step limit `step` of the bodies [s].
   double limit(double step) const;
-  /// The same if nothing touches.
+  /// As limit(), for a state without active contact.
   double settled(double step) const;
-  /// Adds energy, work and columns.
+  /// Adds energy, work and columns of history.csv.
   void report(Diagnostics& sum) const;
-  /// Rigid shapes that are free or turn, as they stand.
+  /// Current state of free and rotating rigid shapes.
   std::vector<RigidState> rigids() const { return motion_.states(system_.rigids()); }
   double kinetic_energy() const { return motion_.kinetic_energy(); }  ///< of free rigid shapes [J]
-  /// Set once a free rigid shape moves with what is not a number.
+  /// Set once the motion of a free rigid shape is not finite.
   std::optional<Failure> failure() const;
   void damp(double factor) { motion_.damp(system_, factor); }  ///< free rigid shapes
-  /// What supports took and rigid shapes gave, in the order of the case: supports, loads with a name, rigid shapes.
+  /// Mean forces of supports and rigid shapes in the last step, in the order of the case: supports, named loads, rigid
+  /// shapes.
   std::vector<Action> actions() const { return actions_.report(); }
-  /// What body B did to body A, named "A-B"; the moment about the origin.
+  /// Mean force of body B on body A, named "A-B"; moment about the origin.
   std::vector<Action> pairs() const;
-  /// Fields of surfaces: pressure, gap, slip and heat of friction, zero for particles without a surface point.
+  /// Fields of surfaces: pressure, gap, slip and friction heat; zero for particles without a surface point.
   static std::vector<FieldInfo> fields();
-  /// Whether the field is one of these; then values[id].
+  /// Samples a field of fields(): values[id]. Returns false if it is another field.
   bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
-  /// Particles of a part that it reads in every step, which it knows before it looks.
+  /// Number of particles of a part that are read in every step; known before look().
   std::size_t read_of(std::size_t part) const {
     std::size_t n = 0;
     for (Share const& share : shares_) n += share.part == part ? share.local.size() : 0;
@@ -61,9 +63,9 @@ class Meeting {
  private:
   Meeting(Assembly const& whole, Continued const& continued, std::vector<EnsemblePart> const& parts);
 
-  /// A direction of a particle that a support holds, or a mirror plane, which tells nobody.
+  /// A direction of a particle that is held by a support, or by a mirror plane, which has no record of its force.
   struct Held {
-    std::size_t support;  ///< `plane`: none
+    std::size_t support;  ///< index of the support, or `plane`
     std::array<double, 3> direction;
     double until;  ///< [s]
   };
@@ -71,11 +73,11 @@ class Meeting {
     std::size_t part;
     std::vector<Index> at;            ///< indices into run_ids_
     std::vector<std::int64_t> local;  ///< ids in the part
-    std::int64_t lost = 0;            ///< particles that had lost their surface when this was asked last
+    std::int64_t lost = 0;            ///< particles without a surface at the last check
   };
 
   static constexpr std::size_t plane = static_cast<std::size_t>(-1);
-  /// An index into System::ids() behind a mirror plane: x' = sign x + shift of another one.
+  /// Image of a point at a mirror plane, by index into System::ids(): x' = sign x + shift of its source.
   struct Image {
     Index at, source;
     std::array<double, 3> sign, shift;
@@ -104,8 +106,8 @@ class Meeting {
   contact::System system_;
   contact::RigidMotion motion_;
   std::vector<Share> shares_;
-  /// Of the run, by index: those of System::ids(), -1 where they are images, then particles of bodies that meet by
-  /// colour alone.
+  /// Ids in the run by index: those of System::ids(), with -1 for images, then the particles of bodies that are only in
+  /// colour contact.
   std::vector<std::int64_t> run_ids_;
   std::vector<Image> images_;            ///< by `at`
   std::vector<std::vector<Held>> held_;  ///< by index into run_ids_
@@ -114,10 +116,10 @@ class Meeting {
   Actions actions_;
   MeetingTies ties_;
   contact::ColourContact colours_;
-  std::vector<Vec<3>> forces_;  ///< of contact and ties, by index into run_ids_ [N]
-  std::vector<Index> pushed_;   ///< that have one, ascending
+  std::vector<Vec<3>> forces_;  ///< of contact and ties [N], by index into run_ids_
+  std::vector<Index> pushed_;   ///< indices with a force, ascending
   std::vector<contact::System::Between> pair_impulses_;
-  std::vector<double> loaded_;  ///< of a checkpoint, until the state of the bodies is read
+  std::vector<double> loaded_;  ///< from a checkpoint, until the state of the bodies is loaded
   double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };
 

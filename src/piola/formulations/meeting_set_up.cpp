@@ -47,9 +47,9 @@ bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
           (a != b && own(a) && own(b) && find_pair(whole.contact_pairs, bodies[a].name, bodies[b].name) != nullptr));
 }
 
-/// Contact between bodies with a surface, except two of a formulation that has a contact of its own, are not tied and
-/// of which nothing is said, and such a body and a rigid shape that does not turn; what is said of a pair goes before
-/// what is said of all.
+/// Pair settings of surface contact. Surfaces are in contact unless both bodies have kernel contact of their own and
+/// are neither tied nor named as a pair, or one has it and the other is a rigid shape that does not rotate. Settings of
+/// a pair override those of all.
 contact::System::Setting touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
@@ -75,8 +75,8 @@ contact::System::Setting touches_of(Assembly const& whole) {
   return touches;
 }
 
-/// Bodies that others can push, one of them without a surface, meet by colour; not at mirror planes, whose images have
-/// no colour.
+/// Pairs in colour contact: bodies that accept external impulses, one of them without a surface. Not with mirror
+/// planes, whose images have no colour.
 std::vector<contact::ColourContact::Pair> coloured_pairs(Assembly const& whole) {
   std::vector<contact::ColourContact::Pair> pairs;
   if (whole.contact.law == ContactRule::Law::none) return pairs;
@@ -113,8 +113,8 @@ contact::RigidMotion motion_of(Assembly const& whole) {
   return {whole.rigid_shapes, whole.particles.dimension, between};
 }
 
-/// What damping of chatter may take of the heat of friction, by body; of bodies with mirror planes nothing, because
-/// half of a particle on a plane is missing in its cluster.
+/// Largest fraction of the friction heat for chatter damping, by body. Zero with mirror planes, because half of a
+/// particle on a plane is missing in its cluster.
 std::vector<double> chatter_shares(Assembly const& whole) {
   constexpr std::string_view key = "chatter_damping";
   std::vector<double> shares;
@@ -159,7 +159,7 @@ Meeting::Meeting(Assembly const& whole, Continued const& continued, std::vector<
   pair_impulses_.resize(n * n);
 }
 
-/// What is an image of what in System::ids().
+/// Finds the images in System::ids() and their sources.
 void Meeting::find_particles(Continued const& continued) {
   auto const& ids = system_.ids();
   std::map<std::int64_t, Index> at;  // of the run's particles

@@ -12,42 +12,43 @@
 
 namespace piola {
 
-/// Images of a body's particles behind its mirror planes, as far as the kernel reaches; edges and corners of planes
-/// give images of images. They are neighbours like any other. Theory: docs/theory/boundaries.md.
+/// Images of a body's particles behind its mirror planes, within the support radius; edges and corners of planes give
+/// images of images. Images are ordinary neighbours. Theory: docs/theory/boundaries.md.
 class MirrorImages {
  public:
-  /// How values of a particle turn into those of its image: of the body's geometry, or of its motion, which a skew
-  /// plane turns round.
+  /// Transformation of values from a particle to its image. Skew planes invert vectors of motion, not those of
+  /// geometry.
   enum class Kind { scalar, geometric_vector, vector, position, tensor, deformation };
 
-  /// `reach`: how far from the body images are wanted, per direction [m]. Throws InputError for a plane that the body
-  /// cannot have. A plane goes through the outermost particles, or half a spacing outside of them where the body does.
+  /// `reach`: distance from the body, per direction, within which images are created [m]. Throws InputError for an
+  /// invalid plane. A plane goes through the outermost particles, or half a spacing outside of them if the body ends
+  /// there.
   MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::array<double, 3> const& reach);
 
   bool empty() const { return !mirrored_; }
   bool skew() const { return skew_; }
   Index count() const { return static_cast<Index>(particles_.source.size()); }
   CopiedParticles const& particles() const { return particles_; }
-  /// Volume of a particle in the continued body over that in the body itself: twice per plane through it.
+  /// Volume of a particle in the continued body over that in the body itself: a factor of 2 for each plane through it.
   double multiplicity(Index slot) const { return mirrored_ ? multiplicity_[static_cast<std::size_t>(slot)] : 1; }
   /// Whether the particle is on a plane across this axis.
   bool on_plane(Index slot, std::size_t axis) const {
     return mirrored_ && (on_plane_[static_cast<std::size_t>(slot)] >> axis & 1U) != 0;
   }
   bool has_plane(std::size_t axis, bool upper) const { return plane_[axis][upper ? 1 : 0].mirror; }
-  /// Between two planes the body goes on without end.
+  /// Whether the body is continued periodically between two planes.
   bool endless(std::size_t axis) const { return has_plane(axis, false) && has_plane(axis, true); }
-  /// By which the components of vectors at image k are those of its source.
+  /// Factors of the components of vectors from the source to image k.
   std::array<double, 3> const& sign(Index k) const {
     return maps_[static_cast<std::size_t>(transform_[static_cast<std::size_t>(k)])].sign;
   }
-  /// Leaves all images out but these, which are in increasing order. Before any call of copies().
+  /// Keeps only these images (ascending). Call before copies().
   void keep(std::vector<Index> const& images);
-  /// Particles on a plane have no velocity across it, those on a skew plane none along it.
+  /// Supports that enforce the planes: particles on a plane have no velocity across it, or along it if skew.
   std::vector<Support> const& planes() const { return planes_; }
-  /// How to copy a buffer with these values, one after the other; nullptr if there are no images.
+  /// Returns the copy instructions for a buffer with these consecutive values; nullptr if there are no images.
   Copies const* copies(std::vector<Kind> const& values);
-  /// The same for values that a mirror across an axis turns round or not.
+  /// As above. turns(value, axis): whether a mirror across the axis inverts the sign of the value.
   Copies const* copies(int values, std::function<bool(int value, int axis)> const& turns);
 
  private:
@@ -75,9 +76,9 @@ class MirrorImages {
 
   bool mirrored_ = false, skew_ = false;
   int D_;
-  double tolerance_ = 0;                       ///< two places are the same [m]
+  double tolerance_ = 0;                       ///< positions closer than this are equal [m]
   std::array<double, 3> low_, high_;           ///< of the body's particles [m]
-  std::array<std::array<double, 2>, 3> at_{};  ///< where planes would be [m]
+  std::array<std::array<double, 2>, 3> at_{};  ///< coordinates of possible planes [m]
   std::array<std::array<Plane, 2>, 3> plane_{};
   std::vector<Map> maps_;
   Index first_ = 0;

@@ -112,7 +112,7 @@ Diagnostics Observation::finish() const {
     d.linear_momentum[static_cast<std::size_t>(c)] = motion.value(1 + c);
     d.angular_momentum[static_cast<std::size_t>(c)] = motion.value(4 + c);
   }
-  // Of zeros of both signs it is the order that decides which one comes out.
+  // The sign of a zero depends on the order of particles; this removes it.
   d.pressure_min += 0.0;
   d.pressure_max += 0.0;
   double const level = std::sqrt(pressures_.value(1) / volume());

@@ -9,29 +9,30 @@
 /// Sums over bodies that Diagnostics are made of, for every formulation.
 namespace piola {
 
-/// The particles may come in any order.
+/// Accumulates Diagnostics over particles, in any order.
 struct Observation {
-  Diagnostics totals;  ///< but for what is summed over particles, which `finish` puts in
-  /// What is added from here on belongs to this body, too.
+  Diagnostics totals;  ///< except the sums over particles, which finish() adds
+  /// Starts a body: later contributions also count for it.
   void open_body(std::string const& name) { bodies_.push_back({name, {}, {}}); }
   void add_strain_energy(double energy);  ///< [J]
   /// One particle: position [m], velocity [m/s], mass [kg].
   void add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass);
   /// One particle: volume ratio, pressure [Pa], tributary volume.
   void add_state(double jacobian, double pressure, double tributary);
-  /// Squares of second differences of p along the lattice lines of a body; `p` from the body's first particle on. Of
-  /// discs of circles it is a rough measure, because the particles of neighbouring cells are not in line.
+  /// Adds the squared second differences of p along the lattice lines of a body; `p` starts at the body's first
+  /// particle. A rough measure for discs of circles, whose particles are not in line.
   void add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p);
-  /// One of these differences, divided by 4.
+  /// Adds one second difference divided by 4.
   void add_second_difference(double difference) {
     double const square = difference * difference;
     second_difference_square_.add(&square);
     ++second_differences_;
   }
-  /// What all ranks have added is everybody's, but for strain energies and totals, which each has in full. Collective.
+  /// Reduces sums and extrema of particles over ranks. Strain energies and the other totals must be complete on each
+  /// rank. Collective.
   void share();
-  /// The totals with the pressure oscillation: rms over all lattice lines of (p[i+1] - 2 p[i] + p[i-1]) / 4, divided by
-  /// the volume-weighted rms of p.
+  /// Returns the totals with the pressure oscillation: rms of (p[i+1] - 2 p[i] + p[i-1]) / 4 over all lattice lines,
+  /// divided by the volume-weighted rms of p.
   Diagnostics finish() const;
   double volume() const { return pressures_.value(0); }  ///< sum V
 

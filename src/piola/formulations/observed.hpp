@@ -9,7 +9,7 @@
 
 namespace piola {
 
-/// What observers may ask of one particle: a formulation fills what it offers.
+/// Values of one particle for observers. A formulation fills those of the fields that it offers.
 struct ObservedParticle {
   using Point = std::array<double, 3>;
   double id = 0, body = 0, neighbours = 0;
@@ -21,12 +21,12 @@ struct ObservedParticle {
   SymMat<3> cauchy{};                  ///< [Pa]
   Mat<3> P{}, F{};                     ///< first Piola-Kirchhoff stress [Pa], deformation gradient
   double cell_pressure = 0;            ///< not smoothed [Pa]
-  double least_J = 1;                  ///< at a point of its cell
+  double least_J = 1;                  ///< smallest volume ratio at the points of its cell
   double plastic_strain = 0;           ///< equivalent
   double damage = 0, kernel_type = 0;  ///< 0 to 1; 0: total-Lagrangian, 1: Eulerian
   double temperature = 0;              ///< [K]
   double specific_energy = 0;          ///< [J/kg]
-  double parting = 0;                  ///< strain that the stress does not have
+  double parting = 0;                  ///< strain drift: strain that is inconsistent with the stress
   double contact_pressure = 0;         ///< [Pa]
   double contact_gap = 0, slip = 0;    ///< [m]
   double friction_heat = 0;            ///< [J/m2]
@@ -38,19 +38,19 @@ struct ObservedField {
   std::string_view name;  ///< VTK style
   std::string_view unit;  ///< SI, UDUNITS notation
   int components;
-  void (*put)(ObservedParticle const&, double* out);  ///< nullptr: follows from other fields, whatever the formulation
+  void (*put)(ObservedParticle const&, double* out);  ///< nullptr: derived from other fields by any formulation
 };
 
-/// Every field that there is: declared here and nowhere else.
+/// All fields; the only place where fields are declared.
 std::span<ObservedField const> observed_table();
 
-/// The field of that name among those that are offered. Throws std::invalid_argument if there is none.
+/// Returns the field of that name among the offered ones. Throws std::invalid_argument if there is none.
 ObservedField const& find_observed(std::string_view name, std::span<std::string_view const> offered);
 
-/// What a formulation says of the fields that it offers.
+/// Descriptions of the offered fields.
 std::vector<FieldInfo> field_infos(std::span<std::string_view const> offered);
 
-/// values[id * components + c] of one particle.
+/// Writes the field of one particle to values[id * components + c].
 inline void put(ObservedField const& field, ObservedParticle const& particle, std::span<double> values) {
   field.put(particle, &values[static_cast<std::size_t>(particle.id) * static_cast<std::size_t>(field.components)]);
 }

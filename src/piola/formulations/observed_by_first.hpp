@@ -5,8 +5,8 @@
 
 namespace piola {
 
-/// Of several ranks rank 0 observes the formulation alone: what Formulation asks of diagnose(), sample() and save() on
-/// ranks, for formulations of which every rank has all. On one rank the formulation itself.
+/// Wraps a formulation whose state is replicated on all ranks: only rank 0 evaluates diagnose(), sample() and save().
+/// Returns the formulation itself on one rank.
 std::unique_ptr<Formulation> observed_by_first(std::unique_ptr<Formulation> formulation);
 
 }  // namespace piola

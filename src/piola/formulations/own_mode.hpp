@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-/// Modes of a body of which a rank has its own particles: D values of each, in the order of slots.
+/// Vibration modes of a distributed body: D values per local particle, in the order of slots.
 namespace piola {
 
 template <class Body>
@@ -23,7 +23,7 @@ std::size_t mode_place(Body const& body, Index slot, int c) {
          static_cast<std::size_t>(c);
 }
 
-/// The largest |u_k| of all ranks. Collective.
+/// The largest |u_k| over all ranks. Collective.
 template <class Body>
 double largest_on_ranks(Body const& body, std::vector<double> const& u) {
   double most = largest_of(u);
@@ -31,7 +31,7 @@ double largest_on_ranks(Body const& body, std::vector<double> const& u) {
   return most;
 }
 
-/// f(value, number) of the values of a mode; numbers go by id.
+/// Calls f(value, number) for the local values of a mode; numbers follow the ids.
 template <class Body, class F>
 void each_of_mode(Body const& body, std::vector<double>& mode, F const& f) {
   Range const own = body.own();
@@ -43,14 +43,14 @@ void each_of_mode(Body const& body, std::vector<double>& mode, F const& f) {
   });
 }
 
-/// refreshed() of all of its values. Collective.
+/// Applies refreshed() to all values. Collective.
 template <class Body>
 void refresh_mode(Body const& body, std::vector<double>& mode) {
   double const most = largest_on_ranks(body, mode);
   each_of_mode(body, mode, [&](double& value, std::uint64_t number) { value = refreshed(value, most, number); });
 }
 
-/// `numbers`, then the mode in the order of ids; on ranks, of which all call it, on rank 0 alone.
+/// Gathers on rank 0: `numbers`, then the mode in the order of ids. Collective.
 template <class Body>
 std::vector<double> with_mode(Body const& body, std::vector<double> numbers, std::vector<double> const& mode) {
   auto const all =
@@ -59,7 +59,8 @@ std::vector<double> with_mode(Body const& body, std::vector<double> numbers, std
   return numbers;
 }
 
-/// The way back: takes the mode out of what rank 0 has, and gives so many numbers before it to all. Collective.
+/// Inverse of with_mode(). Scatters the mode from `of_first` on rank 0 into `mode`; broadcasts and returns the first
+/// `numbers` values. Collective.
 template <class Body>
 std::vector<double> without_mode(Body const& body, std::size_t numbers, std::span<double const> of_first,
                                  std::vector<double>& mode) {

@@ -8,7 +8,7 @@
 
 namespace piola {
 
-/// One number per particle that a probe may ask for: a component of a field, or the magnitude of a vector.
+/// One value per particle for probes: a component of a field, or the magnitude of a vector.
 struct FieldQuantity {
   std::string name;   ///< as in a case file, e.g. "velocity_x"
   std::string field;  ///< VTK style field name, e.g. "Velocity"
@@ -17,14 +17,14 @@ struct FieldQuantity {
   static constexpr int magnitude = -1;
 };
 
-/// The field component that a quantity name stands for; nothing if the name is not known. "position_x" and its sisters
-/// have the field "Position", which is X + Displacement and is made by whoever reads fields.
+/// Returns the field component of a quantity name; empty if the name is unknown. "position_x", "_y", "_z" have the
+/// field "Position", i.e. X + Displacement, which callers compute.
 std::optional<FieldQuantity> find_quantity(std::string_view name);
 
-/// Every known quantity name, for suggestions and the manual.
+/// All quantity names, for suggestions and the manual.
 std::vector<FieldQuantity> const& all_quantities();
 
-/// A field that follows from another one, whatever the formulation.
+/// A field computed from another one, independent of the formulation.
 struct DerivedField {
   std::string_view name, from;
   std::string_view unit;
@@ -42,22 +42,23 @@ struct PartQuantity {
   std::string_view unit;  ///< SI, UDUNITS notation
 };
 
-/// Of every support, rigid shape and named load: its force and moment on the bodies, in the order of Action.
+/// Force and moment on the bodies, in the order of Action, of each support, rigid shape and named load.
 std::span<PartQuantity const> action_quantities();
-/// Of every rigid shape that is free or turns, in the order of RigidState.
+/// Quantities of each free or rotating rigid shape, in the order of RigidState.
 std::span<PartQuantity const> rigid_quantities();
-/// Of every body where there are several, in the order of BodyShare.
+/// Quantities of each body of a case with several bodies, in the order of BodyShare.
 std::span<PartQuantity const> body_quantities();
 
-/// The names of the components of a field with so many: x y z, xx yy zz xy yz xz, or xx xy xz yx ...; none of a scalar.
+/// Names of the components of a field with `components` of them: x y z, xx yy zz xy yz xz, or xx xy xz yx ...; empty
+/// for a scalar.
 std::span<std::string_view const> component_words(int components);
 
-/// The component of a field that a word names, in small or capital letters, of three also "1", "2", "3" (principal
-/// values); whole_field for "" and, of a vector, "magnitude". Nothing if the field has no such component.
+/// Returns the component that a word names, in small or capital letters; for three components also "1", "2", "3"
+/// (principal values). whole_field for "" and, for a vector, "magnitude". Empty if the field has no such component.
 inline constexpr int whole_field = -1;
 std::optional<int> find_component(std::string_view word, int components);
 
-/// Numbers of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
+/// Quantities of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
 /// "stress_intensity" [Pa m^0.5].
 inline constexpr std::string_view twist_quantity = "twist_angle";
 inline constexpr std::string_view extent_quantity = "extent";

@@ -49,7 +49,7 @@ bool has_scattered(ParticleSet const& particles) {
   return std::any_of(particles.bodies.begin(), particles.bodies.end(), [](Body const& body) { return body.scattered; });
 }
 
-/// What a case asks for that not every formulation knows.
+/// Rejects features of a case that the formulation does not support.
 void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   Problems problems;
   if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));

@@ -13,7 +13,7 @@ namespace piola {
 
 class Problems;
 
-/// A number of the whole system that only one formulation has: a column of history.csv.
+/// A column of history.csv that only one formulation has.
 struct DiagnosticInfo {
   std::string_view name;
   std::string_view unit;  ///< SI, UDUNITS notation
@@ -23,29 +23,30 @@ struct DiagnosticInfo {
 struct FormulaInfo {
   std::string_view name;
   std::string_view meaning;
-  std::span<std::string_view const> variables;  ///< known besides X, Y, Z, t
+  std::span<std::string_view const> variables;  ///< allowed in addition to X, Y, Z, t
 };
 
-/// A formulation as the case reader, `piola describe` and the manual see it.
+/// Description of a formulation for the case reader, `piola describe` and the manual.
 struct FormulationInfo {
   std::string_view name;                   ///< key `formulation.name` of a case file
   std::string_view about;                  ///< one line, with the paper
   std::span<Parameter const> parameters;   ///< optional numbers; a default of no_default means "set by `scheme`"
   std::span<Choice const> choices;         ///< optional words
   std::span<std::string_view const> laws;  ///< names of the laws it can use
-  std::span<DiagnosticInfo const> diagnostics = {};  ///< all that it may put into Diagnostics::more
+  std::span<DiagnosticInfo const> diagnostics = {};  ///< all columns of Diagnostics::more
   bool cracks = false;                               ///< whether bodies may have cracks
-  bool mirrors = true;                               ///< whether bodies may go on across a face as their mirror image
+  bool mirrors = true;                               ///< whether bodies may have mirror planes
   bool scattered = true;          ///< whether bodies may be packed or arranged in rings instead of a lattice
-  bool outline = false;           ///< whether it must know where bodies end: no points from files
-  bool contact = false;           ///< whether it keeps bodies apart: contact rules and rigid shapes
+  bool outline = false;           ///< whether it needs the outline of bodies: no points from files
+  bool contact = false;           ///< whether it has kernel contact: contact rules and rigid shapes
   bool pushable = false;          ///< whether surface contact may push its bodies between steps
   bool parts = false;             ///< whether bodies may consist of parts of several materials
-  bool cell_volumes = false;      ///< whether jittered particles get the volumes of their cells
-  bool surface_supports = false;  ///< whether supports can hold a patch itself, where particles lie inside
-  bool on_ranks = false;          ///< whether several ranks share its bodies; else each computes all of them
-  bool tells_of_space = false;    ///< whether what ranks tell depends on who is near whom in space
-  /// Whether on ranks each looks at its own particles for observers; else rank 0 gets all of the state before.
+  bool cell_volumes = false;      ///< whether jittered particles get the volumes of their Voronoi cells
+  bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
+  bool on_ranks = false;          ///< whether its bodies are distributed over ranks; else each rank computes all of
+                                  ///< them
+  bool tells_of_space = false;    ///< whether communication includes a spatial halo, which changes with the positions
+  /// Whether observers evaluate local particles on each rank; else the state is gathered on rank 0 first.
   bool observed_by_share = false;
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
 };
@@ -53,11 +54,11 @@ struct FormulationInfo {
 std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
 
-/// What a formulation says to a case that asks for what it does not know; `what` is "cracks", "mirrors", "parts",
-/// "rings", "packed clouds", "contact" or "rigid shapes".
+/// Error message for a case that uses an unsupported feature. `what`: "cracks", "mirrors", "parts", "rings", "packed
+/// clouds", "contact" or "rigid shapes".
 std::string refusal(FormulationInfo const& info, std::string_view what);
 
-/// What a case file says about a formulation: only the keys that were given (checked against FormulationInfo).
+/// Settings of a formulation in a case file: only the given keys, checked against FormulationInfo.
 struct FormulationSpec {
   std::string name;
   std::map<std::string, double, std::less<>> numbers;
@@ -65,10 +66,10 @@ struct FormulationSpec {
   std::map<std::string, Expression, std::less<>> formulas = {};
 };
 
-/// The word given for a choice, else the first that is allowed.
+/// The word given for a choice, else the first allowed one.
 std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name);
 
-/// The same as the member of an enumeration that lists the allowed words in their order.
+/// As word_of(), as a value of an enumeration that lists the allowed words in their order.
 template <class Enumeration>
 Enumeration choice_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name) {
   std::string_view const word = word_of(spec, choices, name);
@@ -78,8 +79,8 @@ Enumeration choice_of(FormulationSpec const& spec, std::span<Choice const> choic
   return {};
 }
 
-/// What a choice "assumption" says of the directions that a body does not have: whether they are free of stress.
-/// `otherwise`: with as_dimension. Notes an assumption that is for bodies of another dimension.
+/// Whether the directions that a body does not have are free of stress, by the choice "assumption". `otherwise`: for
+/// "as_dimension". Adds a problem if the assumption is for another dimension.
 bool is_stress_free(std::string_view assumption, int dimension, bool otherwise, Problems& problems);
 
 /// The number given for a parameter, else `otherwise`.

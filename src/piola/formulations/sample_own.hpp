@@ -12,8 +12,8 @@
 
 namespace piola {
 
-/// values[k * components + c] of one field for the k-th particle of this rank of one body; each(f) calls
-/// f(slot, particle) for these.
+/// Samples one field of the local particles of one body: values[k * components + c] of the k-th. each(f) calls f(slot,
+/// particle) for these.
 template <class Body, class Each>
 void sample_own(Body const& body, ObservedField const& field, std::span<double> values, Each const& each) {
   auto const width = static_cast<std::size_t>(field.components);
@@ -22,8 +22,8 @@ void sample_own(Body const& body, ObservedField const& field, std::span<double> 
   });
 }
 
-/// values[id * components + c] of one field for the particles of one body; each(f) calls f(slot, particle) for those of
-/// this rank. On ranks that share the body collective, and rank 0 has them.
+/// Gathers one field of one body on rank 0, values[id * components + c]. each(f) calls f(slot, particle) for the local
+/// particles. Collective if the body is distributed.
 template <class Body, class Each>
 void sample_for_first(Body const& body, ObservedField const& field, std::span<double> values, Each const& each) {
   if (!body.shared()) return each([&](Index, ObservedParticle const& p) { put(field, p, values); });
@@ -39,7 +39,7 @@ void sample_for_first(Body const& body, ObservedField const& field, std::span<do
       });
 }
 
-/// The particles of this rank of several bodies, by id, if ranks share them.
+/// Ids of the local particles of all bodies; empty on one rank.
 template <class Bodies>
 std::optional<std::vector<std::int64_t>> ids_of_own(Bodies const& bodies) {
   if (!ranks::several()) return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<std::vector<std::int64_t>> ids_of_own(Bodies const& bodies) {
   return ids;
 }
 
-/// Formulation::sample_owned() by sample(body, its number, values of its own particles) for one body after the other.
+/// Implements Formulation::sample_owned(): calls sample(body, its number, values of its local particles) body by body.
 template <class Bodies, class F>
 void sample_of_own(Formulation const& formulation, Bodies const& bodies, std::string_view field,
                    std::span<double> values, F const& sample) {

@@ -7,21 +7,21 @@ namespace piola {
 
 class Formulation;
 
-/// A number that tells how good a part of the set-up is.
+/// A number that measures the quality of a part of the set-up.
 struct SetUpCheck {
-  std::string name;  ///< with the body or the load that it belongs to: "bar.closure_residual"
+  std::string name;  ///< with its body or load: "bar.closure_residual"
   double value = 0;
-  std::string warning;  ///< for the user; empty: all is well
+  std::string warning;  ///< for the user; empty: no problem
 };
 
-/// A formulation that measures its set-up, or is made of such.
+/// A formulation that measures its set-up, or contains such formulations.
 class SetUpChecked {
  public:
   virtual ~SetUpChecked() = default;
   virtual std::vector<SetUpCheck> set_up_checks() const = 0;
 };
 
-/// How good the set-up of a formulation is, for the log and the summary; nothing where it does not measure it.
+/// The set-up checks of a formulation, for the log and the summary; empty if it has none.
 std::vector<SetUpCheck> set_up_checks_of(Formulation const& formulation);
 
 }  // namespace piola

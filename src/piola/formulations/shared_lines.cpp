@@ -10,7 +10,7 @@ LatticeLines::At const& SharedLines::at(Index slot) const {
 
 SharedLines::SharedLines(ParticleSet const& set, Body const& body, Slots slots, Range own, Shares const& cut)
     : set_(&set), slots_(slots), own_(own) {
-  LatticeLines::At first{}, size{};  // of a box around own particles and their neighbours
+  LatticeLines::At first{}, size{};  // bounding box of local particles and their neighbours
   for (std::size_t c = 0; c < 3; ++c) {
     int lowest = body.lattice[c], highest = -1;
     for (Index i = own.first; i < own.last; ++i) {

@@ -13,18 +13,18 @@
 
 namespace piola {
 
-/// Where the particles of a set stand in the bodies of a formulation that has an order of its own.
+/// Maps ids of a set to bodies and slots of a formulation with an order of its own.
 class SlotsById {
  public:
   SlotsById() = default;
-  /// bodies[b]->particles() and ->id(slot) as the bodies of the solvers have them.
+  /// Uses bodies[b]->particles() and ->id(slot).
   template <class Bodies>
   SlotsById(ParticleSet const& set, Bodies const& bodies) : body_(set.body), slot_(set.X.size()) {
     for (auto const& body : bodies)
       for (Index slot = 0; slot < body->particles(); ++slot) slot_[static_cast<std::size_t>(body->id(slot))] = slot;
   }
 
-  /// f(k, body, slot) for each ids[k].
+  /// Calls f(k, body, slot) for each ids[k].
   template <class F>
   void visit(std::span<std::int64_t const> ids, F const& f) const {
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -32,7 +32,7 @@ class SlotsById {
       f(k, static_cast<std::size_t>(body_[id]), slot_[id]);
     }
   }
-  /// The same on all threads: f writes what belongs to k alone.
+  /// As visit(), in a parallel loop: f may write only data of k.
   template <class F>
   void visit_side_by_side(std::span<std::int64_t const> ids, F const& f) const {
     exec_host::for_each_in_set_up(static_cast<Index>(ids.size()), [&](Index k) {
@@ -46,8 +46,9 @@ class SlotsById {
   std::vector<Index> slot_;
 };
 
-/// The three things that Formulation asks of bodies that are pushed between steps. On ranks that share the bodies the
-/// first is collective, and all ranks have what it reads; each pushes all particles, of which its own count.
+/// Implementation of Formulation::read_motion(), read_masses() and push(). read_motion_of() is collective and returns
+/// the values of all ids on all ranks. push_all() must be called with the same ids on all ranks; changes of particles
+/// of other ranks have no effect.
 template <class Bodies>
 void read_motion_of(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
                     std::span<std::array<double, 3>> x, std::span<std::array<double, 3>> v) {

@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// The laws of total-Lagrangian formulations: hyperelastic ones, and solids in rate form that do not break.
+/// The laws of total-Lagrangian formulations: hyperelastic laws and solids in rate form without failure.
 inline constexpr std::array<std::string_view, 11> total_lagrangian_laws{
     "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
     "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",

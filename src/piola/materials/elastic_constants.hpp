@@ -8,13 +8,13 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// The volume ratio that a law sees: det F, or 1 + tr e for small strain.
+/// The volume ratio of a law: det F, or 1 + tr e for small strain.
 template <class T>
 PIOLA_FN T volume_ratio_of(bool small_strain, Mat<3, T> const& F) {
   return small_strain ? trace(F) - 2.0 : determinant(F);
 }
 
-/// Isotropic elastic constants from the two that engineers give.
+/// Isotropic elastic constants from density, Young's modulus and Poisson's ratio.
 struct ElasticConstants {
   static constexpr std::array parameters{
       Parameter{"density", "kg/m^3", "mass density in the reference configuration", positive},

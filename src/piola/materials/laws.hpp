@@ -10,7 +10,7 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// What a total-Lagrangian formulation asks of a law, at one point, in three dimensions. T is double or lanes.
+/// Interface of a law for total-Lagrangian formulations, at one point, in three dimensions. T is double or lanes.
 template <class Law> concept Hyperelastic = requires(Law const& law, Mat<3> const& F, double J) {
   { law.first_piola(F) } -> std::same_as<Mat<3>>;
   { law.stress(F, F, J) } -> std::same_as<Mat<3>>;
@@ -26,8 +26,8 @@ template <class Law> concept Hyperelastic = requires(Law const& law, Mat<3> cons
   { Law::volumetric_split } -> std::convertible_to<bool>;
 };
 
-/// What a law answers besides where its energy is an isochoric part plus kappa/2 (J - 1)^2: schemes with a volume ratio
-/// or a pressure of their own ask these.
+/// Additional interface of a law whose energy is an isochoric part plus kappa/2 (J - 1)^2, for schemes that evolve a
+/// volume ratio or a pressure.
 template <class Law> concept SplitsVolume = requires(Law const& law, Mat<3> const& F, double p) {
   { law.stress_with_pressure(F, p) } -> std::same_as<Mat<3>>;
   { law.stress_with_pressure(F, F, p, p) } -> std::same_as<Mat<3>>;
@@ -36,7 +36,7 @@ template <class Law> concept SplitsVolume = requires(Law const& law, Mat<3> cons
   { law.volume_ratio(F) } -> std::same_as<double>;
 };
 
-/// What a formulation asks that carries the stress itself along, in rate form.
+/// Interface of a law for formulations that evolve the stress, in rate form.
 template <class Law> concept RateForm = requires(Law const& law, SymMat<3> const& d) {
   { law.stress_rate(d) } -> std::same_as<SymMat<3>>;
   { law.energy_of_stress(d) } -> std::same_as<double>;
@@ -61,7 +61,7 @@ void with_law(MaterialParameters const& material, F const& f, LawList<Law...>) {
   (void)((index++ == material.law ? (f(Law(material.value)), true) : false) || ...);
 }
 
-/// Calls f(law) with the law that `material` names: the one dynamic decision per group and step.
+/// Calls f(law) with the law of `material`: the one dynamic decision per group and step.
 template <class F>
 void with_law(MaterialParameters const& material, F const& f) {
   with_law(material, f, Laws{});

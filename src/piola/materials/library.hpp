@@ -8,16 +8,16 @@
 
 namespace piola {
 
-/// How the number of a source was checked by those who put it into the library.
+/// How a number of the library was checked against its source.
 enum class Checked {
   read,    ///< in the source itself
   quoted,  ///< in another text or program that quotes it
-  unread,  ///< in no text: typed from knowledge of the source
-  chosen   ///< not at all: a choice, not a measurement
+  unread,  ///< not checked: entered from knowledge of the source
+  chosen   ///< a choice, not a measurement
 };
 std::string_view checked_text(Checked checked);
 
-/// Where numbers of the library are from.
+/// Source of numbers in the library.
 struct LibrarySource {
   std::string_view key;   ///< short name, as `LibraryNumber::source` gives it
   std::string_view text;  ///< full reference
@@ -39,7 +39,7 @@ struct LibraryMaterial {
   std::string_view name;
   std::string_view about;  ///< one line
   std::string_view range;  ///< for which rates, temperatures, pressures and shapes the numbers hold
-  std::string_view lacks;  ///< what the material does and the set does not; empty: nothing that matters in an impact
+  std::string_view lacks;  ///< effects that the material has and the set lacks; empty: none that matters in an impact
   std::string_view law;    ///< LawInfo::name
   std::span<LibraryWord const> words;
   std::span<LibraryNumber const> numbers;
@@ -58,10 +58,10 @@ struct RenamedMaterial {
 std::span<LibraryMaterial const> material_library();
 std::span<LibrarySource const> library_sources();
 std::optional<LibraryMaterial> find_material(std::string_view name);
-/// The present name of a material that `name` named before.
+/// The present name of a material with the former name `name`.
 std::optional<std::string_view> renamed_material(std::string_view name);
 
-/// Law and numbers of a material of the library; what it does not give has its default.
+/// Law and numbers of a material of the library, completed by defaults.
 MaterialParameters parameters_of(LibraryMaterial const& material);
 
 }  // namespace piola

@@ -7,7 +7,7 @@
 
 namespace piola {
 
-/// A law as the case reader, `piola describe` and the manual see it.
+/// Description of a law for the case reader, `piola describe` and the manual.
 struct LawInfo {
   std::string_view name;   ///< key `law` of a case file
   std::string_view about;  ///< one line
@@ -15,10 +15,10 @@ struct LawInfo {
   bool volumetric_split = false;  ///< energy: isochoric part plus kappa/2 (J - 1)^2
   bool rate_form = false;         ///< a solid in rate form (solid.hpp), else a hyperelastic law
   std::span<Choice const> choices = {};
-  int index = 0;  ///< position in the registry; goes into MaterialParameters::law
+  int index = 0;  ///< index in the registry, for MaterialParameters::law
 };
 
-/// A law with the values of its parameters: plain data, so that it may cross to any machine.
+/// A law with the values of its parameters: plain data, independent of the instruction set.
 struct MaterialParameters {
   static constexpr int max_values = 64, max_words = 4;
   int law = 0;                 ///< LawInfo::index
@@ -29,9 +29,9 @@ struct MaterialParameters {
 std::span<LawInfo const> laws();
 std::optional<LawInfo> find_law(std::string_view name);
 
-/// Position of a word among those that a choice allows; -1 if it is none of them.
+/// Index of a word among those that a choice allows; -1 if not allowed.
 int index_of(Choice const& choice, std::string_view word);
-/// Whether a parameter counts with these words.
+/// Whether a parameter has an effect with these words.
 bool applies(LawInfo const& law, Parameter const& parameter, MaterialParameters const& material);
 
 }  // namespace piola

@@ -13,10 +13,10 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// The word `spall` of a solid: what follows where tension reaches spall_pressure.
+/// The word `spall` of a solid: consequence of tension reaching spall_pressure.
 inline constexpr std::array<std::string_view, 3> spall_words{"limit", "hydrostatic", "principal"};
 
-/// What a point of a solid remembers besides density and energy, or one point per lane.
+/// History of a point of a solid, without density and energy; V: one point, or one per lane.
 template <class V>
 struct SolidHistoryOf {
   SymMat<3, V> S{};           ///< deviatoric Cauchy stress [Pa]
@@ -24,13 +24,13 @@ struct SolidHistoryOf {
   V temperature = V(0.0);     ///< [K]; starts at Solid::initial_temperature
   V damage = V(0.0);          ///< 0 to 1
   V plastic_work = V(0.0);    ///< per reference volume [J/m^3]
-  V bulking = V(0.0);         ///< pressure of broken material that wants more room [Pa]
-  V burnt = V(1.0);           ///< part of an explosive that has become gas
-  V toughness = V(1.0);       ///< the point's own factor on what it bears before it fails; never changes
+  V bulking = V(0.0);         ///< pressure by bulking of broken material [Pa]
+  V burnt = V(1.0);           ///< burnt fraction of an explosive
+  V toughness = V(1.0);       ///< the point's own factor on the failure strength; constant
 };
 using SolidHistory = SolidHistoryOf<double>;
 
-/// Where the parameters of a solid with this strength lie in MaterialParameters::value: elastic constants, strength,
+/// Offsets of the parameters of a solid with this strength in MaterialParameters::value: elastic constants, strength,
 /// heat, equations of state, damage, spall, scatter.
 template <class Strength>
 struct SolidLayout {
@@ -61,15 +61,15 @@ class Solid {
  public:
   using Layout = SolidLayout<Strength>;
   static constexpr bool yields = Strength::yields;
-  static constexpr bool pressed = Strength::pressed;  ///< the strength asks for the pressure
-  static constexpr bool brittle = Strength::brittle;  ///< what is broken still bears shear under pressure
+  static constexpr bool pressed = Strength::pressed;  ///< the strength depends on the pressure
+  static constexpr bool brittle = Strength::brittle;  ///< broken material still carries shear under pressure
 
   double rho0;            ///< density at rest [kg/m^3]
   double mu;              ///< shear modulus [Pa]
   double kappa;           ///< bulk modulus at rest, of the equation of state [Pa]
   double spall_pressure;  ///< largest tension [Pa]; infinity: no limit
   bool damages;           ///< whether damage grows, or spall is a failure
-  Scatter scatter;        ///< of what its particles bear
+  Scatter scatter;        ///< of the failure strength of particles
 
   explicit Solid(MaterialParameters const& material)
       : Solid(ElasticConstants(material.value), material,
@@ -78,7 +78,7 @@ class Solid {
   /// Pressure, positive in compression, not below -spall_pressure [Pa]. rho: density [kg/m^3], e: specific energy
   /// [J/kg].
   PIOLA_FN double pressure(double rho, double e) const { return pressure(SolidHistory{}, rho, e); }
-  /// The same of a point with a history: with its bulking, and with the tension that it bears.
+  /// As above for a point with a history: with its bulking and its tension limit.
   template <class V = double>
   PIOLA_FN V pressure(SolidHistoryOf<V> const& h, std::type_identity_t<V> const& rho,
                       std::type_identity_t<V> const& e) const {
@@ -148,9 +148,9 @@ class Solid {
     return scaled(trial, mises, increment(mises, h, pressure, compression, dt, V(0.0)));
   }
 
-  /// The same from the flow stress of the last plastic step [Pa], 0 where there was none: laws whose yield stress asks
-  /// for powers and logarithms are spared them, as it changes little from step to step. A strength that asks for the
-  /// pressure waits until that is known: the trial itself.
+  /// As above from the flow stress of the last plastic step [Pa], 0 if there was none. Saves powers and logarithms of
+  /// the yield stress, which changes little from step to step. A strength that depends on the pressure returns the
+  /// trial itself, because the pressure is not yet known.
   template <class V>
   PIOLA_FN SymMat<3, V> predicted(SolidHistoryOf<V> const& h, SymMat<3, V> const& trial,
                                   std::type_identity_t<V> const& flow, double dt) const {
@@ -185,7 +185,7 @@ class Solid {
     return select(flows, flow, V(0.0));
   }
 
-  /// Whether tension tears the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
+  /// Whether tension fails the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
   /// the largest principal stress does. S: deviator; pressure: positive in compression [Pa].
   PIOLA_FN bool spalls(SymMat<3> const& S, double pressure, double toughness = 1) const {
     double const most = spall_pressure * toughness;
@@ -245,7 +245,7 @@ class Solid {
     }
   }
 
-  /// What the laws of one point ask of the history of a lane.
+  /// Inputs of the laws at one point, from the history of a lane.
   template <class V>
   PIOLA_FN static SolidHistory lane_of(SolidHistoryOf<V> const& h, int l) {
     SolidHistory one;
@@ -257,7 +257,7 @@ class Solid {
     return one;
   }
 
-  /// Fails what tension tears.
+  /// Applies spall failure by tension.
   template <class V>
   PIOLA_FN void tear(SolidHistoryOf<V>& h, V const& pressure) const {
     V const most = spall_pressure * h.toughness;
@@ -275,7 +275,7 @@ class Solid {
     h.damage = load<V>(damage);
   }
 
-  /// Damage of a plastic step, and the bulking that follows from it, of the lanes that yield.
+  /// Damage of a plastic step, and the resulting bulking, for the lanes that yield.
   template <class V>
   PIOLA_FN void wear(SolidHistoryOf<V>& h, V const& pressure, V const& flow, V const& strain, V const& rho,
                      double dt) const {

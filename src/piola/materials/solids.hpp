@@ -23,14 +23,15 @@ struct EosList {
   static constexpr std::size_t size = sizeof...(Eos);
 };
 
-/// The equations of state that a strength goes with, in the order of `words`. Metals: those of solids.
+/// The equations of state available with a strength, in the order of `words`. Metals: those of solids.
 template <class Strength>
 struct EquationsFor {
   using List = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos>;
   static constexpr std::span<std::string_view const> words{eos_words.data(), List::size};
   static constexpr std::span<std::string_view const> damage{damage_words};
 };
-/// What is as soft as one likes may be an explosive.
+/// Equations of state for strengths that may vanish (no or perfect plasticity): includes JWL, so the material may be an
+/// explosive.
 struct EquationsOfFluids {
   using List = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos>;
   static constexpr std::span<std::string_view const> words{eos_words};
@@ -40,7 +41,7 @@ template <>
 struct EquationsFor<NoPlasticity> : EquationsOfFluids {};
 template <>
 struct EquationsFor<PerfectPlasticity> : EquationsOfFluids {};
-/// The second model of Johnson and Holmquist is a strength, a polynomial and a damage in one.
+/// The second model of Johnson and Holmquist combines a strength, a polynomial and a damage.
 template <>
 struct EquationsFor<JohnsonHolmquist> {
   using List = EosList<PolynomialEos>;
@@ -49,7 +50,7 @@ struct EquationsFor<JohnsonHolmquist> {
   static constexpr std::span<std::string_view const> damage{own};
 };
 
-/// A law of a solid as the registry lists it: a strength, to be combined with its equations of state.
+/// A law of a solid in the registry: a strength with its equations of state.
 template <class Strength>
 struct SolidLaw {
   static constexpr std::string_view name = Strength::name;
@@ -62,7 +63,7 @@ struct SolidLaw {
              "hydrostatic: the material fails there (damage 1); principal: it fails where the largest principal stress "
              "reaches spall_pressure",
              spall_words}};
-  /// What does not yield has no damage: it cannot fail.
+  /// A solid that does not yield has no damage: it cannot fail.
   static constexpr std::span<Choice const> choices{all_choices.data(), Strength::yields ? 3u : 1u};
 
  private:
@@ -114,21 +115,20 @@ void with_solid(MaterialParameters const& material, F const& f, StrengthList<Str
          ...);
 }
 
-/// Calls f(solid) with the solid in rate form that `material` names, one of two dozen types; does nothing for other
-/// laws.
+/// Calls f(solid) with the solid in rate form of `material`, one of two dozen types; does nothing for other laws.
 template <class F>
 void with_solid(MaterialParameters const& material, F const& f) {
   with_solid(material, f, Strengths{});
 }
 
-/// Whether the material becomes gas by itself.
+/// Whether the material is an explosive.
 inline bool is_explosive(MaterialParameters const& material) {
   double front = 0;
   with_solid(material, [&](auto const& law) { front = law.front_speed(); });
   return front > 0;
 }
 
-/// Calls f(law) with the law that `material` names, a hyperelastic one or a solid in rate form: for what both answer.
+/// Calls f(law) with the law of `material`, hyperelastic or a solid in rate form: for their common members.
 template <class F>
 void with_any_law(MaterialParameters const& material, F const& f) {
   with_law(material, f);

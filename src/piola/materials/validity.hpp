@@ -4,7 +4,7 @@
 
 namespace piola {
 
-/// For which strains and rotations a law is right, and what is wrong beyond, for the manual; "" where the law itself
+/// Range of strains and rotations in which a law is valid, and its errors beyond, for the manual; "" if the law itself
 /// sets no bound.
 std::string_view validity_of_law(std::string_view name);
 

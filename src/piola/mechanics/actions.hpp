@@ -9,27 +9,28 @@
 #include <string>
 #include <vector>
 
-/// What acts on the bodies from outside in one step.
+/// Forces on the bodies by supports, loads and rigid shapes in one step.
 namespace piola {
 
-/// What a support, a load or a rigid shape does to the bodies, on average over the last step.
+/// Mean force of a support, a load or a rigid shape on the bodies over the last step.
 struct Action {
   std::string name;
   std::array<double, 3> force{};   ///< N
-  std::array<double, 3> moment{};  ///< N m, about the middle of its particles at the start or the centre of the shape
+  std::array<double, 3> moment{};  ///< N m, about the mean position of its particles at the start or the centre of the
+                                   ///< shape
 };
 
-/// What a support, a load or a rigid shape gave to the bodies.
+/// Impulse of a support, a load or a rigid shape on the bodies.
 struct Impulse {
   std::array<double, 3> linear{};   ///< [N s]
   std::array<double, 3> angular{};  ///< about the origin [N m s]
   void add(Impulse const& other);
 };
 
-/// The impulse of forces on many particles, which may come in any order.
+/// The impulse of forces on many particles, added in any order.
 class ImpulseSum {
  public:
-  /// The impulse p [N s] of a force at x [m].
+  /// Adds the impulse p [N s] of a force at x [m].
   void add(std::array<double, 3> const& x, std::array<double, 3> const& p);
   void add(ImpulseSum const& other) { sums_.add(other.sums_); }
   Impulse value() const;
@@ -38,23 +39,23 @@ class ImpulseSum {
   exec::ExactSums<6> sums_;  ///< linear, angular
 };
 
-/// Impulses of the step that was taken last, which become forces and moments: impulse over dt. The force of a support
-/// is the mass of its particles times the acceleration that it made up for, so that the forces of supports, loads and
-/// rigid shapes sum to the rate of the linear momentum. Test: tests/formulations/actions_test.cpp.
+/// Impulses of the last step; divided by dt they become forces and moments. The force of a support is the mass of its
+/// particles times the acceleration that it cancels, so that the forces of supports, loads and rigid shapes sum to the
+/// rate of the linear momentum. Test: tests/formulations/actions_test.cpp.
 class Actions {
  public:
   Actions(std::vector<Support> const& of_supports, std::vector<Load> const& of_loads,
           std::vector<RigidShape> const& of_rigids);
 
-  std::vector<Impulse> supports, loads, rigids;    ///< in the order they were given
-  std::vector<std::array<double, 3>> rigid_about;  ///< points of the moments of rigid shapes now [m]
+  std::vector<Impulse> supports, loads, rigids;    ///< in the order of the case
+  std::vector<std::array<double, 3>> rigid_about;  ///< reference points of the moments of rigid shapes now [m]
 
-  /// Forgets the step before.
+  /// Starts a step of dt [s]; discards the impulses of the last one.
   void begin(double dt);
   /// Names, forces and moments: all supports, the loads that have names, all rigid shapes. Zero before the first step.
   std::vector<Action> report() const;
 
-  /// What a checkpoint holds: rows of history.csv may follow before the next step.
+  /// State for a checkpoint: rows of history.csv may follow before the next step.
   std::vector<double> state() const;
   void restore(std::span<double const> state);
 

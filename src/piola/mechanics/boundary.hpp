@@ -14,14 +14,14 @@
 
 namespace piola {
 
-/// Whether a slot is one of those that a rank answers for; nothing: it answers for all.
+/// Whether a slot is local; `own` empty: all are.
 inline bool is_own(std::optional<Range> const& own, Index slot) {
   return !own || (slot >= own->first && slot < own->last);
 }
 
-/// Supports and loads of one body, for schemes that prescribe velocities and add accelerations at the ends of a step:
-/// which directions of which particles are held at a time and how fast, the loads at both ends, releases, and what all
-/// of them did. The passes of boundary_passes.hpp apply them. Theory: docs/theory/boundaries.md.
+/// Supports and loads of one body, for schemes that prescribe velocities and add accelerations at the ends of a step.
+/// Computes the held directions and their speeds, the loads at both ends, releases, and the impulses and work of all.
+/// The passes of boundary_passes.hpp apply them. Theory: docs/theory/boundaries.md.
 class BodyBoundary {
  public:
   using Point = std::array<double, 3>;
@@ -39,53 +39,53 @@ class BodyBoundary {
     std::optional<Direction> normal;  ///< of a pressure
   };
 
-  /// `multiplied`: multipliers hold what supports prescribe.
+  /// `multiplied`: Lagrange multipliers enforce the supports.
   BodyBoundary(int dimension, std::vector<Support> const& supports, std::vector<Load> const& loads, bool multiplied);
 
   // Set-up.
   /// A particle that supports hold; its number.
   std::size_t add_particle(HeldParticle const& particle);
-  /// A direction in which a support holds it. Where two ask for different velocities the one added last has its way.
+  /// Adds a direction in which a support holds the particle. If two prescribe different velocities, the last one added
+  /// applies.
   void add_row(std::size_t particle, std::size_t support, Direction const& direction);
-  /// Both for the particles of these supports that are taken; supports are those of the constructor. Those that hold
-  /// the surface hold no particle.
+  /// Adds particles and directions of `supports`, those of the constructor, for the ids that takes(id) accepts.
+  /// Supports of the surface itself hold no particle.
   void add_supports(std::vector<Support> const& supports, std::function<bool(std::int64_t id)> const& takes,
                     std::function<HeldParticle(std::int64_t id)> const& particle_of);
   void add_load(std::size_t load, LoadedPlace const& place);
-  /// Gives the particles that supports hold the velocities of t = 0, after a first begin_step.
+  /// Sets the velocities of t = 0 of held particles, after the first begin_step.
   void start(FieldRef const& v) const;
-  /// Ranks share the body: this one answers for the particles in these slots. Work and impulses are then sums over all
-  /// ranks, and end_step (see SharedTotal) and hand_over collective.
+  /// Sets the local slots of a distributed body. Work and impulses are then sums over ranks, and end_step (see
+  /// SharedTotal) and hand_over are collective.
   void share(Range own) { own_ = own; }
-  /// The same before a first begin_step: forgets what concerns others. Not where multipliers hold, for which ranks tell
-  /// each other all.
+  /// As share(), but also discards supports and loads of other ranks. Call before the first begin_step(). Not allowed
+  /// with multipliers, which need the supports of all ranks.
   void keep(Range own);
 
-  /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends. Whether the directions
-  /// that are held are others than before.
+  /// Before a step from `time` to time + dt: evaluates held directions, speeds, and the loads at both ends. Returns
+  /// whether the held directions have changed.
   bool begin_step(FieldRef const& x, double time, double dt);
-  /// After it: adds the work [J], and the impulses, at the places of the start and of the end of the step, as
-  /// the step itself divides them: the angular momentum then changes by just their moments.
+  /// After the step: adds the work [J] and the impulses, applied half at the start and half at the end position of the
+  /// step as in the scheme, so that the angular momentum changes by exactly their moments.
   void end_step(FieldRef const& x, SharedTotal& work);
-  /// Verlet: takes loads that end now out of the acceleration with which the next step begins.
+  /// Verlet: removes loads that end now from the acceleration of the next step.
   void take_out_ended(FieldRef const& rate) const;
-  /// Adds what supports and loads gave since forget_impulses().
+  /// Adds the impulses of supports and loads since forget_impulses().
   void hand_over(Actions& actions) const;
   void forget_impulses();
-  /// Of one more support or particle that the body deals with itself [N s].
+  /// Adds an impulse [N s] of a support or particle that the body treats itself.
   void add_impulse(std::size_t support, Point const& x, Point const& impulse) { of_supports_[support].add(x, impulse); }
-  /// Multiplies the velocities in slots before `last` by `factor`, but not along the directions that were held in the
-  /// last step.
+  /// Multiplies the velocities in slots before `last` by `factor`, except along the directions held in the last step.
   void damp(FieldRef const& v, Index last, double factor) const;
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const { return piola::next_release(time, supports_, loads_); }
 
   std::vector<HeldDirection>& held() { return held_; }
   std::vector<LoadedParticle>& loaded() { return loaded_; }
-  bool follows() const;  ///< whether some load that acts turns with the deformed face
+  bool follows() const;  ///< whether some active load is a follower load
 
  private:
-  /// One prescribed velocity of one particle, as given: several may hold a particle, in any directions.
+  /// One prescribed velocity of one particle, as given. A particle may have several, in any directions.
   struct Row {
     std::size_t support;
     Direction direction;
@@ -94,19 +94,19 @@ class BodyBoundary {
   };
   struct Particle {
     HeldParticle of;
-    std::vector<Row> rows;  ///< those named last come first
+    std::vector<Row> rows;  ///< the last ones added come first
   };
-  /// What a held direction is made of.
+  /// Particle and rows that a held direction is computed from.
   struct Origin {
     std::size_t particle;
     HeldAlong along;  ///< of the particle's rows
   };
   struct LoadItem {
-    std::size_t place;  ///< in loaded_
+    std::size_t place;  ///< index in loaded_
     double factor;
     Point X;
     std::optional<Direction> normal;
-    Direction steady;  ///< acceleration, if that does not depend on time
+    Direction steady;  ///< acceleration, if independent of time
   };
   struct LoadOnBody : Load {
     bool steady = true;
@@ -126,19 +126,19 @@ class BodyBoundary {
   int D_;
   bool multiplied_;
   std::vector<Support> supports_;  ///< without their particles
-  std::vector<LoadOnBody> loads_;  ///< likewise
+  std::vector<LoadOnBody> loads_;  ///< without their particles
   bool steady_supports_ = true, steady_loads_ = true, named_loads_ = false;
   std::vector<Particle> particles_;
   std::vector<HeldDirection> held_;
   std::vector<Origin> origins_;
   std::vector<LoadedParticle> loaded_;
-  std::vector<Index> place_of_slot_;              ///< in loaded_
+  std::vector<Index> place_of_slot_;              ///< slot -> index in loaded_
   std::vector<Point> held_start_, loaded_start_;  ///< at the start of the step [m]
   std::vector<ImpulseSum> of_supports_, of_loads_;
-  double begun_ = 0, ended_ = 0;  ///< start and end of the step that `held_` and `loaded_` are for
-  std::optional<Range> own_;      ///< nothing: all slots
-  Index first_kept_ = 0;          ///< slots before it do not concern this rank
-  int released_ = -1;             ///< supports and loads that had ended when it began
+  double begun_ = 0, ended_ = 0;  ///< start and end of the step of `held_` and `loaded_`
+  std::optional<Range> own_;      ///< empty: all slots
+  Index first_kept_ = 0;          ///< first slot whose supports and loads this rank keeps
+  int released_ = -1;             ///< supports and loads that had ended at the start of the step
 };
 
 }  // namespace piola

@@ -22,7 +22,7 @@ PIOLA_FN void move_along(View const& from, WriteView const& to, HeldDirection co
     if (h.direction[c] != 0) to.scalar(h.slot, from.scalar<double>(h.slot, c) + change * h.direction[c], c);
 }
 
-/// Sets the component along the direction, which is `now`.
+/// Sets the component along the direction; `now`: its present value.
 template <int D>
 PIOLA_FN void set_along(View const& from, WriteView const& to, HeldDirection const& h, double now, double wanted) {
   if (h.axis >= 0)
@@ -31,8 +31,9 @@ PIOLA_FN void set_along(View const& from, WriteView const& to, HeldDirection con
     move_along<D>(from, to, h, wanted - now);
 }
 
-/// Verlet, before the first kick: v^(n+1/2) = 1/2 (v^n + v^(n+1)) along the directions, by the acceleration that takes
-/// the particle there. `rate` holds what the forces alone would do; the difference is the reaction r^n.
+/// Verlet, before the first kick: sets v^(n+1/2) = 1/2 (v^n + v^(n+1)) along the directions, by the acceleration that
+/// leads to the prescribed position. `rate` keeps the acceleration by the forces alone; the difference is the reaction
+/// r^n.
 template <int D>
 struct DriveDirections {
   double dt;
@@ -51,8 +52,8 @@ struct DriveDirections {
   }
 };
 
-/// Verlet, after the second kick: v^(n+1) along the directions; `rate` keeps what the forces alone would do. Together
-/// with DriveDirections the reactions do the work m/2 (r^n + r^(n+1)) (x^(n+1) - x^n).
+/// Verlet, after the second kick: sets v^(n+1) along the directions; `rate` keeps the acceleration by the forces alone.
+/// Together with DriveDirections the reactions do the work m/2 (r^n + r^(n+1)) (x^(n+1) - x^n).
 template <int D>
 struct ArriveAlongDirections {
   double dt;

@@ -7,9 +7,9 @@
 
 namespace piola {
 
-/// C M^-1 C^T, factorised. Row r of C takes a weighted mean of a vector over particles along a direction: `rows` have
-/// first and last, places in `weights`, and direction; `weights` have particle and weight, each particle once in a row.
-/// `mass`: of particle a, or what stands for it.
+/// C M^-1 C^T, factorised. Row r of C is the weighted mean of a vector over particles along a direction: `rows` have
+/// first and last, indices in `weights`, and direction; `weights` have particle and weight, each particle once in a
+/// row. `mass`: of particle a, or its substitute.
 template <class Rows, class Weights, class Mass>
 EnvelopeCholesky constraint_matrix(Rows const& rows, Weights const& weights, std::size_t particles, Mass const& mass) {
   struct InRow {

@@ -10,22 +10,24 @@
 
 namespace piola {
 
-/// A dead load: particle k feels the acceleration value(X, t) * factor[k].
+/// A dead load: accelerates particle k by value(X, t) * factor[k].
 struct Load {
   std::vector<std::int64_t> particles;  ///< ids
   std::vector<double> factor;  ///< traction [Pa]: area / mass; force per volume [N/m^3]: 1 / density; acceleration: 1
   std::array<Expression, 3> value;
-  double until = std::numeric_limits<double>::infinity();  ///< s: gone then
+  double until = std::numeric_limits<double>::infinity();  ///< end of the load [s]
   /// Outward unit normal of the loaded face in the reference configuration, if the load is a traction.
   std::optional<std::array<double, 3>> normal = {};
-  std::vector<std::array<double, 3>> normals = {};  ///< the same particle by particle, of curved faces
+  std::vector<std::array<double, 3>> normals = {};  ///< as `normal`, per particle, for curved faces
   bool pressure = false;                            ///< the value's first component is a pressure [Pa] on that face
-  bool follows = false;                             ///< a pressure on the deformed face, along its current normal
+  bool follows = false;                             ///< follower load: a pressure on the deformed face, along its
+                                                    ///< current normal
   std::string name = {};                            ///< empty: its force is not recorded
-  std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
+  std::array<double, 3> about{};  ///< reference point of its moment: the mean position of its particles at the start
+                                  ///< [m]
 
   bool on_face() const { return normal.has_value() || !normals.empty(); }
-  /// Of the face at particle k.
+  /// Outward unit normal of the face at particle k.
   std::array<double, 3> normal_of(std::size_t k) const { return normals.empty() ? *normal : normals[k]; }
 };
 

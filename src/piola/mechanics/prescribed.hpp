@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-/// What supports and loads mean.
+/// Evaluation of supports and loads.
 namespace piola {
 
 using Direction = std::array<double, 3>;
 
-/// Steps end at releases to round-off of a sum of many steps.
+/// Whether `until` is reached, up to the round-off of a sum of many steps.
 bool has_ended(double until, double time);
 
 /// The next time after `time` at which one of these supports and loads ends; infinity if there is none.
@@ -31,21 +31,21 @@ bool is_steady(std::array<Expression, 3> const& formulas);
 
 double dot(Direction const& a, Direction const& b);
 
-/// Takes the parts along unit vectors out of d; what is left, as a unit vector. False if nothing is.
+/// Removes the components along the unit vectors `to` from d and normalises the rest. Returns false if nothing remains.
 bool make_orthogonal(Direction& d, std::vector<Direction> const& to);
 
-/// The directions that a support holds, in a body of D dimensions; a direction along an axis is that axis.
+/// The directions that a support holds, in a body of D dimensions; exact axes for directions along an axis.
 std::vector<Direction> directions_of(Support const& support, int D);
 
-/// One of the orthonormal directions in which a particle is held, as it follows from the directions that are asked for.
+/// One of the orthonormal directions in which a particle is held, computed from the requested directions.
 struct HeldAlong {
   Direction direction;
-  std::size_t row;               ///< the first that asks for it
+  std::size_t row;               ///< first row that requests it
   std::array<double, 3> weight;  ///< its speed is the sum of weight[k] times the speed of row of[k]
   std::array<std::size_t, 3> of;
   std::size_t count;
 
-  /// With speed_of(row).
+  /// The speed along it, with speed_of(row) [m/s].
   template <class F>
   double speed(F const& speed_of) const {
     double sum = 0;
@@ -54,8 +54,7 @@ struct HeldAlong {
   }
 };
 
-/// Row by row the part that those before leave free: where two ask for different speeds in one direction, the first has
-/// its way.
+/// Orthonormalises the rows in order. If two rows request different speeds in one direction, the first applies.
 std::vector<HeldAlong> hold_along(std::vector<Direction> const& rows);
 
 /// Prescribed speed along d of the particle with reference position X [m/s].
@@ -66,8 +65,8 @@ double speed_along(std::array<Expression, 3> const& velocity, Direction const& d
 Direction acceleration_by(std::array<Expression, 3> const& value, std::optional<Direction> const& normal, double factor,
                           std::array<double, 3> const& X, double time);
 
-/// dt, or less, so that a step ends after `rest` [s], where a support or a load does: the impulse of what drives a body
-/// would else depend on the step. The last steps before are alike, so that none is a sliver.
+/// Returns dt, or less, so that a step ends after `rest` [s], at the end of a support or a load; otherwise the impulse
+/// of loads would depend on the step. The last steps before are equal, so that none is tiny.
 double up_to_release(double dt, double rest);
 
 }  // namespace piola

@@ -26,7 +26,7 @@ Mat<3> axes_with(Vec<3> const& first) {
   return axes;
 }
 
-/// Of a tensor that was given; in 2D it has one moment.
+/// Principal inertia of a given tensor; in 2D it has one moment.
 PrincipalInertia principal(std::array<double, 6> const& given, int dimension) {
   if (dimension < 3) return {{{0, 0, given[2]}}, identity<3>()};
   SymMat<3> I;

@@ -5,12 +5,12 @@
 
 namespace piola {
 
-/// Volume of a rigid shape [m3]; in 2D its area [m2]; infinite of a plane.
+/// Volume of a rigid shape [m3]; in 2D its area [m2]; infinite for a plane.
 double volume_of(RigidShape const& shape, int dimension);
 
-/// How the mass of a shape lies about its centre: as given, else that of the homogeneous shape.
+/// Principal inertia of a shape about its centre: as given, else that of the homogeneous shape.
 struct PrincipalInertia {
-  Vec<3> moment;  ///< about the axes below [kg m2]; in 2D the last, per length [kg m]
+  Vec<3> moment;  ///< about the axes below [kg m2]; in 2D only the last, per length [kg m]
   Mat<3> axes;    ///< columns: unit vectors
 };
 PrincipalInertia inertia_of(RigidShape const& shape, int dimension);

@@ -19,7 +19,7 @@ class RigidModes {
     std::size_t const p = (m - 3 + 1) % 3, q = (m - 3 + 2) % 3;
     return ((x[p] - centre_[p]) * d[q] - (x[q] - centre_[q]) * d[p]) / length_;
   }
-  /// What an impulse does in mode m.
+  /// Component of an impulse in mode m.
   double of(std::size_t m, Impulse const& i) const {
     if (m < 3) return i.linear[m];
     std::size_t const c = m - 3, p = (c + 1) % 3, q = (c + 2) % 3;

@@ -15,8 +15,8 @@ struct SupportRow {
   double mass;  ///< [kg]
 };
 
-/// Adds to the supports what rows bear of an impulse of which only the sum is known: m (d.z) d of each, z being the
-/// rigid motion for which they sum to `rest` in all that the rows hold.
+/// Distributes the impulse `rest`, a sum over all rows, to the supports. Each row gets m (d.z) d, where z is the rigid
+/// motion for which these impulses sum to `rest` in all components that the rows hold.
 void share_out(std::vector<SupportRow> const& rows, Impulse const& rest, std::vector<Impulse>& of_support);
 
 }  // namespace piola

@@ -10,22 +10,23 @@
 
 namespace piola {
 
-/// Particles whose velocity is prescribed in some directions: at zero, or as `velocity` says.
+/// Particles whose velocity is prescribed in some directions: zero or `velocity`.
 struct Support {
   enum class Frame {
     axes,    ///< the directions in `fix`
     normal,  ///< along `normal`: a roller on an oblique plane
-    tangent  ///< across `normal`: the particle may move along the normal alone
+    tangent  ///< across `normal`: the particle may move only along the normal
   };
   std::vector<std::int64_t> particles;  ///< ids
   std::array<bool, 3> fix{};
   Frame frame = Frame::axes;
   std::array<double, 3> normal{};                          ///< unit vector
   std::optional<std::array<Expression, 3>> velocity;       ///< m/s, in X, Y, Z, t; nothing: at rest
-  double until = std::numeric_limits<double>::infinity();  ///< s: released then
+  double until = std::numeric_limits<double>::infinity();  ///< time of release [s]
   std::string name = {};
-  std::array<double, 3> about{};  ///< point of its moment: the middle of its particles at the start [m]
-  /// Outward normals of the face at the particles, if the face itself is held and not the particles along it.
+  std::array<double, 3> about{};  ///< reference point of its moment: the mean position of its particles at the start
+                                  ///< [m]
+  /// Outward normals of the face at the particles, if the face itself is held instead of the particles.
   std::vector<std::array<double, 3>> normals = {};
 
   bool on_surface() const { return !normals.empty(); }

@@ -28,7 +28,7 @@ SurfaceHold::SurfaceHold(int dimension, std::vector<Support> const& supports, st
                          std::span<double const> mass, std::vector<Point> const& X)
     : D_(dimension), driven_(dimension, supports, {}, false) {
   if (places.empty()) return;
-  // Numbered as places name them, not as they stand: sums over them are taken in this order.
+  // Numbered in the order of the places, independent of the memory order: sums are taken in this order.
   std::vector<std::size_t> number(mass.size(), mass.size());
   for (auto const& place : places)
     for (auto const& w : place.weights) {

@@ -118,7 +118,7 @@ void measure_variables(BenchReport& report, BenchOptions const& options) {
     formulations.push_back(make_formulation(assembly));
     report.variables.push_back({choice.name, mean_neighbours(*formulations.back(), assembly.particles.size())});
   }
-  // In turns, so that what else the machine does meets all of them.
+  // Alternating, so that disturbances of the computer affect all of them.
   for (int round = 0; round < options.repeats; ++round)
     for (std::size_t k = 0; k < formulations.size(); ++k)
       cpu[k] = std::min(cpu[k], fastest_step(*formulations[k], 1).cpu);

@@ -10,11 +10,11 @@ struct BenchOptions {
   bool rates = true, column = true, variables = true;  ///< what to measure
   int particles_per_side = 64;
   std::array<int, 3> column_particles{26, 157, 26};
-  int column_settling = 50;  ///< steps before: the first ones are short
-  int column_steps = 50;     ///< measured: with one measurement of the step limit
+  int column_settling = 50;  ///< steps before the measurement: the first ones are short
+  int column_steps = 50;     ///< measured steps: with one measurement of the step limit
   int repeats = 8;           ///< time steps per measurement; the fastest counts
   std::vector<int> threads{1, 2};
-  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+  std::string machine = "auto";  ///< instruction set that is compared with the scalar path
 };
 
 /// One measurement: whole time steps of a free, slowly spinning body.
@@ -30,7 +30,7 @@ struct BenchRow {
   double roofline_fraction = 0;      ///< of the smaller of both bounds below, on the CPU-time figure; 0: not defined
 };
 
-/// How far the twisting column gets in a second of processor time, one thread, set-up left out.
+/// Simulated time of the twisting column per second of CPU time, one thread, without set-up.
 struct ColumnRow {
   std::string name;
   double neighbours = 0;  ///< per particle, mean
@@ -40,7 +40,7 @@ struct ColumnRow {
   double milliseconds_per_cpu_second() const { return 1e3 * simulated / cpu; }
 };
 
-/// Right-hand sides of one choice of unknowns, one thread; all choices take turns in the same run.
+/// Right-hand sides with one choice of evolved variables, one thread; all choices alternate in the same run.
 struct VariablesRow {
   std::string name;
   double neighbours = 0;                  ///< per particle, mean

@@ -24,7 +24,7 @@ struct Problem {
   double reference;  ///< bench/finite_elements/README.md, in `unit`
   double unit;       ///< SI value of the unit of `reference`
   double end;        ///< just after the peak [s]
-  double every;      ///< between two looks [s]
+  double every;      ///< sampling interval [s]
 };
 
 constexpr double degrees = std::numbers::pi / 180;

@@ -7,7 +7,7 @@ namespace piola {
 
 struct AccuracyOptions {
   std::vector<int> across{3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< particles across the column
-  double longest = 60;  ///< processor time from which on a scheme is not tried on more particles [s]
+  double longest = 60;  ///< CPU time from which on a scheme is not run with more particles [s]
   std::string machine = "auto";
 };
 
@@ -19,7 +19,7 @@ struct AccuracyRow {
   int across = 0;
   long particles = 0, steps = 0;
   double value = 0;            ///< first peak: twist of the top [degree], displacement of the tip [m]; nan: none
-  double error = 0;            ///< of it, relative to the converged finite elements
+  double error = 0;            ///< relative to the converged finite elements
   double set_up = 0, cpu = 0;  ///< processor time: of the set-up, and of everything [s]
   std::string failure;         ///< why there is no value
 };

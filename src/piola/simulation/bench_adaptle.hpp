@@ -11,12 +11,12 @@ struct AdaptleBenchOptions {
   int cube_side = 48;  ///< particles per side; plates have as many particles
   int repeats = 8;     ///< time steps per measurement; the fastest counts
   std::vector<int> threads{1, 2};
-  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+  std::string machine = "auto";  ///< instruction set that is compared with the scalar path
 };
 
 /// Whole time steps of one body.
 struct AdaptleBenchRow : RateRow {
-  std::vector<std::pair<std::string, double>> parts;  ///< share of the wall time of a step
+  std::vector<std::pair<std::string, double>> parts;  ///< fraction of the wall time of a step
 };
 
 struct AdaptleBenchReport {
@@ -25,10 +25,10 @@ struct AdaptleBenchReport {
   std::vector<AdaptleBenchRow> rows;
 };
 
-/// Measures inside the real solver, one force evaluation per step, double precision, perfectly plastic, viscosity,
-/// lists anew in every step: cubes and plates with random places of particles that are Eulerian, total-Lagrangian, and
-/// half and half; the Eulerian cube also with the mixed correction and with artificial stress. Each beside its scalar
-/// path. Throws InputError if the machine is unknown or not usable here.
+/// Measures inside the real solver: one force evaluation per step, double precision, perfectly plastic, viscosity,
+/// lists rebuilt in every step. Cubes and plates with jittered particles that are Eulerian, total-Lagrangian, and half
+/// and half; the Eulerian cube also with the mixed correction and with artificial stress. Each with the scalar path for
+/// comparison. Throws InputError if the instruction set is unknown or not usable here.
 AdaptleBenchReport bench_adaptle(AdaptleBenchOptions const& options);
 
 std::string to_json(AdaptleBenchReport const& report);

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-/// The columns of Lee et al. (2016) that benchmarks run: rubber, 1 m x 6 m x 1 m, the foot clamped.
+/// The columns of Lee et al. (2016) for benchmarks: rubber, 1 m x 6 m x 1 m, clamped at the foot.
 namespace piola {
 
 /// neo_hookean, 1100 kg/m^3, 17 MPa.

@@ -14,9 +14,9 @@ struct ContactBenchOptions {
 
 /// Whole steps of two cubes, one thread.
 struct ContactRow {
-  std::string name;         ///< formulation and what is there of contact
-  double microseconds = 0;  ///< of processor time a step
-  double share = 0;         ///< more than without contact, over the time without
+  std::string name;         ///< formulation and contact setting
+  double microseconds = 0;  ///< CPU time per step
+  double share = 0;         ///< additional time over the time without contact
   double step_ratio = 1;    ///< stable step over that without contact
 };
 
@@ -25,8 +25,8 @@ struct ContactBenchReport {
   std::vector<ContactRow> rows;
 };
 
-/// Two cubes of neo-Hookean rubber, 3D, double, that touch on a whole face: without contact, with surfaces that are far
-/// apart, pressed together without and with friction, and with contact of each body with itself.
+/// Two cubes of neo-Hookean rubber, 3D, double, in contact on a whole face: without contact, with surfaces that are far
+/// apart, pressed together without and with friction, and with self-contact of each body.
 ContactBenchReport bench_contact(ContactBenchOptions const& options);
 
 std::string to_json(ContactBenchReport const& report);

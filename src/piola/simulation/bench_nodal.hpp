@@ -10,10 +10,10 @@ struct NodalBenchOptions {
   bool rates = true, set_up = true;            ///< what to measure
   int cube_side = 60;                          ///< particles per side of the cube on a lattice
   int cloud_side = 40;                         ///< of the jittered cube
-  std::vector<int> lengths{40, 80, 160, 320};  ///< of jittered columns 5 x 5 that are set up
+  std::vector<int> lengths{40, 80, 160, 320};  ///< lengths of jittered columns 5 x 5 whose set-up is measured
   int repeats = 8;                             ///< time steps per measurement; the fastest counts
   std::vector<int> threads{1, 2};
-  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+  std::string machine = "auto";  ///< instruction set that is compared with the scalar path
 };
 
 /// Setting up one body on one thread, the fastest of a few times [s].
@@ -22,7 +22,7 @@ struct NodalSetUpRow {
   long particles = 0;
   double cells = 0, fits = 0, closure = 0, masses = 0, tables = 0;
   int iterations = 0;     ///< of the solve for the divergence theorem
-  int tight = 0;          ///< the same where it goes on to 1e-6 of the first residual; 0: not measured
+  int tight = 0;          ///< iterations to 1e-6 of the first residual; 0: not measured
   double right_side = 0;  ///< one right-hand side of the body
   double total() const { return cells + fits + closure + masses + tables; }
 };

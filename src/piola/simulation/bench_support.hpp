@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
-/// What the benchmarks of all formulations share.
+/// Common functions of the benchmarks of all formulations.
 namespace piola {
 
-double wall_seconds();  ///< since some moment [s]
+double wall_seconds();  ///< since an arbitrary origin [s]
 double cpu_seconds();   ///< processor time of all threads of this program [s]
 
-/// The machine and, where it is another one and among the usable names (they end with nullptr), the scalar path.
+/// The instruction set and, if different and among the usable names (nullptr-terminated), the scalar path.
 std::vector<std::string> beside_scalar(std::string const& machine, char const* const* usable);
 
 struct Timing {
   double wall, cpu;  ///< s
 };
 
-/// Loops run on this many threads from now on, one per core.
+/// Sets the number of threads of later loops, pinned to one core each.
 void pin_to(int threads);
 
 /// Takes `steps` steps as long as they are stable; returns the time at their end [s].
@@ -37,13 +37,13 @@ struct RateRow {
   std::string name;     ///< what was measured
   std::string machine;  ///< instruction set
   int threads = 1;
-  long particles = 0;             ///< real ones
-  double neighbours = 0;          ///< per particle, mean; of real particles virtual ones
+  long particles = 0;             ///< without virtual particles
+  double neighbours = 0;          ///< per particle, mean; of real particles: virtual neighbours
   double bytes_per_particle = 0;  ///< memory, virtual particles and lists included
   double per_second = 0;          ///< particles advanced by a step per second of wall time, threads pinned
   double per_cpu_second = 0;      ///< per second of processor time of all threads: undisturbed by other programs
 
-  /// Number of particles, memory and rates, from a formulation and the time of one of its steps.
+  /// Sets number of particles, memory and rates from a formulation and the time of one step.
   void fill(Formulation const& formulation, std::int64_t count, Timing const& step);
   /// All but the rates.
   nlohmann::ordered_json json() const;

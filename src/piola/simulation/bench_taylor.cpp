@@ -84,7 +84,7 @@ void measure(TaylorBenchReport& report, TaylorBenchOptions const& options, Taylo
   std::unique_ptr<Formulation> formulation;
   for (int const threads : options.threads) {
     pin_to(threads);
-    // A wave is another one after some steps: each number of threads starts anew.
+    // The wave changes over steps: each number of threads starts with a new one.
     if (!formulation || subject.deforming) formulation = make_formulation(assembly);
     TaylorBenchRow row{{subject.name, machine, threads}};
     row.neighbours = mean_neighbours(*formulation, particles);

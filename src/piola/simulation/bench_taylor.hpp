@@ -11,9 +11,9 @@ struct TaylorBenchOptions {
   int cube_side = 40;
   int bar_particles = 100000;
   int repeats = 8;  ///< time steps per measurement of a step alone; the fastest counts
-  int steps = 60;   ///< of the deforming plate, all of which count
+  int steps = 60;   ///< of the deforming plate, all measured
   std::vector<int> threads{1, 2};
-  std::string machine = "auto";  ///< instruction set beside which the scalar path is measured
+  std::string machine = "auto";  ///< instruction set that is compared with the scalar path
 };
 
 /// Whole time steps of one body.
@@ -21,12 +21,12 @@ struct TaylorBenchRow : RateRow {
   long list_updates = 0;  ///< in the steps measured
 };
 
-/// What the deforming plate spends beside its steps, on one thread [s of processor time].
+/// Cost of the deforming plate in addition to its steps, on one thread [s of CPU time].
 struct TaylorUpkeep {
   long particles = 0, cells = 0;
   double step = 0, list_update = 0, triangulation = 0;
   static constexpr int between = 20;  ///< steps from one triangulation to the next in the rate below
-  /// Particle-steps per second if lists and cells were made anew after so many steps.
+  /// Particle-steps per second if lists and cells are rebuilt every `between` steps.
   double per_cpu_second() const {
     return static_cast<double>(particles) / (step + (list_update + triangulation) / between);
   }

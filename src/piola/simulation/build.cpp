@@ -115,14 +115,14 @@ double density_of(MaterialParameters const& material) {
   return density == law.parameters.end() ? 0 : material.value[density - law.parameters.begin()];
 }
 
-/// Of a body and of its parts.
+/// Densities of a body and of its parts.
 std::vector<double> densities_of(BodySpec const& body) {
   std::vector<double> densities{density_of(body.material)};
   for (PartSpec const& part : body.parts) densities.push_back(density_of(part.material));
   return densities;
 }
 
-/// What a load accelerates its particles with, per unit of its value.
+/// Acceleration of the particles of a load per unit of its value.
 Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& particles) {
   std::size_t const b = index_of_body(spec.body, particles);
   std::vector<double> const densities = densities_of(from.bodies[b]);
@@ -171,7 +171,7 @@ std::string formulation_names(CaseSpec const& spec) {
   return text;
 }
 
-// Which fields there are depends on the law and on the settings, so that only the formulation itself can tell.
+// The fields depend on the law and on the settings, so that they are taken from the formulation.
 void check_fields(CaseSpec const& spec, Formulation const& formulation, std::string const& name) {
   Problems problems;
   auto const all_fields = formulation.fields();
@@ -218,7 +218,7 @@ void take_parts(CaseSpec const& spec, std::size_t body, Assembly& a) {
   for (PartSpec const& part : bodies[body].parts) a.parts.back().push_back(part.material);
 }
 
-/// Of the bodies that others can push; empty for the rest.
+/// Surfaces of the bodies that accept external impulses; empty for the others.
 std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
   std::vector<contact::Surface> surfaces(spec.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {

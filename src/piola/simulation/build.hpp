@@ -8,7 +8,7 @@
 
 namespace piola {
 
-/// A case made ready to run.
+/// A case ready to run.
 struct Simulation {
   CaseSpec spec;
   ParticleSet particles;
@@ -16,19 +16,19 @@ struct Simulation {
   std::string formulation_name;  ///< of the bodies, joined with " + " if there are several
   double mass = 0;               ///< kg (per unit thickness or section in 2D and 1D)
   int threads = 1;
-  std::vector<std::string> warnings;  ///< what looks odd about the case (simulation/warnings.hpp)
+  std::vector<std::string> warnings;  ///< unusual settings of the case (simulation/warnings.hpp)
 };
 
-/// What the formulation is built from: the particles of a case, and its formulas evaluated there. Throws InputError
-/// with all that is wrong with regions and formulas.
+/// Creates the particles of a case and evaluates its formulas there. Throws InputError with all errors in regions and
+/// formulas.
 Assembly assemble(CaseSpec const& spec);
-/// The same with the particles that `read_case` has made of this very case, and checked.
+/// As above, with the checked particles that `read_case` has created for this case.
 Assembly assemble(CaseSpec const& spec, ParticleSet particles);
 
-/// Builds the whole simulation and sets the number of threads. Throws InputError, also for what the formulation
-/// refuses and for probes of fields that it does not have.
+/// Builds the whole simulation and sets the number of threads. Throws InputError, also if the formulation rejects the
+/// case or a probe asks for a field that it lacks.
 Simulation build(CaseSpec spec);
-/// The same with the particles that `read_case` has made of this very case, and checked: they are made once.
+/// As above, with the checked particles that `read_case` has created for this case.
 Simulation build(CaseSpec spec, ParticleSet particles);
 
 }  // namespace piola

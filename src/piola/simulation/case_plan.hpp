@@ -7,21 +7,21 @@
 
 namespace piola {
 
-/// What a case would run, what that would take and what looks odd.
+/// Plan of a run: content, cost and warnings of a case.
 struct CasePlan {
   CaseSpec spec;
   ParticleSet particles;
   std::vector<BodyFacts> facts;
   Estimate cost;
-  std::vector<std::string> warnings;  ///< as warnings_of()
-  std::vector<std::string> left_out;  ///< what was too long for a look, one sentence each
+  std::vector<std::string> warnings;  ///< as in warnings_of()
+  std::vector<std::string> left_out;  ///< checks omitted because they take too long, one sentence each
 };
 
-/// Builds the case, or parts of it from `large_case` particles on, and takes trial steps. Throws InputError for what
-/// the formulation refuses. `reading_seconds`: wall time that reading and particles took; counts as set-up.
+/// Builds the case, or parts of it from `large_case` particles on, and takes trial steps. Throws InputError if the
+/// formulation rejects the case. `reading_seconds`: wall time of reading and particle generation, added to set-up.
 CasePlan plan_of_case(CaseSpec spec, ParticleSet particles, double reading_seconds);
 
-/// The plan for scripts: one JSON object, SI units, which the names of keys end with.
+/// The plan for scripts: one JSON object in SI units; keys end with their unit.
 std::string plan_json(CasePlan const& plan);
 
 }  // namespace piola

@@ -61,7 +61,7 @@ Json list_of(Json items, int least, int most) {
   return {{"type", "array"}, {"items", std::move(items)}, {"minItems", least}, {"maxItems", most}};
 }
 
-/// What may be written for a key, but for words in its place.
+/// Allowed values of a key, except words.
 Json value_schema(KeyInfo const& info) {
   using enum KeyInfo::Kind;
   switch (info.kind) {

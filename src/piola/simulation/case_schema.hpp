@@ -4,8 +4,9 @@
 
 namespace piola {
 
-/// JSON Schema (draft 7) of a case file, for editors and scripts. Made from the tables of keys, laws and formulations
-/// that the reader and the manual use. It is no stricter than the reader: texts with units and formulas are texts here.
+/// JSON Schema (draft 7) of a case file, for editors and scripts. Generated from the tables of keys, laws and
+/// formulations of the reader and the manual. It is no stricter than the reader: texts with units and formulas are
+/// strings.
 std::string case_schema();
 
 }  // namespace piola

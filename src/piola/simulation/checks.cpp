@@ -133,7 +133,7 @@ void read_kind(Entry& entry, Check& check) {
     entry.wrong(*entry.find("kind", false), "kind", "\"within\", \"below\", \"above\" or \"between\"");
 }
 
-// What a check takes from two variants: "ratio", or "order" with the `ratio` of their spacings.
+// Comparison of two variants: "ratio", or "order" with the `ratio` of their spacings.
 void read_comparison(Entry& entry, Check& check) {
   check.relative_to = entry.text("relative_to", entry.find("as", false) != nullptr);
   std::string const word = entry.text("as", !check.relative_to.empty());
@@ -154,7 +154,7 @@ void read_comparison(Entry& entry, Check& check) {
     entry.wrong(*node, "ratio", "a number above 1: the spacing of the other variant by that of this one");
 }
 
-// What is compared point by point: `field` at a `time`, perhaps only `where` a condition holds.
+// Comparison point by point: `field` at a `time`, optionally only `where` a condition holds.
 void read_field(Entry& entry, Check& check) {
   bool const used = check.as == Check::As::field_error;
   for (char const* key : {"field", "time", "where", "beside"}) {

@@ -11,35 +11,35 @@
 
 namespace piola {
 
-/// Where some particles are now [m]. Particles whose position is not finite are left out.
+/// Current positions of some particles [m]. Particles with a position that is not finite are left out.
 struct Cloud {
   std::vector<std::int64_t> id;
   std::vector<std::array<double, 3>> x;
 };
 Cloud cloud_of(FieldCache& cache, std::span<std::int64_t const> ids);
 
-/// Points that hang together: two points are linked if they are closer than `link` [m].
+/// Connected sets of points: two points are linked if they are closer than `link` [m].
 struct Clusters {
   std::vector<std::size_t> of;    ///< cluster of each point, numbered in the order of their first points
   std::vector<std::size_t> size;  ///< points of each cluster
 };
 Clusters find_clusters(std::vector<std::array<double, 3>> const& points, double link);
 
-/// Distance from each of the points `of` to the nearest other point [m]; infinite if there is none. `near` [m] is where
-/// most of them find it.
+/// Distance from each of the points `of` to the nearest other point [m]; infinite if there is none. `near` [m]: search
+/// distance that suffices for most points.
 std::vector<double> nearest_distances(std::vector<std::array<double, 3>> const& points, std::span<std::size_t const> of,
                                       double near);
 
-/// What the probes of kinds spacing, fragment, rim and hole look at, chosen once from reference positions.
+/// Selection of the probe kinds spacing, fragment, rim and hole, made once from reference positions.
 struct Measured {
   Measured(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, std::vector<std::int64_t> chosen);
   ProbeSpec spec;
   double spacing;                 ///< smallest lattice spacing of the body [m]
-  std::vector<std::int64_t> ids;  ///< the particles that count
+  std::vector<std::int64_t> ids;  ///< ids of the selected particles
   std::vector<char> anchor;       ///< of every particle of the run: in the anchor region; empty if there is none
 };
 
-/// Of each cluster whether it contains a particle of the anchor region.
+/// Per cluster: whether it contains a particle of the anchor region.
 std::vector<char> anchored(Measured const& measured, Cloud const& cloud, Clusters const& clusters);
 
 }  // namespace piola

@@ -22,14 +22,14 @@ namespace {
 struct Pace {
   std::array<double, 3> lattice;    ///< neighbours at fixed distances; taylor_sph: boxes; adaptle: total Lagrangian
   std::array<double, 3> scattered;  ///< lists; taylor_sph: simplices; adaptle: Eulerian
-  std::array<double, 3> setup;      ///< s per particle besides right-hand sides: tables, lists, the first output
-  std::array<double, 3> overhead;   ///< bytes per particle at the peak besides Formulation::memory_bytes
+  std::array<double, 3> setup;      ///< s per particle for tables, lists and the first output
+  std::array<double, 3> overhead;   ///< bytes per particle at the peak over Formulation::memory_bytes
   std::array<double, 3> more_scattered = {};  ///< and these, if scattered
-  /// Where ranks observe their shares: bytes per particle of the body that every rank has, of which rank 0 needs some
-  /// more for output. Measured by bench/ranks_memory.py.
+  /// For observation by local particles: replicated bytes per particle of the body; rank 0 needs more for output.
+  /// Measured by bench/ranks_memory.py.
   double everywhere = 0, of_first = 0;
-  /// The same of set-up, where that is another one: bytes of all particles, and of own ones besides
-  /// Formulation::memory_bytes, of which some come later.
+  /// As above during set-up, if different: replicated bytes of all particles, and bytes of local ones over
+  /// Formulation::memory_bytes, some of which come later.
   struct SetUp {
     double everywhere, lattice, scattered;
   };
@@ -119,8 +119,8 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
          body.shape.arrangement == ShapeSpec::Arrangement::lattice;
 }
 
-/// Bytes of each particle of a body that every rank has. Of adaptle, where bodies may touch or something flows, which
-/// cells hold somebody, too.
+/// Replicated bytes per particle of a body. For adaptle with kernel contact or Eulerian particles including the
+/// occupied cells.
 double bytes_everywhere(CaseSpec const& spec, BodySpec const& body, Pace const& pace) {
   if (body.formulation.name != "adaptle") return pace.everywhere;
   constexpr double cells = 40;
@@ -136,7 +136,7 @@ double bytes_everywhere(CaseSpec const& spec, BodySpec const& body, Pace const& 
   return pace.everywhere + (sorted ? cells : 0);
 }
 
-/// Whether ranks that share a body share its set-up: nodal makes all of some on every rank (nodal::SetUp::is_shared).
+/// Whether set-up is distributed; nodal sets some bodies up on every rank (nodal::SetUp::is_shared).
 bool is_set_up_by_share(CaseSpec const& spec, BodySpec const& body) {
   auto const continues = [&](MirrorSpec const& mirror) { return mirror.body == body.name; };
   auto const holds = [&](SupportSpec const& support) {
@@ -146,7 +146,7 @@ bool is_set_up_by_share(CaseSpec const& spec, BodySpec const& body) {
                                               std::none_of(spec.supports.begin(), spec.supports.end(), holds));
 }
 
-/// What the parts of the output come to in number.
+/// Number of outputs of each kind.
 struct Plan {
   double rows, frames, pictures, checkpoints;
 };
@@ -191,8 +191,8 @@ bool observed_by_share(BodySpec const& body) {
   return info && info->observed_by_share;
 }
 
-/// Numbers per particle that rank 0 gets for a row: of probes that must see all particles, their displacements, and
-/// velocities of fragments. Of what adds up ranks tell a few sums.
+/// Numbers per particle gathered on rank 0 for a row: displacements for probes that need all particles, and velocities
+/// of fragments. Additive probes only reduce a few sums.
 double probed_numbers(CaseSpec const& spec) {
   auto const asked = [&](auto const& is) { return std::any_of(spec.probes.begin(), spec.probes.end(), is); };
   bool const positions = asked([](ProbeSpec const& probe) { return !adds_up(probe.kind); });
@@ -200,7 +200,7 @@ double probed_numbers(CaseSpec const& spec) {
   return (positions ? 3 : 0) + (velocities ? 3 : 0);
 }
 
-/// Wall time of so many steps with all output [s].
+/// Wall time of `steps` steps with all output [s].
 double run_seconds_of(CaseSpec const& spec, double particles, std::int64_t steps, Estimate const& e) {
   Plan const plan = plan_of(spec);
   double const rows = std::min(plan.rows, static_cast<double>(steps) + 1);
@@ -209,7 +209,7 @@ double run_seconds_of(CaseSpec const& spec, double particles, std::int64_t steps
          plan.checkpoints * checkpoint_seconds * particles;
 }
 
-/// What follows from the number of steps. `change`: of the length of the last trial steps, as a fraction.
+/// Values that depend on the number of steps. `change`: relative change of the length of the last trial steps.
 void count_steps(CaseSpec const& spec, double particles, double change, Estimate& e) {
   StepExcess const excess = e.trial_ends_run ? StepExcess{} : step_excess(spec, change);
   double const as_tried = static_cast<double>(std::max(e.steps, e.most_steps));
@@ -236,7 +236,7 @@ void count_times(CaseSpec const& spec, ParticleSet const& particles, double stag
   count_steps(spec, all, 0, e);
 }
 
-/// What set-up takes of a rank: of all of a body, and of it what every rank has in full [bytes].
+/// Set-up memory of a rank: of a whole body, and its replicated part [bytes].
 struct MemoryInSetUp {
   double all, everywhere;
 };

@@ -12,13 +12,12 @@ namespace piola {
 /// "(1, 2, 3) m", with four digits.
 std::string point_text(std::array<double, 3> const& point);
 
-/// What the user is told when the physics fails: particle, place, step, values, what limits the step, likely causes,
-/// and where the last state lies. `causes`: the likely ones if they are known, else those of such failures.
+/// Error message of a physical failure: particle, position, step, values, what limits the step, likely causes, and the
+/// location of the last state. `causes`: the likely ones if known, else general ones.
 std::string failure_text(Failure const& failure, std::string const& causes, Moment const& moment, double cfl,
                          std::filesystem::path const& results);
 
-/// Adds what the energies did from the first to the last row of the history to the values of a failure, unless it has
-/// energies of its own.
+/// Adds the change of the energies over the history to the values of a failure, unless it has energies of its own.
 void add_energies(Failure& failure, HistoryTable const& history);
 
 }  // namespace piola

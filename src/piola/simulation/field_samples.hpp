@@ -9,10 +9,10 @@
 
 namespace piola {
 
-/// A field of a run at one time, beside the particles that carry it.
+/// A field of a run at one time, with its particles.
 struct FieldSample {
   std::string field = {};
-  double time = 0;  ///< s, as asked for
+  double time = 0;  ///< requested time [s]
   int dimension = 3;
   std::size_t components = 1;
   std::vector<double> values = {};            ///< [id * components + c]
@@ -22,7 +22,7 @@ struct FieldSample {
   std::vector<int> body = {};
 };
 
-/// Takes fields at given times out of a run, linear in time between the two steps around each.
+/// Samples fields of a run at given times, interpolated linearly between the two steps around each.
 class FieldSampler : public Observer {
  public:
   struct Wish {
@@ -32,15 +32,14 @@ class FieldSampler : public Observer {
   };
   FieldSampler(std::vector<Wish> wishes, ParticleSet const& particles);
   void see(Formulation const& formulation, Moment const& moment) override;
-  /// What was seen so far. A wish for a field that the formulation does not have, or for a time that the run did not
-  /// reach, leaves none.
+  /// Samples so far. Requests for a missing field, or for a time that the run did not reach, give none.
   std::vector<FieldSample> const& samples() const { return samples_; }
 
  private:
   struct Pending {
     Wish wish;
     double before = 0;                ///< s, of `values`
-    std::vector<double> values = {};  ///< shortly before the time; empty: not yet
+    std::vector<double> values = {};  ///< shortly before the time; empty: not yet sampled
   };
   bool take(Pending& pending, FieldCache& cache, Moment const& moment);
 
@@ -49,12 +48,11 @@ class FieldSampler : public Observer {
   std::vector<FieldSample> samples_;
 };
 
-/// sqrt(sum V |f - r|^2 / sum V |r|^2) over the particles of `f` that `where` selects (null: all), with r the reference
-/// at their places: the linear function that fits its particles of the same body within 1.8 spacings best (weights fall
-/// to zero there), or the value of the particle that stands at the very place. Frobenius norm as in probes of kind
-/// error. Second order in the spacing of the reference; exact for linear fields
-/// (FieldSamples.SeeLinearFieldsExactly). Nothing if the fields differ in kind, a particle of `f` has no particle of
-/// the reference near it, or the reference is zero.
+/// sqrt(sum V |f - r|^2 / sum V |r|^2) over the particles of `f` that `where` selects (null: all). r is the reference
+/// at their positions: the best linear fit to its particles of the same body within 1.8 spacings, with weights that
+/// fall to zero there, or the value of a particle at exactly that position. Frobenius norm as in probes of kind error.
+/// Second order in the spacing of the reference; exact for linear fields (FieldSamples.SeeLinearFieldsExactly). Empty
+/// if the fields differ in kind, a particle of `f` has no reference particle near it, or the reference is zero.
 std::optional<double> relative_difference(FieldSample const& f, FieldSample const& reference, Expression const* where);
 
 }  // namespace piola

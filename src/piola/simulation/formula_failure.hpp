@@ -7,9 +7,9 @@
 
 namespace piola {
 
-/// The first formula of a load, a driven support or a driven rigid shape that was no finite number around the last
-/// step, as the cause of a failure: its text, t and X. Nothing if all are finite. Cost: a few evaluations per particle
-/// that a formula acts on.
+/// The first formula of a load, a driven support or a driven rigid shape that is not finite around the last step, as
+/// the cause of a failure: its text, t and X. Empty if all are finite. Cost: a few evaluations per particle with a
+/// formula.
 std::optional<Failure> failure_of_formula(CaseSpec const& spec, ParticleSet const& particles, Moment const& moment);
 
 }  // namespace piola

@@ -3,13 +3,13 @@
 #include "piola/simulation/clusters.hpp"
 #include <vector>
 
-/// How far particles have clumped and bodies fallen apart. Each function gives the numbers of one moment in the order
-/// of own_quantities, and each costs time in proportion to the number of particles.
+/// Clumping of particles and fragmentation of bodies. Each function returns the values at one time in the order of
+/// own_quantities; its cost is linear in the number of particles.
 namespace piola {
 
 /// Kind spacing: distances from the measured particles to their nearest neighbours in any body, over the body's initial
 /// spacing: smallest, percentiles 1, 5 and 50 (linear between the sorted values, rank q (n - 1)), standard deviation
-/// over n, and the shares below 0.75 and 0.5. All nan if no particle has a neighbour.
+/// over n, and the fractions below 0.75 and 0.5. All nan if no particle has a neighbour.
 std::vector<double> spacing_values(Measured const& measured, FieldCache& cache);
 
 /// Kind fragment: the number of clusters, then of the chosen one (of several largest, the one with the first particle)

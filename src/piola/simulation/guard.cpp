@@ -14,7 +14,7 @@ namespace {
 /// Rounding lets a body at rest wobble at about 1e-11 of its wave speed: positions lose 1e-16 of the body's size in
 /// each step, over a hundred spacings, and a thousand of such errors add up at random.
 constexpr double stillness = 1e-9;
-/// Of the moduli times the volume, over the precision of numbers. The sum over many particles rounds far less.
+/// Multiple of moduli times volume times machine precision. The sum over many particles rounds far less.
 constexpr double above_rounding = 100;
 
 }  // namespace

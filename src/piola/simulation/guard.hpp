@@ -11,18 +11,17 @@
 #include <string>
 #include <vector>
 
-/// Guards look at a run from time to time and judge whether its answer can be trusted. They see const state only.
+/// Guards check a run from time to time and judge whether its result is reliable. They have read access only.
 namespace piola {
 
-/// The energy that a run has to do with [J]: shares of energy are shares of this.
+/// Energy scale of a run [J], to which energy fractions refer.
 class EnergyScale {
  public:
   /// mass [kg], spacing: the smallest [m]; rounding: see energy_of_rounding [J].
   EnergyScale(double mass, double spacing, double rounding) : mass_(mass), spacing_(spacing), rounding_(rounding) {}
   void see(Diagnostics const& now, Moment const& moment);
-  /// The largest of: energy at the start, sum of the sizes of external work, kinetic energy so far. At least what the
-  /// body would have with 1e-9 of its wave speed, and what tells strain energy from rounding, because a body at rest
-  /// has nothing else.
+  /// The largest of: energy at the start, sum of |external work|, kinetic energy so far. At least the kinetic energy at
+  /// 1e-9 of the wave speed and the rounding level of strain energy, because a body at rest has nothing else.
   double value() const;
   /// value() without kinetic energy.
   double without_motion() const;
@@ -35,11 +34,11 @@ class EnergyScale {
   double begun_ = 0, initial_ = 0, work_ = 0, last_work_ = 0, kinetic_ = 0, floor_ = 0;
 };
 
-/// Energies of which a hundredth is above the rounding of strain energy [J]: terms of the size of the moduli, which
-/// cancel where nothing is strained, are known to 1e-16 of themselves.
+/// Energy of which a hundredth is above the rounding of strain energy [J]: terms of the size of the moduli, which
+/// cancel without strain, have a relative error of 1e-16.
 double energy_of_rounding(CaseSpec const& spec, ParticleSet const& particles);
 
-/// What guards look at.
+/// Input of a guard.
 struct Look {
   Formulation const& formulation;
   Moment const& moment;
@@ -53,16 +52,16 @@ class Guard {
  public:
   virtual ~Guard() = default;
   virtual void look(Look const& look) = 0;
-  /// The numbers for the summary; nothing where they have no meaning.
+  /// Values for the summary; empty if they have no meaning.
   virtual std::optional<GuardNumbers> numbers() const = 0;
-  /// What the user should know; empty as long as all is well.
+  /// Warning for the user; empty if there is none.
   virtual std::string words() const = 0;
   virtual std::optional<Objection> objection() const { return std::nullopt; }
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(NamedState& reader) = 0;
 };
 
-/// A particle with its places at one time, as a guard remembers it.
+/// A particle with its positions at one time, stored by a guard.
 struct Suspect {
   double id = -1, time = 0;
   std::array<double, 3> x{};
@@ -71,23 +70,23 @@ struct Suspect {
   std::string text(ParticleSet const& particles) const;
 };
 Suspect suspect(FieldCache& fields, std::size_t id, double time);
-/// Half the square of each particle's speed [m2/s2]; zero where the formulation has no velocities.
+/// Half the squared speed of each particle [m2/s2]; zero if the formulation has no velocities.
 std::vector<double> kinetic_per_mass(FieldCache& fields, ParticleSet const& particles);
-/// The particle whose kinetic energy grew most since `before` (see kinetic_per_mass), or is the largest if that is
-/// empty; nothing where the formulation has no velocities.
+/// The particle whose kinetic energy grew most since `before` (see kinetic_per_mass), or is largest if that is empty;
+/// empty if the formulation has no velocities.
 std::optional<Suspect> most_moved(FieldCache& fields, ParticleSet const& particles, std::vector<double> const& before,
                                   double time);
-/// Makes it the particle of a failure.
+/// Sets the particle of a failure.
 void take_particle(Failure& failure, Suspect const& suspect, ParticleSet const& particles);
-/// Total energy minus external work [J], which nothing but an error lets rise. Where energies are those of instants
-/// half a step apart, the formulation gives the sum that does not rise.
+/// Total energy minus external work [J], which only an error can raise. If energies belong to times half a step apart,
+/// the formulation supplies a sum that does not rise.
 double energy_without_work(Diagnostics const& diagnostics);
 
-/// The number of a column that only some formulations have.
+/// The value of a column that only some formulations have.
 std::optional<double> column_of(Diagnostics const& diagnostics, std::string_view name);
 
 using Guards = std::vector<std::unique_ptr<Guard>>;
-/// The guards of a run, in the order in which they are told of.
+/// The guards of a run, in the order of their reports.
 Guards make_guards(CaseSpec const& spec, ParticleSet const& particles);
 
 std::unique_ptr<Guard> make_energy_guard(GuardLimits const& limits, ParticleSet const& particles);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Metals yield, gases of an explosive flow: any det F that their law can bear is possible.
+/// Metals yield and gases of an explosive expand: any det F that their law allows is possible.
 bool flows(BodySpec const& body) {
   return is_solid(body.material) && (body.law != "elastic" || is_explosive(body.material));
 }

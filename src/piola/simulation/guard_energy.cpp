@@ -9,8 +9,8 @@
 namespace piola {
 namespace {
 
-/// A rise counts if it lasts for so many steps and looks: at the onset of a load, work and energy are booked within a
-/// step of each other, and the share of such an error falls with the number of steps.
+/// A rise counts if it lasts for this number of steps and checks: at the onset of a load, work and energy are accounted
+/// for within a step of each other, and the relative size of such an error falls with the number of steps.
 constexpr double lasting_steps = 50;
 constexpr double lasting_looks = 3;
 
@@ -114,7 +114,7 @@ class EnergyGuard : public Guard {
   std::vector<double> before_;
 };
 
-/// What stabilisation, viscosity and the scheme itself took out of motion and strain.
+/// Energy dissipated by stabilisation, viscosity and the scheme itself.
 class DissipationGuard : public Guard {
  public:
   explicit DissipationGuard(GuardLimits const& limits) : limit_(limits.dissipation) {}
@@ -176,7 +176,8 @@ class DissipationGuard : public Guard {
   double limit_;
   double scale_ = 0, looks_ = 0;  ///< looks: in a row with too large a loss
   bool last_ = false;
-  std::array<double, 5> part_{};  ///< stabilisation, projections, viscosity, booked nowhere; energy fed [J]
+  std::array<double, 5> part_{};  ///< stabilisation, projections, viscosity, unaccounted for; energy supplied by the
+                                  ///< scheme [J]
 };
 
 }  // namespace

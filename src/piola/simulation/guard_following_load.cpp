@@ -9,12 +9,12 @@
 namespace piola {
 namespace {
 
-/// Kinetic energy counts as growing if its maximum at least doubles in so many windows one after the other, each as
-/// long as damping needs to take 1 / e of a velocity. One mode of vibration grows for a quarter of its period, at most
-/// 1.6 windows, because modes that are slower than that are overdamped.
+/// Kinetic energy counts as growing if its maximum at least doubles in this number of consecutive windows, each as long
+/// as damping needs to reduce a velocity to 1 / e. One mode of vibration grows for a quarter of its period, at most 1.6
+/// windows, because slower modes are overdamped.
 constexpr double growing_windows = 3;
 constexpr double growth = 2;
-/// Of the energy of the run: less is rounding.
+/// Fraction of the energy of the run below which changes are rounding.
 constexpr double least_share = 1e-9;
 constexpr double same = 1e-9;  ///< relative change of a steady load
 
@@ -138,7 +138,7 @@ class FollowingLoadGuard : public Guard {
     double before = 0;                                 ///< maximum of the window before
     double rises = 0;                                  ///< windows in a row that grew
     double first = 0, first_time = 0, first_work = 0;  ///< of the last window that did not grow
-    double told = 0, times = 0, since = 0, work = 0;   ///< what the user is told; times 0: nothing
+    double told = 0, times = 0, since = 0, work = 0;   ///< reported values; times 0: none
   };
   CaseSpec const& spec_;
   ParticleSet const& particles_;

@@ -7,7 +7,7 @@
 namespace piola {
 namespace {
 
-/// Of a run whose history has few rows; a look costs as much as a row, which is a few steps.
+/// Steps between checks in a run with few rows of history; a check costs as much as a row, i.e. a few steps.
 constexpr double look_interval = 1000;
 
 double finest_spacing(ParticleSet const& particles) {

@@ -6,8 +6,8 @@
 
 namespace piola {
 
-/// Lets the guards look at each row of the history, at least every thousand steps, and at the end, and the guard of
-/// energy jumps at each step. What they have seen is in the checkpoints: a resumed run says and does the same.
+/// Calls the guards at each row of the history, at least every thousand steps, and at the end, and the guard of energy
+/// jumps at each step. Their state is saved in checkpoints, so a resumed run behaves identically.
 class GuardObserver : public Observer {
  public:
   GuardObserver(Results results, double mass, HistoryObserver const& history);
@@ -16,7 +16,7 @@ class GuardObserver : public Observer {
   void save(StateWriter& writer) const override;
   void load(NamedState& reader, Moment const& moment) override;
   std::optional<Objection> objection() const override;
-  /// For the summary; nothing if the guards are off.
+  /// For the summary; empty if the guards are off.
   std::optional<std::vector<GuardNumbers>> report() const;
 
  private:
@@ -25,9 +25,9 @@ class GuardObserver : public Observer {
   EnergyScale scale_;
   EnergyJumpGuard jump_;
   Guards guards_;        ///< none if they are off
-  bool kicked_ = false;  ///< a pressure of the case acts in the first step, and no book holds its energy
+  bool kicked_ = false;  ///< the case has a one-step initial pressure, whose energy no column contains
   double last_look_ = 0;
-  std::vector<double> told_;  ///< by guard: whether the user has been told while the run goes on
+  std::vector<double> told_;  ///< by guard: whether its warning has been shown during the run
 };
 
 }  // namespace piola

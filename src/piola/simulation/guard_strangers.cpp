@@ -15,7 +15,8 @@ using Point = std::array<double, 3>;
 
 constexpr double boundless = std::numeric_limits<double>::infinity();
 constexpr std::int64_t search_interval = 1000;  ///< steps between two searches, which cost as much as a few steps
-/// In spacings of the reference configuration: nearer particles of one body are neighbours, further ones strangers.
+/// In spacings of the reference configuration: nearer particles of one body are neighbours, farther ones
+/// non-neighbours.
 constexpr double neighbours_within = 1.8, strangers_beyond = 3;
 
 double length_between(Point const& a, Point const& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
@@ -39,7 +40,7 @@ class ProximityGuard : public Guard {
       finest_.push_back(*least);
       coarsest_.push_back(*most);
     }
-    // Surfaces that meet may bring particles onto each other; how deep they are is another guard's.
+    // Surface contact may press particles onto each other; their depth has a guard of its own.
     for (std::size_t a = 0; a < spec.bodies.size(); ++a) {
       surfaces_.emplace_back();
       for (std::size_t b = 0; b < spec.bodies.size(); ++b) surfaces_.back().push_back(pushed_by_surface(spec, a, b));
@@ -101,7 +102,7 @@ class ProximityGuard : public Guard {
     }
   }
 
-  /// Whether displacements differ so much that strangers can be near each other.
+  /// Whether displacements differ so much that non-neighbours can be near each other.
   bool moved() const {
     auto const sums = exec_host::sums_of<3>(static_cast<Index>(x_.size()), [&](Index k, double* way) {
       auto const i = static_cast<std::size_t>(k);
@@ -127,7 +128,7 @@ class ProximityGuard : public Guard {
     return best;
   }
 
-  /// A stranger that is nearer than every neighbour: where a body is only crushed, its neighbours lie between.
+  /// The non-neighbour that is nearer than every neighbour: in a body that is only crushed, its neighbours lie between.
   Pair nearest_stranger(CellGrid const& grid, std::size_t a) const {
     auto const body = static_cast<std::size_t>(particles_.body[a]);
     double const finest = finest_[body], coarsest = coarsest_[body];

@@ -17,7 +17,7 @@
 namespace piola {
 namespace {
 
-/// Columns of runs whose bodies meet or are tied, of any formulation. A field may have the same name, and another unit.
+/// Columns of runs with contact or ties, of any formulation. A field may have the same name with another unit.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> meeting_columns{{{"contact_energy", "J"},
                                                                                         {"contact_overlap", "1"},
                                                                                         {"contact_points", "1"},
@@ -70,7 +70,7 @@ void add_curves(Plot& plot, HistoryTable const& table, std::string const& run, i
                            .dash = number});
 }
 
-/// What all columns have in common; nothing if their units differ.
+/// The common unit of all columns; empty if their units differ.
 std::string common_unit(std::vector<std::string> const& columns) {
   std::string const unit = unit_of_column(columns.front());
   bool const same = std::all_of(columns.begin(), columns.end(),

@@ -3,7 +3,7 @@
 #include "piola/simulation/clusters.hpp"
 #include <vector>
 
-/// How wide a hole is that a shot along an axis made in a body. Distances are between centres of particles.
+/// Width of a hole that a shot along an axis made in a body. Distances are between centres of particles.
 namespace piola {
 
 /// Kind rim, in 3D: of the clusters with a particle of the anchor region, in each of `sectors` equal angles about the

@@ -9,16 +9,16 @@
 
 namespace piola {
 
-/// What a progress line may show.
+/// Data of a progress line.
 struct Progress {
   Moment moment;
   double end = 0;                ///< s
   double total_energy = 0;       ///< J, at the last row of the history
   double stages_per_second = 0;  ///< particle-stages per second of the steps
-  double seconds_left = 0;       ///< wall time, estimated
+  double seconds_left = 0;       ///< estimated wall time
 };
 
-/// Where a run reports to; the program decides what is shown. Library code never prints.
+/// Receives the messages of a run; the program decides what is shown. Library code never prints.
 class Listener {
  public:
   virtual ~Listener() = default;
@@ -29,14 +29,15 @@ class Listener {
 /// log.txt of a results folder (start, warnings, outcome), and the list of warnings of the run.
 class Journal {
  public:
-  /// An empty path: warnings are kept and told, nothing is written.
+  /// With an empty path warnings are stored and passed on, and nothing is written.
   Journal(std::filesystem::path file, Listener& listener) : file_(std::move(file)), listener_(listener) {}
-  /// Starts the file anew. Throws FileError.
+  /// Creates or truncates the file. Throws FileError.
   void start(std::string const& first_line);
   void note(std::string const& line);
-  /// Notes a warning and tells the listener; the same text only once.
+  /// Logs a warning and passes it to the listener; repeated texts only once.
   void warn(std::string const& text);
-  /// Notes and tells the listener what is not final yet: the list of warnings has it when the run is over.
+  /// Logs a preliminary warning and passes it to the listener. Not added to warnings(); its final form is, at the end
+  /// of the run.
   void tell(std::string const& text);
   std::vector<std::string> const& warnings() const { return warnings_; }
 

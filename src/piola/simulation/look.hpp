@@ -7,7 +7,7 @@
 
 namespace piola {
 
-/// How pictures look where it is not as the case has it: what is given here counts, see the keys of output.pictures.
+/// Overrides of the picture settings of a case, see the keys of output.pictures.
 struct LookOptions {
   std::optional<std::array<double, 2>> view = {};  ///< azimuth and elevation [deg]
   std::string named_view = {};                     ///< one of view_words
@@ -21,16 +21,16 @@ struct LookOptions {
   std::optional<bool> labels = {};
   std::string quality = {};
   std::optional<double> warp = {};
-  bool ground = false, supports = false;  ///< false: as the case has it
+  bool ground = false, supports = false;  ///< false: as in the case
 };
 
-/// A picture of a case with these options in place of its own. Throws InputError for a word that is not known.
+/// The picture of a case with these overrides. Throws InputError for an unknown word.
 PictureSpec with_look(PictureSpec picture, LookOptions const& look);
 
-/// How the pictures of a case are framed. `up` is where its pictures have it, see upwards. Throws InputError if there
-/// is no body of the name to be followed.
+/// Camera of the pictures of a case. `up`: upward axis, see upwards. Throws InputError if the body to follow does not
+/// exist.
 Camera camera_of(PictureSpec const& picture, Up up, std::span<BodySpec const> bodies, int dimension);
-/// Size, colours and letters; the size follows the window where the case gives none.
+/// Size, colours and fonts; the size follows from the window if the case gives none.
 PictureStyle style_of(PictureSpec const& picture, Camera const& camera, Window const& window);
 
 }  // namespace piola

@@ -4,20 +4,20 @@
 
 namespace piola {
 
-/// Where a run stands.
+/// State of the progress of a run.
 struct Moment {
   double time = 0;                   ///< s
   std::int64_t step = 0;             ///< steps done
   double dt = 0;                     ///< s, the last step
   double first_dt = 0;               ///< s, the first stable step
-  bool cut_to_end = false;           ///< the last step has its length from the end of the run
+  bool cut_to_end = false;           ///< the last step was shortened to the end of the run
   bool bounded_by_max_step = false;  ///< the last step was limited by run.max_step, not by the waves
-  bool at_rest = false;              ///< a dynamic relaxation has come to its end with the last step
+  bool at_rest = false;              ///< dynamic relaxation converged with the last step
   double wall_seconds = 0;           ///< since the start, over all parts of a resumed run
-  double stepping_seconds = 0;       ///< of these, inside the formulation
+  double stepping_seconds = 0;       ///< part of wall_seconds inside the formulation
 };
 
-/// How a run ends.
+/// Outcome of a run.
 enum class Ending { completed, failed, stopped };
 
 }  // namespace piola

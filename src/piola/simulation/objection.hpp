@@ -5,10 +5,10 @@
 
 namespace piola {
 
-/// Why an observer does not want a run to go on.
+/// Reason of an observer to stop a run.
 struct Objection {
   Failure failure;
-  std::string causes;  ///< likely ones, for the user
+  std::string causes;  ///< likely causes, for the user
 };
 
 }  // namespace piola

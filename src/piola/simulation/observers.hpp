@@ -21,29 +21,29 @@
 
 namespace piola {
 
-/// Lets data out of a run. It sees the const state, so that a run with and without output is the same bit for bit.
+/// Extracts data from a run. Read access only, so that a run with and without output is bit-identical.
 class Observer {
  public:
   virtual ~Observer() = default;
   /// Called at the start of a new run and after each step.
   virtual void see(Formulation const& formulation, Moment const& moment) = 0;
-  /// Called before a last step that has its length from the end of the run, so that a run with a later end would take
-  /// another one; the moment is that of the step before.
+  /// Called before a last step that is shortened to the end of the run; the moment is that of the step before. A run
+  /// with a later end would take another step.
   virtual void before_cut(Formulation const&, Moment const&) {}
   /// Called once, after the last step of this part of the run.
   virtual void finish(Formulation const&, Moment const&, Ending) {}
-  /// Called before a checkpoint that counts on what was written: all of it is on the disk afterwards.
+  /// Called before a checkpoint that refers to written data; afterwards these are on disk.
   virtual void sync() {}
-  /// Set once the answer is not to be believed: the run then stops as failed.
+  /// Set when the result is no longer reliable: the run then stops as failed.
   virtual std::optional<Objection> objection() const { return std::nullopt; }
-  /// Files of the results folder that this run wrote, or found when it was resumed, and that must be there in the end.
+  /// Files of the results folder that this run wrote, or found when resumed, and that must exist at the end.
   virtual std::vector<std::filesystem::path> files() const { return {}; }
-  /// What a resumed run needs to continue; names are unique among observers.
+  /// Saves the state that a resumed run needs; names are unique among observers.
   virtual void save(StateWriter&) const {}
   virtual void load(NamedState&, Moment const&) {}
 };
 
-/// What every observer needs to know. The references outlive the observers.
+/// Common data of all observers. The references outlive the observers.
 struct Results {
   std::filesystem::path folder;
   CaseSpec const& spec;
@@ -51,15 +51,14 @@ struct Results {
   Journal& journal;
 };
 
-/// The columns of a history whose cells are left empty because they are not numbers.
+/// Columns of a history with cells that are left empty because their values are not finite.
 class EmptyCells {
  public:
-  /// columns: without a number in the row of `time` [s].
+  /// columns: without a finite value in the row of `time` [s].
   void add(std::vector<std::string> const& columns, double time);
-  /// Number of rows that had empty cells in columns that had none before.
+  /// Number of rows with empty cells in columns that had none before.
   std::size_t rows() const { return rows_.size(); }
-  /// One warning that lists the columns of these rows from number `first` on, each with the time of its first empty
-  /// cell.
+  /// One warning with the columns of these rows from number `first` on, each with the time of its first empty cell.
   std::string text(std::size_t first) const;
 
  private:
@@ -76,10 +75,10 @@ class HistoryObserver : public Observer {
   void load(NamedState& reader, Moment const& moment) override;
   void sync() override { file_->sync(); }
   std::vector<std::filesystem::path> files() const override { return {results_.folder / "history.csv"}; }
-  /// Opens the file anew, or cut off after `resume_time` (after load). Called before the first step.
+  /// Creates the file, or truncates it after `resume_time` (after load). Called before the first step.
   void open(Formulation const& formulation, std::optional<double> resume_time);
   HistoryTable const& table() const { return file_->table(); }
-  /// The numbers of the row of this step; null if it has none.
+  /// The values of the row of this step; null if it has none.
   Diagnostics const* row_of(std::int64_t step) const { return last_ && last_step_ == step ? &*last_ : nullptr; }
 
  private:
@@ -88,10 +87,10 @@ class HistoryObserver : public Observer {
   Schedule schedule_;
   ProbeRow probes_;
   std::optional<HistoryFile> file_;
-  HistoryMark mark_;  ///< of the checkpoint that the run was resumed from
+  HistoryMark mark_;  ///< of the checkpoint from which the run was resumed
   EmptyCells empty_cells_;
   std::optional<Diagnostics> last_;
-  bool seen_at_start_ = false;  ///< last_ is of the state before the first step
+  bool seen_at_start_ = false;  ///< last_ is the state before the first step
   std::int64_t last_step_ = -1;
 };
 
@@ -112,15 +111,16 @@ class FrameObserver : public Observer {
   FrameWriter writer_;
 };
 
-/// Who asks for checkpoints besides the case, and who wants to know how long they take; nullptr: nobody.
+/// External inputs of the checkpoint observer: a request flag and the wall-time limit, which receives the duration of
+/// each checkpoint. Null: not used.
 struct CheckpointOrders {
-  std::atomic<int>* request = nullptr;  ///< not 0: a checkpoint is wanted; put back to 0 when taken up
+  std::atomic<int>* request = nullptr;  ///< nonzero: a checkpoint is requested; reset to 0 when accepted
   WallLimit* wall = nullptr;
 };
 
-/// checkpoints/*.h5 at each due time, when asked for, at the end and when stopped. Keeps what the other observers need,
-/// too. Before a last step that is cut to the end of the run there is one more: a run that is extended later continues
-/// from there as if it had never had that end.
+/// Writes checkpoints/*.h5 at each due time, on request, at the end and when stopped, including the state of the other
+/// observers. Writes one more before a last step that is shortened to the end of the run, from which a run with a later
+/// end continues unaffected.
 class CheckpointObserver : public Observer {
  public:
   CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointOrders orders);
@@ -131,18 +131,18 @@ class CheckpointObserver : public Observer {
   std::vector<std::filesystem::path> files() const override { return {last_}; }
 
  private:
-  /// All but the state of the formulation.
+  /// Everything except the state of the formulation.
   Checkpoint take(Moment const& moment) const;
   void keep(Formulation const& formulation, Moment const& moment);
   Results results_;
   Schedule schedule_;
   std::vector<Observer*> others_;
   CheckpointOrders orders_;
-  std::string particles_;       ///< record of them for checkpoints
+  std::string particles_;       ///< description of the particles for checkpoints
   std::filesystem::path last_;  ///< the newest checkpoint of this run
 };
 
-/// Tells the listener how far the run is, a few times per second.
+/// Reports the progress to the listener, a few times per second.
 class ProgressObserver : public Observer {
  public:
   ProgressObserver(Listener& listener, double end, std::int64_t particles, HistoryObserver const& history);

@@ -5,11 +5,11 @@
 
 namespace piola {
 
-/// The same shape with the same spacing, cut down to about this many particles along each direction.
+/// The shape with the same spacing, reduced to about `particles` particles along each direction.
 ShapeSpec part_of(ShapeSpec const& shape, int particles);
 
-/// A body cut down so, to be built in place of all of it. Where what a formulation has of a body depends on the others,
-/// as on whether one of them flows, a few particles of each of these stand beside it, out of reach.
+/// Assembly with one body reduced to about `particles` per direction, for estimates. If the formulation's data depend
+/// on other bodies (one is Eulerian), a few particles of each are added outside the interaction range.
 Assembly part_of_case(CaseSpec const& spec, std::size_t body, int particles);
 
 }  // namespace piola

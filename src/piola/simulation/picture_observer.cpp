@@ -18,7 +18,7 @@ namespace {
 /// must not show.
 double as_kept(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// Of each list its length and its entries.
+/// Length and entries of each list.
 std::vector<std::int32_t> flattened(std::vector<std::vector<Index>> const& lists) {
   std::vector<std::int32_t> out;
   for (auto const& list : lists) {
@@ -64,7 +64,7 @@ PictureObserver::PictureObserver(Results results)
     panel.camera.eye = eye_before(panel.camera, panel.spec.perspective, stage_low_, stage_high_);
 }
 
-/// Those whose places a kept picture holds.
+/// The rigid shapes whose poses a stored picture contains.
 std::vector<RigidState> PictureObserver::turning_shapes() const {
   std::vector<RigidState> shapes;
   for (RigidSpec const& rigid : results_.spec.rigids)
@@ -216,7 +216,7 @@ void PictureObserver::draw_if_cheap(std::size_t number, Kept const& kept) {
   next_drawn_ = drawn + std::max<Clock::duration>(pause, work_between * (drawn - now));
 }
 
-/// What is drawn; false if the formulation has no such field.
+/// Prepares the panels; false if the formulation has no such field.
 bool PictureObserver::prepare(Formulation const& formulation) {
   if (impossible_ || !panels_.front().field.name.empty()) return !impossible_;
   FieldCache const cache(formulation, results_.particles);
@@ -304,7 +304,7 @@ void PictureObserver::draw_all() {
   if (complete && count_ > 0) draw_times(nearest);
 }
 
-/// Of a run that is extended after its end not all moments are there any more: the picture stays as it was.
+/// In a run extended after its end some moments are no longer stored: the picture then stays unchanged.
 void PictureObserver::draw_times(std::vector<Kept> const& nearest) {
   Shown const& shown = panels_.front();
   TimeFormat const format = time_format(results_.spec.run.end, results_.spec.output.pictures.every);

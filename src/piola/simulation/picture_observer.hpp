@@ -7,11 +7,11 @@
 
 namespace piola {
 
-/// pictures/FIELD-000000.png at each due time and at the end. When a run ends all its pictures have one range of
-/// colours (unless the case gives it) and one scale: they are drawn then, from particle positions and values that are
-/// kept until then. For those who watch a long run, a picture is also drawn at its time if a second has passed since
-/// the last one, with the colours and the scale of what was seen so far; and the last one when the run is stopped. The
-/// pictures nearest to some times, if asked for, stand beside each other in pictures/FIELD-times.png when a run ends.
+/// pictures/FIELD-000000.png at each due time and at the end. At the end of a run all pictures are drawn with one
+/// colour range (unless the case gives it) and one scale, from particle positions and values stored until then. During
+/// a long run a preview is also drawn if a second has passed since the last one, with the colours and scale so far; and
+/// the last one when the run is stopped. The pictures nearest to given times, if requested, are combined in
+/// pictures/FIELD-times.png at the end.
 class PictureObserver : public Observer {
  public:
   explicit PictureObserver(Results results);
@@ -24,12 +24,12 @@ class PictureObserver : public Observer {
 
  private:
   using Torn = std::vector<std::vector<Index>>;  ///< cells of each body, see torn_cells
-  /// What a picture shows, as it is kept on the disk.
+  /// Data of one picture, stored on disk.
   struct Kept {
     double time = 0;
     std::vector<std::array<double, 3>> points;
-    std::vector<std::vector<double>> values;  ///< of each panel
-    std::vector<RigidState> rigids = {};      ///< that are free or turn
+    std::vector<std::vector<double>> values;  ///< per panel
+    std::vector<RigidState> rigids = {};      ///< free or rotating shapes
     std::vector<std::uint8_t> loose = {};     ///< see loose_particles
     Torn torn = {};
   };
@@ -55,22 +55,22 @@ class PictureObserver : public Observer {
 
   Results results_;
   Schedule schedule_;
-  /// What one panel of the pictures shows; a picture without panels is one.
+  /// Content of one panel; a picture without panels has one.
   struct Shown {
     PictureSpec spec;
     Camera camera;
     Window window;
     Spread spread;
-    FieldInfo field{};  ///< no name before the first picture
+    FieldInfo field{};  ///< without name before the first picture
     int component = whole_field;
   };
   std::vector<Shown> panels_;
   std::vector<double> radii_;
-  std::vector<ReferenceMesh> meshes_;  ///< made for the first picture
-  std::vector<std::uint8_t> held_;     ///< by supports, if a panel shows it
+  std::vector<ReferenceMesh> meshes_;  ///< created for the first picture
+  std::vector<std::uint8_t> held_;     ///< by supports, if a panel shows them
   Torn torn_;                          ///< at the last picture
   std::array<double, 3> stage_low_{}, stage_high_{};
-  /// How a picture was drawn; nothing is known of those that were drawn before the run was resumed.
+  /// Settings of a drawn picture; unknown for pictures drawn before the run was resumed.
   struct Look {
     std::vector<Spread> spread;
     std::vector<Window> window;
@@ -79,8 +79,8 @@ class PictureObserver : public Observer {
   Look look() const;
   Subject subject(std::vector<std::array<double, 3>> const& points) const;
   std::map<std::size_t, Look> drawn_;
-  std::chrono::steady_clock::time_point next_drawn_{};  ///< a picture may be drawn while the run goes on
-  bool impossible_ = false;                             ///< the formulation has no such field, and the user was told
+  std::chrono::steady_clock::time_point next_drawn_{};  ///< earliest time of the next preview
+  bool impossible_ = false;                             ///< the formulation has no such field; the user has been warned
   double count_ = 0, last_time_ = -1;
   std::filesystem::path last_;
 };

@@ -21,7 +21,7 @@ std::vector<std::vector<double>> ProbeRow::evaluate(Formulation const& formulati
 
 void ProbeRow::take_part(Formulation const& formulation, double time) { evaluate_owned(formulation, time); }
 
-/// Those that looked at particles of this rank before are made anew.
+/// Recreates probes that were restricted to the local particles of an earlier partition.
 void ProbeRow::share(std::optional<std::vector<std::int64_t>> const& owned) {
   for (std::size_t k = 0; k < probes_.size(); ++k) {
     Probe& probe = probes_[k];

@@ -10,14 +10,14 @@
 
 namespace piola {
 
-/// The probes of a run, in the order of the case. On ranks all have them, and each looks at its own particles where
-/// values add up; for the others rank 0 gets positions of all particles.
+/// The probes of a run, in the order of the case, on all ranks. Additive probes are evaluated on local particles by
+/// each rank; for the others positions of all particles are gathered on rank 0.
 class ProbeRow {
  public:
   ProbeRow(CaseSpec const& spec, ParticleSet const& particles);
-  /// Values of each probe at a time [s]; on rank 0 of several, whom the others help.
+  /// Values of each probe at a time [s]. Collective: rank 0 calls this, other ranks take_part().
   std::vector<std::vector<double>> evaluate(Formulation const& formulation, double time);
-  /// What those others do.
+  /// Counterpart of evaluate() on ranks other than 0.
   void take_part(Formulation const& formulation, double time);
   std::vector<Probe>& probes() { return probes_; }
   std::vector<Probe> const& probes() const { return probes_; }
@@ -28,7 +28,7 @@ class ProbeRow {
   ParticleSet const& particles_;
   std::vector<ProbeSpec> specs_;
   std::vector<Probe> probes_;
-  std::optional<std::size_t> shared_for_;  ///< how often ranks had been cut anew when they shared the probes
+  std::optional<std::size_t> shared_for_;  ///< number of repartitions when the probes were distributed
 };
 
 }  // namespace piola

@@ -36,7 +36,7 @@ std::vector<std::int64_t> ahead(ParticleSet const& particles, Body const& body, 
   return ids;
 }
 
-/// The particles that a probe looks at.
+/// The selected particles of a probe.
 std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& body, ProbeSpec const& spec) {
   if (spec.kind == ProbeSpec::Kind::point) return {nearest_particle(particles, body, spec.at)};
   if (spec.kind == ProbeSpec::Kind::stress_intensity) return ahead(particles, body, spec);
@@ -164,7 +164,7 @@ std::vector<double> Probe::own_values(FieldCache& cache, double time) {
   }
 }
 
-/// Of value(k) of the particles of all ranks. Zeros have no sign, so that it does not matter which comes first.
+/// Extrema of value(k) over the particles of all ranks. Signs of zeros are removed, so that the order does not matter.
 std::array<double, 2> Probe::extrema(auto const& value) const {
   Extrema all;
   for (std::size_t k = 0; k < ids_.size(); ++k) all.see(value(k));

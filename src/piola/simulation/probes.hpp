@@ -12,28 +12,28 @@
 
 namespace piola {
 
-/// Whether values of this kind are sums and extrema over particles, so that ranks can each look at their own; else one
-/// must see all.
+/// Whether values of this kind are sums and extrema over particles, so that each rank can evaluate its local ones; else
+/// one rank needs all.
 inline bool adds_up(ProbeSpec::Kind kind) { return kind < ProbeSpec::Kind::spacing; }
 
 /// One [[probe]] of a case, with its particles chosen once from their reference positions.
 class Probe {
  public:
-  /// Throws InputError if `where` (or `from` and `to`) selects nothing, or if the body or a quantity is not known.
+  /// Throws InputError if `where` (or `from` and `to`) selects nothing, or if the body or a quantity is unknown.
   Probe(ProbeSpec const& spec, ParticleSet const& particles);
   /// "NAME.quantity" with units, one for each value of `evaluate`.
   std::vector<HistoryColumn> columns() const;
-  /// Values now [SI]. A twist angle continues the angle of the call before, so that full turns are counted as long as
-  /// it changes by less than half a turn from call to call. `time` [s] is for formulas.
+  /// Present values [SI]. A twist angle continues from the last call, so that full turns are counted if it changes by
+  /// less than half a turn between calls. `time` [s] is for formulas.
   std::vector<double> evaluate(FieldCache& cache, double time = 0);
   std::vector<std::int64_t> const& ids() const { return ids_; }
 
   bool adds_up() const { return piola::adds_up(kind_); }
-  /// From here on it looks at those of its particles alone that this rank owns (Formulation::owned), and evaluate()
-  /// wants a cache of these: all ranks call it then, and all have the bits of one.
+  /// Restricts the probe to the local particles of this rank (Formulation::owned). evaluate() then needs a cache of
+  /// these, is collective, and gives the bits of one rank.
   void share(std::optional<std::vector<std::int64_t>> const& owned);
 
-  /// What a later call depends on: the last twist angle [rad].
+  /// State for later calls: the last twist angle [rad].
   double state() const { return last_angle_; }
   void restore(double state) { last_angle_ = state; }
 
@@ -51,10 +51,10 @@ class Probe {
   std::size_t axis_;
   std::vector<std::int64_t> ids_;
   std::vector<double> weight_;             ///< tributary volumes of ids_
-  std::vector<std::size_t> place_;         ///< of ids_ in a cache of what this rank owns; empty: their ids
-  std::vector<std::size_t> order_;         ///< stress_intensity: of ids_ among those of all ranks; empty: all
+  std::vector<std::size_t> place_;         ///< indices of ids_ in a cache of local particles; empty: the ids
+  std::vector<std::size_t> order_;         ///< stress_intensity: indices of ids_ among those of all ranks; empty: all
   std::vector<FieldQuantity> quantities_;  ///< empty for the kinds with numbers of their own
-  std::vector<std::size_t> own_;           ///< which of their own numbers those give
+  std::vector<std::size_t> own_;           ///< indices of these among the quantities of the kind
   std::optional<Measured> measured_;       ///< spacing, fragment, rim, hole
   std::string field_;                      ///< error
   std::vector<Expression> reference_;      ///< error: one per component of the field

@@ -19,7 +19,7 @@
 namespace piola {
 namespace {
 
-/// What rank 0 wants of the others.
+/// A command of rank 0 to the other ranks.
 struct Order {
   enum class What : std::int64_t {
     step,
@@ -48,16 +48,17 @@ Order send(Order order) {
   return order;
 }
 
-/// How long a rank with trouble waits for the others, which may be waiting for it [s].
+/// How long a rank with an error waits for the others, which may be waiting for it [s].
 constexpr double patience = 5;
 
-/// What this rank has said so far.
+/// Traffic of this rank so far.
 struct Said {
   ranks::Traffic traffic = ranks::traffic();
   ranks::Spent spent = ranks::spent();
 };
 
-/// Steps, and what this rank had said before the first one, with what it said to observers since.
+/// Traffic accounting: number of steps, and the traffic to subtract from the totals (before the first step and for
+/// observers).
 struct Count {
   std::int64_t steps = 0;
   ranks::Traffic before;
@@ -65,7 +66,7 @@ struct Count {
 };
 Count counted;
 
-/// What is said in its life time, to observers, is not said in steps.
+/// RAII guard: traffic during its lifetime is not counted as traffic of steps.
 class Aside {
  public:
   Aside() = default;
@@ -112,7 +113,7 @@ std::vector<double> gather_traffic() {
   return ranks::gather(mine);
 }
 
-/// What this rank has spent with bringing values to the ranks that write them [s].
+/// Time of this rank for redistributing values to the writing ranks [s].
 double gathered = 0;
 
 /// Adds its life time's share to it.
@@ -167,7 +168,7 @@ class Conductor final : public Formulation, public SetUpChecked {
     send(order);
     own().sample(field, values);
   }
-  // Of what the others have been told before: with_probes_of_all().
+  // Local on rank 0: with_probes_of_all() has sent the commands to the other ranks.
   std::optional<std::vector<std::int64_t>> owned() const override { return own().owned(); }
   void sample_owned(std::string_view field, std::span<double> values) const override {
     own().sample_owned(field, values);
@@ -209,7 +210,7 @@ bool is_for_observers(Order const& order) {
          order.what == frame || order.what == save || order.what == load;
 }
 
-/// What this rank does for a writer of rank 0.
+/// Counterpart on this rank of saving with a writer of rank 0.
 void save_with_first(Formulation const& formulation, StateWriter::Rows rows) {
   NoWriter nobody;
   StateSize size;
@@ -234,7 +235,7 @@ void obey(Formulation& formulation, Order const& order) {
       try {
         formulation.load(shared);
       } catch (NotThere const&) {
-        return;  // rank 0 says why, and what is next
+        return;  // rank 0 reports the error and sends the next command
       }
       return;
     }
@@ -254,7 +255,8 @@ void refuse_on_ranks(Assembly const& assembly, int count) {
     auto const info = find_formulation(spec.name);
     return info && info->on_ranks;
   };
-  // Beside bodies that ranks share each of them may well do all of the others by itself.
+  // Formulations that do not run on ranks are allowed beside one that does; each rank then computes all of their
+  // bodies.
   bool const any = std::any_of(assembly.formulations.begin(), assembly.formulations.end(), shares);
   for (std::size_t k = 0; k < assembly.formulations.size() && !any; ++k)
     refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name,
@@ -347,7 +349,7 @@ std::optional<ranks::Trouble> leave(ranks::Trouble const& own) {
   if (phase == Phase::building) return ranks::agree_within(patience, own);
   if (ranks::own() != 0) {
     if (own.code == 0) return own;
-    // Those before it may have trouble, too, and one is to speak.
+    // Lower ranks may have an error, too, and only one is to print.
     std::this_thread::sleep_for(std::chrono::milliseconds(300 * ranks::own()));
     return std::nullopt;
   }

@@ -10,39 +10,40 @@
 #include <optional>
 #include <vector>
 
-/// A run that several ranks share. Every rank reads the case and builds the simulation; then rank 0 runs it as if it
-/// were alone, and each call of its formulation that needs the others makes them do the same (conducted, follow). So
-/// nothing else of a run knows of ranks: rank 0 has the loop, the observers, the files and the words.
+/// Runs on several ranks. Every rank reads the case and builds the simulation. Then rank 0 runs it as a serial run
+/// would, and each collective call of its formulation is broadcast to the other ranks, which execute the same call
+/// (conducted, follow). Only rank 0 has the loop, the observers, the files and the messages.
 namespace piola {
 
-/// Throws InputError with all that this case asks for and that runs on one rank only; nothing on one rank.
+/// Throws InputError with all settings of this case that run on one rank only; does nothing on one rank.
 void refuse_on_ranks(Assembly const& assembly, int count = ranks::count());
 
-/// Throws ranks::Disagreement on all ranks unless all have made the same particles of the same materials. Collective.
+/// Throws ranks::Disagreement on all ranks unless all have generated identical particles and materials. Collective.
 void compare_on_ranks(Assembly const& assembly);
 
-/// All ranks come here, those with trouble, too; throws ranks::Disagreement if one has some.
+/// Collective, also for ranks with an error. Throws ranks::Disagreement on all ranks if one has an error.
 void agree_to_go_on();
 
-/// On rank 0 of several: the formulation as the run sees it. Elsewhere, and on one rank, the formulation itself.
+/// On rank 0 of several: wraps the formulation so that its collective calls run on all ranks. Otherwise returns it
+/// unchanged.
 std::unique_ptr<Formulation> conducted(std::unique_ptr<Formulation> formulation);
 
-/// On rank 0 of several: the others look at their shares of the probes (ProbeRow), too; then look(). Elsewhere look()
-/// alone. `time` [s].
+/// On rank 0 of several: makes the other ranks evaluate their part of the probes (ProbeRow), then calls look().
+/// Otherwise only calls look(). `time` [s].
 void with_probes_of_all(double time, std::function<void()> const& look);
 
-/// On rank 0 of several: the others write their shares of a frame, too; then write(). Elsewhere write() alone.
+/// On rank 0 of several: makes the other ranks write their part of a frame, then calls write(). Otherwise only calls
+/// write().
 void with_frame_of_all(std::function<void()> const& write);
 
-/// On the other ranks: does what rank 0 does until that says the end; returns the exit code that it says.
+/// On the other ranks: executes the commands of rank 0 until it sends the end; returns the exit code that it sends.
 int follow(Simulation& simulation);
 
-/// On rank 0 of several that follow: what each of them said in a step since the first one. Elsewhere nothing.
+/// On rank 0 of several: the traffic of each rank per step since the first one. Otherwise empty.
 std::vector<RankTraffic> traffic_on_ranks();
 
-/// Before a rank leaves with an exit code and a message: tells the others; returns what the whole run ends with.
-/// Nothing, if they cannot be told, because they wait for what this rank was to do: then only ranks::abort_all ends
-/// them.
+/// Shuts down a rank with an exit code and a message: informs the other ranks and returns the error with which the
+/// whole run ends. Empty if they do not respond in time, because they wait for this rank: then call ranks::abort_all.
 std::optional<ranks::Trouble> leave(ranks::Trouble const& own);
 
 }  // namespace piola

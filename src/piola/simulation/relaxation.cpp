@@ -12,11 +12,11 @@
 namespace piola {
 namespace {
 
-/// A time to a peak is forgotten after so many of its own lengths: the first swing, of a load that grows or of a body
-/// that falls, need not be a vibration.
+/// A time to a peak is dropped after this multiple of itself: the first swing, of a load that grows or of a body that
+/// falls, need not be a vibration.
 constexpr double remembered = 20;
-/// Of the displacement, at rest. Estimates are larger than what is really missing, by five to ten times in a beam that
-/// bends.
+/// Largest remaining fraction of the displacement at rest. Estimates exceed the true remainder, by five to ten times in
+/// a beam that bends.
 constexpr double most_left = 0.02;
 /// Steps over which stops are counted.
 constexpr double window_steps = 1000;

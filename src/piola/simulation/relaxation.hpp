@@ -5,43 +5,43 @@
 
 namespace piola {
 
-/// How far a dynamic relaxation is.
+/// Progress of a dynamic relaxation.
 struct Rest {
   bool reached = false;
-  double residual = 0;   ///< sqrt(sum m |a|^2) at the last start from rest, beside the largest of the run
-  double left = 0;       ///< estimate of the displacement that is still missing, beside the one reached; see Relaxation
-  long stops = 0;        ///< how often the bodies were brought to rest
+  double residual = 0;   ///< sqrt(sum m |a|^2) at the last start from rest, relative to the largest of the run
+  double left = 0;       ///< estimate of the remaining displacement, relative to the present one; see Relaxation
+  long stops = 0;        ///< number of stops
   long short_stops = 0;  ///< in the last 1000 steps: stops at a peak one step after the stop before
 };
 
-/// Takes motion out of a run: damping with a rate, and dynamic relaxation by kinetic damping (Cundall 1976; Barnes
-/// 1999). Once the kinetic energy falls, velocities that nothing prescribes are reversed for one step, which brings the
-/// bodies back to the peak of the kinetic energy, and are set to zero there. In a linear motion each stop then takes
-/// the kinetic energy of the peak out of a quantity that steps keep, so that no vibration survives stops at any length
-/// of the step; stops after the peak leave one with omega dt = sqrt(2) as it is.
+/// Removes motion from a run: mass-proportional damping, and dynamic relaxation by kinetic damping (Cundall 1976;
+/// Barnes 1999). When the kinetic energy falls, free velocities are reversed for one step, which returns the bodies to
+/// the peak of the kinetic energy, and are then set to zero. In a linear motion each stop removes the kinetic energy of
+/// the peak from a quantity that steps conserve, so that no vibration survives stops at any step length; stops after
+/// the peak leave one with omega dt = sqrt(2) unchanged.
 ///
-/// After the first step from rest sqrt(2 E_kin) / dt is the norm |a| = sqrt(sum m |a|^2) of the forces that are out of
-/// balance. With T the longest time from a stop to its peak, a quarter of the period of the slowest motion, what is
-/// left of the displacement is about |a| (2 T / pi)^2, in the norm sqrt(sum m |u|^2). The bodies are at rest when |a|
-/// is below `rest` of the largest so far at two stops in a row, and what is left below 2 % of the displacement reached.
-/// Relaxation is an Observer only so that checkpoints hold it. On ranks rank 0 has it.
+/// After the first step from rest sqrt(2 E_kin) / dt is the norm |a| = sqrt(sum m |a|^2) of the unbalanced forces. With
+/// T the longest time from a stop to its peak, a quarter of the period of the slowest motion, the remaining
+/// displacement is about |a| (2 T / pi)^2, in the norm sqrt(sum m |u|^2). Convergence: |a| is below `rest` of the
+/// largest so far at two consecutive stops, and the remaining displacement is below 2 % of the present one. Relaxation
+/// is an Observer only for its state in checkpoints. On rank 0 only.
 class Relaxation : public Observer {
  public:
-  /// `mass` [kg] is that of all that moves. The particles outlive the relaxation.
+  /// `mass` [kg] of all moving particles. The particles must outlive the relaxation.
   Relaxation(RunSpec const& run, ParticleSet const& particles, double mass);
   /// Before the first step of a run: relaxation starts from rest.
   void start(Formulation& formulation) const;
-  /// After each step; true once the bodies are at rest, which then have no velocity.
+  /// After each step; returns true once the bodies are at rest and have zero velocity.
   bool after_step(Formulation& formulation, double dt);
   bool active() const { return relax_; }
   Rest const& rest() const { return rest_; }
-  /// Whether run.end came before the rest, although something moves.
+  /// Whether run.end came before convergence, although something moves.
   bool unfinished() const { return relax_ && !rest_.reached && (rest_.stops > 0 || kinetic_ > 0); }
   /// "forces out of balance are ... of the largest, what is left of the displacement about ... of it".
   std::string text() const;
-  /// What is slow about the way to rest; empty: nothing.
+  /// Reason for slow convergence; empty: none.
   std::string slow_text() const;
-  /// The end of a run that is unfinished(), and what to do.
+  /// The objection for an unfinished() run, with advice.
   Objection objection_at_end() const;
 
   void see(Formulation const&, Moment const&) override {}
@@ -53,13 +53,13 @@ class Relaxation : public Observer {
   void judge(Formulation const& formulation, double dt);
   double displacement(Formulation const& formulation) const;
 
-  /// The motion since the last stop, and what is known of those before.
+  /// The motion since the last stop, and a summary of the earlier ones.
   struct Swing {
     double time = 0, steps = 0;        ///< up to the peak [s], number of steps
-    double slowest = 0;                ///< the longest time to a peak that is not forgotten [s]
+    double slowest = 0;                ///< longest time to a peak, without outdated ones [s]
     double backwards = 0;              ///< 1: velocities are reversed for the next step
     double window = 0, in_window = 0;  ///< of 1000 steps: those done, stops whose swing had one step
-    double calm = 0;                   ///< 1: the last residual was small enough for rest
+    double calm = 0;                   ///< 1: the last residual was below the tolerance
   };
   double rate_;
   bool relax_;
@@ -70,7 +70,7 @@ class Relaxation : public Observer {
   Swing swing_;
   bool from_rest_ = true;
   double kinetic_ = 0;  ///< after the last step [J]
-  double largest_ = 0;  ///< norm of forces out of balance so far [N/kg^0.5]
+  double largest_ = 0;  ///< largest norm of unbalanced forces so far [N/kg^0.5]
 };
 
 }  // namespace piola

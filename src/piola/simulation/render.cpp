@@ -42,7 +42,7 @@ TimeFormat format_of(std::vector<std::pair<double, fs::path>> const& frames) {
                      frames.size() < 2 ? last : (last - frames.front().first) / static_cast<double>(frames.size() - 1));
 }
 
-/// What the case says, changed by what the options say.
+/// The appearance of the case, modified by the options.
 Appearance appearance_of(RenderOptions const& options, std::optional<CaseSpec> const& spec,
                          PictureSpec const& picture) {
   Appearance appearance = spec ? appearance_of(*spec, picture) : Appearance{};
@@ -84,7 +84,7 @@ std::vector<std::size_t> chosen(RenderOptions const& options, std::size_t count)
   return numbers;
 }
 
-/// And what those of one field have in common.
+/// Common data of the pictures of one field.
 class Renderer {
  public:
   Renderer(std::shared_ptr<RunInFolder const> run, RenderOptions const& options, PictureSpec picture)

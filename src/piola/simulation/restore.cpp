@@ -13,7 +13,7 @@
 namespace piola {
 namespace {
 
-/// What makes the bits of a resumed run differ from those of an uninterrupted one. Such a run, and one that goes on
+/// Differences that change the bits of a resumed run from those of an uninterrupted one. Such a run, and one resumed
 /// with changed keys, has no identity.
 void compare_origin(Checkpoint const& c, Simulation& s, bool changed, Journal& journal) {
   std::string const here = exec_host::machine_text(s.spec.run.machine);
@@ -27,8 +27,8 @@ void compare_origin(Checkpoint const& c, Simulation& s, bool changed, Journal& j
         fmt::format("the checkpoint was written with the instruction set {}, this is {}; {}", c.machine, here, what));
 }
 
-/// What the case says differently from the one that the checkpoint was written with, as lines for the log. Throws
-/// InputError if any of that would make it another run.
+/// Differences of the case from that of the checkpoint, as lines for the log. Throws InputError if any of them would
+/// make it another run.
 std::vector<std::string> accepted_changes(Checkpoint const& c, CaseSpec const& spec,
                                           std::filesystem::path const& folder) {
   std::string const file = (folder / "case.toml").string();

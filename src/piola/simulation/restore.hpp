@@ -9,9 +9,9 @@
 
 namespace piola {
 
-/// Brings a simulation and the observers of its run to the newest good checkpoint in a results folder. Nothing if there
-/// is none. A checkpoint that was reached by a step cut to an earlier end of the run is used only if `cut_too`. Throws
-/// InputError if the case or its particles are not those of the run.
+/// Restores a simulation and its observers from the newest valid checkpoint in a results folder. Empty if there is
+/// none. A checkpoint after a step shortened to an earlier end of the run is used only if `cut_too`. Throws InputError
+/// if the case or its particles differ from those of the run.
 std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder, Journal& journal,
                               std::vector<Observer*> const& observers, bool cut_too);
 

@@ -7,12 +7,12 @@
 
 namespace piola {
 
-/// Where rigid shapes that are free or turn stood in a run, from its history.csv.
+/// Poses of free or rotating rigid shapes during a run, from its history.csv.
 class RigidHistory {
  public:
-  /// Without a file or its columns nothing is known.
+  /// Empty if the file or its columns are missing.
   RigidHistory(std::filesystem::path const& history, std::vector<RigidSpec> const& rigids);
-  /// Centres and turns at a time [s], between the rows around it.
+  /// Centres and rotations at a time [s], interpolated between rows.
   std::vector<RigidState> at(double time) const;
 
  private:

@@ -7,14 +7,14 @@
 
 namespace piola {
 
-/// The magnitudes below which columns of a run's history hold nothing but round-off.
+/// The magnitudes below which columns of a run's history contain only round-off.
 class RoundingLevels {
  public:
-  /// Reads the scales of summary.json by unit; while a run has none yet, columns are compared with each other alone.
+  /// Reads the scales of summary.json by unit; without a summary columns are only compared with each other.
   RoundingLevels(HistoryTable const& table, std::filesystem::path const& folder);
 
-  /// 1e-12 of the largest scale that is known for a column: that of its unit (summary.json; energies: the largest
-  /// column of energy), and the largest value among the components of its vector or tensor. Zero: none is known.
+  /// 1e-12 of the largest known scale of a column: that of its unit (summary.json; energies: the largest energy
+  /// column), and the largest value among the components of its vector or tensor. Zero if unknown.
   double of(std::string const& column) const;
 
   /// Whether a level is known for a column and no finite value is above it.

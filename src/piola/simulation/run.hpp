@@ -15,32 +15,32 @@
 
 namespace piola {
 
-/// Where the main loop is to hold before the end of the run.
+/// Stop of the main loop before the end of the run.
 struct Pause {
   double time = std::numeric_limits<double>::infinity();         ///< s, at the first step that reaches it
-  std::int64_t step = std::numeric_limits<std::int64_t>::max();  ///< after this one
-  bool exactly = false;  ///< a last step is cut to `time`, as at the end of a run (CaseRun::advance)
+  std::int64_t step = std::numeric_limits<std::int64_t>::max();  ///< after this step
+  bool exactly = false;  ///< the last step is shortened to `time`, as at the end of a run (CaseRun::advance)
 };
 
-/// How the main loop ended.
+/// Result of the main loop.
 struct March {
   Ending ending = Ending::completed;
   std::optional<Failure> failure = {};  ///< set if ending is failed
-  std::string causes = {};              ///< likely ones, where more is known than the failure says
-  bool out_of_time = false;             ///< stopped because the wall time is used up
-  bool paused = false;                  ///< the run can go on from here; ending is stopped
+  std::string causes = {};              ///< likely causes, if more specific than those of the failure
+  bool out_of_time = false;             ///< stopped by the wall-time limit
+  bool paused = false;                  ///< the run can continue from here; ending is stopped
 };
 
-/// What ends the main loop before the end time of the run.
+/// Conditions that end the main loop before the end time of the run.
 struct Stops {
-  std::atomic<int> const& asked;  ///< by a signal, when it is not zero
+  std::atomic<int> const& asked;  ///< by a signal, if nonzero
   WallLimit& wall;
   Pause pause = {};
 };
 
-/// The main loop: from `moment` to the end time of `run`, or until the bodies are at rest if `relaxation` looks for
-/// that, or until the physics fails or an observer objects, or until one of `stops` says so. Observers see the const
-/// state after each step; they never change the step.
+/// The main loop: from `moment` to the end time of `run`, or until `relaxation` converges, the physics fails, an
+/// observer objects, or one of `stops` is reached. Observers have read access after each step; they never change the
+/// step.
 March march(Formulation& formulation, RunSpec const& run, Moment& moment, std::span<Observer* const> observers,
             Stops const& stops, Relaxation* relaxation = nullptr);
 

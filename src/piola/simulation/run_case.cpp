@@ -95,7 +95,7 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& results, Jour
   if (!list.empty()) write_whole_file(folder / kept_list, text_of_list(list));
 }
 
-/// A new run: the folder is emptied of older results, the case is kept as run, the first state is looked at.
+/// Starts a new run: removes older results from the folder, saves the case, and observes the first state.
 Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
   journal.note(start_text(s));
   if (watch.written) {
@@ -153,7 +153,7 @@ void report_rest(Relaxation const& relaxation, Journal& journal) {
   if (std::string const slow = relaxation.slow_text(); !slow.empty()) journal.warn(slow);
 }
 
-/// What is not there any more of what the run wrote, in one sentence; empty if all of it is.
+/// Missing files that the run wrote, in one sentence; empty if there are none.
 std::string missing_results(RunOptions const& options, Watch& watch) {
   constexpr std::size_t few = 5;
   auto const& folder = options.folder;
@@ -189,7 +189,7 @@ void blame_formula(Simulation const& s, Moment const& moment, March& last) {
       "roots of negative numbers and exp of large ones";
 }
 
-/// How often particles were shared out among ranks anew.
+/// Number of repartitions, as text.
 std::string recuts_text(Recuts const& recuts) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
   std::string text = fmt::format("particles were shared out among the ranks anew {} times", recuts.imbalance.size());
@@ -198,7 +198,7 @@ std::string recuts_text(Recuts const& recuts) {
   return text + "; at the end by " + percent(recuts.last);
 }
 
-/// What observers and ranks know of the whole run.
+/// Adds the results of observers and ranks over the whole run.
 void add_watched(Summary& summary, Simulation const& s, Watch const& watch, Journal& journal) {
   summary.guards = watch.guards.report();
   summary.ranks = traffic_on_ranks();

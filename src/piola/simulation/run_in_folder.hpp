@@ -27,25 +27,25 @@ inline std::string title_of_run(std::filesystem::path const& folder) {
   return titled ? summary["title"].get<std::string>() : folder.filename().string();
 }
 
-/// A frame and what is drawn of it.
+/// A frame and its picture data.
 struct Shot {
   Frame frame;
   std::vector<double> radii, values;
   std::vector<RigidShape> shapes;
   std::vector<std::uint8_t> loose;
-  std::vector<std::array<double, 3>> points = {};  ///< with displacements as large as asked for
-  PictureData data = {};  ///< refers to the vectors above, which stay where they are when a shot is moved
+  std::vector<std::array<double, 3>> points = {};  ///< positions with magnified displacements
+  PictureData data = {};  ///< refers to the vectors above, whose buffers keep their address when a shot is moved
   Window window = {};
 };
 
-/// What the pictures of one run have in common, whatever their field.
+/// Common data of the pictures of one run, for any field.
 struct RunInFolder {
   std::string title;
   ParticleSet particles;  ///< of the case
   std::optional<CaseSpec> spec;
   std::vector<ReferenceMesh> meshes;
   std::vector<std::uint8_t> held;      ///< by supports
-  std::optional<RigidHistory> rigids;  ///< where there is a case
+  std::optional<RigidHistory> rigids;  ///< if there is a case
   std::vector<std::pair<double, std::filesystem::path>> frames;
 
   explicit RunInFolder(std::filesystem::path const& folder)
@@ -55,7 +55,7 @@ struct RunInFolder {
     held = held_particles(*spec, particles);
     rigids.emplace(folder / "history.csv", spec->rigids);
   }
-  /// Whether a frame is of the case that lies in the folder now.
+  /// Whether a frame belongs to the present case in the folder.
   bool has(Frame const& frame) const {
     return frame.points.size() == particles.X.size() && frame.dimension == particles.dimension &&
            std::equal(frame.body.begin(), frame.body.end(), particles.body.begin(), particles.body.end());

@@ -8,14 +8,15 @@
 
 namespace piola {
 
-/// What came out of a run, but for what the guards and a relaxation have to say. Quantities that cannot be measured are
-/// told to the journal if the run was completed.
+/// Summary of a run, without guards and relaxation. Quantities that cannot be measured are reported to the journal if
+/// the run was completed.
 Summary summarise(Simulation const& simulation, Moment const& moment, Ending ending, HistoryTable const& history,
                   Journal& journal);
 
 /// Largest rise of (total energy - external work) above any earlier row, by the largest total energy of the history.
 double energy_increase(HistoryTable const& history);
-/// Its largest fall below any earlier row, likewise: what stabilisation, viscosity and friction took.
+/// Largest fall of (total energy - external work) below any earlier row, divided likewise: dissipation by
+/// stabilisation, viscosity and friction.
 double energy_decrease(HistoryTable const& history);
 
 }  // namespace piola

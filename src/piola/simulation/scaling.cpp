@@ -13,7 +13,7 @@
 namespace piola {
 namespace {
 
-/// Who has which particle of a body, as runs share them out.
+/// Owner of each particle of a body, by the partition of runs.
 struct Owned {
   std::vector<std::array<double, 3>> X;
   std::vector<int> owner;
@@ -81,8 +81,8 @@ InCells in_cells(Estimate const& cost, std::vector<Owned> const& bodies, std::si
   return g;
 }
 
-/// What ranks tell each other in a step of particles near in space: all of them about their cells, then those who read
-/// something how many there are, and what `messages` say.
+/// Adds the spatial halo to the model: two collectives for the occupied cells, one message of counts per pair of
+/// adjacent ranks, then the given messages per ghost particle.
 void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, InCells const& g, Scaling& s) {
   auto const n = static_cast<Index>(g.body.size());
   MovingGrid grid;
@@ -133,7 +133,7 @@ void add_near(int dimension, std::vector<Talk::Near::Numbers> const& messages, I
     for (auto const& [from, to] : of_message) s.shares[static_cast<std::size_t>(from)].messages += 1;
 }
 
-/// The same of all groups of bodies with common cells.
+/// As above for all groups of bodies with common cells.
 void add_near(int dimension, Estimate const& cost, std::vector<Owned> const& bodies, Scaling& s) {
   std::set<std::size_t> seen;
   for (auto const& talk : cost.talk) {
@@ -162,7 +162,7 @@ bool runs_on_ranks(Estimate const& cost) {
 Scaling scale(ParticleSet const& particles, Estimate const& cost, int ranks, Network const& network) {
   Scaling s;
   s.shares.resize(static_cast<std::size_t>(ranks));
-  s.collectives = 1;  // what rank 0 tells the others to do
+  s.collectives = 1;  // command of rank 0
   double heaviest = 0;
   std::vector<Owned> owned;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) {

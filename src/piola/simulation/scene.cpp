@@ -70,7 +70,7 @@ Up upwards(CaseSpec const& spec) {
 
 std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
                                   std::vector<RigidState> const& states) {
-  // Midpoints of so many intervals: exact for the constant and linear velocities of most cases.
+  // Midpoints of this number of intervals: exact for the constant and linear velocities of most cases.
   constexpr int intervals = 1000;
   std::vector<RigidShape> shapes;
   for (RigidSpec const& rigid : rigids) {

@@ -4,7 +4,7 @@
 
 namespace piola {
 
-/// When an output is due: at the first step at or after each multiple of an interval; 0 means never.
+/// Due times of an output: the first step at or after each multiple of an interval; 0 means never.
 class Schedule {
  public:
   explicit Schedule(double every) : every_(every) {}
@@ -13,13 +13,13 @@ class Schedule {
   bool due(double time) {
     if (!ever()) return false;
     double const multiple =
-        std::floor(time / every_ * (1 + 1e-12));  // a multiple missed by round-off counts as reached
+        std::floor(time / every_ * (1 + 1e-12));  // a multiple missed only by round-off counts as reached
     if (multiple < next_) return false;
     next_ = multiple + 1;
     return true;
   }
-  /// Takes what was due up to this time [s] as done, for instance before a checkpoint: the next output is then the same
-  /// whatever came before, with another interval too.
+  /// Marks all outputs up to this time [s] as done, for instance before a checkpoint: later outputs then do not depend
+  /// on earlier ones, even with another interval.
   void start_after(double time) { due(time); }
 
  private:

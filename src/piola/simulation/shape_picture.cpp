@@ -15,7 +15,7 @@ namespace {
 
 constexpr Colour inner_grey{200, 203, 208};
 
-/// Colours that stay apart for eyes that do not tell red from green (Okabe and Ito, 2008, without black); of more,
+/// Colours that can be distinguished with red-green colour blindness (Okabe and Ito, 2008, without black); for more,
 /// hues by the golden section, first dark, then light.
 Colour colour_number(std::size_t k) {
   constexpr std::array<Colour, 7> first{Colour{86, 180, 233}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167},

@@ -10,15 +10,15 @@
 #include <stdexcept>
 #include <string_view>
 
-/// How the state of a formulation that ranks share goes into a checkpoint and comes back, all ranks taking part.
+/// Collective saving and loading of the state of a distributed formulation.
 namespace piola {
 
-/// Rank 0 has not found what it looked for in a checkpoint.
+/// Thrown on other ranks when rank 0 could not read from a checkpoint.
 struct NotThere : std::runtime_error {
   NotThere() : std::runtime_error("rank 0 could not read a checkpoint") {}
 };
 
-/// Gives all ranks what rank 0 reads.
+/// Broadcasts what rank 0 reads. All members are collective.
 class SharedReader final : public StateReader {
  public:
   explicit SharedReader(StateReader* of_first) : reader_(of_first) {}
@@ -36,7 +36,7 @@ class SharedReader final : public StateReader {
   }
 
  private:
-  /// All ranks throw if rank 0 does.
+  /// Calls f on rank 0. If it throws there, all ranks throw.
   template <class F>
   void on_first(F const& f) {
     int good = 1;
@@ -56,7 +56,8 @@ class SharedReader final : public StateReader {
   StateReader* reader_;
 };
 
-/// Keeps the first thing that goes wrong until everything is said, because others wait to say it.
+/// Stores the first error until all data are written, because other ranks take part in the collective calls. raise()
+/// throws it.
 class LastingWriter final : public StateWriter {
  public:
   explicit LastingWriter(StateWriter& writer) : writer_(writer) {}
@@ -86,7 +87,7 @@ class LastingWriter final : public StateWriter {
   std::exception_ptr trouble_;
 };
 
-/// For ranks that take part in what rank 0 puts.
+/// For ranks that take part in put_rows() of rank 0.
 class NoWriter : public StateWriter {
  public:
   void put(std::string_view, std::span<double const>) override {}

@@ -5,13 +5,13 @@
 
 namespace piola {
 
-/// How many times as many steps a run may take as its first steps say, and why.
+/// Factor by which the number of steps may exceed the estimate from the first steps, and the reason.
 struct StepExcess {
   double factor = 1;
   std::string why = {};  ///< empty: the number of steps is known
 };
 
-/// `change`: of the length of the last trial steps, as a fraction of it; 0 without a trial.
+/// `change`: relative change of the length of the last trial steps; 0 without a trial.
 StepExcess step_excess(CaseSpec const& spec, double change);
 
 }  // namespace piola

@@ -10,8 +10,8 @@
 namespace piola {
 namespace {
 
-/// Bodies of one formulation as somebody knows them who works on none of their particles: arrays are as long as the
-/// bodies, but hardly anybody writes into them.
+/// Builds a formulation as a rank without particles of its own would: arrays have full length, but almost no pages are
+/// touched.
 std::unique_ptr<Formulation> known(Assembly assembly) {
   struct InParts {
     InParts() { exec_host::fill_arrays_in_parts(2); }

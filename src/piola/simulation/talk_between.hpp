@@ -5,9 +5,9 @@
 
 namespace piola {
 
-/// Puts into `cost`, which is of bodies looked at one by one (estimate_from_parts), what ranks tell each other because
-/// of where bodies are and what the others of the case do: counted on all of the particles, at the start, without
-/// building what moves them. Throws InputError for what a formulation refuses.
+/// Adds to `cost`, an estimate by separate bodies (estimate_from_parts), the communication between bodies: spatial halo
+/// and common step, counted on all particles at the start, without building the formulations. Throws InputError if a
+/// formulation rejects the case.
 void count_talk_between(Assembly const& assembly, Estimate& cost);
 
 }  // namespace piola

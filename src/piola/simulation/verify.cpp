@@ -83,7 +83,7 @@ VerificationRow row_of(std::string const& case_name, Check const& c) {
 
 void add_note(VerificationRow& row, std::string const& text) { row.note += (row.note.empty() ? "" : "; ") + text; }
 
-// What is expected to fall short must not pass unnoticed: then the expectation is out of date.
+// A check that is expected to fall short must not pass unnoticed: the expectation is then out of date.
 void judge(VerificationRow& row, Check const& c, bool good) {
   row.verdict = good ? "passes" : "falls short";
   row.accepted = good;

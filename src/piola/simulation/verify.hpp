@@ -19,7 +19,7 @@ struct CheckVariant {
   bool is_short = false;         ///< belongs to the quick selection
 };
 
-/// Where the number of a check comes from.
+/// Source of the reference value of a check.
 enum class Evidence {
   theory,           ///< closed forms, conservation laws, orders of convergence
   finite_elements,  ///< converged, published or of bench/finite_elements
@@ -29,16 +29,16 @@ enum class Evidence {
   own_trial,       ///< an independent trial implementation of the same scheme
   own_refinement,  ///< this program with more particles
   own_regression,  ///< what this program gave before
-  code             ///< holds by construction: shows a slip in the code, tells nothing about the answer
+  code             ///< holds by construction: detects errors in the code, no evidence for the result
 };
-/// As in checks.toml, e.g. "finite elements"; in the order of Evidence.
+/// Words as in checks.toml, e.g. "finite elements"; in the order of Evidence.
 std::vector<std::string> const& evidence_words();
 std::string const& evidence_word(Evidence evidence);
 
-/// One published or analytical number beside a measured one: [[check]] of checks.toml.
+/// A measured value with its published or analytical reference: [[check]] of checks.toml.
 struct Check {
   enum class Kind { within, below, above, between };
-  /// What is compared: the quantity itself, or what it comes to beside that of another variant.
+  /// The compared value: the quantity itself, or its relation to that of another variant.
   enum class As {
     value,
     ratio,       ///< q / q_other
@@ -54,14 +54,14 @@ struct Check {
   Kind kind = Kind::within;
   As as = As::value;
   std::string relative_to = {};         ///< ratio, order: the other variant
-  double refinement = 0;                ///< order: key `ratio`, spacing of the other variant by that of this one
-  bool expected_to_fall_short = false;  ///< then `note` says why
+  double refinement = 0;                ///< order: key `ratio`, spacing of the other variant over that of this one
+  bool expected_to_fall_short = false;  ///< if true, `note` gives the reason
   std::string source, note;
   Evidence evidence = Evidence::theory;
-  std::string field = {};   ///< field_error: what is compared, e.g. "Pressure"
-  double time = 0;          ///< field_error: when [s]
+  std::string field = {};   ///< field_error: the compared field, e.g. "Pressure"
+  double time = 0;          ///< field_error: time of comparison [s]
   std::string where = {};   ///< field_error: a condition in X, Y, Z; empty: everywhere
-  std::string beside = {};  ///< field_error: a variant by whose error that of this one is divided; empty: none
+  std::string beside = {};  ///< field_error: a variant whose error divides that of this one; empty: none
 };
 
 struct CheckFile {
@@ -69,10 +69,10 @@ struct CheckFile {
   std::vector<Check> checks;
 };
 
-/// The folder of a variant below that of its case: its name, with _ in place of each slash, so that no name leads out.
+/// The folder of a variant below that of its case: its name, with _ in place of each slash, so that it stays inside.
 std::string folder_of(std::string variant);
 
-/// Reads checks.toml. Throws InputError with all that is wrong in it.
+/// Reads checks.toml. Throws InputError with all errors.
 CheckFile read_checks(std::filesystem::path const& path);
 
 /// One line of the table that `piola verify` prints.
@@ -80,7 +80,7 @@ struct VerificationRow {
   std::string case_name, variant, quantity, unit;
   double reference = 0;
   std::string source;
-  std::optional<double> measured;  ///< nothing: the run failed or has no such quantity
+  std::optional<double> measured;  ///< empty: the run failed or has no such quantity
   std::string tolerance;           ///< as written, e.g. "within 1 %"
   std::string verdict;    ///< "passes", "falls short", or one of these with ", as" or ", contrary to" expectation
   bool accepted = false;  ///< passes, or falls short as expected
@@ -99,32 +99,32 @@ struct VariantRun {
   std::vector<FieldSample> samples = {};
 };
 
-/// All that was run for one case, and what the checks say about it.
+/// All runs of one case, and the results of its checks.
 struct CaseVerification {
   std::string name;  ///< e.g. "jst_sph/cable"
   std::vector<VariantRun> runs;
   std::vector<VerificationRow> rows;
 };
 
-/// Compares the checks of a case with what its runs measured, variant by variant. Checks that look at a variant which
-/// is not among the runs are left out.
+/// Compares the checks of a case with the values of its runs, variant by variant. Checks that refer to a missing
+/// variant are omitted.
 std::vector<VerificationRow> compare(std::string const& case_name, std::vector<Check> const& checks,
                                      std::vector<VariantRun> const& runs);
 
-/// Where a verification stands.
+/// Progress of a verification.
 struct VerifyProgress {
   std::string case_name, variant;
   std::size_t number = 1, count = 1;        ///< of the variant, from 1, among all that run
-  double share = 0;                         ///< of this run that is done
-  std::optional<double> seconds_left = {};  ///< wall time of all that is left, estimated; nothing: not known yet
+  double share = 0;                         ///< completed fraction of this run
+  std::optional<double> seconds_left = {};  ///< estimated wall time of the remaining work; empty: unknown
 };
 
-/// Makes a simulation from a case file and overrides.
+/// Builds a simulation from a case file and overrides.
 using Prepare =
     std::function<Simulation(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
-/// Told what is about to run, and several times per second how far it is.
+/// Called before each run, and several times per second with its progress.
 using Announce = std::function<void(VerifyProgress const&)>;
-/// How much work a run is, in any unit.
+/// Returns the work of a run, in any unit.
 using Weigh = std::function<double(std::filesystem::path const& case_file, std::vector<std::string> const& overrides)>;
 
 struct VerifyOptions {
@@ -132,16 +132,16 @@ struct VerifyOptions {
   std::vector<std::string> names;  ///< empty: all
   bool short_only = false;         ///< only variants marked short
   std::filesystem::path out;       ///< results go to out/CASE/VARIANT
-  Weigh weigh = {};                ///< for the time that is left; nothing: all runs count the same
+  Weigh weigh = {};                ///< for the remaining time; empty: all runs count equally
 };
 
-/// Folders below `cases` that hold checks.toml and are asked for by name ("twisting_column", "jst_sph/cable", or a
-/// whole folder "jst_sph"). Throws InputError with the known names if one is not known.
+/// Folders below `cases` that hold checks.toml and match the names ("twisting_column", "jst_sph/cable", or a whole
+/// folder "jst_sph"). Throws InputError with the known names if one is unknown.
 std::vector<std::filesystem::path> find_cases(std::filesystem::path const& cases,
                                               std::vector<std::string> const& names);
 
-/// Runs the variants of the chosen cases and compares. A run that cannot be made or fails gives rows that fall short.
-/// Ends early, with the rows so far, when `stop` is set.
+/// Runs the variants of the selected cases and compares. A run that cannot be built or fails gives rows that fall
+/// short. Returns early, with the rows so far, when `stop` is set.
 std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
                                      std::atomic<int> const& stop);
 

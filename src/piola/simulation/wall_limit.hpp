@@ -6,26 +6,26 @@
 
 namespace piola {
 
-/// Says when a run must stop so that its last checkpoint is written before its wall time is over. It keeps back the
-/// time of the slowest step so far with all its output, half as much again; twice the time of the slowest checkpoint so
-/// far, or an estimate from its size; and half a per cent of the whole, for what nobody foresees.
+/// Decides when a run must stop so that its last checkpoint is written before its wall-time limit. Reserves 1.5 times
+/// the time of the slowest step so far with all its output; twice the time of the slowest checkpoint so far, or an
+/// estimate from its size; and a safety margin of 0.5 % of the limit.
 class WallLimit {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// `seconds` of wall time that began at `start`; none: no limit.
+  /// `seconds` of wall time from `start` on; none: no limit.
   WallLimit(double seconds, Clock::time_point start) : seconds_(seconds), start_(start) {}
 
   bool exists() const { return seconds_ < none; }
-  /// A step with its output (or the output before the first step) took so long [s].
+  /// Registers the wall time [s] of a step with its output (or of the output before the first step).
   void step_took(double seconds);
-  /// A checkpoint took so long [s].
+  /// Registers the wall time [s] of a checkpoint.
   void checkpoint_took(double seconds);
-  /// So much is in a checkpoint [bytes]; counts until one was written, at a speed that a busy network disk reaches.
+  /// Sets the size of a checkpoint [bytes]; used until one is written, at the speed of a busy network disk.
   void checkpoint_has(std::int64_t bytes);
 
-  double reserve() const;  ///< the time kept back [s]
+  double reserve() const;  ///< the reserved time [s]
   bool reached() const { return exists() && reached_after(seconds_since_start()); }
   bool reached_after(double elapsed) const { return elapsed + reserve() >= seconds_; }
 

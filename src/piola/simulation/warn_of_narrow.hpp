@@ -5,7 +5,8 @@
 
 namespace piola {
 
-/// Rigid shapes that are narrower than the spacing of a body that meets them: what is not resolved, and how it is felt.
+/// Warns of rigid shapes that are narrower than the spacing of a body in contact with them: unresolved features and
+/// their effect.
 void warn_of_narrow_shapes(CaseSpec const& spec, ParticleSet const& particles, Problems& found);
 
 }  // namespace piola

@@ -9,22 +9,22 @@
 
 namespace piola {
 
-/// What a run is judged by before it starts.
+/// Expected values of a run before its start.
 struct Prospect {
   double step = 0;  ///< expected time step [s]
-  /// Energies at the start; nothing where the formulation was not built, or knows no contact.
+  /// Energies at the start; empty if the formulation was not built, or has no contact.
   std::optional<Diagnostics> start = {};
 };
 
-/// The largest fraction of the energy at the start that contact may hold.
+/// The largest fraction of the initial energy that contact may store at the start.
 inline constexpr double largest_unpaid_contact = 0.01;
-/// Throws InputError if the contact of a formulation holds more of the energy at the start than that, which nothing has
-/// paid for, unless the case names a law of contact or nothing moves at the start.
+/// Throws InputError if the contact of a formulation stores more of the initial energy than that, without work done for
+/// it, unless the case names a law of contact or nothing moves at the start.
 void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, Diagnostics const& start);
 
-/// All that looks odd about a case that can run: slips of units, settings without effect, laws that lock or cannot
-/// fail, bodies that touch or cannot touch. One sentence each, "file:line:column: what (what is usual) - what to do",
-/// in the order of the file. What `piola check` shows, and `piola run` tells and writes to summary.json and log.txt.
+/// Warnings about a valid case: wrong units, settings without effect, laws that lock or cannot fail, bodies that are or
+/// cannot be in contact. One sentence each, "file:line:column: what (what is usual) - what to do", in the order of the
+/// file. Shown by `piola check` and `piola run`, which also writes them to summary.json and log.txt.
 std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, Prospect const& prospect);
 
 }  // namespace piola

@@ -3,12 +3,12 @@
 #include "piola/exec/parallel.hpp"
 #include "piola/exec/view.hpp"
 
-/// Views of fields that have an array per component, as all of this formulation, and groups of lanes that need not
-/// begin at a multiple of their number: bodies follow one another without gaps.
+/// Views of fields with one array per component, and groups of lanes that may begin at any slot, because bodies follow
+/// one another without gaps.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// Particles first ... first + count - 1, one per lane. Lanes beyond them hold whatever comes next in memory: they are
-/// computed, and never stored.
+/// Particles first ... first + count - 1, one per lane. Further lanes hold the next memory: they are computed and never
+/// stored.
 struct Group {
   Index first;
   int count;
@@ -21,7 +21,7 @@ struct Group {
   }
 };
 
-/// f(group) for the particles of a range.
+/// Calls f(group) for the particles of a range.
 template <class F>
 PIOLA_FN void each_group(Range r, F const& f) {
   for (Index i = r.first; i < r.last; i += lane_count)
@@ -33,7 +33,7 @@ PIOLA_FN void store_group(double* to, Group g, Lanes const& value) {
   for (int l = 0; l < g.count; ++l) to[l] = lane(value, l);
 }
 
-/// Records a failure of those particles of a group whose lane is marked.
+/// Records a failure for the particles of a group whose lane is marked.
 template <class Mask>
 PIOLA_FN void record_where(FailureSlot* failure, Group g, Mask const& where, int code) {
   auto const failing = g.mask() && where;
@@ -45,7 +45,7 @@ PIOLA_FN void record_where(FailureSlot* failure, Group g, Mask const& where, int
 
 PIOLA_FN Lanes magnitude(Lanes const& a) { return select(a < 0.0, -a, a); }
 
-/// Reading access.
+/// Read access.
 struct Components {
   double const* data = nullptr;
   std::ptrdiff_t stride = 0;
@@ -58,7 +58,7 @@ struct Components {
   PIOLA_FN V scalar(Index i, int c = 0) const {
     return load<V>(data + c * stride + i);
   }
-  /// Of a field that only some cases have.
+  /// For a field that may be absent.
   template <class V>
   PIOLA_FN V scalar_or(Index i, double otherwise) const {
     return data != nullptr ? load<V>(data + i) : V(otherwise);
@@ -83,7 +83,7 @@ struct Components {
   }
 };
 
-/// Writing access, which may read, too.
+/// Write access, which can also read.
 struct OwnComponents {
   double* data = nullptr;
   std::ptrdiff_t stride = 0;

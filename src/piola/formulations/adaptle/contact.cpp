@@ -86,7 +86,7 @@ double shock_pressure(BodyConstants const& a, BodyConstants const& b, double v) 
   return Z_a * Z_b / (Z_a + Z_b) * v * (1 + v / (2 * std::min(c_a, c_b)));
 }
 
-/// What a body bears before it flows away, 3 sy + rho v^2 / 2 [Pa].
+/// Pressure at which a body yields at the closing speed v, 3 sy + rho v^2 / 2 [Pa].
 double flow_pressure(BodyConstants const& a, double v) { return 3 * a.yield_stress + 0.5 * a.rho0 * v * v; }
 
 }  // namespace
@@ -104,7 +104,7 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
 
 double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v) {
   double const shock = shock_pressure(a, b, v);
-  // Of two that flow at the same pressure the softer one, whatever their order.
+  // If both yield at the same pressure, the softer one, independent of their order.
   auto const [flow, yield] =
       std::min(std::pair(flow_pressure(a, v), a.yield_stress), std::pair(flow_pressure(b, v), b.yield_stress));
   if (!(shock > flow)) return 4;

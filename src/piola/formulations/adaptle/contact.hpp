@@ -11,33 +11,33 @@ namespace piola::adaptle {
 /// of the impedance-matched contact. h and dp [m].
 double contact_number(int dimension, double h, double dp, double exponent);
 
-/// What two bodies bear that meet at the speed v: the largest pressure of two half spaces, Z_a Z_b / (Z_a + Z_b) v (1 +
-/// v / (2 c)), or the one at which the weaker body flows, 3 sy + rho v^2 / 2, if that is less; at least a quarter of
-/// the former and a hundredth of the smaller bulk modulus [Pa].
+/// Reference pressure of contact between two bodies at the closing speed v [Pa]: the largest pressure of two half
+/// spaces, Z_a Z_b / (Z_a + Z_b) v (1 + v / (2 c)), or the one at which the weaker body yields, 3 sy + rho v^2 / 2, if
+/// that is less; at least a quarter of the former and a hundredth of the smaller bulk modulus.
 double reference_pressure(BodyConstants const& a, BodyConstants const& b, double v);
 
-/// n of the kernel law between two bodies that meet at the speed v: 4 (1 + x^2 (3 - 2x) (1 - p_f / p_s)^2), and 4 where
-/// p_s is not above p_f. p_s is the pressure of their shock, p_f = 3 sy + rho v^2 / 2 that at which the weaker one
-/// flows aside, and x goes from 0 to 1 while the strength 3 sy makes from 0.4 to 0.9 of p_f. So n is 4 where waves or
-/// inertia press, and up to 8 where strength does.
+/// Exponent n of the kernel law between two bodies at the closing speed v: 4 (1 + x^2 (3 - 2x) (1 - p_f / p_s)^2), and
+/// 4 if p_s is not above p_f. p_s is the pressure of their shock; p_f = 3 sy + rho v^2 / 2 is that at which the weaker
+/// one yields; x goes from 0 to 1 as the strength 3 sy goes from 0.4 to 0.9 of p_f. So n is 4 if waves or inertia
+/// dominate, and up to 8 if strength does.
 double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v);
 
 /// Stiffness and exponent of every pair of bodies, [body][body]. mean_velocity: of each body at the start [m/s].
 std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
                                        std::vector<std::array<double, 3>> const& mean_velocity);
 
-/// Bodies that are tied meet by their surfaces, where the tie has failed, and not here.
+/// Switches kernel contact of tied bodies off: they have surface contact after the tie has failed.
 void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs);
 
 /// Marks the pairs of bodies that have surface contact first: those of the case's contact_pairs, to which reading the
 /// case adds total-Lagrangian bodies that touch at the start. Returns whether there are any.
 bool mark_surface_contact(Assembly const& assembly, std::vector<ContactPair>& pairs);
 
-/// Potential energy that this contact has by now because surfaces were lost since `lost_before` (LostSurfaces::by_slot)
-/// [J]: it was not there before. The lists must be those of the last step. Collective.
+/// Potential energy of kernel contact [J] that has appeared because surfaces were lost since `lost_before`
+/// (LostSurfaces::by_slot). The lists must be those of the last step. Collective.
 double opened_energy(System const& system, std::vector<std::uint8_t> const& lost_before);
 
-/// Potential energy of all contacts where particles are now [J]: bodies may start within reach of each other or of a
+/// Potential energy of all contacts at the current positions [J]: bodies may start in contact with each other or with a
 /// rigid shape. The lists must be those of the present positions. Collective.
 double contact_energy(System const& system);
 

@@ -56,12 +56,12 @@ struct ContactSweep {
     return kernel_contact<D>(printed, r);
   }
 
-  /// By how much the law rises faster than that for which steps are set, n = 4.
+  /// Factor by which the law is steeper than for n = 4, for which steps are set.
   PIOLA_FN double sharpness(ContactPair const& pair) const {
     return table.law != 2 && pair.exponent > 4 ? pair.exponent / 4 : 1;
   }
 
-  /// Speed at which two particles come nearer to each other at the distance r [m/s].
+  /// Closing speed of two particles at the distance r [m/s].
   PIOLA_FN double approach(Index i, Index j, double r) const {
     double sum = 0;
     for (int c = 0; c < D; ++c) sum += (v_half.at(j, c) - v_half.at(i, c)) * (x.at(i, c) - x.at(j, c));
@@ -160,8 +160,8 @@ PIOLA_FN double distance_to(RigidPlace const& shape, double const* x, double* no
   return outside;
 }
 
-/// A particle closer than dp/2 to a rigid shape is pushed off as by its mirror image under the linear law:
-/// F = 2 K dp^(D-2) (dp/2 - d).
+/// A particle closer than dp/2 to a rigid shape is repelled as by its mirror image under the linear law: F = 2 K
+/// dp^(D-2) (dp/2 - d).
 template <int D>
 struct RigidSweep {
   RigidPlace const* shape;
@@ -171,7 +171,7 @@ struct RigidSweep {
   int const* body_of;
   Components x, v_half;
   OwnComponents force, sums;  ///< sums: in the order of ContactSum
-  double* power_on_bodies;    ///< per slot: of the moving shapes [W]
+  double* power_on_bodies;    ///< per slot: power of the moving shapes [W]
   double* action;             ///< [block][shape]: force [N] and moment about the origin [N m]
 
   PIOLA_FN void operator()(Range block, Index number) const {

@@ -66,7 +66,7 @@ class Marks {
   explicit Marks(Index particles) : bits_(2 * at(particles) / 64 + 1, 0) {}
   void set(Index i, Kind kind) { bits_[place(i, kind) / 64] |= bit(i, kind); }
   bool has(Index i, Kind kind) const { return (bits_[place(i, kind) / 64] & bit(i, kind)) != 0; }
-  /// Those that some rank has set. Collective.
+  /// Combines the marks of all ranks. Collective.
   void share() {
     ranks::combine(std::span(bits_), [](void const* other, void* mine) {
       *static_cast<std::uint64_t*>(mine) |= *static_cast<std::uint64_t const*>(other);
@@ -81,8 +81,10 @@ class Marks {
 
 }  // namespace
 
-/// Those that wish so convert or fail; the neighbours of failed ones go with them, theirs do not. Those that the guard
-/// alone wants count as such if nobody else does. All ranks know of all of them.
+/// Converts flagged particles to Eulerian, or deletes them in bodies with failed = "delete". In bodies without
+/// deletion, reference neighbours within conversion_radius of a particle flagged by a criterion convert too (not
+/// recursively). A conversion counts as a guard conversion only if no criterion asked for it. Flags are combined over
+/// ranks.
 void Particles::convert(double dt) {
   Marks marks(system_.particles);
   for (std::size_t k = 0; k < body_.size(); ++k)

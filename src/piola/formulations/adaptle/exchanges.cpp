@@ -10,7 +10,7 @@
 namespace piola::adaptle {
 namespace {
 
-/// f(layout) with the layout of the records of reference neighbours in so many dimensions.
+/// Calls f(layout) with the layout of the records of reference neighbours in `dimension` dimensions.
 template <class F>
 auto with_material(int dimension, F const& f) {
   return dimension == 2 ? f(MaterialRecord<2>{}) : f(MaterialRecord<3>{});
@@ -65,8 +65,8 @@ Exchanges::Exchanges(System const& s, MaterialLists const& lists, std::vector<Sh
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(to_neighbours(s, lists, b));
 }
 
-/// Displacement, velocity, volume and viscosity before the first sweep, what carries stress before the second; where
-/// particles beside Eulerian ones leave damping and springs to the others, also F and its rate.
+/// Displacement, velocity, volume and viscosity before the first sweep, stress data before the second. If particles
+/// beside Eulerian ones remove damping and springs of their neighbours, also F and its rate.
 Exchanges::ToNeighbours Exchanges::to_neighbours(System const& s, MaterialLists const& lists, int body) const {
   BodyConstants const& b = s.body[body];
   std::vector<Index> read;

@@ -9,32 +9,32 @@
 
 namespace piola::adaptle {
 
-/// What ranks tell each other in a step. Each works on its part of the tiles of every body, and its results are those
-/// of these slots; all have the same descriptions and marks of cells, and convert the same particles.
-/// Reference neighbours are told by halos, who is near in space by NearExchange. What is told, and when, stands in
-/// exchanges.cpp alone; every function is collective.
+/// Communication in a step. Each rank owns a range of slots of every body and computes the results of these slots.
+/// Kernel types, cell marks and conversions are replicated. Ghosts in the reference configuration are exchanged by
+/// halos, spatial ghosts by NearExchange. exchanges.cpp alone determines the fields and their order. All members are
+/// collective.
 class Exchanges {
  public:
-  /// system: of a run that several ranks share, with its tables. cuts: who has what of each body.
+  /// system: of a distributed run, with its tables. cuts: partition of each body.
   Exchanges(System const& system, MaterialLists const& lists, std::vector<Shares> cuts, ParticleOrder const& order);
 
-  /// Between the parts of a step (Machine), in this order. After the first one all ranks know of a failure of any; what
-  /// it returns is for the lists of the step.
+  /// To be called between the parts of a step (Machine), in this order. before_lists() also makes a failure on any rank
+  /// known to all ranks and returns the input of the step's lists.
   SpatialLists::Others before_lists(System const& system);
   void after_prediction(System const& system);
   void after_lists(System const& system);
   void after_half_state(System const& system);
   void after_correction(System const& system);
 
-  /// What a body would tell in a step from its state as it is, of a run on one rank.
+  /// Communication pattern of a body in its current state, computed in a run on one rank.
   static Talk talk(System const& system, SpatialLists const& lists, int body);
 
  private:
-  /// What one body tells its reference neighbours.
+  /// Exchange between reference neighbours of one body.
   struct ToNeighbours {
     HaloPlan plan;
     FieldRef motion, stress;
-    std::vector<FieldRef> hourglass;  ///< F and its rate, where neighbours read them
+    std::vector<FieldRef> hourglass;  ///< F and its rate, if neighbours read them
   };
   ToNeighbours to_neighbours(System const& system, MaterialLists const& lists, int body) const;
 

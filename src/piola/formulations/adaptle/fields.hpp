@@ -61,11 +61,11 @@ struct Fields : FieldSet {
   ListedField N{*this, "FoldedCorrection", "1", 9, Role::reference};
   ListedField gradient_mean{*this, "KernelGradientMean", "1/m", 3, Role::reference};
 
-  /// What cases add to what every case has.
+  /// Optional features of a case that need additional fields.
   struct Needs {
     bool lagrangian = false;    ///< some particle has a deformation gradient
     bool published = false;     ///< material sums of set (2)
-    bool plane_stress = false;  ///< a thickness that changes
+    bool plane_stress = false;  ///< variable thickness
     bool touching = false;      ///< several bodies, or rigid shapes
   };
   bool wants(Field const& field, Needs const& needs) const {

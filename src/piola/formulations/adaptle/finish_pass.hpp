@@ -4,7 +4,7 @@
 #include "piola/formulations/adaptle/plane_stress.hpp"
 #include "piola/formulations/adaptle/step_limits.hpp"
 
-/// The second half of a step, from the sums of half time.
+/// The second half of a step, from the sums at half time.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18); in two dimensions with the strain across
@@ -26,12 +26,12 @@ PIOLA_FN V equivalent_strain(Mat<3, V> const& F, SymMat<3, V> const& stress, Bod
   return square_root(2.0 / 3.0 * square);
 }
 
-/// What ends a step beside the law: switch of the viscosity, stable step, wishes to convert, what is not admissible.
+/// Law-independent end of a step: switch of the viscosity, stable step, conversion requests, admissibility.
 template <int D>
 struct StepEnd {
   BodyConstants body;
   Settings settings;
-  bool damages;  ///< the law
+  bool damages;  ///< whether the law has damage
   double dt;
   MaterialTable material;
   Components mass, S, rho, energy, v, a, phi, alive, damage, S_half, pressure, rho_half, c, F, gap, hourglass, contact;
@@ -136,7 +136,7 @@ struct StepEnd {
     return limits.step(settings.cfl, body.h);
   }
 
-  /// 1: convert with the neighbours, 2: alone, 0: stay. Returns how many do not stay.
+  /// Sets conversion requests: 1: with the neighbours, 2: alone, 0: none. Returns the number of requests.
   PIOLA_FN int make_wishes(Group g, Mat<3, Lanes> const& inverse_F) const {
     Lanes const blend = phi.scalar<Lanes>(g.first);
     auto const blended = blend > 0.0 && blend < 1.0;
@@ -146,7 +146,7 @@ struct StepEnd {
     if (!material.used) return 0;
     Lanes r(0.0);
     if (may) r = select(!(blend > 0.0) && alive.scalar<Lanes>(g.first) > 0.0, wish_of(g.first, inverse_F), r);
-    // Blended: wholly Eulerian once the deformation gradient is of no use.
+    // Blended particles become fully Eulerian once the deformation gradient is unusable.
     Lanes const J = determinant(F.matrix<Lanes>(g.first));
     r = select(blended && !(J >= body.jacobian_min && J <= body.jacobian_max), Lanes(2.0), r);
     int wishes = 0;
@@ -190,7 +190,7 @@ struct StepEnd {
   }
 };
 
-/// Kick, second drift, and update of density, stress, energy and history; stable step and wishes to convert.
+/// Kick, second drift, and update of density, stress, energy and history; stable step and conversion requests.
 template <int D, class Law>
 struct Finish {
   Law law;
@@ -198,7 +198,7 @@ struct Finish {
   Balance balance;
   StepEnd<D> end;
   PointFields point;
-  double release_rate;  ///< see release [1/s]; 0: what fails keeps its stress
+  double release_rate;  ///< see release [1/s]; 0: failed particles keep their stress
   OwnComponents S, S_rate, plastic_strain, temperature, damage, plastic_work, bulking, released, flow;
   double* partial;
 
@@ -234,7 +234,7 @@ struct Finish {
   }
 
  private:
-  /// The deviator and its history to the end of the step.
+  /// Updates the deviator and its history to the end of the step.
   PIOLA_FN void strain(Group g, Mat<3, Lanes> const& L) const {
     Index const i = g.first;
     double const dt = kick.dt;
@@ -264,7 +264,7 @@ struct Finish {
   }
 
   /// A failed particle loses its deviator over the time in which shear waves cross its support, 2h/c_s, so that it
-  /// sends no shock. The elastic energy of what is lost is not given back: it becomes heat, and counts as plastic work.
+  /// emits no shock. The lost elastic energy becomes heat and counts as plastic work.
   template <class Mask>
   PIOLA_FN void release(Group g, Mask const& failed, SolidHistoryOf<Lanes>& h, Lanes const& rho) const {
     if (!any(failed)) return;

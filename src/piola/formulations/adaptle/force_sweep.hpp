@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/material_sweep.hpp"
 
-/// Sums over reference neighbours, second sweep: what needs the stress and the deformation of neighbours.
+/// Sums over reference neighbours, second sweep: terms with the stress and the deformation of neighbours.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// Stress forces with t_ab = V0_b (A_a s r - a_a W), F_a += sum_b t_ab - t_ba. The own part is made of the constants
@@ -17,13 +17,13 @@ struct ForcePairs {
   static constexpr int Q = 0, heat = D, mu = D + 1, sums = published ? mu + 1 : D, extrema = published ? 1 : 0;
   static constexpr int first_component = published ? R::u : R::X, last_component = published ? R::inverse_J + 1 : R::a;
   double alpha, beta, h, rho0, c;
-  bool printed;  ///< interface: total-Lagrangian particles feel the viscosity of Eulerian ones, too
+  bool printed;  ///< interface: total-Lagrangian particles also receive the viscosity of Eulerian ones
 
   template <class V>
   struct Own {
     Vec<D, V> u, v, n;
     V N[D * D], inverse_J, viscosity;
-    bool feels;  ///< some viscosity
+    bool feels;  ///< whether there is viscosity
   };
   template <class V>
   [[gnu::always_inline]] PIOLA_FN static auto own_at(RecordPlace const& p) {
@@ -126,13 +126,13 @@ struct MaterialForces {
         compression(write(s.field.compression)),
         pairs{b.alpha, b.beta, b.material_h, b.rho0, b.c, printed} {}
 
-  /// Whether a particle takes part. In the printed interface Eulerian particles have their forces from spatial sums
+  /// Whether a particle takes part. In the published interface Eulerian particles receive forces from spatial sums
   /// alone.
   PIOLA_FN bool operator()(Index i) const {
     return (table.part[i] & MaterialPart::target) != 0 && alive.at(i) > 0 && !(printed && phi.at(i) > 0);
   }
 
-  /// marks: of the lanes that take part.
+  /// marks: lanes that take part.
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes const (&a)[S::sums]) const {
     Index const i = g.first;
     Lanes own[S::last_component - R::A], extra[D];
@@ -153,8 +153,8 @@ struct MaterialForces {
   }
 
  private:
-  /// Particles that are not total-Lagrangian do not feel the damping and the springs that come with A of their
-  /// neighbours: what takes them out again, over V0.
+  /// Removes, for particles that are not total-Lagrangian, the damping and springs contained in A of their neighbours,
+  /// over V0.
   PIOLA_FN void hourglass_of_neighbours(Group g, Lanes const& marks, Lanes (&extra)[D]) const {
     for (Lanes& value : extra) value = Lanes(0.0);
     auto const leaves = marks > 0.0 && phi.scalar<Lanes>(g.first) > 0.0;
@@ -195,7 +195,7 @@ struct MaterialForces {
     return r;
   }
 
-  /// A component of a field of listed neighbours; zero of fillers.
+  /// A component of a field of listed neighbours; zero for fillers.
   PIOLA_FN Lanes listed(Components const& field, Offset k, int c) const {
     double values[lane_count];
     for (int l = 0; l < lane_count; ++l) {
@@ -214,7 +214,7 @@ struct ForceLists {
   PIOLA_FN void operator()(Range block, Index) const { each_in_lists<D, Form>(end.table, end.pairs, block, end, end); }
 };
 
-/// The second sweep over a body on a lattice, by places.
+/// The second sweep over a body on a lattice, by lattice positions.
 template <int D, MaterialForm Form>
 struct ForceRows {
   MaterialForces<D, Form> end;

@@ -3,10 +3,10 @@
 #include "piola/formulations/adaptle/point_passes.hpp"
 #include "piola/math/embedding.hpp"
 
-/// Stress of half time, and what neighbours read of it.
+/// Stress at half time, and the data that neighbours read of it.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// What neighbours read: of the stress of half time.
+/// Neighbour data derived from the stress at half time.
 template <int D, bool Corrected>
 struct WriteRecords {
   BodyConstants body;
@@ -14,8 +14,8 @@ struct WriteRecords {
   HalfVolume half;
   Components x, v_half, volume, viscosity, alive, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
       gradient_mean;
-  SpatialTable spatial;    ///< records null: none are needed
-  MaterialTable material;  ///< records null: none are needed
+  SpatialTable spatial;    ///< records null: not needed
+  MaterialTable material;  ///< records null: not needed
 
   WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
       : body(of),
@@ -58,7 +58,7 @@ struct WriteRecords {
   }
 
  private:
-  /// A group at half time.
+  /// A group of particles at half time.
   struct Here {
     Lanes phi, alive, rho, volume, thickness;
     SymMat<D, Lanes> stress;
@@ -68,7 +68,7 @@ struct WriteRecords {
   /// The D dimensions of F.
   PIOLA_FN Mat<D, Lanes> deformation(Index i) const { return restrict_to<D>(half.F.matrix<Lanes>(i)); }
 
-  /// The halves of damping and springs that A carries, per unit of dF/dt and of F - I: of total-Lagrangian particles.
+  /// The halves of damping and springs contained in A, per unit of dF/dt and of F - I, for total-Lagrangian particles.
   PIOLA_FN void add_hourglass(Index i, Here const& here, Mat<D, Lanes> const& F, Lanes* A) const {
     Lanes const share = select(here.phi > 0.0, Lanes(0.0), 0.5 * volume.scalar<Lanes>(i));
     Lanes const damping = share * damping_of(body);
@@ -79,8 +79,7 @@ struct WriteRecords {
         A[p * D + q] = A[p * D + q] - (damping * rate(p, q) + stiffness * (F(p, q) - (p == q ? 1.0 : 0.0)));
   }
 
-  /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from the density where that
-  /// is evolved.
+  /// A = (1 - phi) V0 P K, with V0 P F^T = V sigma: with the current volume, which follows from an evolved density.
   PIOLA_FN void write_material(Group g, Here const& here) const {
     Index const i = g.first;
     Lanes A[D * D];
@@ -105,13 +104,13 @@ struct WriteRecords {
     store_in_records<D>(material, false, g, R::A, A);
   }
 
-  /// Of set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over that of the start.
+  /// For set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over the initial one.
   PIOLA_FN void write_published(Group g, Here const& here) const {
     Index const i = g.first;
     constexpr int first = R::A;
     Lanes r[R::inverse_J + 1 - first];
     bool const printed = settings.interface_form == Interface::printed;
-    // Eulerian particles of the printed interface have a deformation gradient only near total-Lagrangian ones.
+    // Eulerian particles of the published interface have a deformation gradient only near total-Lagrangian ones.
     auto bears = here.phi < 1.0;
     if (printed) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
     bears = bears && here.alive > 0.0;
@@ -119,7 +118,7 @@ struct WriteRecords {
     if (any(bears)) {
       Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
       Mat<D, Lanes> const F = restrict_to<D>(full), FN = transpose(inverse(F)) * restrict_to<D>(N.matrix<Lanes>(i));
-      // V sigma = V0 P F^T: with the current volume, which follows from the density where that is evolved.
+      // V sigma = V0 P F^T: with the current volume, which follows from an evolved density.
       Lanes const at_rest = determinant(full) * volume.scalar<Lanes>(i);
       Lanes const share =
           printed ? at_rest : (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest);
@@ -180,7 +179,7 @@ struct WriteRecords {
   }
 };
 
-/// Density, pressure and volume of half time, and what neighbours read.
+/// Density, pressure and volume at half time, and neighbour data.
 template <int D, bool Corrected, class Law>
 struct HalfState {
   Law law;

@@ -2,21 +2,21 @@
 #pragma once
 #include "piola/formulations/adaptle/point_passes.hpp"
 
-/// From the sums of half time to velocities, places, densities and energies at the end of a step.
+/// From the sums at half time to velocities, positions, densities and energies at the end of a step.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// What the particles of a block say: sums and extrema, in the order of Measures.
+/// Sums and extrema over the particles of a block, in the order of Measures.
 struct BlockMeasures {
   static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, artificial = 6, sums = 7,
                        dt = 7, overlap = 8, wishes = 9, size = 10;
 };
 
-/// What the parts of the end of a step tell each other of the particles of a block.
+/// Data of the particles of a block that the parts of the end of a step share.
 struct BlockScratch {
   Index first;
   alignas(64) double L[9][exec::block_size];        ///< velocity gradient [1/s]
   alignas(64) double heat[exec::block_size];        ///< of all sums [W]
-  alignas(64) double artificial[exec::block_size];  ///< part of it: of artificial stress [W]
+  alignas(64) double artificial[exec::block_size];  ///< artificial stress's part of `heat` [W]
   alignas(64) double compression[exec::block_size];
 
   PIOLA_FN explicit BlockScratch(Index of) : first(of) {}
@@ -34,7 +34,7 @@ struct BlockScratch {
 template <int D>
 struct Kick {
   double dt;
-  System s;  ///< for what only some cases have: results of spatial sums, supports, loads
+  System s;  ///< optional data: results of spatial sums, supports, loads
   MaterialTable material;
   Components mass, force, heat, compression, phi, F, F_rate;
   OwnComponents x, v, a;
@@ -94,7 +94,7 @@ struct Kick {
     }
   }
 
-  /// Loads and supports.
+  /// Applies loads and supports.
   PIOLA_FN void guide(Index i, int c, double& acceleration, double& after, double* m) const {
     double const before = v.at(i, c), own_mass = mass.at(i);
     if (s.load != nullptr) {
@@ -106,7 +106,7 @@ struct Kick {
     if (s.held == nullptr) return;
     s.reaction[3 * i + c] = 0;
     if (s.held[3 * i + c] == 0) return;
-    if (!(dt > 0)) {  // before the first step: velocities are as they were given
+    if (!(dt > 0)) {  // before the first step: initial velocities
       acceleration = 0;
       after = before;
       return;
@@ -133,7 +133,7 @@ struct Kick {
   }
 };
 
-/// Density, thickness and internal energy to the end of the step.
+/// Updates density, thickness and internal energy to the end of the step.
 struct Balance {
   Settings settings;
   double dt, least_rho;
@@ -167,8 +167,8 @@ struct Balance {
       auto const evolves = phi.scalar<Lanes>(i) > 0.0;
       Lanes rate = -here * trace(L);
       Lanes next = select(evolves, rho.seen().scalar<Lanes>(i) + dt * rate, here);
-      // A particle fills its kernel at most: what flies apart further has no neighbours left, and two such particles
-      // would see each other's volume grow without bound.
+      // A particle fills its kernel at most: without this limit two isolated particles would increase each other's
+      // volume without bound.
       auto const alone = evolves && next < least_rho;
       next = select(alone, Lanes(least_rho), next);
       rate = select(alone && rate < 0.0, Lanes(0.0), rate);
@@ -195,7 +195,7 @@ struct Balance {
     return volume_half.scalar<V>(i) * power;
   }
 
-  /// Of half time.
+  /// At half time.
   template <class V>
   PIOLA_FN V thickness_of(Index i) const {
     return thickness_half.scalar_or<V>(i, 1.0);

@@ -73,7 +73,7 @@ void MaterialLists::find_edge() {
     }
 }
 
-/// Of the particles of a body those that are within reach of some of `own`: f(slot).
+/// Calls f(slot) for the particles of a body within the search distance of a particle of `own`.
 template <class F>
 void each_around(ParticleSet const& set, ParticleOrder const& order, Range body, Range own, double reach, F const& f) {
   std::array<double, 3> low{}, high{};
@@ -120,7 +120,7 @@ void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, OfB
       auto const& y = set.X[order.id(j)];
       double square = 0;
       for (std::size_t c = 0; c < 3; ++c) square += (y[c] - x[c]) * (y[c] - x[c]);
-      // Of a lattice: the same number wherever the pair is, as patterns have it.
+      // On a lattice: bit-identical for all pairs of one offset, like the patterns.
       if (lattice) square = lattice_square(geometry, place[order.id(i)], place[order.id(j)]);
       add_pair(set.dimension, constants.material_h, j, square);
     }
@@ -166,7 +166,7 @@ void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
   });
 }
 
-/// The sums of V0 s r and V0 W anew, without deleted neighbours.
+/// Recomputes the sums of V0 s r and V0 W, without deleted neighbours.
 template <class F>
 void MaterialLists::sum_gradients(F const& alive, Fields& fields) {
   each_own([&](Index i) {
@@ -234,8 +234,8 @@ void MaterialLists::choose(Fields& fields, bool printed) {
   });
 }
 
-/// Those with neighbours that are not total-Lagrangian: few are not, so these say so, and whoever has neighbours of
-/// other ranks looks for itself.
+/// Marks particles with a reference neighbour that is not purely total-Lagrangian. The loop runs over the (few)
+/// converted particles and marks their neighbours; particles with ghost neighbours (`edge_`) are checked separately.
 void MaterialLists::mark_mixed(Fields const& fields) {
   auto const other = [&](Index i) { return fields.phi.at(i) > 0; };
   for (Range const& own : own_)

@@ -8,20 +8,21 @@
 
 namespace piola::adaptle {
 
-/// Reference neighbours of the particles of this rank, which never change as long as it has the same, and who takes
-/// part in material sums, which changes whenever a particle converts.
+/// Reference neighbours of the local particles, constant between repartitions, and participation in material sums,
+/// updated at each conversion.
 class MaterialLists {
  public:
-  /// Within 2h of each body, in order of ids, with what the sums of `settings` need; the neighbours get their places
-  /// and volumes. Particles whose correction is singular keep plain gradients. own: of each body. Collective.
+  /// Builds lists within 2h of each body, in order of ids, with the data for the sums of `settings`; sets positions and
+  /// volumes of ghosts. Particles with a singular correction keep plain gradients. own: local slots of each body.
+  /// Collective.
   void build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
              std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes);
 
-  /// Who needs a deformation gradient, and who feels material forces. Kinematic ones are marked by gap = 0, others by
-  /// -1. Deleted ones leave the sums of their neighbours. phi and alive are read of all particles.
+  /// Determines which particles need a deformation gradient and which receive material forces. Kinematic ones get gap =
+  /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and alive of all particles.
   void choose(Fields& fields, bool printed);
 
-  /// f(b) for the reference neighbours of a within the distance [m].
+  /// Calls f(b) for the reference neighbours of a within the distance [m].
   template <class F>
   void each_neighbour(Index a, double within, Fields const& fields, F const& f) const {
     for (Offset k = begin_[static_cast<std::size_t>(a)]; k < begin_[static_cast<std::size_t>(a) + 1]; ++k) {
@@ -36,7 +37,7 @@ class MaterialLists {
     }
   }
 
-  /// f(b) for the reference neighbours b of the slots of a range.
+  /// Calls f(b) for the reference neighbours b of the slots of a range.
   template <class F>
   void each_neighbour_of(Range slots, F const& f) const {
     for (Offset k = begin_[static_cast<std::size_t>(slots.first)]; k < begin_[static_cast<std::size_t>(slots.last)];
@@ -46,7 +47,7 @@ class MaterialLists {
 
   void put_into(MaterialTable& table) const;
   bool built() const { return !begin_.empty(); }
-  /// Whether some body has lists only, so that records are read from a table of all particles.
+  /// Whether some body is not on a lattice, so that records are read from a table of all particles.
   bool needs_records() const {
     return std::any_of(rows_.begin(), rows_.end(), [](LatticeRows const& rows) { return !rows.has_rows(); });
   }
@@ -63,7 +64,7 @@ class MaterialLists {
     Range own;
   };
   void list(ParticleSet const& set, ParticleOrder const& order, OfBody const& body, int lanes);
-  /// f(slot) for the particles of this rank.
+  /// Calls f(slot) for the local particles.
   template <class F>
   void each_own(F const& f) const {
     for (Range const& own : own_)
@@ -77,7 +78,7 @@ class MaterialLists {
   void invert(Fields& fields, int dimension, bool corrected);
   template <class F>
   void sum_gradients(F const& alive, Fields& fields);
-  /// s of pair k as the sums see it.
+  /// s of pair k as used by the sums.
   double gradient(Offset k) const {
     auto const place = static_cast<std::size_t>(k);
     return rounded_ ? static_cast<double>(gradient_[place]) : s_[place];
@@ -86,12 +87,12 @@ class MaterialLists {
   Index particles_ = 0;
   bool published_ = false, rounded_ = false, deleted_ = false;
   std::vector<Range> own_;
-  std::vector<Index> edge_;  ///< own particles with neighbours of other ranks
+  std::vector<Index> edge_;  ///< local particles with ghost neighbours
   PartFilled<Offset> begin_;
   std::vector<Index> neighbour_;
   std::vector<float> gradient_;
   std::vector<double> s_, W_;
-  PartFilled<std::uint8_t> filled_;  ///< per slot: fillers at the end of its list
+  PartFilled<std::uint8_t> filled_;  ///< per slot: number of fillers at the end of its list
   PartFilled<std::uint8_t> part_;
   std::vector<LatticeRows> rows_;        ///< per body
   std::vector<MaterialRows> row_views_;  ///< per body

@@ -4,7 +4,7 @@
 #include "piola/formulations/adaptle/viscosity.hpp"
 #include "piola/neighbours/loaders.hpp"
 
-/// What the two sweeps over reference neighbours share: their forms, and how values of neighbours arrive.
+/// Common parts of the two sweeps over reference neighbours: their forms, and access to values of neighbours.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 /// Forms of the sums over reference neighbours.
@@ -18,7 +18,7 @@ constexpr bool is_published(MaterialForm form) {
   return form == MaterialForm::published || form == MaterialForm::published_plain;
 }
 
-/// s of the pairs as they are stored: floats where K makes up for the rounding, else doubles.
+/// s of the pairs as stored: floats if K compensates the rounding, else doubles.
 template <MaterialForm Form>
 PIOLA_FN auto gradients_of(MaterialTable const& table) {
   if constexpr (Form == MaterialForm::corrected)
@@ -27,7 +27,7 @@ PIOLA_FN auto gradients_of(MaterialTable const& table) {
     return table.s;
 }
 
-/// The record of one particle, wherever it is.
+/// Location of the record of one particle.
 struct RecordPlace {
   double* value;
   std::ptrdiff_t step;  ///< between components
@@ -53,14 +53,15 @@ PIOLA_FN void load_listed(MaterialTable const& table, bool published, Offset k, 
   for (int c = 0; c < N; ++c) f[c] = load<Lanes>(gathered[c]);
 }
 
-/// Loads a value of the particle itself: one for all lanes of neighbours, or those of as many particles.
+/// Loads a value of the particle itself: broadcast to all lanes of neighbours, or one value per lane for a group of
+/// particles.
 template <class V>
 PIOLA_FN V load_own(RecordPlace const& p, int c) {
   return load<V>(p.value + c * p.step);
 }
 
-/// The sums of `Pairs` for the particle that `own` belongs to, over its list; extrema come after sums. f: components
-/// from `first` on.
+/// The sums of `Pairs` for the particle of `own`, over its list; extrema follow the sums. f: components from `first`
+/// on.
 template <int D, MaterialForm Form, class Pairs>
 PIOLA_FN void sum_listed(MaterialTable const& table, Index slot, Pairs const& pairs, RecordPlace const& own,
                          double (&a)[whole(Pairs::sums + 1)]) {
@@ -91,8 +92,8 @@ PIOLA_FN void sum_listed(MaterialTable const& table, Index slot, Pairs const& pa
   }
 }
 
-/// The sums of `Pairs` for the particles of a group of lanes on a lattice. Values are loaded where they are used: there
-/// are more of them than registers.
+/// The sums of `Pairs` for the particles of a group of lanes on a lattice. Values are loaded at their use, because they
+/// exceed the registers.
 template <int D, MaterialForm Form, class Pairs>
 PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs, Lanes (&result)[Pairs::sums]) {
   StencilTable const& table = rows.stencil;
@@ -118,7 +119,7 @@ PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs
   for (int c = 0; c < Pairs::sums; ++c) result[c] = sums[c];
 }
 
-/// Components [first, first + N) of the records of a group, to where they belong.
+/// Stores components [first, first + N) of the records of a group.
 template <int D, int N>
 PIOLA_FN void store_in_records(MaterialTable const& table, bool published, Group g, int first, Lanes const (&f)[N]) {
   RecordPlace const place = record_of<D>(table, published, g.first);
@@ -131,7 +132,7 @@ PIOLA_FN void store_in_records(MaterialTable const& table, bool published, Group
     to[l] = l < g.count ? place.value + std::ptrdiff_t{l} * MaterialRecord<D>::stride(published) : nullptr;
   store_records(to, first, f);
 }
-/// And back.
+/// Loads them.
 template <int D, int N>
 PIOLA_FN void load_own_records(MaterialTable const& table, bool published, Group g, int first, Lanes (&f)[N]) {
   RecordPlace const place = record_of<D>(table, published, g.first);
@@ -144,7 +145,7 @@ PIOLA_FN void load_own_records(MaterialTable const& table, bool published, Group
   load_components<N>(place.value + first, MaterialRecord<D>::stride(published), slots, f);
 }
 
-/// Lanes of the particles that a sweep is for: wants(slot).
+/// Lanes of the particles with wants(slot).
 template <class Wants>
 PIOLA_FN Lanes marks_of(Group g, Wants const& wants) {
   double marks[lane_count];
@@ -152,7 +153,7 @@ PIOLA_FN Lanes marks_of(Group g, Wants const& wants) {
   return load<Lanes>(marks);
 }
 
-/// f(group, marks, sums) for the particles of a block of places on a lattice that `wants` takes.
+/// Calls f(group, marks, sums) for the particles of a block of lattice positions that `wants` selects.
 template <int D, MaterialForm Form, class Pairs, class Wants, class F>
 PIOLA_FN void each_in_rows(MaterialTable const& table, Pairs const& pairs, Range block, Index last, Wants const& wants,
                            F const& f) {
@@ -168,7 +169,7 @@ PIOLA_FN void each_in_rows(MaterialTable const& table, Pairs const& pairs, Range
   });
 }
 
-/// The same over the lists of a block of slots.
+/// As above, over the lists of a block of slots.
 template <int D, MaterialForm Form, class Pairs, class Wants, class F>
 PIOLA_FN void each_in_lists(MaterialTable const& table, Pairs const& pairs, Range block, Wants const& wants,
                             F const& f) {

@@ -8,18 +8,18 @@
 
 namespace piola::adaptle {
 
-/// Reference neighbours of a body that is a regular lattice, as patterns of groups of lanes, and the memory of what
-/// they read of each other.
+/// Reference neighbours of a body on a regular lattice, as patterns of groups of lanes, and the memory of the neighbour
+/// data.
 class LatticeRows {
  public:
-  /// own: slots of this rank.
+  /// own: local slots.
   struct OfBody {
     Body const& geometry;
     Range own;
     double h;
   };
-  /// begin, neighbour: lists of the particles of this rank. Bodies that are no lattice, or whose groups of lanes have
-  /// too few neighbours in common, keep their lists: has_rows() is false. components: of a record. Collective.
+  /// begin, neighbour: lists of the local particles. Bodies that are no lattice, or whose groups of lanes have too few
+  /// common neighbours, keep their lists: has_rows() is false. components: of a record. Collective.
   LatticeRows(ParticleSet const& set, ParticleOrder const& order, OfBody const& body, std::span<Offset const> begin,
               std::span<Index const> neighbour, int lanes, bool rounded, int components);
 
@@ -30,7 +30,7 @@ class LatticeRows {
  private:
   void find_offsets(Body const& body, int dimension, double h, bool rounded);
   std::int32_t offset_between(std::array<int, 3> const& from, std::array<int, 3> const& to) const;
-  /// What decides whether lists are faster: neighbours, and lanes that would be computed for them, of all ranks.
+  /// Criterion for lists or patterns: neighbours, and lanes computed for them, over all ranks.
   struct Fill {
     std::int64_t present = 0, all = 0;
     bool lattice = true;  ///< all neighbours are at known offsets
@@ -41,7 +41,7 @@ class LatticeRows {
   void allocate(Body const& body, int components);
 
   std::array<int, 3> reach_{};
-  std::vector<std::int32_t> number_;  ///< of each offset in the box of +- reach_; negative: no neighbour
+  std::vector<std::int32_t> number_;  ///< index of each offset in the box of +- reach_; negative: no neighbour
   std::vector<StencilOffset> offsets_;
   std::vector<StencilEntry> entries_;
   std::vector<StencilPattern> patterns_;
@@ -53,7 +53,7 @@ class LatticeRows {
   Memory record_;
 };
 
-/// The square of the distance between two particles of a lattice: the same number for all pairs of one offset [m2].
+/// The squared distance between two lattice particles [m2]: bit-identical for all pairs of one offset.
 double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to);
 
 /// s = -W'(r)/r and W(r) of the cubic spline.

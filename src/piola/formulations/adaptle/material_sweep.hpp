@@ -5,7 +5,7 @@
 /// Sums over reference neighbours, first sweep. docs/theory/adaptle.md, "Sums over reference neighbours".
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// What pairs of one body share.
+/// Constants of the pairs of one body.
 struct PairConstants {
   double damping, stiffness, rho0, alpha_c, beta, h, core;
   PIOLA_FN explicit PairConstants(BodyConstants const& b)
@@ -76,7 +76,7 @@ struct DeformPairs {
         sum[vW + p] += VW * w[p];
       }
     }
-    Lanes const least = minimum(f(R::viscosity), Lanes(own.viscosity));  // negative where one of both is
+    Lanes const least = minimum(f(R::viscosity), Lanes(own.viscosity));  // negative if one of both is
     Lanes const weight = select(least < 0.0, Lanes(0.0), Vs);
     if constexpr (published) {
       Lanes const pull = b.damping * weight;
@@ -98,7 +98,7 @@ struct DeformPairs {
     Lanes const share = 1.0 / (dot(x, x) + b.core), speed = (b.h * closing) * share;
     sum[mu] = minimum(sum[mu], speed);
     Lanes const factor = 0.5 * (viscosity + own.viscosity);
-    // Between particles whose stretch is the same this is the J^-1 F^-T r of set (2) along principal directions.
+    // For particles with equal stretch this is the J^-1 F^-T r of set (2) along principal directions.
     Lanes const push =
         (b.rho0 * (b.beta * speed - b.alpha_c) * speed) * ((dot(g.r, g.r) + b.core) * share) * (factor * weight);
     Lanes const pull = b.damping * weight, spring = b.stiffness * weight;
@@ -108,7 +108,7 @@ struct DeformPairs {
   }
 };
 
-/// From the sums of the first sweep to F, its rate, and what else they hold.
+/// From the sums of the first sweep to F, its rate, and the other results.
 template <int D, MaterialForm Form>
 struct Deform {
   using R = MaterialRecord<D>;
@@ -138,10 +138,10 @@ struct Deform {
         compression(write(s.field.compression)),
         pairs{PairConstants(body)} {}
 
-  /// Whether F of a particle is needed; what is deleted keeps its own.
+  /// Whether F of a particle is needed; deleted particles keep theirs.
   PIOLA_FN bool operator()(Index i) const { return (table.part[i] & MaterialPart::kinematic) != 0 && alive.at(i) > 0; }
 
-  /// marks: of the lanes that are wanted.
+  /// marks: selected lanes.
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes const (&a)[S::sums]) const {
     Index const i = g.first;
     PairConstants const& b = pairs.b;
@@ -196,8 +196,8 @@ struct Deform {
     if constexpr (D < 3) gradient(2, 2) = thickness_half.scalar_or<Lanes>(i, 1.0);
   }
 
-  /// Takes neighbours that are not total-Lagrangian out of damping and springs, and sees how far they have gone from
-  /// where the deformation gradient would put them.
+  /// Removes neighbours that are not total-Lagrangian from damping and springs, and computes their largest distance
+  /// from the positions that the deformation gradient predicts.
   PIOLA_FN void leave_out_others(Index i) const {
     PairConstants const& b = pairs.b;
     RecordPlace const own = record_of<D>(table, S::published, i);
@@ -249,7 +249,7 @@ struct DeformLists {
   PIOLA_FN void operator()(Range block, Index) const { each_in_lists<D, Form>(end.table, end.pairs, block, end, end); }
 };
 
-/// The first sweep over a body on a lattice, by places.
+/// The first sweep over a body on a lattice, by lattice positions.
 template <int D, MaterialForm Form>
 struct DeformRows {
   Deform<D, Form> end;

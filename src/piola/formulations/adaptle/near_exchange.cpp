@@ -86,7 +86,8 @@ void NearExchange::tell_cells() {
   std::memcpy(static_cast<void*>(all_.data()), numbers.data(), numbers.size() * sizeof(double));
 }
 
-/// Who is told which of own particles: those who have somebody that reads within the edge of a cell of it.
+/// Selects the particles to send to each rank: those within one cell edge of the bounds of that rank's reading
+/// particles.
 void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) {
   int const own = ranks::own();
   readers_.clear();
@@ -106,7 +107,7 @@ void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) 
     std::array<double, 3> const place = grid.where(slot);
     int told = own;
     for (std::size_t k = first_reader_[number]; k < first_reader_[number + 1]; ++k) {
-      // Written so that what is not a number is told.
+      // The comparison is false for NaN, so particles with NaN positions are sent.
       if (readers_[k].rank == told || readers_[k].where.square_from(place) > reach * reach) continue;
       told = readers_[k].rank;
       sends_[at(told)].slots.push_back(slot);
@@ -114,7 +115,7 @@ void NearExchange::choose_sends(MovingGrid const& grid, CellMarks const& marks) 
   }
 }
 
-/// How many particles each will tell, between those whose cells meet.
+/// Exchanges the number of particles to send, between ranks with adjacent cells.
 void NearExchange::tell_counts() {
   for (Side& side : sends_) side.values.assign(side.meets ? 1 : 0, static_cast<double>(side.slots.size()));
   for (Side& side : receives_) side.values.assign(side.meets ? 1 : 0, 0);

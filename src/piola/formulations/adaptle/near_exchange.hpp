@@ -11,28 +11,27 @@
 
 namespace piola::adaptle {
 
-/// What ranks tell each other of particles that are near each other in space. In each step all say in which cells they
-/// have some, then each knows who reads what of its own and tells them: where they are, and later in the step the rest.
-/// Every function but those that return something is collective.
+/// Spatial halo exchange. In each step: allgather of the occupied cells; each rank derives which of its particles other
+/// ranks need; positions are sent first, other fields later in the step. All void functions are collective.
 class NearExchange {
  public:
-  /// cuts: who has what of each body.
+  /// cuts: partition of each body.
   NearExchange(std::span<Shares const> cuts, ParticleOrder const& order);
 
-  /// Of own particles: slots in the order of ids.
+  /// Local particles: slots in the order of ids.
   SlotList own() const { return of(own_); }
-  /// Coordinates of all particles of a run along an axis, in no order.
+  /// Coordinates of all particles of a run along an axis, unordered.
   std::vector<double> coordinates(System const& system, std::size_t axis) const;
 
-  /// The positions of own particles and the cells of these are known. Afterwards `marks` has all that it may be asked,
-  /// positions of others that own particles read are here, and received() says which these are.
+  /// Exchanges cells and positions. Precondition: positions and cells of local particles are set. Afterwards `marks` is
+  /// complete, the positions of spatial ghosts are set, and received() lists these.
   void meet(System const& system, MovingGrid const& grid, CellMarks& marks);
   SlotList received() const { return of(received_); }
-  /// Own and received particles, in the order of ids.
+  /// Local particles and spatial ghosts, in the order of ids.
   SlotList present() const { return of(present_); }
-  /// Those of present() are sorted.
+  /// Chooses the particles to exchange. Precondition: those of present() are sorted.
   void choose(MovingGrid const& grid, CellMarks const& marks);
-  /// What there is to do if nothing is near anything.
+  /// Clears the exchange in a step without spatial neighbours.
   void forget();
 
   /// Components [first, first + count) of a field.
@@ -40,10 +39,10 @@ class NearExchange {
     FieldRef field;
     int first, count;
   };
-  /// What is told per kind of reading; fields of `flow` go by sorted number, those of `touch` by slot.
+  /// Fields per kind of reading; those of `flow` by sorted number, those of `touch` by slot.
   using Told = std::array<std::vector<FieldPart>, 2>;
   void exchange(Told const& told);
-  /// f(slot) for the particles of others that this rank reads because bodies meet.
+  /// Calls f(slot) for the spatial ghosts that this rank reads for contact.
   template <class F>
   void each_touched(F const& f) const {
     for (Side const& side : receives_)
@@ -52,19 +51,19 @@ class NearExchange {
 
  private:
   static constexpr std::size_t flow = 0, touch = 1;
-  /// Of one other rank.
+  /// Communication with one other rank.
   struct Side {
-    bool meets = false;                           ///< cells of both are near each other
-    std::vector<Index> slots;                     ///< in the order in which they are told
-    std::array<std::vector<Index>, 2> particles;  ///< of these by kind of reading
-    std::vector<double> values;                   ///< of a message, kept between steps
+    bool meets = false;                           ///< cells of both ranks are adjacent
+    std::vector<Index> slots;                     ///< in the order of sending
+    std::array<std::vector<Index>, 2> particles;  ///< indices of these by kind of reading
+    std::vector<double> values;                   ///< message buffer, kept between steps
     void choose(MovingGrid const& grid, CellMarks const& marks);
     std::size_t numbers(Told const& told) const;
-    /// f(value in the message, value in its field)
+    /// Calls f(value in the message, value in its field).
     template <class F>
     void each(Told const& told, F const& f);
   };
-  /// Somebody of another rank who reads, and where [edges].
+  /// A remote rank that reads particles of a cell, and the bounds of its reading particles [cell edges].
   struct Reader {
     int rank;
     CellBox::Bounds where;
@@ -81,8 +80,8 @@ class NearExchange {
   ParticleOrder const* order_;
   std::vector<Index> own_, received_, present_;
   std::vector<CellMarks::Cell> mine_, all_;  ///< cells; all_: rank after rank
-  std::vector<std::size_t> starts_;          ///< in all_
-  std::vector<Index> number_of_;             ///< per cell: which of mine_
+  std::vector<std::size_t> starts_;          ///< indices into all_
+  std::vector<Index> number_of_;             ///< per cell: index into mine_
   std::vector<Reader> readers_;              ///< of mine_[0], then those of mine_[1], and so on, rank by rank
   std::vector<std::size_t> first_reader_;    ///< of each of mine_, one more at the end
   std::vector<Side> sends_, receives_;       ///< per rank

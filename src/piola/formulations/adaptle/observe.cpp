@@ -71,7 +71,7 @@ void observe_each(Particles const& particles, F const& f) {
   for (int b = 0; b < s.bodies; ++b) each_particle(s, b, see);
 }
 
-/// What ranks add up, and what only this formulation has.
+/// Sums that are reduced over ranks, and columns of this formulation.
 struct OwnSums {
   std::vector<exec::ExactSums<1>> internal;  ///< of each body [J]
   exec::ExactSums<3> others;                 ///< plastic work [J]; how many are Eulerian, and have failed

@@ -6,9 +6,9 @@
 namespace piola::adaptle {
 
 std::vector<FieldInfo> observed_fields();
-/// values[k * components + c] of the k-th particle of this rank.
+/// values[k * components + c] of the k-th local particle.
 void sample_own(Particles const& particles, std::string_view field, std::span<double> values);
-/// Of all, by id, on rank 0. Collective.
+/// Gathers the values of all particles on rank 0, by id. Collective.
 void sample(Particles const& particles, std::string_view field, std::span<double> values);
 Diagnostics observe(Particles const& particles, ParticleSet const& set);
 

@@ -9,7 +9,7 @@ namespace piola::adaptle {
 
 enum class Description { adaptive, total_lagrangian, eulerian, patch };
 
-/// What a case file says about one body.
+/// Settings of one body in a case file.
 struct BodyOptions {
   Description description = Description::adaptive;
   double smoothing_length = 1.2;           ///< h of spatial sums, in spacings
@@ -25,7 +25,7 @@ struct BodyOptions {
   double hourglass_stiffness = 0;
   std::optional<Expression> eulerian_where, convert_when;
   std::optional<Expression> initial_pressure;  ///< positive in tension [Pa]
-  std::optional<Expression> ignition;          ///< when an explosive is lit [s]
+  std::optional<Expression> ignition;          ///< ignition time of an explosive [s]
   bool initial_pressure_lasts = true;
 };
 
@@ -36,10 +36,10 @@ struct Options {
 
 FormulationInfo info();
 
-/// Throws InputError with everything that is wrong.
+/// Throws InputError with all errors.
 Options read_options(Assembly const& assembly);
 
-/// Variables of the formula convert_when, in the order in which their values are given.
+/// Variables of the formula convert_when, in the order of their values.
 std::span<std::string_view const> conversion_variables();
 
 }  // namespace piola::adaptle

@@ -11,16 +11,16 @@
 
 namespace piola::adaptle {
 
-/// Who has which particles of a run, and how values of theirs go to rank 0: `width` of each, those of a rank in
-/// the order of its bodies and slots, on rank 0 in the order of ids. One rank has all.
+/// The partition of the particles of a run, and the gather of their values on rank 0: `width` per particle, on each
+/// rank in the order of its bodies and slots, on rank 0 in the order of ids. One rank has all.
 class OwnParticles {
  public:
   OwnParticles() = default;
-  /// cuts: of each body; order: kept by reference.
+  /// cuts: of each body; keeps a reference to `order`, which must outlive this.
   OwnParticles(std::vector<Shares> cuts, ParticleOrder const& order) : cuts_(std::move(cuts)), order_(&order) {}
 
   std::vector<Shares> const& cuts() const { return cuts_; }
-  /// f(slot, number of it among those of the rank)
+  /// Calls f(slot, index among the particles of the rank).
   template <class F>
   void each(int rank, F const& f) const {
     std::size_t before = 0;
@@ -42,7 +42,7 @@ class OwnParticles {
     return ids;
   }
 
-  /// all: room on rank 0, one rank after the other. Collective.
+  /// Gathers on rank 0, one rank after the other. all: receives the values on rank 0. Collective.
   void collect(std::size_t width, std::vector<double> mine, std::span<double> all) const {
     for (int rank = 0; rank < ranks::count(); ++rank) {
       if (ranks::own() == 0 && rank > 0) mine.resize(count(rank) * width);

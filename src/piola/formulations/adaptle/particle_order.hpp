@@ -7,8 +7,8 @@
 
 namespace piola::adaptle {
 
-/// Where particles stand in memory. Those of a body are together; tests deal the tiles of a body out (Shuffle,
-/// particles/ordering.hpp), else slots are ids, which takes no memory.
+/// Order of particles in memory. Those of a body are contiguous. Tests shuffle the tiles of a body (Shuffle,
+/// particles/ordering.hpp); else slots are ids, without additional memory.
 class ParticleOrder {
  public:
   explicit ParticleOrder(ParticleSet const& set);

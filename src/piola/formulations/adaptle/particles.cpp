@@ -27,10 +27,10 @@ Direction load_on(Load const& load, std::size_t k, Direction const& X, double ti
                          time);
 }
 
-/// What the law of a body says of it. kernel_volume: of spatial sums, in volumes of a particle.
+/// Sets the constants of a body from its law. kernel_volume: of spatial sums, in volumes of a particle.
 template <class Law>
 void take_constants(Law const& law, BodyOptions const& o, double kernel_volume, BodyConstants& b) {
-  b.releases = o.releases && !law.brittle;  // what is broken still bears shear under pressure
+  b.releases = o.releases && !law.brittle;  // broken material still carries shear under pressure
   b.rho0 = law.rho0;
   b.least_rho = law.rho0 / kernel_volume;
   b.bulk_modulus = law.kappa;
@@ -100,8 +100,8 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
   start();
 }
 
-/// Lists, contact energy, rates and the stable step of the initial state: without rates the first prediction would know
-/// nothing of bodies that meet, or of one that is torn apart, from the first step on.
+/// Computes lists, contact energy, rates and the stable step of the initial state. Without rates the first prediction
+/// would ignore bodies that collide, or one that is torn apart, in the first step.
 void Particles::start() {
   prepare_supports(0);
   prepare_loads(0);
@@ -153,7 +153,7 @@ void Particles::set_bodies(Assembly const& assembly) {
   own_.resize(body_.size());
 }
 
-/// What evolves, of the particles of this rank.
+/// Sets the evolved fields of the local particles.
 void Particles::set_particles(Assembly const& assembly) {
   for (std::size_t k = 0; k < body_.size(); ++k)
     with_solid(body_[k].material, [&](auto const& law) {
@@ -230,7 +230,7 @@ void Particles::allocate(Assembly const& assembly) {
   s.slot_of = order_.slots();
 }
 
-/// Who is Eulerian from the start, and how descriptions blend at the border of a patch.
+/// Sets the initial kernel types, and the blending at the border of a patch.
 void Particles::set_descriptions() {
   for (std::size_t k = 0; k < body_.size(); ++k) {
     BodyOptions const& o = options_.bodies[k];
@@ -257,7 +257,7 @@ void Particles::set_descriptions() {
   lagrangian_ = any_of([&](Index i) { return fields_.phi.at(i) < 1; });
 }
 
-/// Of the particles of this rank and, where they have reference neighbours, of those.
+/// Sets the reference data of the local particles and, if they have any, of their reference neighbours.
 void Particles::set_reference() {
   System& s = system_;
   auto const set_point = [&](Index slot) {
@@ -465,7 +465,7 @@ void Particles::sweep(double dt) {
   machine_->sweep(s);
 }
 
-/// Who is near whom in space.
+/// Builds the spatial neighbour lists of this step.
 void Particles::make_lists(SpatialLists::Others const& others) {
   spatial_.build(system_, others, *machine_, balance_.busy());
   spatial_.put_into(system_);

@@ -31,9 +31,9 @@ struct Books {
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
   double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
-  double artificial_work = 0;  ///< that artificial stress takes from motion; may give back
+  double artificial_work = 0;  ///< energy that artificial stress takes from motion, of either sign
 
-  /// Of a checkpoint, and back.
+  /// For a checkpoint.
   std::vector<double> state() const;
   void restore(std::span<double const> values);
 
@@ -67,7 +67,7 @@ class Particles {
   System const& system() const { return system_; }
   ParticleOrder const& order() const { return order_; }
   Books const& books() const { return books_; }
-  /// With what all ranks have given in the last step. Collective.
+  /// Reduces the actions of the last step over ranks. Collective.
   Actions actions() const;
   void restore_actions(std::span<double const> state) {
     action_sums_.reset();
@@ -83,8 +83,9 @@ class Particles {
   Fields& fields() { return fields_; }
   Fields const& fields() const { return fields_; }
   Books& books() { return books_; }
-  /// f(field) for everything that a checkpoint holds of those that is_saved() tells; `alive` comes first. Deformation
-  /// follows from positions, but for particles that were deleted. What those that have converted had is read by nobody.
+  /// Calls f(field) for all fields of a checkpoint; is_saved() tells which slots count. `alive` comes first.
+  /// Deformation follows from positions, except for deleted particles. The reference data of converted particles are
+  /// not needed.
   template <class Set, class F>
   void each_saved(Set& fields, F const& f) const {
     fields.each([&](auto& field) {
@@ -100,31 +101,31 @@ class Particles {
   }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
   std::vector<double> const& rigid_centres() const { return rigid_centre_; }
-  /// After a checkpoint has been read.
+  /// Rebuilds derived data after a checkpoint has been loaded.
   void resumed();
-  /// A particle has more neighbours than can be listed.
+  /// Whether a particle has more neighbours than can be listed.
   bool crowded() const { return crowded_; }
-  /// Motion of these particles, the same on all ranks [m], [m/s].
+  /// Motion of these particles, replicated on all ranks [m], [m/s].
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
-  /// Whether this rank works on it.
+  /// Whether the slot is local.
   bool is_own(Index slot) const {
     Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
     return slot >= own.first && slot < own.last;
   }
-  /// Of any rank [kg]: what is deleted flies on and touches nobody.
+  /// Mass of a particle of any rank for contact [kg]; 0 for deleted particles, which do not take part in contact.
   double mass_that_touches(std::int64_t id) const;
   /// For estimates.
   Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
   OwnParticles const& owned() const { return owned_; }
-  /// For observers of what ranks share; null: one has all.
+  /// Lattice lines for observers on several ranks; null on one rank.
   SharedLines* lines(int body) const { return lines_.empty() ? nullptr : lines_[static_cast<std::size_t>(body)].get(); }
   std::optional<Recuts> recuts() const { return balance_.recuts(); }
   LostSurfaces const& lost_surfaces() const { return lost_; }
 
  private:
   bool deleted() const;
-  /// Whether f(slot) is true of some particle.
+  /// Whether f(slot) is true for some particle.
   template <class F>
   bool any_of(F const& f) const {
     for (Index i = 0; i < system_.particles; ++i)
@@ -152,9 +153,9 @@ class Particles {
   void evaluate(double dt);
   void convert(double dt);
   bool wishes_by_formula();
-  /// Mass, change of energy and of momentum of those that convert in a step.
+  /// Mass, change of energy and of momentum of the particles converted in a step.
   using ConversionSums = exec::ExactSums<3>;
-  /// Shares the particles out among ranks by the work that they have been: the bits of all numbers stay.
+  /// Repartitions the particles by their measured work. All values stay bit-identical.
   void cut_anew();
   void take(std::vector<Shares> cuts);
   void hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to);
@@ -172,8 +173,8 @@ class Particles {
   System system_;
   std::vector<BodyConstants> body_;
   OwnParticles owned_;
-  std::vector<Range> own_;                ///< of each body: the slots that this rank works on
-  std::unique_ptr<Exchanges> exchanges_;  ///< null: one rank, which has all
+  std::vector<Range> own_;                ///< of each body: the local slots
+  std::unique_ptr<Exchanges> exchanges_;  ///< null on one rank
   std::vector<std::unique_ptr<SharedLines>> lines_;
   std::vector<int> body_of_;
   Fields fields_;
@@ -192,17 +193,17 @@ class Particles {
   FailureSlot failure_;
   Books books_;
   PartSeconds seconds_;
-  bool lagrangian_ = false;  ///< some particle is not wholly Eulerian
+  bool lagrangian_ = false;  ///< whether some particle is not fully Eulerian
   bool crowded_ = false;
   // Boundaries
   std::vector<Support> supports_;
   std::vector<Load> loads_;
   PartFilled<std::int8_t> held_;
-  PartFilled<std::size_t> holder_;  ///< per component: the support that holds it
+  PartFilled<std::size_t> holder_;  ///< per component: index of the support that holds it
   PartFilled<double> held_velocity_, load_, reaction_;
   std::vector<double> rigid_action_;
   Actions actions_;
-  /// Of the last step, of this rank, for which steps do not wait; nothing where they are in `actions_`.
+  /// Local impulses of the last step whose reduction is deferred; empty once they are in `actions_`.
   struct ActionSums {
     double dt;
     std::vector<ImpulseSum> impulses;        ///< of supports, then of loads
@@ -213,7 +214,7 @@ class Particles {
   std::vector<RigidPlace> rigid_;
   std::vector<double> rigid_centre_;
   WorkBalance balance_;
-  ParticleSet const set_;  ///< shares its memory with that of the case
+  ParticleSet const set_;  ///< copy-on-write, shared with the case
 };
 
 }  // namespace piola::adaptle

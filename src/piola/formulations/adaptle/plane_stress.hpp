@@ -4,7 +4,7 @@
 
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// Plane stress: the rate of strain across the plane for which the stress there vanishes at the end of the step, by the
+/// Plane stress: the out-of-plane strain rate for which the out-of-plane stress vanishes at the end of the step, by the
 /// secant method, particle by particle [1/s].
 template <class Law>
 struct RateAcross {
@@ -45,7 +45,7 @@ struct RateAcross {
     double const rho_half = balance.rho_half.at(i), thickness = balance.thickness_of<double>(i);
     SymMat<3> const S = law.returned(history, trial, dt, balance.pressure.at(i), rho_half / law.rho0);
     double const energy = balance.energy.at(i) + dt * (balance.stress_power(i, L) * thickness + heat);
-    // A total-Lagrangian density follows from the thickness that the step will end with.
+    // A total-Lagrangian density follows from the thickness at the end of the step.
     double const end = balance.thickness.at(i) + dt * thickness * L(2, 2);
     double const rho = balance.phi.at(i) > 0 ? balance.rho.at(i) - dt * rho_half * trace(L)
                                              : rho_half * (1 - 0.5 * dt * (L(0, 0) + L(1, 1))) * thickness / end;

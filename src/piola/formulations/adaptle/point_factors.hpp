@@ -9,16 +9,16 @@
 
 namespace piola::adaptle {
 
-/// What a case adds to the law of each particle: a pressure at the start, the burning of explosives, and a scatter of
-/// what particles bear before they fail. Nothing of it is in checkpoints: it follows from the case and the time.
+/// Additions of a case to the law of each particle: an initial pressure, the burning of explosives, and a scatter of
+/// the failure strength. Not saved in checkpoints: a function of the case and the time.
 class PointFactors {
  public:
-  /// At a time [s]: that of the start, or of a resumed run. own: slots of this rank, of each body; others have none.
+  /// For a time [s]: the start, or that of a resumed run. own: local slots of each body; others have none.
   void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
              std::vector<Range> const& own, ParticleSet const& set, ParticleOrder const& order, double time);
-  /// Brings what changes to a time [s].
+  /// Updates time-dependent factors to a time [s].
   void go_to(double time);
-  /// What acts for one step only is gone.
+  /// Removes factors that act for one step only.
   void end_of_step();
 
   OwnFactors view() const;
@@ -35,14 +35,14 @@ class PointFactors {
     double rate;  ///< of burning [1/s]
   };
 
-  /// Of a factor, per slot, that other bodies do not have.
+  /// The values of a factor per slot, with `otherwise` for bodies that do not have it.
   PartFilled<double>& with(PartFilled<double>& values, double otherwise) const;
 
   ParticleOrder const* order_ = nullptr;
   ParticleSet const* set_ = nullptr;
   std::vector<Range> own_;
   PartFilled<double> initial_pressure_, burnt_, toughness_;  ///< per slot; empty: none
-  PartFilled<double> lit_;                                   ///< when each particle of an explosive is lit [s]
+  PartFilled<double> lit_;                                   ///< ignition time of each particle of an explosive [s]
   std::vector<Explosive> explosives_;
   std::vector<Range> impulses_;  ///< particles whose initial pressure acts for one step
 };

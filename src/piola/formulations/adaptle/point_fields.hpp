@@ -4,7 +4,7 @@
 #include "piola/formulations/adaptle/state.hpp"
 #include "piola/materials/solids.hpp"
 
-/// What the law of a point asks of fields. V is `double`, for observers, or a pack of lanes.
+/// Inputs of the law at a point, read from fields. V is `double`, for observers, or a pack of lanes.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 struct PointFields {
@@ -34,14 +34,14 @@ struct PointFields {
             factor<V>(own.burnt, i),
             factor<V>(own.toughness, i)};
   }
-  /// Whether a particle bears a deviator at all.
+  /// Whether a particle carries a deviator.
   template <class V>
   PIOLA_FN auto bears(Index i) const {
     return alive.scalar<V>(i) > 0.0 && released.scalar<V>(i) < 1.0;
   }
 
-  /// The pressure that a particle bears, positive in compression [Pa]: of the equation of state, without the tension
-  /// that a failed particle has released, with what the case adds. e: specific energy [J/kg].
+  /// The pressure of a particle, positive in compression [Pa]: equation of state, without the released tension of a
+  /// failed particle, with the initial pressure of the case. e: specific energy [J/kg].
   template <class V, class Law>
   PIOLA_FN V pressure(Law const& law, Index i, V const& rho, V const& e) const {
     V p = law.pressure(history<V>(i, {}), rho, e);

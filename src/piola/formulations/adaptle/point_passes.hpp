@@ -3,15 +3,15 @@
 #include "piola/formulations/adaptle/material_pairs.hpp"
 #include "piola/formulations/adaptle/point_fields.hpp"
 
-/// What happens at one particle between the sweeps, a group of lanes at a time. The scheme drifts half a step,
-/// evaluates everything once at half time with predicted rates, kicks, and drifts the other half. What does not ask for
-/// the law of a body is a struct without it, so that it is compiled once.
+/// Operations at one particle between the sweeps, a group of lanes at a time. The scheme drifts half a step, evaluates
+/// everything once at half time with predicted rates, kicks, and drifts the other half. Law-independent parts are
+/// separate structs, so that they are compiled once.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// Factor of the viscosity, never zero: its sign tells descriptions apart.
+/// Factor of the viscosity, never zero: its sign encodes the kernel type.
 PIOLA_FN Lanes positive_factor(Lanes const& viscosity) { return maximum(viscosity, Lanes(1e-300)); }
 
-/// To half time; what the first sweep reads of neighbours, and sums that begin with zero.
+/// Drifts to half time; writes the neighbour data of the first sweep, and clears sums.
 template <int D>
 struct Drift {
   double dt;
@@ -91,7 +91,7 @@ struct Drift {
     compression.put(g, Lanes(0.0));
   }
 
-  /// Deleted particles have no volume; the rest of what they say does not matter.
+  /// Deleted particles have no volume; their other values are irrelevant.
   PIOLA_FN void write_record(Group g, Vec<3, Lanes> const& place, Vec<3, Lanes> const& speed) const {
     using R = MaterialRecord<D>;
     Lanes r[R::A];
@@ -108,8 +108,8 @@ struct Drift {
   }
 };
 
-/// Drifts to half time and predicts there with the rates of the step before. S is brought back to the yield surface
-/// without a change of history.
+/// Drifts to half time and predicts with the rates of the last step. S is returned to the yield surface without a
+/// change of history.
 template <int D, class Law>
 struct Predict {
   Law law;
@@ -141,7 +141,7 @@ struct Predict {
   }
 };
 
-/// Density and volume of half time.
+/// Density and volume at half time.
 struct HalfVolume {
   double rho0, step;  ///< step: half of a time step [s]
   MaterialTable material;

@@ -5,16 +5,15 @@
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/partial_records.hpp"
 
-/// What neighbours read of a particle: records of doubles, a multiple of eight long, and the kernel between two of
-/// them.
+/// Neighbour data of a particle: records of doubles, a multiple of eight long, and the kernel between two of them.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
 constexpr int whole(int values) { return (values + 7) / 8 * 8; }
 
-/// Of a particle in space at half time. M = phi V sigma (its weight in the stress forces). With the correction folded
-/// in (gt_ab = N g - n W, N = K/S, n = K G/S^2) M becomes M N, and m = M n. The viscosity is its factor, with a
-/// negative sign for total-Lagrangian particles. R, the artificial stress of eq. (10), comes last and only where there
-/// is one: in three dimensions the rest is just two cache lines.
+/// Record of a particle in space at half time. M = phi V sigma (its weight in the stress forces). With the correction
+/// folded in (gt_ab = N g - n W, N = K/S, n = K G/S^2) M becomes M N, and m = M n. The viscosity is its factor, with a
+/// negative sign for total-Lagrangian particles. R, the artificial stress of eq. (10), comes last and only if used: in
+/// three dimensions the rest is just two cache lines.
 template <int D, bool Corrected>
 struct SpatialRecord {
   static constexpr int symmetric = D * (D + 1) / 2;
@@ -26,10 +25,10 @@ struct SpatialRecord {
   static constexpr int stride(bool stressed) { return whole(values(stressed)); }
 };
 
-/// For sums over reference neighbours. Displacement, velocity of half time, reference volume, factor of the viscosity
-/// (negative: not total-Lagrangian), reference position; the first sweep reads so far. The second reads A = (1 - phi)
-/// V0 P K, in three dimensions the second and third cache line; with the sums of set (2) also a = (1 - phi) V0 P n, the
-/// F^-T N and F^-T n of the viscosity, and 1/J. On lattices each component is an array of its own (MaterialRows).
+/// Record for sums over reference neighbours. First sweep: displacement, velocity at half time, reference volume,
+/// factor of the viscosity (negative: not total-Lagrangian), reference position. Second sweep: A = (1 - phi) V0 P K, in
+/// three dimensions the second and third cache line; with the sums of set (2) also a = (1 - phi) V0 P n, the F^-T N and
+/// F^-T n of the viscosity, and 1/J. On lattices each component is an array of its own (MaterialRows).
 template <int D>
 struct MaterialRecord {
   static constexpr int u = 0, v = D, volume = 2 * D, viscosity = 2 * D + 1, X = 2 * D + 2, A = X + D, a = A + D * D,
@@ -56,8 +55,8 @@ struct Kernel {
   }
 };
 
-/// Zeros to start sums from; the argument is any finite number. That they are zeros is not known to the compiler, which
-/// would else also write them to memory that nobody reads.
+/// Zeros to start sums from; the argument is any finite number. The compiler cannot see that they are zeros; otherwise
+/// it would also write them to memory that is never read.
 [[gnu::always_inline]] PIOLA_FN Lanes zeros_from(double finite) { return Lanes(finite - finite); }
 
 template <int D>
@@ -88,7 +87,7 @@ PIOLA_FN double largest_of(Lanes const& a) {
   return largest;
 }
 
-/// Sums over lanes and neighbours of N values: out[c] = sum of the lanes of a[c].
+/// Sums over lanes of N values: out[c] = sum of the lanes of a[c].
 template <int N>
 PIOLA_FN void total(Lanes const (&a)[N], double (&out)[whole(N)]) {
   add_lanes(a, out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranks: each works on its part of the slots of each body, from time to time on another one, and has memory for that
-// and for what its particles read of reference neighbours. What particles are all ranks know.
+// Distribution over ranks: each rank owns a contiguous range of slots per body, which repartitioning may change; it
+// stores fields of these and of their reference ghosts. Kernel type and deletion flag of all particles are replicated.
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/parallel/own_slots.hpp"
@@ -10,7 +10,7 @@
 
 namespace piola::adaptle {
 
-/// What is made for the particles of this rank.
+/// Builds the data of the local particles.
 void Particles::take(std::vector<Shares> cuts) {
   std::fill(rigid_action_.begin(), rigid_action_.end(), 0);  // a part may have fewer blocks than the one before
   owned_ = OwnParticles(cuts, order_);
@@ -40,7 +40,7 @@ double Particles::work_of(Index slot) const {
   return points + (phi < 1 ? 1 - points : 0) + (phi > 0 ? flows - points : 0);
 }
 
-/// What a checkpoint holds is all that the new owner of a particle needs, as with a run that goes on elsewhere.
+/// Repartitions. The fields of a checkpoint suffice for the new owner of a particle, as in a resumed run.
 void Particles::cut_anew() {
   std::vector<Shares> const& now = owned_.cuts();
   std::vector<std::vector<double>> work(now.size());
@@ -76,7 +76,8 @@ Actions Particles::actions() const {
   return all;
 }
 
-/// What a checkpoint holds of particles that change hands, from those who had them to those who have them now.
+/// Migrates particles from the old partition to the new one: sends the fields of a checkpoint, except phi and alive,
+/// which all ranks hold, from the old owner to the new one.
 void Particles::hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to) {
   std::vector<Field*> fields;
   each_saved(fields_, [&](Field& field) {
@@ -111,7 +112,7 @@ void Particles::hand_over(std::vector<Shares> const& from, std::vector<Shares> c
   }
 }
 
-/// All ranks have what there is to say about the particle that failed.
+/// Replicates the values of the failed particle for its error message.
 void Particles::tell_failure() {
   Index const slot = failure_.index != FailureSlot::none ? failure_.index : order_.slot(0);
   Range const own = own_[at(body_of_[at(slot)])];

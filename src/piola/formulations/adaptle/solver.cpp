@@ -113,7 +113,7 @@ class Solver final : public Formulation, public SurfaceLoss {
   std::optional<Talk> talk(std::size_t body) const override { return particles_.talk(static_cast<int>(body)); }
 
  private:
-  /// Of a field the rows of this rank's particles, whose ids these are.
+  /// The rows of a field of the local particles, whose ids are given.
   RowsOfRanks rows_of(Field const& field, std::vector<Index> const& ids) const {
     return {0, particles_.system().particles, ids, field.components()};
   }

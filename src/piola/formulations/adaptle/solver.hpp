@@ -7,10 +7,10 @@
 
 namespace piola::adaptle {
 
-/// Throws InputError if the case asks for what the formulation cannot do.
+/// Throws InputError if the formulation cannot run the case.
 std::unique_ptr<Formulation> make(Assembly const& assembly);
 
-/// What is odd about one body of a case that this formulation can run.
+/// Adds warnings about one body of a valid case.
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts);
 
 }  // namespace piola::adaptle

@@ -24,8 +24,8 @@ bool is_own(System const& s, Index slot) {
 
 }  // namespace
 
-/// Cells of one rank, which has all particles. Where all flow, and none touches another body, it need not ask who is
-/// near.
+/// Sorts all particles into cells, on one rank. If all are Eulerian and none is in contact with another body, all take
+/// part.
 void SpatialLists::sort_all(System const& s) {
   grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
   grid_.sort({s.particles, s.slot_of});
@@ -36,7 +36,7 @@ void SpatialLists::sort_all(System const& s) {
   marks_.finish(touching(s));
 }
 
-/// Cells of own particles and of those of other ranks that these read.
+/// Sorts local particles and spatial ghosts into cells.
 void SpatialLists::sort_with_others(System const& s, Others const& others) {
   NearExchange& near = *others.near;
   grid_.lay(others.bounds, s.particles, s.dimension, widest_, origin_of_cells(s),
@@ -104,7 +104,7 @@ void SpatialLists::make_room(System const& s) {
   std::fill_n(results_.data() + static_cast<std::ptrdiff_t>(sorted) * SpatialResult::stride, SpatialResult::stride, 0);
 }
 
-/// Those without a list have the zeros after the last.
+/// Particles without a list get the zeros after the last result.
 void SpatialLists::place_results(System const& s) {
   constexpr Index beyond = 16;  // what groups of lanes read after the last particle
   if (result_of_.size() != at(s.particles + beyond)) result_of_ = PartFilled<Index>(at(s.particles + beyond));

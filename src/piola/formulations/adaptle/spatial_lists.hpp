@@ -9,27 +9,27 @@
 
 namespace piola::adaptle {
 
-/// Cells, spatial neighbours and contacts of the current positions, made anew in every step. Particles that are
-/// total-Lagrangian and far from Eulerian ones and from other bodies get none. Of a run on several ranks each sorts
-/// its own particles and those of others that it reads.
+/// Cells, spatial neighbours and contacts of the current positions, rebuilt in every step. Total-Lagrangian particles
+/// far from Eulerian ones and from other bodies get none. On several ranks each sorts its local particles and their
+/// spatial ghosts.
 class SpatialLists {
  public:
-  /// Of a run on several ranks what these have to say; near: null on one rank.
+  /// Input from other ranks: the spatial halo exchange (null on one rank) and the bounds of all particles.
   struct Others {
     NearExchange* near = nullptr;
-    CoordinateBounds bounds{};  ///< of the particles of all
+    CoordinateBounds bounds{};  ///< of all particles
   };
-  /// busy: grows by the time of what each rank does for its own particles alone [s].
+  /// busy: increased by the time of the work on local particles [s].
   void build(System const& system, Others const& others, Machine const& machine, double& busy);
   void put_into(System& system);
   std::size_t bytes() const;
   Index longest() const { return longest_; }
   bool overflow() const { return overflow_; }  ///< a particle has more neighbours than can be listed
-  /// Whether there is anything to list.
+  /// Whether there are Eulerian particles or contact.
   static bool needed(System const& system) { return system.eulerians > 0 || touching(system); }
   static bool touching(System const& system) { return system.contact.law > 0 && system.bodies > 1; }
   double widest() const { return widest_; }  ///< edge of a cell [m]
-  /// Of the last step, per slot; 0 where this rank has no list.
+  /// In the last step, per slot; 0 without a list on this rank.
   PartFilled<int> neighbours_by_slot(System const& system) const;
 
  private:
@@ -46,7 +46,7 @@ class SpatialLists {
 
   MovingGrid grid_;
   CellMarks marks_;
-  PartFilled<std::uint8_t> near_;  ///< per slot that is sorted: whether somebody reads its record
+  PartFilled<std::uint8_t> near_;  ///< per sorted slot: whether another particle reads its record
   std::vector<std::int32_t> group_;
   std::vector<float> reach_;
   List spatial_, contact_;

@@ -11,7 +11,7 @@ struct SpatialTarget {
   double const* own;
   Index const* list;
   Index length;
-  double* result;  ///< SpatialResult; what a sweep of D dimensions does not write stays zero
+  double* result;  ///< SpatialResult; entries that a sweep of D dimensions does not write stay zero
   PIOLA_FN SpatialTarget(SpatialTable const& t, Index number)
       : slot(t.slot[t.target[number]]),
         own(t.record + static_cast<std::ptrdiff_t>(t.target[number]) * t.stride),
@@ -90,7 +90,7 @@ struct SpatialSweep {
     auto const [mu, plain] =
         viscous_pair(b.alpha, b.beta, b.h, closing, square, f[R::c] + own[R::c], f[R::rho] + own[R::rho]);
     sum.mu = minimum(sum.mu, mu);
-    // One description per pair: a total-Lagrangian pair has its viscosity from material sums.
+    // One kernel type per pair: a total-Lagrangian pair has its viscosity in material sums.
     bool const here = own[R::viscosity] > 0;
     Lanes factor = 0.5 * (maximum(f[R::viscosity], -1.0 * f[R::viscosity]) + std::fabs(own[R::viscosity]));
     if (!here) factor = select(f[R::viscosity] > 0.0, factor, Lanes(0.0));
@@ -117,7 +117,7 @@ struct SpatialSweep {
     return sum;
   }
 
-  /// In the printed interface total-Lagrangian particles have their stress forces from material sums alone.
+  /// In the published interface total-Lagrangian particles have their stress forces from material sums alone.
   PIOLA_FN bool bears_stress(double const* own) const {
     return settings.interface_form == Interface::owner || own[R::viscosity] > 0;
   }
@@ -129,12 +129,12 @@ struct SpatialSweep {
     return here * there;
   }
 
-  /// The same with plain gradients, gt_ab = -gt_ba = g.
+  /// As above with plain gradients, gt_ab = -gt_ba = g.
   [[gnu::always_inline]] PIOLA_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r,
                                                        Vec<D, Lanes> const& w, Lanes const& Vs, Lanes const& closing,
                                                        Lanes const& pressure, Lanes const& stress_weight,
                                                        Accumulated& sum) const {
-    // Over V_a, as the sum Q: it shares its place.
+    // Over V_a, like the sum Q, which uses the same record entry.
     Lanes const weight = own[R::rho] * f[R::rho] * Vs, push = weight * pressure;
     Lanes power = -1.0 * push * closing;
     for (int i = 0; i < D; ++i) sum.a[Accumulated::Q + i] -= push * r[i];
@@ -157,7 +157,7 @@ struct SpatialSweep {
     sum.a[Accumulated::heat] += power;
   }
 
-  /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity. Only they read the
+  /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity. Only these read the
   /// rest of the records.
   [[gnu::always_inline]] PIOLA_FN void add_extra(double const* own, Index const* list, Lanes const* f,
                                                  Vec<D, Lanes> const& r, Vec<D, Lanes> const& w, Lanes const& s,
@@ -227,8 +227,8 @@ struct SpatialSweep {
   }
 };
 
-/// Corrections (4), (5) of one spatial target, dropped where they would change a gradient by more than C_f, turn it
-/// round, or cannot be had.
+/// Corrections (4), (5) of one spatial target, dropped if they would change a gradient by more than C_f, invert it, or
+/// are singular.
 template <int D>
 struct CorrectSpatial {
   using R = SpatialRecord<D, true>;

@@ -6,41 +6,41 @@
 #include "piola/neighbours/moving_pairs.hpp"
 #include "piola/neighbours/tables.hpp"
 
-/// An AdapTLE run as its loops see it: plain data that crosses between machines. Particles stay where they are, those
-/// of a body together; what spatial sums read is gathered into the order of the cell grid in every step.
+/// State of an AdapTLE run for its loops: plain data, independent of the instruction set. Particles keep their slots,
+/// those of a body contiguous; data for spatial sums are gathered into the order of the cell grid in every step.
 namespace piola::adaptle {
 
 enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
 enum class Interface {
-  owner,   ///< each particle acts through its own gradients, its neighbours feel the reaction: conserves
-  printed  ///< each particle sums in its own description over all its neighbours, as published
+  owner,   ///< each particle acts through its own gradients, its neighbours receive the reaction: conserves
+  printed  ///< each particle sums with its own kernel type over all its neighbours, as published
 };
 /// Artificial stress between a total-Lagrangian and an Eulerian particle.
 enum class MixedStress { both, eulerian_only, none };
 
-/// Place in the lists of reference neighbours: a few dozen million particles have more pairs than an Index can count.
+/// Index in the lists of reference neighbours: tens of millions of particles have more pairs than an Index can count.
 using Offset = std::int64_t;
 
-/// What cases add to the law of a point, per slot; null: nothing.
+/// Additions of a case to the law of a point, per slot; null: none.
 struct OwnFactors {
   double const* initial_pressure = nullptr;  ///< positive in tension [Pa]
-  double const* burnt = nullptr;             ///< part of an explosive that is gas at half time
-  double const* toughness = nullptr;         ///< factor on what it bears before it fails
+  double const* burnt = nullptr;             ///< burnt fraction of an explosive at half time
+  double const* toughness = nullptr;         ///< factor on the failure strength
 };
 
-/// Fields as loops see them; what they are stands in Fields. Without data: the case does not need it.
+/// Fields for loops; described in Fields. Without data: not needed by the case.
 struct ParticleFields {
   FieldRef X, volume, mass;
   FieldRef x, v, S, rho, energy;
   FieldRef plastic_strain, temperature, damage, plastic_work;
-  FieldRef thickness, thickness_half;  ///< in plane stress, over that at the start
+  FieldRef thickness, thickness_half;  ///< in plane stress, over the initial one
   FieldRef viscosity;                  ///< factor on alpha and beta of the switch of the viscosity
-  FieldRef phi;                        ///< 0 total-Lagrangian, 1 Eulerian, between: blended
-  FieldRef alive;                      ///< 0: deleted, bears no stress
-  FieldRef released;                   ///< share of shear and tension that a failed particle does not bear any more
-  FieldRef bulking;                    ///< pressure of broken material that wants more room
+  FieldRef phi;                        ///< kernel type: 0 total-Lagrangian, 1 Eulerian, between: blended
+  FieldRef alive;                      ///< 0: deleted, carries no stress
+  FieldRef released;                   ///< fraction of shear and tension that a failed particle has released
+  FieldRef bulking;                    ///< pressure by bulking of broken material
   FieldRef a, S_rate, rho_rate, energy_rate, thickness_rate;
-  FieldRef flow;  ///< von Mises stress at the end of the last plastic step; 0: the next prediction asks the law
+  FieldRef flow;  ///< von Mises stress at the end of the last plastic step; 0: the next prediction evaluates the law
   FieldRef v_half, S_half, volume_half, rho_half, c;
   FieldRef pressure;  ///< positive in compression
   FieldRef F, F_rate;
@@ -49,10 +49,10 @@ struct ParticleFields {
   FieldRef hourglass;    ///< power that the hourglass stiffness stores
   FieldRef compression;  ///< largest |mu_ab| of the viscosity
   FieldRef contact;      ///< in the order of ContactSum
-  // Of sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a:
+  // For sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a:
   FieldRef K;                 ///< inverse of sum_b V0_b s r (x) r, symmetric, of D dimensions; not as published
-  FieldRef gradient_sum;      ///< sum_b V0_b s r of those that are not deleted
-  FieldRef kernel_sum;        ///< sum_b V0_b W of these
+  FieldRef gradient_sum;      ///< sum_b V0_b s r over particles that are not deleted
+  FieldRef kernel_sum;        ///< sum_b V0_b W over these
   FieldRef N, gradient_mean;  ///< as published, gt_ab = N (g - G W), with N = K/S and G over S
 };
 
@@ -60,27 +60,28 @@ struct ParticleFields {
 struct ContactSum {
   static constexpr int power = 0,  ///< of contact forces on half the relative velocities [W]
       stiffness = 1,               ///< [N/m]
-      overlap = 2,                 ///< largest share of the stand-off distance that a contact has used up
-      closing = 3,                 ///< fastest approach of particles of other bodies within reach, over dp [1/s]
+      overlap = 2,                 ///< largest fraction of the stand-off distance used by a contact
+      closing = 3,                 ///< fastest approach of particles of other bodies within the search distance, over
+                                   ///< dp [1/s]
       size = 4;
 };
 
-/// Results of spatial sums, a record per sorted particle, so that they are written in the order of the sweep.
+/// Results of spatial sums, a record per sorted particle, in the order of the sweep.
 struct SpatialResult {
   static constexpr int force = 0,  ///< [N]
       heat = 3,                    ///< of viscosity and artificial stress [W]
       L = 4,                       ///< spatial velocity gradient [1/s]
       compression = 13,            ///< largest |mu_ab| of the viscosity [m/s]
-      artificial = 14,             ///< part of the heat: of artificial stress, of either sign [W]
+      artificial = 14,             ///< artificial stress's part of the heat, of either sign [W]
       size = 15, stride = 16;
 };
 
-/// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity where there is none.
+/// Correction of kernel and gradient (eqs. 4, 5): gt_ab = K (g S - G W) / S^2. Identity if there is none.
 struct Correction {
   double S, G[3], K[9];
 };
 
-/// What the particles of one body share.
+/// Constants of the particles of one body.
 struct BodyConstants {
   MaterialParameters material;
   Index first = 0, last = 0;  ///< slots
@@ -88,12 +89,12 @@ struct BodyConstants {
   double material_h = 1;      ///< of sums over reference neighbours [m]
   double spacing = 1;         ///< dp [m]
   double rho0 = 1;            ///< [kg/m3]
-  double least_rho = 0;       ///< of Eulerian particles: one spread over its whole kernel [kg/m3]
+  double least_rho = 0;       ///< minimum of Eulerian particles: mass spread over the whole kernel [kg/m3]
   double c = 0;               ///< of the viscosity [m/s]
   double alpha = 1, beta = 2;
   double artificial_stress = 0;    ///< epsilon
-  double hourglass = 0;            ///< damping of velocities that no gradient sees
-  double hourglass_stiffness = 0;  ///< against displacements that no gradient sees, over the shear modulus
+  double hourglass = 0;            ///< damping of velocities that gradients do not see
+  double hourglass_stiffness = 0;  ///< against displacements that gradients do not see, over the shear modulus
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0, jacobian_max = 0, tether = 0;
   double shear_share = 0.5;         ///< speed of shear waves over that of pressure waves
   double bulk_modulus = 0;          ///< at rest [Pa]
@@ -111,7 +112,7 @@ struct ContactPair {
   double eps = 0;  ///< [J]
   double h = 1, dp = 1;
   double exponent = 4;    ///< n
-  bool surfaces = false;  ///< surfaces keep the bodies apart where both still have one
+  bool surfaces = false;  ///< surface contact applies while both particles have a surface
 };
 
 /// A rigid shape at half time.
@@ -121,46 +122,46 @@ struct RigidPlace {
 };
 
 struct SpatialTable {
-  Index sources = 0;                   ///< sorted particles; the record after the last is a filler, far away
+  Index sources = 0;                   ///< number of sorted particles; the record after the last is a filler, far away
   Index const* slot = nullptr;         ///< of each sorted particle
   Index const* sorted = nullptr;       ///< of each slot
-  Index targets = 0;                   ///< that have a list
+  Index targets = 0;                   ///< number of particles with a list
   Index const* target = nullptr;       ///< sorted numbers
   Index capacity = 0;                  ///< of one list
-  Index const* list = nullptr;         ///< [target][capacity]: sorted numbers, filled up to whole lanes
+  Index const* list = nullptr;         ///< [target][capacity]: sorted numbers, padded to whole lanes
   Index const* length = nullptr;       ///< a multiple of the lanes
   std::uint8_t const* near = nullptr;  ///< per slot: whether it takes part; null: all do
   double* record = nullptr;
   int stride = 0;                    ///< of records
-  double* result = nullptr;          ///< SpatialResult; zeros after the last; null: there are no spatial sums
-  Index const* result_of = nullptr;  ///< per slot: number of its result, which may be that of the zeros
+  double* result = nullptr;          ///< SpatialResult; zeros after the last; null: no spatial sums
+  Index const* result_of = nullptr;  ///< per slot: index of its result, which may be that of the zeros
 };
 
-/// Who takes part in material sums: bits of MaterialTable::part.
+/// Participation in material sums: bits of MaterialTable::part.
 struct MaterialPart {
   static constexpr std::uint8_t kinematic = 1;  ///< its F is needed
-  static constexpr std::uint8_t target = 2;     ///< it feels material forces
-  static constexpr std::uint8_t mixed = 4;      ///< not all of its neighbours are total-Lagrangian
+  static constexpr std::uint8_t target = 2;     ///< it receives material forces
+  static constexpr std::uint8_t mixed = 4;      ///< some neighbour is not total-Lagrangian
 };
 
-/// A body that is a regular lattice: what its particles read of each other lies in arrays, and neighbours at distances
-/// that whole groups of lanes share. Components as in MaterialRecord.
+/// A body on a regular lattice: neighbour data in arrays, and neighbours at offsets common to whole groups of lanes.
+/// Components as in MaterialRecord.
 struct MaterialRows {
-  Index first = 0;            ///< slot of place 0
-  double* record = nullptr;   ///< component c of place i: record[c * stride + i]; null: the body has lists
+  Index first = 0;            ///< slot of position 0
+  double* record = nullptr;   ///< component c of position i: record[c * stride + i]; null: the body has lists
   std::ptrdiff_t stride = 0;  ///< between components
-  Index empty = 0;            ///< a place without a particle
+  Index empty = 0;            ///< a position without a particle
   StencilTable stencil;       ///< s without volumes, and W
 };
 
 struct MaterialTable {
-  Offset const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, filled up to whole lanes
+  Offset const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, padded to whole lanes
   Index const* neighbour = nullptr;
-  bool used = false;                ///< some particle is not wholly Eulerian
-  double* record = nullptr;         ///< of bodies with lists; a filler after the last
-  MaterialRows rows;                ///< of the body that a loop is about
-  float const* gradient = nullptr;  ///< per pair: -W'(r)/r in the reference configuration, the same from both ends
-  double const *s = nullptr, *W = nullptr;  ///< the same in double, with plain gradients; W(r), as published
+  bool used = false;                        ///< whether some particle is not fully Eulerian
+  double* record = nullptr;                 ///< of bodies with lists; a filler after the last
+  MaterialRows rows;                        ///< of the body of the current loop
+  float const* gradient = nullptr;          ///< per pair: -W'(r)/r in the reference configuration, equal from both ends
+  double const *s = nullptr, *W = nullptr;  ///< as `gradient`, in double, with plain gradients; W(r), as published
   std::uint8_t const* part = nullptr;       ///< per slot: MaterialPart
   MaterialRows const* rows_of = nullptr;    ///< per body
 };
@@ -177,7 +178,7 @@ struct ContactTable {
   double scale = 1;                    ///< of the stiffness of rigid shapes
   std::uint8_t const* lost = nullptr;  ///< per slot: whether its surface is lost (LostSurfaces)
 
-  /// Whether this contact keeps two particles apart, and not surfaces.
+  /// Whether kernel contact acts between two particles, and not surface contact.
   [[gnu::always_inline]] PIOLA_FN bool acts(ContactPair const& between, Index i, Index j) const {
     return !between.surfaces || lost[i] != 0 || lost[j] != 0;
   }
@@ -189,44 +190,44 @@ struct Settings {
   MixedStress mixed_stress = MixedStress::both;
   bool corrected = false;           ///< spatial sums
   bool corrected_material = false;  ///< material sums
-  bool published = false;           ///< material sums of set (2), word by word
+  bool published = false;           ///< material sums of set (2), exactly as published
   bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f
   double cfl = 0.3;
 };
 
-/// What a step says about itself.
+/// Results of a step.
 struct Measures {
   double dt = 0;  ///< stable step from the new state [s]
   double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0,
          artificial_power = 0;  ///< [W]
   double overlap = 0;
-  Index wishes = 0;      ///< particles that want to convert or to be deleted
-  bool crowded = false;  ///< a particle has more neighbours than can be listed
+  Index wishes = 0;      ///< number of particles to convert or to delete
+  bool crowded = false;  ///< whether a particle has more neighbours than can be listed
 };
 
 struct System {
-  bool shared = false;   ///< by several ranks
-  bool crowded = false;  ///< as in Measures, of the lists of this rank
+  bool shared = false;   ///< distributed over several ranks
+  bool crowded = false;  ///< as in Measures, for the lists of this rank
   int dimension = 3, bodies = 0;
   Index particles = 0;
   Settings settings;
   BodyConstants const* body = nullptr;
-  Range const* part = nullptr;     ///< per body: the slots that this rank works on
+  Range const* part = nullptr;     ///< per body: the local slots
   int const* body_of = nullptr;    ///< per slot
   Index const* slot_of = nullptr;  ///< per id; null: slots are ids
   ParticleFields field;
   Correction* correction = nullptr;        ///< spatial
-  double* position = nullptr;              ///< of half time, 3 per slot: what the cell grid sorts
+  double* position = nullptr;              ///< at half time, 3 per slot: input of the cell grid
   std::uint8_t const* eulerian = nullptr;  ///< per slot: phi > 0
-  Index eulerians = 0;                     ///< how many are
+  Index eulerians = 0;                     ///< their number
   SpatialTable spatial;
   MaterialTable material;
   ContactTable contact;
   RigidPlace const* rigid = nullptr;
   int rigids = 0;
-  double* rigid_power = nullptr;  ///< per slot: work of moving shapes [W]
+  double* rigid_power = nullptr;  ///< per slot: power of moving shapes [W]
   OwnFactors own;
   double const* load = nullptr;           ///< acceleration of loads at half time, 3 per slot; null: none
   std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
@@ -234,7 +235,7 @@ struct System {
   double* reaction = nullptr;             ///< per slot: force of supports in the step, 3 values [N]; null: none
   double* rigid_action =
       nullptr;  ///< [block of a body][shape]: force [N] and moment about the origin [N m] of rigid shapes
-  std::int8_t* wish = nullptr;  ///< per slot: 0, 1 converts with its neighbours, 2 alone
+  std::int8_t* wish = nullptr;  ///< conversion request per slot: 0 none, 1 with its neighbours, 2 alone
   double* partial = nullptr;    ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
@@ -242,20 +243,20 @@ struct System {
 /// Codes of FailureSlot.
 enum FailureCode { not_a_number = 1, negative_density = 2, inverted = 3 };
 
-/// The loops of one machine (instruction set).
+/// The loops of one instruction set.
 struct Machine {
   char const* name;
   int lanes;
-  void (*predict)(System&, double dt);     ///< to half time; writes motion records
-  void (*deform)(System&);                 ///< F and its rate of half time from reference neighbours
-  void (*half_state)(System&, double dt);  ///< densities, pressures, and the records of both descriptions
-  void (*correct)(System&);                ///< kernel and gradient corrections of half time
+  void (*predict)(System&, double dt);     ///< drifts to half time; writes motion records
+  void (*deform)(System&);                 ///< F and its rate at half time from reference neighbours
+  void (*half_state)(System&, double dt);  ///< densities, pressures, and the records for both kernel types
+  void (*correct)(System&);                ///< kernel and gradient corrections at half time
   void (*sweep)(System&);                  ///< forces, heat and velocity gradients
-  Measures (*finish)(System&, double dt);  ///< to the end of the step
+  Measures (*finish)(System&, double dt);  ///< completes the step
   void (*search)(MovingSearch const&);     ///< lists of spatial neighbours
 };
 
-// As those of the other formulations (exec/instruction_sets.hpp).
+// As for the other formulations (exec/instruction_sets.hpp).
 Machine const* find_machine(char const* name);
 char const* const* machine_names();
 Machine const& choose_machine(char const* name);

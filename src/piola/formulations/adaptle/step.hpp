@@ -104,7 +104,7 @@ struct Step {
     return table;
   }
 
-  /// f(form), which is known when it is compiled.
+  /// Calls f(form) with a compile-time form.
   template <class F>
   void with_form(F const& f) const {
     using Form = MaterialForm;
@@ -118,7 +118,7 @@ struct Step {
       f(std::integral_constant<Form, Form::plain>{});
   }
 
-  /// Own places of a body on a lattice.
+  /// Local lattice positions of a body.
   Range places_of(int b) const { return {s.part[b].first - s.body[b].first, s.part[b].last - s.body[b].first}; }
 
   template <MaterialForm Form>
@@ -153,7 +153,7 @@ struct Step {
       exec::for_each_block(targets, SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of});
   }
 
-  /// What the steps of all ranks say: the same on all of them.
+  /// Reduces the results of the step over ranks.
   void combine_over_ranks(Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {
     struct Said {
       Measures m;

@@ -5,11 +5,11 @@
 
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// Share of a volume, or of a spacing between bodies, that a step may take: with 0.1 the error in time of an impact at
-/// several km/s shows in the fourth digit of its energy.
+/// Largest relative change of a volume, or of the spacing between bodies, in a step: with 0.1 the time error of an
+/// impact at several km/s shows in the fourth digit of its energy.
 inline constexpr double largest_change = 0.05;
 
-/// What limits the step of a group of particles.
+/// Quantities that limit the step of a group of particles.
 struct StepLimit {
   Lanes stretch;       ///< of the smoothing length, F^-1, squared: see stretch_squared; 1: nothing is compressed
   Lanes length;        ///< h at rest [m]
@@ -17,11 +17,11 @@ struct StepLimit {
   Lanes acceleration;  ///< squared [m2/s4]
   Lanes mass;          ///< [kg]
   Lanes stiffness;     ///< of contacts [N/m]
-  Lanes rate;          ///< of volume, or at which bodies close [1/s]
+  Lanes rate;          ///< of volume, or closing rate of bodies [1/s]
 
-  /// The stable step: CFL h / c with the current speed of sound, the compressed length of material pairs and the
-  /// quadratic viscosity; 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts; no volume changes and no two bodies close by
-  /// more than `largest_change`, of itself or of a spacing, in a step [s]. What is not a number is found elsewhere.
+  /// The stable step [s]: the smallest of CFL h / c, with the current speed of sound, the compressed length of material
+  /// pairs and the quadratic viscosity; 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts; and the step in which a
+  /// volume, or the spacing between bodies, changes by `largest_change`. NaN is detected elsewhere.
   PIOLA_FN Lanes step(double cfl, double h) const {
     Lanes const never(1e300);
     Lanes step = cfl * (length / square_root(maximum(stretch, Lanes(1.0)))) / speed;
@@ -32,7 +32,7 @@ struct StepLimit {
   }
   PIOLA_FN static Lanes shorter(Lanes const& a, Lanes const& b) { return select(b < a, b, a); }
 
-  /// The largest eigenvalue of A A^T, or a little more: q + 2 p with q = tr/3 and p^2 = B:B/6 of the rest.
+  /// The largest eigenvalue of A A^T, or an upper bound: q + 2 p with q = tr/3 and p^2 = B:B/6 of the deviator B.
   PIOLA_FN static Lanes stretch_squared(Mat<3, Lanes> const& A) {
     Lanes q(0.0), B(0.0);
     for (Lanes const& a : A.c) q += a * a;

@@ -5,7 +5,7 @@
 
 namespace piola::adaptle {
 
-/// A particle's place in arrays of all particles.
+/// A particle's index in arrays of all particles.
 template <class Number>
 std::size_t at(Number i) {
   return static_cast<std::size_t>(i);

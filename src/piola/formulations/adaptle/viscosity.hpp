@@ -7,7 +7,7 @@
 /// Artificial viscosity and artificial stress of one pair.
 namespace piola::adaptle::inline PIOLA_MACHINE {
 
-/// What the viscosity of a pair needs.
+/// Inputs of the viscosity of a pair.
 template <class T>
 struct ViscousPair {
   T mu;        ///< (7): h v_ba.r / (r.r + 0.01 h^2) where the pair approaches, else zero [m/s]
@@ -19,8 +19,8 @@ PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0
 /// kappa of the hourglass stiffness [Pa].
 PIOLA_FN double stiffness_of(BodyConstants const& b) { return b.hourglass_stiffness * b.shear_modulus; }
 
-/// What the viscosity keeps where nothing is compressed, so that it still calms noise: of total-Lagrangian particles,
-/// which have hourglass damping besides, and of Eulerian ones, whose disorder nothing else calms.
+/// Fraction of the viscosity that remains without compression, to damp noise: of total-Lagrangian particles, which also
+/// have hourglass damping, and of Eulerian ones, whose disorder has no other damping.
 inline constexpr double compression_floor = 0.05, eulerian_floor = 0.3;
 
 /// |rot v| [1/s].

@@ -4,7 +4,7 @@
 
 namespace piola::jst_advection {
 
-/// What a user may choose, with every default resolved.
+/// User options with all defaults resolved.
 struct Options {
   double wave_speed = 1;  ///< c [m/s]
   double eps4 = 0.125;    ///< biharmonic coefficient

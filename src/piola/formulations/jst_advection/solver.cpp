@@ -14,7 +14,7 @@
 namespace piola::jst_advection {
 namespace {
 
-/// What is asked for that a periodic row does not have.
+/// Rejects features that a periodic row does not have.
 void check(Assembly const& assembly) {
   Problems problems;
   ParticleSet const& set = assembly.particles;

@@ -10,7 +10,7 @@ namespace piola::jst_advection {
 /// Throws InputError for anything but one row of particles without supports.
 std::unique_ptr<Formulation> make(Assembly const& assembly);
 
-/// What is odd about one body of a case that this formulation can run.
+/// Adds warnings about one body of a valid case.
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts);
 
 }  // namespace piola::jst_advection

@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-/// The discrete advection equation of Appendix C, and what its numerical errors are.
+/// The discrete advection equation of Appendix C, and its numerical errors.
 namespace piola::jst_advection {
 
 using Wave = std::vector<double>;  ///< one value per particle of a periodic row
@@ -20,7 +20,7 @@ int dominant_mode(Wave const& u);
 /// Root mean square.
 double level(Wave const& u);
 
-/// What a mode lost and lagged: u_t + c u_x = dispersion (c h^2/6) u_xxx - diffusion c h^3 u_xxxx, (C.4).
+/// Damping and lag of a mode: u_t + c u_x = dispersion (c h^2/6) u_xxx - diffusion c h^3 u_xxxx, (C.4).
 struct NumericalError {
   double dispersion = 0;  ///< alpha^2 - 1 to leading order
   double diffusion = 0;   ///< eps4 - alpha^3/8 to leading order

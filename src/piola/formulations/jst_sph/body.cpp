@@ -74,7 +74,7 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
     return;
   }
   pair.own = SharedSlots{order_.slots(), order_.particles}.own();
-  ranks::Trouble trouble;  // each rank looks at its own particles
+  ranks::Trouble trouble;  // each rank checks its local particles
   try {
     pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
   } catch (InputError const& error) {
@@ -147,7 +147,7 @@ void JstBody::set_hourglass(double mu) {
   k.hourglass.modulus = 0.25 * mu / moment;
   k.hourglass.stiffness = options_.hourglass_stiffness;
   k.hourglass.stiffening = is_solid(state_.material) ? 0 : options_.hourglass_stiffening / mu;
-  // Never quite zero: what is ahead also tells the rate of deformation to the books.
+  // Never quite zero: the look-ahead state also supplies the rate of deformation for the energy balance.
   constexpr double least = 1e-6;
   k.hourglass.ahead = std::max(options_.hourglass_viscosity, least) * k.h_min / c;
   if (k.kappa_filtered > 0) k.hourglass.bulk_ahead = options_.bulk_viscosity * k.h_min / k.c_p0;
@@ -261,7 +261,7 @@ JstBody::Gathered JstBody::gather(int values) const {
   Gathered g;
   auto const n = static_cast<std::ptrdiff_t>(all_slots());
   if (state_.regular) {
-    // Of the lanes of an entry one has the neighbour, so the others are at most lanes from a slot of the body.
+    // One lane of an entry has the neighbour, so the others are at most `lanes` from a slot of the body.
     g.start = SlotOrder::alignment;
     // The zeros after the last value of a component are those before the first of the next.
     g.component = 8 * (((n + 7) / 8 + g.start / 8) | 1);
@@ -316,7 +316,8 @@ void JstBody::place_gathered() {
   if (adjoint) fill_adjoint(smoothed);
 }
 
-/// What the adjoint of the Laplacian reads of neighbours: their alpha and beta, from a component of `second` on.
+/// Fills the data that the adjoint of the Laplacian reads at neighbours: their alpha and beta, from component `first`
+/// of `second` on.
 void JstBody::fill_adjoint(int first) {
   auto const& corrections = pairs_->corrections();
   exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) {
@@ -426,7 +427,7 @@ void JstBody::fill_solid(Machine const& machine) {
   });
 }
 
-/// What far neighbours read, too, and what never changes.
+/// Sends constant data that far ghosts also need.
 void JstBody::tell_once(FieldRef const& field, int first, int count) const {
   HaloPlan once = *halo_;
   FieldRef part = field;
@@ -490,7 +491,7 @@ void JstBody::deform_to_positions(Machine const& machine) {
     for (int c = 0; c < D_; ++c) set(state_.F, i, c * D_ + c, 1);
 }
 
-/// What multipliers interpolate in: the particles with the gradient's kernel.
+/// The point cloud for multipliers: the particles with the gradient's kernel.
 std::optional<Cloud> JstBody::cloud(ParticleSet const& set) const {
   if (!options_.multipliers) return std::nullopt;
   if (!images_.empty())

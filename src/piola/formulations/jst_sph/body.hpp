@@ -17,10 +17,10 @@
 
 namespace piola::jst_sph {
 
-/// One body of a JST-SPH run: owns its memory, hands its state to the loops, answers in Id order.
+/// One body of a JST-SPH run: owns its memory, passes its state to the loops, is addressed in Id order.
 class JstBody {
  public:
-  /// `set` is kept by reference. Throws InputError (too few neighbours). Collective on ranks.
+  /// Keeps a reference to `set`, which must outlive the body. Throws InputError (too few neighbours). Collective.
   JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
           Machine const& machine);
   JstBody(JstBody const&) = delete;
@@ -37,22 +37,23 @@ class JstBody {
   ParticleSet const& set() const { return *set_; }
   std::size_t bytes() const;
   bool shared() const { return halo_ != nullptr; }
-  /// Slots of particles that this rank works on: all of them on one rank.
+  /// Slots of the local particles: all on one rank.
   Range own() const;
-  /// What neighbours read of particles; a step has one or two right-hand sides.
+  /// Communication pattern of the body; a step has one or two right-hand sides.
   Talk talk() const;
-  /// Where ranks share the body: its lattice lines as observers see them; else nullptr.
+  /// Lattice lines for observers if the body is distributed; else nullptr.
   SharedLines* lines() const { return lines_.get(); }
-  /// From `time` to time + dt, with supports and loads.
+  /// Advances from `time` to time + dt, with supports and loads.
   void step(Machine const& machine, double time, double dt);
-  /// Multiplies the velocities that nothing prescribes, and notes the energy.
+  /// Multiplies the velocities that are not prescribed, and adds the lost energy to the damping loss.
   void damp(double factor);
   SharedTotal& external_work() { return external_work_; }  ///< of loads and of driven supports since the start [J]
   SharedTotal const& external_work() const { return external_work_; }
-  double kinetic_energy() const;    ///< of all ranks, which all ask for it [J]
-  double hourglass_energy() const;  ///< likewise, as observed last [J]
-  double filtered_energy() const;   ///< likewise, of the filtered volume ratio where that has a viscous part [J]
-  /// The next time at which a support or a load ends.
+  double kinetic_energy() const;    ///< over all ranks [J]; collective
+  double hourglass_energy() const;  ///< over all ranks, at the last observation [J]; collective
+  double filtered_energy() const;   ///< over all ranks, of the filtered volume ratio if that has a viscous part [J];
+                                    ///< collective
+  /// The next time after `time` at which a support or a load ends.
   double next_release(double time) const { return boundary_.next_release(time); }
   Boundary& boundary() { return boundary_; }
   Boundary const& boundary() const { return boundary_; }
@@ -64,9 +65,9 @@ class JstBody {
   }
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
   Mat<3> F(Index slot) const;
-  Mat<3> H(Index slot) const;  ///< the unknown where there is one, else cof F
-  double J(Index slot) const;  ///< the unknown where there is one, else the volume ratio of F
-  /// Tributary volume: that of the body itself, and of the body that mirror planes continue.
+  Mat<3> H(Index slot) const;  ///< the evolved H if there is one, else cof F
+  double J(Index slot) const;  ///< the evolved J if there is one, else det F
+  /// Tributary volume in the body itself, and in the body continued by mirror planes.
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
 
   double continued_volume(Index slot) const { return volume(slot) * images_.multiplicity(slot); }
@@ -77,19 +78,19 @@ class JstBody {
  private:
   std::optional<Cloud> cloud(ParticleSet const& set) const;
   double spacing() const;
-  /// Reach of the widest kernel [m].
+  /// Largest support radius [m].
   double reach() const;
-  /// Of the body and of its mirror images.
+  /// Slots of the body and of its mirror images.
   Index all_slots() const { return order_.slots() + images_.count(); }
   void mark_images();
-  /// Of all ranks that share the particles this one takes a part, and makes what follows for that. Collective.
+  /// Assigns this rank its range of slots. Later set-up covers these slots only. Collective.
   void share(int lanes);
   void mark_halo();
   void tell_once(FieldRef const& field, int first, int count) const;
-  /// f(slot) for the particles that this rank works on, and those that it reads of other ranks.
+  /// Calls f(slot) for local particles and ghosts.
   template <class Visit>
   void each_seen(Visit const& f) const;
-  /// What goes to other ranks: values [first, first + count) of a field, to near neighbours or also to far ones.
+  /// Field of a ghost exchange: values [first, first + count), for near ghosts or also for far ones.
   struct Told {
     FieldRef field;
     int first, count;
@@ -100,7 +101,7 @@ class JstBody {
   void make_pairs(ParticleSet const& set, Machine const& machine);
   void take_tables();
   void allocate();
-  /// Memory that fields share because sweeps read them together at neighbours.
+  /// Memory of fields that sweeps read together at neighbours.
   struct Gathered {
     Memory memory;
     std::ptrdiff_t component = 0, particle = 1, start = 0;
@@ -114,7 +115,7 @@ class JstBody {
   void fill_solid(Machine const& machine);
   void fill_corrected_kernel(int lanes);
   void fill_evolved_geometry();
-  /// f(place, slot) for every stored place of a reference field that holds a particle.
+  /// Calls f(place, slot) for every stored place of a reference field that holds a particle.
   template <class Visit>
   void each_stored(int lanes, Visit const& visit) const;
   void share_reference(int lanes);
@@ -123,11 +124,11 @@ class JstBody {
   void deform_to_positions(Machine const& machine);
   void set_constants(ParticleSet const& set, MaterialParameters const& material);
   void set_hourglass(double mu);
-  /// Whether the first sweep reads positions, too, for the Laplacian of the motion without its rigid part.
+  /// Whether the first sweep also reads positions, for the Laplacian of the motion without its rigid part.
   bool gathers_position() const {
     return options_.biharmonic != Biharmonic::none && (verlet() || options_.shear_speed);
   }
-  /// Whether sweeps reach as far as the Laplacian.
+  /// Whether sweeps have the support radius of the Laplacian.
   bool is_wide() const {
     return options_.biharmonic != Biharmonic::none || options_.filter || options_.corrected_kernel();
   }
@@ -143,15 +144,15 @@ class JstBody {
   Fields fields_;
   Field weight_{"QuadratureWeight", "m3", 1, Role::reference};  ///< with mirror planes
   Gathered first_, second_, ahead_, kernel_;
-  std::vector<std::int32_t> group_;  // regular bodies: where the reference data of a group of lanes are stored
+  std::vector<std::int32_t> group_;  // regular bodies: index of the stored reference data of a group of lanes
   Index stored_slots_ = 0;
-  std::vector<Index> group_first_;  // per stored group: a slot where it begins
+  std::vector<Index> group_first_;  // per stored group: first slot
   Boundary boundary_;
   std::vector<double> partial_;
   SharedTotal external_work_;
   FailureSlot failure_;
   BodyState state_;
-  std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles
+  std::unique_ptr<HaloPlan> halo_;  ///< nullptr on one rank
   std::unique_ptr<SharedLines> lines_;
 };
 

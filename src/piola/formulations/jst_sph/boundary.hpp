@@ -11,30 +11,31 @@
 
 namespace piola::jst_sph {
 
-/// Supports and loads of one body: those that do nothing but hold components at rest, and multipliers, beside what
-/// BodyBoundary does. Theory: docs/theory/boundaries.md.
+/// Supports and loads of one body: those of BodyBoundary, plain supports at rest along axes, and multipliers. Theory:
+/// docs/theory/boundaries.md.
 class Boundary {
  public:
-  /// `mirrors`: supports beside those of the assembly. `cloud`: for supports with multipliers; nothing: direct
+  /// `mirrors`: supports in addition to those of the assembly. `cloud`: for supports with multipliers; empty: direct
   /// supports.
   Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& order, std::vector<Support> const& mirrors,
            std::optional<Cloud> cloud);
 
-  /// Gives the body its supports, and the particles that they hold the velocities of t = 0.
+  /// Sets the supports of the body and the velocities of t = 0 of supported particles.
   void attach(BodyState& state);
-  /// Before a step from `time` to time + dt: what is held, the velocities at its end, the loads at both ends.
+  /// Before a step from `time` to time + dt: evaluates held directions, their speeds at its end, and the loads at both
+  /// ends.
   void begin_step(BodyState& state, double time, double dt);
-  /// After it: adds the work; and loads that end now leave the acceleration with which Verlet's next step begins.
+  /// After the step: adds the work, and removes loads that end now from the acceleration of Verlet's next step.
   void end_step(BodyState& state);
-  /// Multiplies the velocities of the body by `factor`, but not along the directions that were held in the last step.
+  /// Multiplies the velocities of the body by `factor`, except along the directions held in the last step.
   void damp(BodyState& state, double factor) const { driven_.damp(state.v, state.slots.last, factor); }
-  /// Ranks share the body: this one answers for the particles in these slots. Before attach().
+  /// Sets the local slots of a distributed body. Call before attach().
   void share(Range own);
-  /// Adds what supports and loads did in the last step; collective where ranks share the body.
+  /// Adds the impulses of supports and loads in the last step. Collective if the body is distributed.
   void hand_over(Actions& actions) const;
   void forget_impulses() { driven_.forget_impulses(); }
-  /// What a checkpoint holds beside fields: accelerations that supports made up for at the end of the last step.
-  /// Collective where ranks share the body; all of them have it.
+  /// State for a checkpoint in addition to fields: accelerations by supports at the end of the last step, replicated on
+  /// all ranks. Collective if the body is distributed.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
@@ -46,7 +47,7 @@ class Boundary {
   struct PlainOwner {
     std::size_t support;
     double mass;
-    std::size_t number = 0;  ///< of the component among those of all ranks
+    std::size_t number = 0;  ///< of the component, over all ranks
   };
   void take_supports(Assembly const& assembly, std::vector<Support> const& supports, std::vector<Index> const& slot_of);
   void take_loads(Assembly const& assembly, std::vector<Index> const& slot_of);
@@ -59,12 +60,12 @@ class Boundary {
   double rho0_ = 0;
   std::optional<Cloud> cloud_;
   BodyBoundary driven_;
-  std::vector<SupportComponent> plain_;  ///< of this rank
-  std::size_t plain_of_all_ = 0;         ///< ranks
+  std::vector<SupportComponent> plain_;  ///< of local particles
+  std::size_t plain_of_all_ = 0;         ///< number over all ranks
   std::vector<PlainOwner> plain_owner_;
   std::vector<std::array<double, 3>> plain_start_;  ///< at the start of the step [m]
   std::optional<Multipliers> multipliers_;
-  std::optional<Range> own_;  ///< nothing: all slots
+  std::optional<Range> own_;  ///< empty: all slots
 };
 
 }  // namespace piola::jst_sph

@@ -3,15 +3,14 @@
 #include "piola/formulations/jst_sph/passes.hpp"
 #include "piola/mechanics/boundary_passes.hpp"
 
-/// Passes over the particles that supports drive and that loads act on, beside those of mechanics/. Theory:
-/// docs/theory/boundaries.md.
+/// Passes for supported and loaded particles, in addition to those of mechanics/. Theory: docs/theory/boundaries.md.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
-/// What is prescribed of a particle: its velocity; with multipliers its acceleration (step 8 of Algorithm 1 for rates),
+/// Imposes the prescribed velocity of a particle; with multipliers its acceleration (step 8 of Algorithm 1 for rates),
 /// as they then correct the velocity.
 ///
-/// TVD Runge-Kutta, after a stage: the velocity of t^(n+1), and in stage 1 x^(n+1) = x^n + dt/2 (v^n + v^(n+1)).
-/// The reactions r of the stages are rates of velocity as those of forces; work m/2 (r + r*) (x^(n+1) - x^n).
+/// TVD Runge-Kutta, after a stage: the velocity of t^(n+1), and in stage 1 x^(n+1) = x^n + dt/2 (v^n + v^(n+1)). The
+/// reactions r of the stages are rates of velocity, like those of forces; work m/2 (r + r*) (x^(n+1) - x^n).
 template <int D>
 struct HoldDirections {
   StageUpdate stage;
@@ -39,7 +38,7 @@ struct HoldDirections {
   }
 };
 
-/// The accelerations of the loads at the start or at the end of a step, with the deformation gradients of then.
+/// The accelerations of the loads at the start or at the end of a step, with the deformation gradients of that time.
 template <int D>
 struct TurnLoads {
   bool at_end;

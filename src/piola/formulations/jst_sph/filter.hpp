@@ -6,7 +6,7 @@
 #include "piola/neighbours/loaders.hpp"
 #include "piola/parallel/halo.hpp"
 
-/// Filtered volumetric energy: sweeps that read the kernel alone. Derivation: docs/theory/jst-sph-filtered.md.
+/// Filtered volumetric energy: sweeps that read only the kernel. Derivation: docs/theory/jst-sph-filtered.md.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
 /// sum_{b != a} W_ab f_b, or sum_{b != a} W_ab (f_b - f_a), of N values.
@@ -33,8 +33,8 @@ struct KernelSums {
   }
 };
 
-/// What becomes of the last pass of B: q = kappa_f (Jf - 1), with Jf the smoothed value or, for a volume ratio that is
-/// an unknown of its own, Jf plus the smoothed increment.
+/// Output of the last pass of B: q = kappa_f (Jf - 1), with Jf the smoothed value or, for an evolved volume ratio, Jf
+/// plus the smoothed increment.
 struct Compression {
   enum class Kind { none, ratio, increment } kind = Kind::none;
   double kappa_filtered = 0;
@@ -77,7 +77,7 @@ struct Smooth {
   }
 };
 
-/// g = d V f, what the first filter pass reads at neighbours.
+/// g = d V f, the neighbour data of the first filter pass.
 struct PrepareFilter {
   ReferenceView V;
   View f, d;
@@ -91,7 +91,7 @@ class Filter {
  public:
   Filter(BodyState& body, Loader const& loader) : b_(body), loader_(loader), halo_{body.halo} {}
 
-  /// g of the first pass, where no other pass has left it, and tells neighbours.
+  /// Computes g of the first pass, unless another pass has, and sends it to the ranks with ghosts.
   void prepare() const {
     exec::for_each(b_.slots, PrepareFilter{read_reference(b_.V), read(b_.volume_ratio), read(b_.filter_scale),
                                            write(b_.filter_source[0])});
@@ -101,16 +101,16 @@ class Filter {
   void smooth_ratio() const {
     smooth_all(b_.constants.hourglass.bulk_ahead > 0 ? b_.filter_input : b_.volume_ratio, Compression::Kind::ratio);
   }
-  /// Jf += B (J increment), and q: for a volume ratio that is an unknown of its own.
+  /// Jf += B (J increment), and q: for an evolved volume ratio.
   void add_increment() const { smooth_all(b_.ratio_increment, Compression::Kind::increment); }
-  /// B J into `out` alone.
+  /// Writes B J into `out`.
   void smooth_ratio_into(FieldRef const& out) const {
     for (int k = 0; k < b_.constants.filter_passes; ++k)
       smooth(k, k == 0 ? b_.volume_ratio : out, out, Compression::Kind::none);
   }
 
  private:
-  /// The source of the first pass is buffer 0, which neighbours have; every pass reads one buffer and writes the other.
+  /// The source of the first pass is buffer 0, with valid ghosts; every pass reads one buffer and writes the other.
   void smooth_all(FieldRef const& input, Compression::Kind kind) const {
     int const n = b_.constants.filter_passes;
     FieldRef const& between = kind == Compression::Kind::ratio ? b_.filtered_ratio : b_.ratio_increment;
@@ -159,7 +159,7 @@ struct SumKernel {
   }
 };
 
-/// f_a = A_a gamma_a: what the internal force of the corrected kernel sums besides A_b r.
+/// f_a = A_a gamma_a: summed by the internal force of the corrected kernel in addition to A_b r.
 template <int D>
 struct ContractWithGamma {
   View A;

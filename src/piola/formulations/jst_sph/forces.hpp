@@ -5,7 +5,7 @@
 
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
-/// Sums of a body in the form that mechanics/rigid_rate.hpp wants: arms x, and a rate with its moments.
+/// Sums of a body for mechanics/rigid_rate.hpp: arms x, and a rate with its moments.
 template <int D, class At, int N>
 RateSums rate_sums(exec::Totals<N> const& sums, int rate, int moment, double total_volume) {
   static constexpr int to3[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
@@ -20,13 +20,13 @@ RateSums rate_sums(exec::Totals<N> const& sums, int rate, int moment, double tot
   return r;
 }
 
-/// What is added to the rates of a stage so that they balance.
+/// Correction that balances the rates of a stage.
 struct StageBalance {
   RigidRate rigid;    ///< removes resultant and moment of T and D(p), eqs. (47)-(49)
   double J_rate = 0;  ///< mean of D(J), eq. (51) [1/s]
 };
 
-/// The largest of the body, or of a rank's part of it [m/s].
+/// The largest wave speed of the body, or of its local part [m/s].
 inline double largest_wave_speed_of(BodyState const& b, FieldRef const& wave_speed) {
   exec::for_each_block(b.slots, LargestWaveSpeed{read(wave_speed), b.partial});
   double largest = 0;
@@ -40,8 +40,8 @@ class Forces {
  public:
   Forces(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
 
-  /// `time`: how long these forces act, for the books of energy [s]. In the last stage of a step the largest of the
-  /// field `ended`, the wave speed, and the first failure become those of all ranks.
+  /// `time`: duration of these forces for the energy balance [s]. In the last stage of a step the largest value of the
+  /// field `ended`, the wave speed, and the first failure are reduced over ranks.
   StageBalance operator()(double time, FieldRef const* ended) {
     Beside beside;
     if (ended != nullptr && !b_.trial) {
@@ -83,7 +83,7 @@ class Forces {
         read(b_.kernel_force_sum),
         read(b_.hourglass_force),
         read(b_.viscous_work)};
-    // Of the sums of a trial step that projects nothing nobody asks for any.
+    // A trial step without projection does not need the sums.
     bool const asked = !b_.trial || b_.constants.project || smooths_volume(b_.constants);
     return project(reduce_over_ranks<At::size>(b_.halo != nullptr && asked, b_.slots, pass, b_.partial, beside), time);
   }
@@ -100,7 +100,7 @@ class Forces {
     }
     RateSums const v = of(At::v, At::moment_v);
     double const weight = time * b_.constants.rho0;
-    // The projection of viscous hourglass forces belongs to them, and there is nothing else in T to project.
+    // The projection of viscous hourglass forces belongs to the hourglass energy; T has no other part to project.
     (b_.constants.hourglass.modulus > 0 ? b_.totals.stabilisation_loss : b_.totals.projection_loss) -=
         weight * power_of(on_T, v);
     b_.totals.stabilisation_loss -= weight * (sums.v[At::power_stabilisation] + power_of(on_D, v));

@@ -6,7 +6,7 @@
 /// viscous part. Derivation: docs/theory/jst-sph-conservative.md.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
-/// Empty slots divide by it: large enough that nothing overflows.
+/// Divisor for empty slots: large enough to avoid overflow.
 inline constexpr double no_volume = 1e-200;
 
 /// Sums over the neighbours of the gradient, with e = x_b - x_a - (F_a + F_b) r / 2 and g = V (xi_0 + xi_1 W_iso / mu):
@@ -15,7 +15,7 @@ inline constexpr double no_volume = 1e-200;
 template <int D>
 struct HourglassSums {
   static constexpr bool smooths = false;
-  static constexpr int F = D, g = D + D * D;  // where they are in a record
+  static constexpr int F = D, g = D + D * D;  // positions in a record
   static constexpr int fields = D + D * D + 1, outer_fields = 0;
   static constexpr int sums = fields;
   View gathered;
@@ -48,7 +48,7 @@ struct HourglassSums {
   PIOLA_FN void outer(V*, O const&, G const&, V const*) const {}
 };
 
-/// The sweep that fills a block's scratch with them.
+/// The sweep that fills a block's scratch with these sums.
 template <int D, class Loader>
 struct SumHourglass {
   static constexpr int sums = HourglassSums<D>::sums;
@@ -145,7 +145,7 @@ struct LookAhead {
   }
 };
 
-/// The same of the state as it is, for observers.
+/// As above for the current state, for observers.
 template <int D, class Law>
 struct LookAtState {
   Law law;
@@ -178,7 +178,7 @@ struct StoreHourglassEnergy {
   }
 };
 
-/// Deform and LookAhead of a block in one go.
+/// Deform and LookAhead of a block in one pass.
 template <int D, bool Stabilised, class Law>
 struct DeformAndLookAhead {
   Deform<D, Stabilised> deform;
@@ -228,7 +228,7 @@ struct WeightStressAndHourglass {
   }
 
  private:
-  /// LookAhead's F* gives back the rate of F.
+  /// LookAhead's F* contains the rate of F.
   PIOLA_FN Lanes power(Index i, Vec<D, Lanes> const& f, Mat<D, Lanes> const& P, Mat<D, Lanes> const& F) const {
     Mat<D, Lanes> rate;
     for (int c = 0; c < D * D; ++c)

@@ -10,7 +10,7 @@
 
 namespace piola::jst_sph {
 
-/// The particles of a body as an interpolation sees them.
+/// The particles of a body for an interpolation.
 struct Cloud {
   int dimension = 3;
   std::vector<std::array<double, 3>> X;  ///< per slot [m]
@@ -28,10 +28,10 @@ class Multipliers {
  public:
   Multipliers(std::span<HeldDirection const> held, Cloud const& cloud);
 
-  /// Corrects the velocity of the body, or the acceleration that leads to it. On ranks that share it collective.
+  /// Corrects the velocity of the body, or the acceleration that leads to it. Collective on a distributed body.
   void enforce(BodyState& body, MultiplierCall const& call);
-  /// Impulses of the corrections since they were forgotten, by support; those of a particle count for the support of
-  /// the held particle that weighs most there. Their sum vanishes unless the rows prescribe a rigid motion.
+  /// Impulses of the corrections since their last reset, by support; those of a particle count for the support of the
+  /// held particle with the largest weight there. Their sum vanishes unless the rows prescribe a rigid motion.
   std::vector<Impulse> const& impulses() const { return impulses_; }
   void forget_impulses() { impulses_.assign(impulses_.size(), {}); }
   std::size_t bytes() const;
@@ -40,13 +40,13 @@ class Multipliers {
   using Point = std::array<double, 3>;
   static constexpr std::size_t most_modes = 6;
   struct Weight {
-    std::size_t particle;  ///< in slots_
+    std::size_t particle;  ///< index in slots_
     double weight;
   };
   struct Row {
     std::size_t held;
     Point direction;
-    std::size_t first, last;  ///< in weights_
+    std::size_t first, last;  ///< indices in weights_
   };
   void find_weights(std::span<HeldDirection const> held, Cloud const& cloud);
   void set_modes(std::vector<Point> const& x);
@@ -55,14 +55,14 @@ class Multipliers {
   void correct(std::vector<Point> const& v, std::vector<double> const& wanted);
 
   int D_;
-  std::vector<Index> slots_;     ///< of the particles within reach
-  std::vector<double> volume_;   ///< theirs
+  std::vector<Index> slots_;     ///< of the particles within the support of held particles
+  std::vector<double> volume_;   ///< of these particles
   std::vector<Weight> weights_;  ///< row by row
   std::vector<Row> rows_;
-  std::vector<std::size_t> owner_;  ///< of the particles within reach: a support
+  std::vector<std::size_t> owner_;  ///< of these particles: a support
   std::vector<Impulse> impulses_;   ///< per support
   EnvelopeCholesky matrix_{{}};     ///< sum_a w_ra w_sa / V_a  d_r.d_s
-  // For one call: rigid motions of the particles and their values in the rows; the correction.
+  // Work arrays of one call: rigid motions of the particles and their values in the rows; the correction.
   std::vector<std::array<Point, most_modes>> modes_;
   std::vector<std::array<double, most_modes>> mode_rows_;
   std::vector<Point> change_;

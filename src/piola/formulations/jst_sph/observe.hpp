@@ -4,7 +4,7 @@
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/observation.hpp"
 
-/// What users see of a JST-SPH state; reads, never writes.
+/// Observed quantities of a JST-SPH state; read-only.
 namespace piola::jst_sph {
 
 struct JstObservation : Observation {
@@ -14,19 +14,19 @@ struct JstObservation : Observation {
   double hourglass_energy = 0;  ///< [J]
 };
 
-/// Of the particles of this rank; collective where ranks share the body.
+/// Adds the local particles. Collective if the body is distributed.
 void observe(JstBody const& body, JstObservation& observation);
 
-/// Energies, momenta, extrema and the volume mismatch over all bodies. Collective where ranks share them.
+/// Energies, momenta, extrema and the volume mismatch over all bodies. Collective if they are distributed.
 Diagnostics finish(JstObservation observation);
 
-/// The fields that JST-SPH offers to frames and probes; `solids`: with those of solids in rate form.
+/// The fields of JST-SPH for frames and probes; `solids`: with those of solids in rate form.
 std::vector<FieldInfo> observed_fields(bool solids);
 
-/// values[id * components + c] of one field for the particles of one body; on ranks that share it collective, and rank
-/// 0 has them. Throws std::invalid_argument for an unknown field.
+/// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
+/// std::invalid_argument for an unknown field.
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
-/// The same of the particles of this rank, slot by slot.
+/// As sample(), for the local particles, slot by slot.
 void sample_own(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 
 }  // namespace piola::jst_sph

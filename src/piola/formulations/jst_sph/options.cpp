@@ -93,8 +93,8 @@ constexpr std::array parameters{
     Parameter{"laplacian_support", "1", "smoothing length of the Laplacian in particle spacings",
               Interval{0.5, 3, true, false}, no_default, "1.2"}};
 
-/// What Diagnostics::more holds (observe.cpp): det F minus the volume ratio that the volumetric energy sees; the books
-/// of solids in rate form, whose internal energy is the strain energy; the hourglass energy, a part of that.
+/// Columns of Diagnostics::more (observe.cpp): det F minus the volume ratio of the volumetric energy; the energy
+/// balance of solids in rate form, whose internal energy is the strain energy; the hourglass energy, a part of that.
 constexpr std::array diagnostics{DiagnosticInfo{"volume_mismatch_rms", "1"}, DiagnosticInfo{"volume_mismatch_max", "1"},
                                  DiagnosticInfo{"plastic_work", "J"}, DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"hourglass_energy", "J"}};
@@ -126,7 +126,7 @@ std::string_view chosen(FormulationSpec const& spec, std::string_view name, std:
   return given == "as_scheme" ? by_scheme : given;
 }
 
-/// What belongs to the conservative scheme, and what it cannot have.
+/// Checks settings that the conservative scheme requires or excludes.
 void check_hourglass(Options const& o, bool conservative) {
   if (!conservative && (o.hourglass() || o.hourglass_viscosity > 0 || o.bulk_viscosity > 0))
     throw InputError(

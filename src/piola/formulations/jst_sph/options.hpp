@@ -6,14 +6,14 @@
 
 namespace piola::jst_sph {
 
-/// What a user may choose, with every default resolved.
+/// User options with all defaults resolved.
 struct Options {
   Variables variables = Variables::pF;
   GradientForm gradient = GradientForm::corrected, force = GradientForm::corrected;
   Biharmonic biharmonic = Biharmonic::adjoint;
   Kernel const* kernel = nullptr;
   double eps2 = 0, eps4 = 0;      ///< harmonic and biharmonic coefficients for p
-  double eps2_J = 0, eps4_J = 0;  ///< and for J
+  double eps2_J = 0, eps4_J = 0;  ///< harmonic and biharmonic coefficients for J
   double gradient_support = 0;    ///< h of the gradient in particle spacings
   double laplacian_support = 0;   ///< h of the Laplacian in particle spacings
   Integrator integrator = Integrator::verlet;
@@ -39,8 +39,7 @@ struct Options {
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
-/// Options of a body, whose particles are on a lattice (`regular`) or not. Throws InputError for combinations that
-/// cannot work.
+/// Options of a body, whose particles are on a lattice (`regular`) or not. Throws InputError for invalid combinations.
 Options read_options(FormulationSpec const& spec, MaterialParameters const& material, double cfl, bool regular = true);
 
 }  // namespace piola::jst_sph

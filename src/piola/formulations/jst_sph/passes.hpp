@@ -8,8 +8,9 @@
 #include "piola/mechanics/rigid_rate.hpp"
 #include "piola/neighbours/loaders.hpp"
 
-/// Passes of JST-SPH: what one particle does. Equation numbers: Lee, Gil, Greto, Kulasegaram, Bonet (2016), as repaired
-/// in docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian weight l.
+/// Passes of JST-SPH: operations on one particle. Equation numbers: Lee, Gil, Greto, Kulasegaram, Bonet (2016), as
+/// corrected in docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian
+/// weight l.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
 /// First sums over neighbours: raw velocity gradient and first Laplacians.
@@ -85,7 +86,7 @@ PIOLA_FN Vec<D, Lanes> turned(double const (&spin)[3], Vec<D, Lanes> const& a) {
   return r;
 }
 
-/// The raw velocity gradient that the first sweep left in scratch.
+/// The raw velocity gradient from the first sweep, in scratch.
 template <int D>
 PIOLA_FN Mat<D, Lanes> raw_gradient(exec::Scratch const& in, Index i) {
   Mat<D, Lanes> raw;
@@ -166,7 +167,7 @@ PIOLA_FN void add_moment(T* sum, T const& weight, Vec<D, T> const& x, Vec<D, T> 
   }
 }
 
-/// Positions in the sums that give the rigid part of a motion; x are arms from `centre`.
+/// Indices of the sums for the rigid part of a motion; x are arms from `centre`.
 template <int D>
 struct MotionTotals {
   static constexpr int x = 0;                     // sum V x
@@ -176,7 +177,7 @@ struct MotionTotals {
   static constexpr int size = moment_v + spins<D>;
 };
 
-/// Adds position x and velocity v of a particle to them.
+/// Adds position x and velocity v of a particle to the sums.
 template <int D>
 PIOLA_FN void add_motion(Lanes const& volume, Constants const& k, Vec<D, Lanes> const& x, Vec<D, Lanes> const& v,
                          Lanes* total) {
@@ -195,7 +196,7 @@ PIOLA_FN void add_motion(Lanes const& volume, Constants const& k, Vec<D, Lanes> 
   add_moment<D>(total + At::moment_v, volume, arm, v);
 }
 
-/// The sums of a motion that does not change.
+/// The sums of a constant motion.
 template <int D>
 struct SumMotion {
   Constants k;
@@ -206,7 +207,7 @@ struct SumMotion {
   }
 };
 
-/// Positions in the sums that SumForces makes for the projections and the energy books: after those of the motion.
+/// Indices of the sums of SumForces for the projections and the energy balance: after those of the motion.
 template <int D>
 struct ForceTotals : MotionTotals<D> {
   static constexpr int T = MotionTotals<D>::size;            // sum V a_T,  a_T = -T / rho0
@@ -237,7 +238,7 @@ struct SumForces {
   View wave_speed, x, v;
   WriteView rate;
   View rate_in;           ///< D2 of UpdateStress
-  WriteView J_rate;       ///< D(J); nothing behind it unless Smoothed > D
+  WriteView J_rate;       ///< D(J); without data unless Smoothed > D
   View J_rate_in;         ///< D2 of J
   View kernel_force_sum;  ///< corrected kernel only
   View hourglass_force, viscous_work;
@@ -278,7 +279,7 @@ struct SumForces {
     }
     return a;
   }
-  /// D4 of the smoothed value number c.
+  /// D4 of smoothed value c.
   PIOLA_FN Lanes biharmonic(Index i, Lanes const* sum, Lanes const& inverse_volume, int c) const {
     Lanes const L = sum[D + c];
     if constexpr (Body::adjoint) return -(inverse_volume * (L - w.scalar<Lanes>(i, c) * diagonal.scalar<Lanes>(i)));
@@ -351,7 +352,7 @@ struct LargestWaveSpeed {
   }
 };
 
-/// Holds the supported components: v_c = 0 and x_c where the support is (step 8 of Algorithm 1).
+/// Holds the supported components: v_c = 0 and x_c at the position of the support (step 8 of Algorithm 1).
 struct HoldSupports {
   bool second;  ///< second Runge-Kutta stage
   SupportComponent* supports;

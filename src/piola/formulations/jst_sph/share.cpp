@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranks: each works on its share of the slots and has memory for that and for what its particles read of others, which
-// comes by messages. The slots of a particle are the same on all ranks, so nothing else of the body changes.
+// Distribution over ranks: each rank owns a range of slots, and stores data for these and for their ghosts, which are
+// updated by messages. Slots of particles are numbered alike on all ranks, so the rest of the body is unchanged.
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/parallel/own_slots.hpp"
 #include "piola/parallel/ranks.hpp"
@@ -23,8 +23,8 @@ void JstBody::share(int lanes) {
   boundary_.share(state_.slots);
 }
 
-/// Where the particles of this rank find what they read of others: those themselves, or those that images copy. Of the
-/// gradient's support, or `far`, of the Laplacian's, which holds it.
+/// The neighbours of local particles, with images replaced by their sources. Within the gradient's support or, if
+/// `far`, within the Laplacian's, which contains it.
 std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
   std::vector<bool> seen(static_cast<std::size_t>(order_.slots()));
   auto const add = [&](Index slot) { seen[static_cast<std::size_t>(slot)] = true; };
@@ -52,9 +52,8 @@ std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
   return read;
 }
 
-/// What sweeps read at neighbours, field by field, as place_gathered() has laid it out, in messages; alpha and beta
-/// never change. Gradients read near neighbours alone; Laplacians, the filter and the corrected kernel read far ones,
-/// too.
+/// Ghost data of the sweeps, field by field in the layout of place_gathered(), by message; alpha and beta are constant.
+/// Gradients read near neighbours alone; Laplacians, the filter and the corrected kernel also far ones.
 std::vector<std::vector<JstBody::Told>> JstBody::told() const {
   auto const& s = state_;
   bool const smoothed_J = options_.smoothed_volume(), stabilised = options_.biharmonic != Biharmonic::none;

@@ -7,27 +7,27 @@
 #include "piola/materials/solids.hpp"
 #include "piola/math/embedding.hpp"
 
-/// Solids in rate form under a total-Lagrangian scheme: stress is a function of the state that the last step left and
-/// of the deformation gradient now. Theory: docs/theory/jst-sph.md, "Solids in rate form".
+/// Solids in rate form under a total-Lagrangian scheme: stress is a function of the state after the last step and of
+/// the present deformation gradient. Theory: docs/theory/jst-sph.md, "Solids in rate form".
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
-/// What a particle of a solid remembers of the end of the last step. `pressure` [Pa] is the one that acted, positive in
-/// compression, `energy` the specific internal energy [J/kg].
+/// State of a particle of a solid at the end of the last step. `pressure` [Pa]: positive in compression; `energy`:
+/// specific internal energy [J/kg].
 struct SolidPoint {
   Mat<3> F;
   SolidHistory history;
   double pressure, energy;
 };
 
-/// An increment from the last step's end. `elastic`: without yield, for trial steps that ask for the stiffness.
+/// An increment from the end of the last step. `elastic`: without yield, for trial steps that measure the stiffness.
 struct SolidIncrement {
   double dt = 0;  ///< [s]
   bool elastic = false;
 };
 
-/// Takes a particle from the end of the last step to the deformation gradient F; returns P there [Pa]. The energy grows
-/// by the mean of the stresses before and after, e += (P_n + P) : (F - F_n) / (2 rho0), which is the work that the
-/// kinetic energy loses in a Verlet step; the pressure sees that energy.
+/// Advances a particle from the end of the last step to the deformation gradient F; returns P there [Pa]. The energy
+/// grows by the mean of the stresses before and after, e += (P_n + P) : (F - F_n) / (2 rho0), which is the work that
+/// the kinetic energy loses in a Verlet step; the pressure includes that energy.
 template <class Law>
 PIOLA_FN Mat<3> advance_solid(Law const& law, SolidPoint& point, Mat<3> const& F, SolidIncrement const& step) {
   Mat<3> const dF = F - point.F, H = cofactor(F);
@@ -47,14 +47,14 @@ PIOLA_FN Mat<3> advance_solid(Law const& law, SolidPoint& point, Mat<3> const& F
   return first_piola_of(point.history.S, point.pressure, F);
 }
 
-/// A solid as passes ask for its stress, where hyperelastic laws would answer from F alone: the law behind it is hidden
-/// in two functions, so that passes are compiled once for all solids. Lanes are worked on one by one.
+/// Interface of a solid for passes that expect a stress as a function of F. The law is hidden behind two functions, so
+/// that passes are compiled once for all solids. Lanes are processed one by one.
 class SolidStress {
  public:
   static constexpr bool small_strain = false, volumetric_split = false;
 
   /// `law` must outlive this. `as_left`: the stress at the end of the last step. `commit`: F is that of the end of a
-  /// step, whose state is kept.
+  /// step, whose state is stored.
   template <class Law>
   SolidStress(Law const& law, BodyState const& body, SolidIncrement const& step, bool as_left, bool commit)
       : law_(&law),
@@ -139,15 +139,15 @@ class SolidStress {
   WriteView last_F_out_, history_out_;
 };
 
-/// When in a step stress is asked for.
+/// Time of a stress evaluation within a step.
 enum class StressAt {
   start,  ///< at the end of the last step
   stage,  ///< within a step
-  end     ///< at the end of a step, whose state is kept
+  end     ///< at the end of a step, whose state is stored
 };
 
 /// Calls f(law) with the law of a body, hyperelastic or SolidStress, for an increment of dt [s] since the last step.
-/// Trial steps keep no state and know no yield.
+/// Trial steps store no state and have no yield.
 template <class F>
 void with_stress_law(BodyState const& body, double dt, StressAt when, F const& f) {
   with_law(body.material, f);
@@ -156,7 +156,7 @@ void with_stress_law(BodyState const& body, double dt, StressAt when, F const& f
   });
 }
 
-/// Keeps the state of a solid at the end of a step.
+/// Stores the state of a solid at the end of a step.
 template <int D>
 struct CommitSolid {
   SolidStress law;
@@ -164,7 +164,7 @@ struct CommitSolid {
   PIOLA_FN void operator()(Index i) const { (void)law.first_piola(i, embed<D>(F.matrix<D, Lanes>(i))); }
 };
 
-/// Keeps the state of the solid at the F that the body has, dt [s] after the last; does nothing for other laws.
+/// Stores the state of the solid at the F of the body, dt [s] after the last; does nothing for other laws.
 template <int D>
 void commit_solid(BodyState const& body, double dt) {
   with_solid(body.material, [&](auto const& law) {

@@ -168,8 +168,8 @@ class Solver final : public Formulation {
     largest_speed_.clear();
     for (auto const& body : bodies_) largest_speed_.push_back(machine_->largest_wave_speed(body->state()));
   }
-  /// Brings what observers see up to date; nothing that steps read changes. Displacement variables keep F of the last
-  /// stage; observers want that of x. Collective where ranks share the body.
+  /// Updates the data for observers; the state for steps is unchanged. Displacement variables keep F of the last stage;
+  /// observers need that of x. Collective if the body is distributed.
   void refresh(JstBody const& body) const {
     BodyState seen = body.state();
     if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
@@ -290,7 +290,7 @@ void Solver::place_stages(JstBody& body) const {
     for (int c = 0; c < set_.dimension; ++c) JstBody::set(body.state().u, i, c, JstBody::value(body.state().x, i, c));
 }
 
-/// All ranks have what there is to say about the first particle that failed.
+/// Replicates the values of the first failed particle for its error message.
 void Solver::tell_failures() {
   failed_neighbours_.assign(bodies_.size(), 0);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -307,13 +307,13 @@ void Solver::tell_failures() {
   ranks::merge(failed_neighbours_);
 }
 
-/// Of a particle of another rank, which alone knows them: 0.
+/// 0 for remote particles, whose lists only their rank has.
 double Solver::neighbours_of(JstBody const& body, Index slot) {
   bool const own = slot >= body.own().first && slot < body.own().last;
   return own ? body.pairs().corrections().neighbours_of(slot) : 0;
 }
 
-/// Of the ranks' first failures the first; then rank 0 is told all that there is to say about it.
+/// Finds the first failure over all ranks; then sends its values to rank 0.
 void Solver::share_failures() {
   bool failed = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {

@@ -7,10 +7,10 @@
 
 namespace piola::jst_sph {
 
-/// Makes a JST-SPH run. Throws InputError (unknown machine, too few neighbours, options that cannot work).
+/// Creates a JST-SPH run. Throws InputError (unknown instruction set, too few neighbours, invalid options).
 std::unique_ptr<Formulation> make(Assembly const& assembly);
 
-/// What is odd about one body of a case that this formulation can run.
+/// Adds warnings about one body of a valid case.
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts);
 
 }  // namespace piola::jst_sph

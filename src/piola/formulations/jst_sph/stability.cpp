@@ -13,8 +13,9 @@ namespace piola::jst_sph {
 namespace {
 
 constexpr int first_rounds = 40;  ///< power iterations from a random start
-/// Of a lattice at rest they come within 1 % of the limit in 24: one with so many particles spends no more on it, and
-/// takes that measurement for the start, too, if it starts undeformed. Clouds have modes that take longer to find.
+/// On a lattice at rest the iterations come within 1 % of the limit in 24. A lattice of `many` particles or more spends
+/// no more on it, and uses that measurement also for the start, if it starts undeformed. Clouds have modes that take
+/// longer to converge.
 constexpr Index many = 10'000;
 constexpr int repeats = 5, repeats_of_many = 3, rounds_of_repeat = first_rounds / repeats;
 constexpr int later_rounds = 3;  ///< and from the mode of the last measurement
@@ -28,7 +29,7 @@ constexpr double trust = 0.65;
 /// Values of the fields that a trial step writes, to be put back.
 class Kept {
  public:
-  /// Of the slots of this rank: what trial steps write of others is brought up to date before anybody reads it.
+  /// Saves local slots only: ghosts written by trial steps are updated before they are read.
   explicit Kept(JstBody const& body) : slots_(body.state().slots) {
     BodyState const& state = body.state();
     int const D = state.dimension;
@@ -48,7 +49,7 @@ class Kept {
   void restore() const {
     for (auto const& part : parts_) put(part.field, part.components, part.values);
   }
-  /// What was kept of a field, from the first slot of this rank on.
+  /// The saved values of a field, from the first local slot on.
   double const* values_of(FieldRef const& field) const {
     auto const found =
         std::find_if(parts_.begin(), parts_.end(), [&](Part const& part) { return part.field.data == field.data; });
@@ -124,7 +125,7 @@ class Operator {
   }
 
  private:
-  /// Of displacements, of modes, and of what is kept of fields.
+  /// Index in displacements, modes and saved fields.
   std::size_t at(Index i, int c) const { return mode_place(body_, i, c); }
   template <class F>
   void each_particle(F const& f) const {
@@ -138,7 +139,7 @@ class Operator {
       after.add(other.after);
     }
   };
-  /// Of the particles of this rank.
+  /// Over the local particles.
   exec::ExactSums<1> square(std::vector<double> const& u) const {
     Range const own = body_.own();
     return exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
@@ -183,7 +184,7 @@ class Operator {
   std::vector<double> rest_;
 };
 
-/// A copy of the state for trial steps: forces alone, no supports, no books.
+/// A copy of the state for trial steps: forces alone, no supports, no energy balance.
 BodyState trial_of(JstBody& body, FailureSlot& failure) {
   BodyState trial = body.state();
   trial.failure = &failure;

@@ -11,36 +11,35 @@ namespace piola::jst_sph {
 double largest_step(double frequency, double damping);
 
 /// Largest step [s] for the largest eigenvalue of K + (2 / dt) D of internal forces K and viscous ones D [1/s2]: the
-/// same rule where the two have different modes.
+/// same rule if both have different modes.
 double largest_step(double eigenvalue);
 
-/// Follows the step limit of one body: the largest frequency of its internal forces about the current state, by power
-/// iterations that start from the mode found last, and the largest rate of its stabilisation. Between measurements both
-/// grow with the largest wave speed, which at the start gives a bound that the measured frequency is also held against.
-/// With hourglass forces, whose viscous part is not small and grows as the elastic part does, one eigenvalue of both is
-/// followed, which never counts as less than that of the undeformed body.
-/// The state is left as it was.
+/// Monitors the step limit of one body: the largest frequency of its internal forces about the current state, by power
+/// iterations from the last mode, and the largest rate of its stabilisation. Between measurements both scale with the
+/// largest wave speed, which at the start also gives a lower bound of the frequency. With hourglass forces, whose
+/// viscous part is not small and grows like the elastic part, one eigenvalue of both is measured, at least that of the
+/// undeformed body. The state is left unchanged.
 class StabilityMonitor {
  public:
-  /// Right-hand sides that the later measurements cost per step.
+  /// Cost of later measurements in right-hand sides per step.
   static constexpr double stages_per_step = 4.0 / 50;
-  /// And what all ranks say for them: the mode, motions of right-hand sides, three largest numbers, two sums.
+  /// Collectives of later measurements per step: the mode, motions of right-hand sides, three maxima, two sums.
   static constexpr double collectives_per_step = 9.0 / 50;
-  /// And the first ones in all, with what is around them.
+  /// Cost of the first measurements in right-hand sides, with overhead.
   double setup_stages() const;
 
   /// Measures both from a random start.
   StabilityMonitor(JstBody& body, Machine const& machine);
 
-  /// Counts a step that led to a state with this largest wave speed, and measures the frequency again if that is due.
+  /// Registers a step to a state with this largest wave speed, and repeats the measurement of the frequency if due.
   void update(double wave_speed);
   /// Largest stable step for a state with this largest wave speed [s].
   double step(double wave_speed) const;
 
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
-  /// Everything that the next step limit depends on. On ranks that share the body both are collective, and rank 0 has,
-  /// or gives, what there is of particles.
+  /// State that determines the next step limit. Collective on a distributed body; particle data are gathered on or
+  /// scattered from rank 0.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 
@@ -53,13 +52,13 @@ class StabilityMonitor {
 
   JstBody& body_;
   Machine const& machine_;
-  std::vector<double> mode_;        ///< of the particles of this rank, by slot
+  std::vector<double> mode_;        ///< of local particles, by slot
   double frequency_ = 0;            ///< 1/s, at the last measurement
   double frequency_per_speed_ = 0;  ///< 1/m, at the start
   double wave_speed_ = 0;           ///< m/s, largest one at the last measurement
   double damping_ = 0;              ///< 1/m: rate of the stabilisation per wave speed
   double steps_ = 0;                ///< since the last measurement
-  // With hourglass forces, in place of frequencies and damping.
+  // With hourglass forces, instead of frequencies and damping.
   double limit_ = 0;          ///< s, at the last measurement
   double limit_at_rest_ = 0;  ///< s, of the undeformed body
   double speed_at_rest_ = 0;  ///< m/s

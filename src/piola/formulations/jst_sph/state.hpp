@@ -11,7 +11,7 @@ class HaloPlan;
 class SharedTotal;
 }
 
-/// One body of a JST-SPH run as its loops see it: plain data that crosses between machines.
+/// State of one body for the loops: plain data, independent of the instruction set.
 namespace piola::jst_sph {
 
 /// The unknowns of the conservation laws; the rest of the geometry follows from them.
@@ -22,17 +22,17 @@ enum class Variables {
   displacement  ///< F from positions, eq. (34): classical total-Lagrangian SPH
 };
 
-/// Whether the volume ratio is an unknown of its own.
+/// Whether the volume ratio is evolved.
 constexpr bool evolves_volume(Variables v) { return v == Variables::pFJ || v == Variables::pFHJ; }
 
-/// How gradients are taken, and the internal force that goes with each by power balance.
+/// Form of gradients, and the internal force that is conjugate to each by power balance.
 enum class GradientForm {
   corrected,        ///< corrected gradient, eqs. (21) and (29c)
   uncorrected,      ///< raw kernel gradient, eqs. (22) and (30)
   corrected_kernel  ///< corrected gradient of the corrected kernel, eqs. (23) and (31)
 };
 
-/// How the biharmonic stabilisation is formed from the corrected Laplacian L.
+/// Form of the biharmonic stabilisation, from the corrected Laplacian L.
 enum class Biharmonic {
   none,
   adjoint,  ///< D4 = -L* (eps4 c h^3 L p): never feeds energy
@@ -43,14 +43,14 @@ enum class Biharmonic {
 struct SupportComponent {
   Index slot;
   std::int32_t component;
-  double position;          ///< where the support holds it [m]
+  double position;          ///< prescribed position [m]
   double removed;           ///< Verlet: the acceleration by the support at the end of the last step [m/s2]
-  double at_start, at_end;  ///< changes of velocity by it in this step, at the places of its start and end [m/s]
+  double at_start, at_end;  ///< velocity changes by the support in this step, at its start and end positions [m/s]
 };
 
 class Multipliers;
 
-/// Where in a step the multipliers correct the velocity.
+/// Time within a step at which multipliers correct the velocity.
 struct MultiplierCall {
   enum class When {
     start,       ///< v at t = 0
@@ -62,7 +62,7 @@ struct MultiplierCall {
   double dt;
 };
 
-/// Where values lie in the field `history` of solids in rate form.
+/// Layout of the field `history` of solids in rate form.
 struct SolidFields {
   enum : int {
     S,                   ///< deviatoric Cauchy stress [Pa], 6 values
@@ -76,7 +76,7 @@ struct SolidFields {
   };
 };
 
-/// How a step is taken.
+/// Time integration.
 enum class Integrator {
   tvd_rk2,  ///< two stages, eq. (43)
   verlet    ///< kick, drift, kick: one right-hand side, exact angular momentum
@@ -87,8 +87,8 @@ struct HourglassConstants {
   double modulus = 0;     ///< mu / (4 m), m normalising the weights of pairs [Pa]; 0: no such energy
   double stiffness = 0;   ///< xi_0
   double stiffening = 0;  ///< xi_1 / mu [1/Pa]
-  double ahead = 0;       ///< the deformation acts as it will be so much later: tau [s]
-  double bulk_ahead = 0;  ///< and the volume ratio before the filter [s]
+  double ahead = 0;       ///< tau: look-ahead time of the deformation [s]
+  double bulk_ahead = 0;  ///< look-ahead time of the volume ratio before the filter [s]
 };
 
 struct Constants {
@@ -97,9 +97,9 @@ struct Constants {
   double h_min;           ///< smallest particle spacing [m]
   double c_p0;            ///< p-wave speed at F = I [m/s]
   double eps2, eps4;      ///< harmonic and biharmonic coefficients for p, times (stabilisation speed / c_p0)
-  double eps2_J, eps4_J;  ///< the same for J
-  double kappa_local;     ///< part of the bulk modulus that acts on the local volume ratio [Pa]
-  double kappa_filtered;  ///< part that acts on the filtered volume ratio [Pa]; 0: no filter
+  double eps2_J, eps4_J;  ///< as eps2 and eps4, for J
+  double kappa_local;     ///< part of the bulk modulus for the local volume ratio [Pa]
+  double kappa_filtered;  ///< part for the filtered volume ratio [Pa]; 0: no filter
   int filter_passes;      ///< n of B = S^n
   HourglassConstants hourglass;
   double total_volume;    ///< sum of tributary volumes [m^D]
@@ -118,12 +118,12 @@ struct Constants {
 /// Whether the evolved volume ratio is stabilised, eq. (38).
 constexpr bool smooths_volume(Constants const& k) { return k.eps2_J > 0 || k.eps4_J > 0; }
 
-/// What a step adds to the books of the body.
+/// Contributions of a step to the energy balance of the body.
 struct StepTotals {
   double stabilisation_loss = 0;  ///< J, energy removed by D(p)
   double projection_loss = 0;     ///< J, energy removed by the projection of T
   double damping_loss = 0;        ///< J, energy removed by damping
-  double viscous_work = 0;        ///< J, done against forces with a viscous part, with their energy at the start
+  double viscous_work = 0;        ///< J, done against forces with a viscous part, with their initial energy
 };
 
 struct BodyState {
@@ -135,27 +135,27 @@ struct BodyState {
   StencilTable stencil;
   ListTable list;
 
-  // Reference: tributary volume, in the operators with mirror planes that of the continued body; volume as a weight of
-  // sums over the body itself; corrections (tables.hpp).
+  // Reference: tributary volume, in the operators with mirror planes that of the continued body; weight of sums over
+  // the body itself; corrections (tables.hpp).
   FieldRef V, weight, C, G, alpha, beta, diagonal;
   // Evolved. `v` is p / rho0. For the mixed variables `u` is v itself; for displacement it is the stage's position.
   FieldRef x, v, F, wave_speed;
   FieldRef H, J;  ///< {p,F,H,J}; {p,F,J} and {p,F,H,J}
-  // Derived: read at neighbours by the two sweeps.
+  // Derived: neighbour data of the two sweeps.
   FieldRef u;
-  FieldRef second;  ///< all that the second sweep reads: w, then for the adjoint form alpha and beta, then A
-  FieldRef w;       ///< part of `second`: what the second Laplacian is applied to
+  FieldRef second;  ///< neighbour data of the second sweep: w, then for the adjoint form alpha and beta, then A
+  FieldRef w;       ///< part of `second`: argument of the second Laplacian
   FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
-  // Hourglass energy. Read at neighbours: position and deformation gradient a little ahead, the volume times s. Of the
+  // Hourglass energy. Neighbour data: position and deformation gradient a look-ahead time later, volume times s. Of the
   // particle: acceleration, stress, twice the work over the step of forces with a viscous part, per volume; for
   // observers, energy per volume and filtered volume ratio.
   FieldRef ahead, hourglass_force, hourglass_stress, viscous_work, hourglass_energy, seen_ratio;
   // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum
-  // of the filter's weights without the diagonal; two buffers of d V f that sweeps read at neighbours.
+  // of the filter's weights without the diagonal; two buffers of d V f for neighbours.
   FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
-  FieldRef filter_input;     ///< what the filter takes at the particle itself, where that is not the volume ratio
+  FieldRef filter_input;     ///< input of the filter at the particle itself, if that is not the volume ratio
   FieldRef ratio_change;     ///< of the volume ratio in the step
-  FieldRef ratio_increment;  ///< filtered {p,F,J} and {p,F,H,J}: what the step adds to the filtered ratio
+  FieldRef ratio_increment;  ///< filtered {p,F,J} and {p,F,H,J}: increment of the filtered ratio in the step
   // Corrected kernel: full correction matrix, sum V grad W / sum V W; sum V W (u_b - u_a); A_b gamma_b; sum of these.
   FieldRef full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
   // Within a step.
@@ -172,17 +172,17 @@ struct BodyState {
   void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
-  HaloPlan* halo = nullptr;   ///< where ranks share the particles: `slots` are those of this rank
+  HaloPlan* halo = nullptr;   ///< if the body is distributed; `slots` are the local ones
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;
   StepTotals totals;
-  SharedTotal* external_work = nullptr;  ///< of loads and of driven supports [J]
-  double largest_wave_speed = 0;         ///< at the end of the step that was taken last, of all ranks [m/s]
+  SharedTotal* external_work = nullptr;  ///< of loads and driven supports [J]
+  double largest_wave_speed = 0;         ///< at the end of the last step, over all ranks [m/s]
   bool starting = false;                 ///< the step makes the state of time 0 consistent
-  bool trial = false;                    ///< a step that asks for the stiffness: solids do not yield and keep no state
+  bool trial = false;                    ///< a step that measures the stiffness: solids do not yield and store no state
 };
 
-/// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
+/// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
 struct Machine {
   char const* name;
   int lanes;
@@ -191,14 +191,15 @@ struct Machine {
   double (*largest_wave_speed)(BodyState& body);     ///< m/s
   void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
   double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak.hpp
-  void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: keeps the state at the F of the body
+  void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: stores the state at the F of the body
   void (*observe_energy)(BodyState& body);           ///< hourglass energy and filtered volume ratio of the state
   void (*copy)(double const* from, double* to, Index n);
 };
 
-/// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.
+/// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not
+/// usable here.
 Machine const* find_machine(char const* name);
-/// Names of the machines in this program that this processor can run, best first; ends with nullptr.
+/// Names of the instruction sets in this program that this processor can run, best first; ends with nullptr.
 char const* const* machine_names();
 /// As find_machine; throws InputError if there is none.
 Machine const& choose_machine(char const* name);

@@ -110,7 +110,7 @@ class Step {
     });
   }
 
-  /// The rate that takes the rigid part out of the motion.
+  /// The rate that removes the rigid part of the motion.
   RigidRate minus_rigid_motion() const {
     using At = MotionTotals<D>;
     SumMotion<D> const pass{b_.constants, read_reference(b_.V), read(b_.x), read(b_.v)};

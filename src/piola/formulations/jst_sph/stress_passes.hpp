@@ -4,10 +4,10 @@
 #include "piola/formulations/jst_sph/solid_stress.hpp"
 #include "piola/materials/laws.hpp"
 
-/// From the first sums of a Runge-Kutta stage to what the second sweep needs: geometry, stress, stabilisation.
+/// From the first sums of a Runge-Kutta stage to the input of the second sweep: geometry, stress, stabilisation.
 namespace piola::jst_sph::inline PIOLA_MACHINE {
 
-/// Records the lanes whose volume ratio is not positive, or not a number. Code 1: det F, code 2: the evolved J.
+/// Records the lanes whose volume ratio is not positive, or NaN. Code 1: det F, code 2: the evolved J.
 PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int code = 1) {
   auto const good = J > 0.0;
   if (!any(!good)) return;
@@ -15,7 +15,7 @@ PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int
     if (!(lane(J, l) > 0)) exec::record(failure, i + l, code);
 }
 
-/// Gradients from raw sums, and stress as the internal force takes it, in the forms of Lee et al., Remarks 3 and 4.
+/// Gradients from raw sums, and stress in the form of the internal force, following Lee et al., Remarks 3 and 4.
 template <int D>
 struct GradientCorrection {
   GradientForm gradient_form, force_form;
@@ -42,14 +42,14 @@ struct GradientCorrection {
   }
 };
 
-/// Views of H and J where they are unknowns of their own; nothing behind them otherwise.
+/// Views of H and J if these are evolved; otherwise without data.
 struct EvolvedGeometry {
   View H, H_star, J, J_n;
   WriteView H_out, J_out, J_n_out;
 };
 
 /// Smallest principal stretch of a D-dimensional body, squared. In one dimension two stretches are 1, and the smallest
-/// of a double root would carry the square root of the round-off.
+/// of a double root would have the square root of the round-off.
 template <int D>
 PIOLA_FN Lanes smallest_stretch_squared_in(Mat<3, Lanes> const& F) {
   if constexpr (D == 1) return minimum(F(0, 0) * F(0, 0), Lanes(1.0));
@@ -63,12 +63,12 @@ PIOLA_FN Lanes estimated_wave_speed(Constants const& k, Mat<3, Lanes> const& F) 
 }
 
 /// c_p of a particle: the estimate, or from the largest modulus of the law in the principal directions (step 2 of
-/// Algorithm 1). Never below the speed of shear waves at rest: laws that soften under compression lose their modulus
+/// Algorithm 1). At least the shear wave speed at rest, because laws that soften under compression lose their modulus
 /// there.
 template <int D, class Law>
 PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F, Index i) {
   if constexpr (std::is_same_v<Law, SolidStress>) {
-    // Of the current state, in reference lengths along the most compressed direction.
+    // In the current state, in reference lengths along the most compressed direction.
     return law.sound_speed(i, determinant(F)) / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
   } else {
     if (k.exact_speed) {
@@ -80,7 +80,7 @@ PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> c
   }
 }
 
-/// p = kappa_local (J - 1) + q, where the volumetric energy is filtered.
+/// p = kappa_local (J - 1) + q, if the volumetric energy is filtered.
 PIOLA_FN Lanes acting_pressure(Constants const& k, View const& volume_ratio, View const& q, Index i) {
   return k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + q.scalar<Lanes>(i);
 }
@@ -104,7 +104,7 @@ struct UpdateStress {
   ReferenceView V;
   View wave_speed, F_n, F_star;
   EvolvedGeometry evolved;
-  View volume_ratio, filtered_pressure;  ///< of this stage, where the volumetric energy is filtered
+  View volume_ratio, filtered_pressure;  ///< of this stage, if the volumetric energy is filtered
   WriteView F_out, A, w, rate, J_rate, wave_speed_next;
   FailureSlot* failure;
 
@@ -118,7 +118,7 @@ struct UpdateStress {
   }
 
  private:
-  /// The F at which stress is evaluated; stores the F that the stage produces and what follows from it.
+  /// Returns the F at which stress is evaluated; stores the F of the stage and derived values.
   PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient, Lanes const& volume) const {
     Mat<D, Lanes> F = gradient;
     // Empty slots must stay finite: their values meet zero weights.
@@ -150,7 +150,7 @@ struct UpdateStress {
     }
   }
 
-  /// P of F, H and J as unknowns, which the stage carries on.
+  /// P of evolved F, H and J, which the stage advances.
   PIOLA_FN Mat<3, Lanes> stress_of_evolved(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
     Mat<3, Lanes> const F_dot = embed_rate<D>(gradient);
     Mat<3, Lanes> H;
@@ -163,7 +163,7 @@ struct UpdateStress {
     } else {
       H = cofactor(F);
     }
-    // The volume ratio of a law of small strain is 1 + tr e, whose rate sees H = I.
+    // The volume ratio of a law of small strain is 1 + tr e, whose rate has H = I.
     Lanes const J = evolved.J.scalar<Lanes>(i), J_dot = Law::small_strain ? trace(F_dot) : contract(H, F_dot);
     Lanes next = J + stage.dt * J_dot;
     if (stage.second)
@@ -222,7 +222,7 @@ void compute_wave_speed(BodyState const& body) {
   });
 }
 
-/// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient that positions imply.
+/// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient of the positions.
 template <int D>
 struct StoreDeformation {
   GradientCorrection<D> correction;
@@ -232,7 +232,7 @@ struct StoreDeformation {
   }
 };
 
-/// The volume ratio that the law's volumetric energy sees: det F, or 1 + tr e for small strain.
+/// The volume ratio of the law's volumetric energy: det F, or 1 + tr e for small strain.
 template <int D>
 struct ComputeVolumeRatio {
   bool small_strain;
@@ -243,7 +243,7 @@ struct ComputeVolumeRatio {
   }
 };
 
-/// J = next + share of the step (D(J) - its mean), the mean being the projection that conserves sum V J (51).
+/// J = next + weight of the step (D(J) - its mean), the mean being the projection that conserves sum V J (51).
 struct AdvanceVolume {
   double time, mean;
   View next, rate;

@@ -25,11 +25,11 @@ struct KickAndDrift {
   }
 };
 
-/// H and J as unknowns of their own: views with nothing behind them for {p,F}.
+/// Evolved H and J: views without data for {p,F}.
 struct CarriedGeometry {
   View H, J;
   WriteView H_out, J_out, increment;
-  bool starting;  ///< the increment is that from the undeformed state
+  bool starting;  ///< the increment starts at the undeformed state
 };
 
 /// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and what the second Laplacian is applied to,
@@ -48,9 +48,9 @@ struct Deform {
   WriteView F, wave_speed, volume_ratio, w, rate;
   CarriedGeometry carried;
   View filter_scale, filter_input_before;
-  WriteView filter_source;  ///< what the first filter pass reads at neighbours: g = d V J, or d V times the increment
-  WriteView filter_input;   ///< J a little ahead in time, where the volume ratio is filtered so
-  WriteView ratio_change;   ///< and the change of J in the step, for the books
+  WriteView filter_source;  ///< neighbour data of the first filter pass: g = d V J, or d V times the increment
+  WriteView filter_input;   ///< look-ahead value of J, if that is filtered
+  WriteView ratio_change;   ///< change of J in the step, for the energy balance
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
@@ -63,7 +63,7 @@ struct Deform {
     record_inverted(failure, i, J);
     Lanes c;
     if (k.exact_speed) {
-      c = wave_speed_in.scalar<Lanes>(i);  // that of the step before; ComputeWaveSpeed follows
+      c = wave_speed_in.scalar<Lanes>(i);  // of the last step; ComputeWaveSpeed follows
     } else {
       c = estimated_wave_speed<D>(k, full);
       wave_speed.scalar(i, c);
@@ -81,13 +81,13 @@ struct Deform {
   }
 
  private:
-  /// J* = J + (time ahead) H : GRAD v.
+  /// Look-ahead value J* = J + (time ahead) H : GRAD v.
   PIOLA_FN Lanes ratio_ahead(Mat<3, Lanes> const& full, Mat<D, Lanes> const& gradient, Lanes const& ratio) const {
     Mat<3, Lanes> const dF = embed_rate<D>(gradient);
     return ratio + k.hourglass.bulk_ahead * (small_strain ? trace(dF) : contract(cofactor(full), dF));
   }
 
-  /// The increment of J, from the volume ratio that F now has; of `seen` where the filter takes that.
+  /// The increment of J from the present volume ratio of F; from `seen` if the filter uses that.
   PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step, Lanes const& ratio,
                        Lanes const& seen) const {
     Mat<3, Lanes> const before = embed<D>(old);
@@ -134,7 +134,7 @@ struct WeightStress {
   WriteView A;
 
   PIOLA_FN void operator()(Index i) const { fold(i, law_stress(i)); }
-  /// With a stress that is added to that of the law.
+  /// As above, adding a stress to that of the law.
   PIOLA_FN void operator()(Index i, Mat<D, Lanes> const& more) const { fold(i, law_stress(i) + more); }
 
  private:
@@ -166,7 +166,7 @@ struct WeightStress {
   }
 };
 
-/// Deform and WeightStress of a block in one go, where no filter stands between them.
+/// Deform and WeightStress of a block in one pass, without a filter between them.
 template <int D, bool Stabilised, class Law>
 struct DeformAndWeightStress {
   Deform<D, Stabilised> deform;
@@ -197,10 +197,10 @@ struct Kick {
   }
 };
 
-/// v_c = 0 and a_c = 0 where a support holds; the reaction is what would have been.
+/// v_c = 0 and a_c = 0 at supports; the reaction is the value that is replaced.
 struct HoldVelocity {
   double dt;
-  bool trial;  ///< keeps no reaction
+  bool trial;  ///< stores no reaction
   SupportComponent* supports;
   View v, rate;
   WriteView v_out, rate_out;

@@ -18,10 +18,10 @@ class VerletStep {
   VerletStep(BodyState& body, Loader const& loader)
       : b_(body), loader_(loader), forces_(body, loader), halo_{body.halo} {}
 
-  /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations a^n of the state are made.
+  /// From t^n to t^(n+1) = t^n + dt. With dt = 0 only the accelerations a^n are computed.
   void operator()(double dt) {
     turn_loads(false);                                   // E at n
-    drive(dt);                                           // v^(n+1/2) where it is prescribed
+    drive(dt);                                           // v^(n+1/2) in prescribed directions
     RigidRate const without_rigid = kick_and_drift(dt);  // v^(n+1/2), x^(n+1)
     halo_.refresh(b_.u);
     bool const filtered = b_.constants.kappa_filtered > 0;
@@ -39,7 +39,7 @@ class VerletStep {
       halo_.refresh(b_.filter_source[0]);
     if (filtered) filter();  // q = B* kappa_f (B J - 1)
     if (hourglass)
-      weight_stress_and_hourglass(dt, without_rigid);  // the same with the hourglass stress, and that force
+      weight_stress_and_hourglass(dt, without_rigid);  // as below, with the hourglass stress and force
     else if (filtered)
       weight_stress();  // P(F, kappa_l (J - 1) + q), A
     halo_.refresh(b_.second);
@@ -48,7 +48,7 @@ class VerletStep {
     kick(dt, balance);                                            // v^(n+1)
   }
 
-  /// The hourglass energy of the state as it is, and its filtered volume ratio.
+  /// Evaluates the hourglass energy and the filtered volume ratio of the current state.
   void observe_energy() {
     with_stress_law(b_, 0, StressAt::start, [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
@@ -70,7 +70,7 @@ class VerletStep {
  private:
   using At = MotionTotals<D>;
 
-  /// The accelerations of the start, dt = 0, are not those of a motion.
+  /// The accelerations of the start, dt = 0, do not belong to a motion.
   void drive(double dt) {
     if (b_.held_count == 0 || !(dt > 0)) return;
     exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.rate)});
@@ -132,7 +132,7 @@ class VerletStep {
     });
   }
 
-  /// The accelerations of the start, dt = 0, are those of the state as it is.
+  /// The accelerations of the start, dt = 0, belong to the current state.
   static StressAt stress_at(double dt) { return dt > 0 ? StressAt::end : StressAt::start; }
 
   template <class Law>

@@ -6,15 +6,15 @@
 
 namespace piola::nodal {
 
-/// Groups of lanes of a lattice whose particles stand alike: what follows from where neighbours stand is stored once
-/// for all of them, group after group; see FieldRef::group.
+/// Groups of SIMD lanes with identical neighbour geometry. Reference data that depend on this geometry alone are stored
+/// once per distinct group; see FieldRef::group.
 struct AlikeGroups {
   int lanes = 1;
-  PartFilled<std::int32_t> stored;  ///< per group of lanes: where it is stored, counted in groups
-  std::vector<std::size_t> first;   ///< per stored group: a slot where one begins; never empty
+  PartFilled<std::int32_t> stored;  ///< per group of lanes: index of the stored group
+  std::vector<std::size_t> first;   ///< per stored group: first slot of a group with this geometry; never empty
 
   AlikeGroups() = default;
-  /// Of these slots, of all of them.
+  /// Groups the lanes of `slots`; the body has `all_slots` slots.
   template <int D>
   AlikeGroups(Fits<D> const& fits, Range slots, Index all_slots, int group_lanes)
       : lanes(group_lanes), stored(static_cast<std::size_t>(all_slots / group_lanes)) {
@@ -25,7 +25,7 @@ struct AlikeGroups {
       kinds.clear();
       auto const end = std::min(static_cast<std::size_t>(begin + lanes), fits.X().size());
       for (auto a = static_cast<std::size_t>(begin); a < end; ++a) kinds.push_back(fits.alike(a));
-      if (kinds == last && begin > slots.first) {  // as most groups
+      if (kinds == last && begin > slots.first) {  // same kinds as the last stored group, the common case
         group = stored[static_cast<std::size_t>(begin / lanes) - 1];
         continue;
       }
@@ -38,9 +38,9 @@ struct AlikeGroups {
   }
 
   Index slots() const { return static_cast<Index>(first.size()) * lanes; }
-  /// Where what belongs to a slot is stored.
+  /// Index at which data of a slot are stored.
   Index place(Index slot) const { return stored[static_cast<std::size_t>(slot / lanes)] * lanes + slot % lanes; }
-  /// f(place, particle) for each stored place that has one of so many particles.
+  /// Calls f(place, particle) for each stored place of the first `particles` slots.
   template <class F>
   void each(std::size_t particles, F const& f) const {
     for (std::size_t g = 0; g < first.size(); ++g)

@@ -18,7 +18,7 @@
 namespace piola::nodal {
 namespace {
 
-/// What ranks tell each other of a step.
+/// Reduction payload of a step.
 struct SaidOfStep {
   FirstFailure first;
   double change;
@@ -78,8 +78,8 @@ void NodalBody::set_up(Assembly const& assembly, std::size_t body, Machine const
   if (order.id != order_.id) reference_ = dealt_reference(std::move(reference_), order, order_);
 }
 
-/// Of the whole body: what is set up are its cells, fits and masses. Between two planes it has no end; what is eight
-/// spacings away is not seen.
+/// Images of the whole body, for the set-up of cells, fits and masses. Between two planes it is endless; images beyond
+/// eight spacings have no effect.
 MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body, SlotOrder const& order) const {
   constexpr double far = 8;
   std::array<double, 3> reach = body_.spacing;  // of directions without planes: any
@@ -111,7 +111,7 @@ void NodalBody::attach_images() {
   });
 }
 
-/// What is on a plane: half of it is the body's own, and it does not leave the plane.
+/// Treats particles on a plane: half of their volume belongs to the body, and they stay in the plane.
 void NodalBody::keep_own_side() {
   for (Index i = own().first; i < own().last; ++i) {
     int axes = 0;
@@ -281,7 +281,7 @@ void NodalBody::fill_initial(Assembly const& assembly) {
 
 void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   auto& r = reference_;
-  // Of all particles on all ranks where these push them, or solve for what holds the surface.
+  // Masses of all particles on all ranks for contact, or if every rank solves for held surface places.
   if (shared() && (assembly.pushed || !r.held.empty())) SharedSlots{slots(), particles()}.complete(r.mass, 1);
   std::optional<Range> own;
   if (shared()) own = state_.slots;

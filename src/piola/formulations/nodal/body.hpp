@@ -18,11 +18,11 @@
 
 namespace piola::nodal {
 
-/// One body of a nodal run: owns its memory, hands its state to the loops, answers in Id order.
+/// One body of a nodal run: owns its memory, passes its state to the loops, is addressed in Id order.
 class NodalBody {
  public:
-  /// `set` is kept by reference. Throws InputError (too few particles across; a body without an outline). Collective on
-  /// ranks: each has its own particles alone, and what these read of others.
+  /// Keeps a reference to `set`, which must outlive the body. Throws InputError (too few particles across; a body
+  /// without an outline). Collective: each rank holds its local particles and their ghosts.
   NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
             Machine const& machine);
   NodalBody(NodalBody const&) = delete;
@@ -40,35 +40,37 @@ class NodalBody {
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   Reference const& reference() const { return reference_; }
   bool shared() const { return halo_ != nullptr; }
-  /// What its particles tell those of other ranks, in calm motion.
+  /// Communication pattern of the body while strains change slowly.
   Talk talk() const;
-  /// Slots of particles that this rank works on: all of them on one rank.
+  /// Slots of the local particles: all on one rank.
   Range own() const;
-  /// Where ranks share the body: its lattice lines as observers see them; else nullptr.
+  /// Lattice lines for observers if the body is distributed; else nullptr.
   SharedLines* lines() const { return lines_.get(); }
-  /// Made when it is asked for the first time. Collective.
+  /// Created on first use. Collective.
   Smoothing const& smoothing() const;
   std::size_t bytes() const;
 
-  /// From `time` to time + dt, with supports and loads. Where a cell is turned inside out on the way the step is taken
-  /// again in two halves, a few times over; the failure stays if that does not help. Returns how often it was halved.
+  /// Advances from `time` to time + dt, with supports and loads. If a cell is inverted, repeats the step in two halves,
+  /// up to a few times; the failure remains if that does not help. Returns the number of halvings.
   int step(Machine const& machine, double time, double dt);
-  /// Multiplies the velocities that no support prescribes, and books the kinetic energy that they lose.
+  /// Multiplies the velocities that no support prescribes; the lost kinetic energy is added to damping_loss().
   void damp(double factor);
-  /// Of a strain, in the step that was taken last, since the last measurement of the step limit.
+  /// Largest change of a strain at the last step since the last measurement of the step limit.
   double largest_change() const { return largest_change_; }
-  double kinetic_energy() const;                          ///< of all ranks, which all ask for it [J]
+  double kinetic_energy() const;                          ///< over all ranks [J]; collective
   double kinetic_energy_of(Index slot) const;             ///< [J]
-  double strain_energy() const;                           ///< likewise, of what observers see [J]
+  double strain_energy() const;                           ///< over all ranks, of the state for observers [J];
+                                                          ///< collective
   double damping_loss() const { return damping_loss_; }   ///< since the start [J]
-  double viscous_loss() const;                            ///< likewise, since the start [J]
-  bool remembers() const { return fields_.with_solids; }  ///< solids in rate form
+  double viscous_loss() const;                            ///< over all ranks, since the start [J]; collective
+  bool remembers() const { return fields_.with_solids; }  ///< whether it has solids in rate form
   bool viscous() const { return fields_.with_viscosity; }
-  /// Over the points of a cell, of one number of their histories (SolidPlaces); 0 for bodies without.
+  /// Mean over the points of a cell of one number of their histories (SolidPlaces); 0 for bodies without solids in rate
+  /// form.
   double mean_of_points(Index slot, int number) const;
   void set_damping_loss(double loss) { damping_loss_ = loss; }
-  /// Whether the fields for observers belong to the present state, so that a second look costs no sweep. Whoever
-  /// changes the state from outside says so.
+  /// Whether the fields for observers belong to the present state, so that no sweep is needed. Callers that change the
+  /// state from outside must reset it.
   bool observed() const { return observed_; }
   void set_observed(bool observed) { observed_ = observed; }
   double next_release(double time) const { return boundary_->next_release(time); }
@@ -78,16 +80,16 @@ class NodalBody {
     return D_ < 3 ? point_at(state_.x, slot, D_, X(slot)) : point_at(state_.x, slot, 3);
   }
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
-  Mat<3> F(Index slot) const;  ///< at the centroid of the cell; of missing directions the mean over its points
+  Mat<3> F(Index slot) const;  ///< at the centroid of the cell; missing directions: mean over its points
   MaterialRange const& material(Index slot) const;
   double mass(Index slot) const { return share(slot) * value(state_.mass, slot); }
-  /// Of any particle, on all ranks, of bodies that are pushed.
+  /// Mass of any particle [kg]. On all ranks if surface contact acts on the body.
   double known_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }
   double volume(Index slot) const { return share(slot) * value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
 
  private:
-  /// Of a particle, on this side of mirror planes.
+  /// Fraction of a particle's volume that belongs to the body itself, on this side of its mirror planes.
   double share(Index slot) const {
     return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
   }
@@ -107,7 +109,7 @@ class NodalBody {
   void agree_on_step(double change);
   void share();
   void mark_halo();
-  /// f(slot) for the slots of this rank, for those that it reads of other ranks, and for images.
+  /// Calls f(slot) for local particles, ghosts and images.
   template <class Visit>
   void each_seen(Visit const& f) const;
   bool failed() const { return failure_.index < order_.particles; }
@@ -131,7 +133,7 @@ class NodalBody {
   bool observed_ = false;
   FailureSlot failure_;
   BodyState state_;
-  std::unique_ptr<HaloPlan> halo_;  ///< nullptr: one rank has all particles
+  std::unique_ptr<HaloPlan> halo_;  ///< nullptr on one rank
   std::unique_ptr<SharedLines> lines_;
 };
 

@@ -6,7 +6,7 @@
 namespace piola::nodal {
 namespace {
 
-/// For those that hold the surface: nothing where nobody does.
+/// Positions for supports that hold the surface; empty if there are none.
 std::vector<std::array<double, 3>> positions(Assembly const& assembly, Boundary::OfBody const& of_body) {
   if (of_body.held.empty()) return {};
   SlotOrder const& order = of_body.order;
@@ -37,7 +37,7 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_
   take_loads(assembly, of_body, slot_of);
 }
 
-/// Those that hold the surface solve for all that is held near it, on every rank.
+/// Supports that hold the surface are solved for on every rank, including all held particles near it.
 void Boundary::share(Range own) {
   if (surface_.empty())
     driven_.keep(own);

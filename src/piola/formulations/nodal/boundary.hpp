@@ -11,35 +11,34 @@
 
 namespace piola::nodal {
 
-/// Supports and loads of one body: a BodyBoundary with the masses of particles and their parts of faces, and places of
-/// the surface that supports hold. Theory: docs/theory/boundaries.md, docs/theory/nodal.md.
+/// Supports and loads of one body: a BodyBoundary with the masses of particles and their parts of faces, and the
+/// surface places that supports hold. Theory: docs/theory/boundaries.md, docs/theory/nodal.md.
 class Boundary {
  public:
-  /// What a body says of itself: masses per slot [kg], for each load on a face the part of it per slot, centroids of
-  /// cells, and the places of the surface that supports hold.
+  /// Data of a body: masses per slot [kg], for each load on a face its part per slot, centroids of cells, and the
+  /// surface places that supports hold.
   struct OfBody {
     SlotOrder const& order;
     PartFilled<double> const& mass;
     std::vector<PartFilled<FacePart>> const& parts;
     PartFilled<double> const& centroid;
     std::vector<HeldPlace> const& held;
-    std::optional<Range> own = std::nullopt;  ///< slots for which this rank answers; nothing: all
+    std::optional<Range> own = std::nullopt;  ///< local slots; empty: all
     Range slots() const { return own.value_or(Range{0, order.slots()}); }
   };
-  /// Where ranks share the body every rank calls this, and what changes or measures the state.
+  /// Collective if the body is distributed, like all members that change or measure the state.
   Boundary(Assembly const& assembly, std::size_t body, OfBody const& of_body);
 
-  /// Gives the particles that supports hold the velocities of t = 0, and the loads of that time.
+  /// Sets the velocities of supported particles, and the loads, of t = 0.
   void attach(BodyState& state);
-  /// Before a step from `time` to time + dt: what is held and how fast, the loads at both ends.
+  /// Before a step from `time` to time + dt: evaluates held directions, their speeds, and the loads at both ends.
   void begin_step(BodyState& state, double time, double dt);
-  /// After it: adds the work and the impulses, and takes loads that end now out of the acceleration with which the next
-  /// step begins.
+  /// After the step: adds work and impulses, and removes loads that end now from the acceleration of the next step.
   void end_step(BodyState& state);
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
   double next_release(double time) const { return driven_.next_release(time); }
 
-  /// Adds what supports and loads gave since forget_impulses().
+  /// Adds the impulses of supports and loads since forget_impulses().
   void hand_over(Actions& actions) const;
   void forget_impulses() {
     driven_.forget_impulses();
@@ -47,12 +46,12 @@ class Boundary {
   }
   /// Multiplies the velocities that no support prescribes.
   void damp(BodyState& state, double factor) const;
-  /// Whether a particle is within the reach of a part of the surface that supports hold.
+  /// Whether a particle contributes to a surface place that supports hold.
   bool moves_surface(Index slot) const { return surface_.reaches(slot); }
-  /// After something has pushed particles: supports give back what moves the surface that they hold.
+  /// After velocities were changed by contact: supports restore the velocity of the surface that they hold.
   void withstand(BodyState& state) { surface_.keep_velocity(state.x, state.v, work_); }
-  /// sum m a^2 of the part of accelerations that supports take away [N m/s2]: by the surface, of all ranks, and along
-  /// directions of particles, of those of this rank.
+  /// sum m a^2 of the part of accelerations that supports remove [N m/s2]: by surface places over all ranks, and along
+  /// directions of local particles.
   double square_of_surface(BodyState const& state) const { return surface_.square_of_held(state.a); }
   exec::ExactSum square_of_held(BodyState const& state) const;
   std::size_t bytes() const { return surface_.bytes(); }
@@ -70,10 +69,10 @@ class Boundary {
   int D_;
   BodyBoundary driven_;
   SurfaceHold surface_;
-  std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to these [m]
+  std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to the particles [m]
   SharedTotal work_;
-  std::optional<Range> own_;  ///< nothing: all slots
-  bool follows_ = false;      ///< whether some load turns with the deformed face, on any rank
+  std::optional<Range> own_;  ///< empty: all slots
+  bool follows_ = false;      ///< whether some load is a follower load, on any rank
 };
 
 }  // namespace piola::nodal

@@ -4,12 +4,12 @@
 #include "piola/math/embedding.hpp"
 #include "piola/mechanics/boundary_passes.hpp"
 
-/// The pass over the particles that loads act on, beside those of mechanics/. Theory: docs/theory/boundaries.md.
+/// Passes for loads on particles, in addition to those of mechanics/. Theory: docs/theory/boundaries.md.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// The accelerations by pressures that follow the face, at the start or at the end of a step: along n da = cof F N dA
-/// (Nanson), with F where the particle is. The shares of a face are exact for quadratic fields at particles, and so for
-/// the area vectors of a quadratic deformation.
+/// Accelerations by follower pressures at the start or at the end of a step: along n da = cof F N dA (Nanson), with F
+/// at the particle. The weights of a face are exact for quadratic fields at particles, and so for the area vectors of a
+/// quadratic deformation.
 template <int D>
 struct TurnLoads {
   static constexpr int values = Quadratic<D>::values, terms = Quadratic<D>::terms, second = Quadratic<D>::second,

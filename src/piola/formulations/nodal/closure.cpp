@@ -15,7 +15,8 @@ namespace piola::nodal {
 namespace {
 
 constexpr int most_iterations = 2000;
-/// Of any component of a residual, in areas of a face between two particles: what a patch test may show in one force.
+/// Limit of any component of a residual, in areas of a face between two particles: the error of one force in a patch
+/// test.
 constexpr double most_left = 2e-3;
 /// Fewer particles need no more iterations without the coarse levels of the preconditioner.
 constexpr std::size_t worth_levels = 300;
@@ -210,7 +211,7 @@ PartFilled<double> Divergence<D>::residual(Closure const* corrected, PartFilled<
   return R;
 }
 
-/// How well the corrected gradients obey the divergence theorem. Collective on ranks that share the body.
+/// Error of the corrected gradients in the divergence theorem. Collective on a distributed body.
 template <int D>
 void Divergence<D>::measure(Closure& closure, Whole const& whole) const {
   if (whole.halo != nullptr) exchange_once(*whole.halo, closure.coefficients->ref(), Quadratic<D>::values * D);

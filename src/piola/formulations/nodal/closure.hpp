@@ -19,18 +19,18 @@ struct ScaledCell {
   std::array<double, 6> spread;  ///< XX YY ZZ YZ XZ XY
 };
 
-/// Corrections of the gradients,  G_ab += s_ab (mu_b - p(r_ab).coefficients_a).
+/// Corrections of the gradients, G_ab += s_ab (mu_b - p(r_ab).coefficients_a).
 struct Closure {
-  PartFilled<double> mu;                ///< D per particle; on ranks of own ones and their neighbours
-  std::unique_ptr<Field> coefficients;  ///< values x D per particle: the quadratic through mu about it; of own ones
+  PartFilled<double> mu;                ///< D per particle; local particles and ghosts
+  std::unique_ptr<Field> coefficients;  ///< values x D per local particle: the quadratic through mu about it
   int iterations = 0;
   double before = 0;    ///< largest component of the residual without corrections [faces between two particles]
-  double residual = 0;  ///< and of corrected gradients, measured with these
+  double residual = 0;  ///< and of corrected gradients, measured
   double steepest = 0;  ///< largest |G_ab| [1/spacing]
   double rounding = 0;  ///< largest |mu| times |X| times the precision of numbers: what sums of x mu add to a strain
   bool converged = false;
 
-  /// mu_b less the quadratic about a, along J; p: the monomials of b about a.
+  /// mu_b minus the quadratic about a, along J; p: the monomials of b about a.
   template <int D>
   double unexplained(std::size_t a, std::size_t b, typename Fits<D>::Monomials const& p, int J) const {
     auto const i = static_cast<Index>(a);
@@ -41,13 +41,14 @@ struct Closure {
   }
 };
 
-/// Where the moments of a patch or a cell (XX YY ZZ YZ XZ XY) are for second derivative `at` of D dimensions.
+/// Index of the moments of a patch or a cell (XX YY ZZ YZ XZ XY) for second derivative `at` of D dimensions.
 template <int D>
 constexpr std::size_t moment_of_second(int at) {
   return D == 2 && at == 2 ? 5 : static_cast<std::size_t>(at);
 }
 
-/// Of bodies that ranks share, each has the numbers of its own particles right, and zeros or parts of others'.
+/// Terms of the divergence theorem of a body. On a distributed body, results are valid for local particles; other
+/// entries are zero or partial sums.
 template <int D>
 class Divergence {
  public:
@@ -55,30 +56,31 @@ class Divergence {
 
   Divergence(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, std::vector<SurfacePatch> const& patches);
 
-  /// Shares of the surface by which pressure and traction on the chosen patches are handed to particles, along the
-  /// outward normals, consistent with quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches.
-  /// Patches count by their weight: zero for those that are not loaded.
+  /// Weights of pressure and traction on the chosen patches per particle, along the outward normals, exact for
+  /// quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches. weight(patch): factor of a patch,
+  /// zero if not loaded.
   PartFilled<double> shares(std::function<double(SurfacePatch const&)> const& weight) const;
   std::vector<SurfacePatch> const& patches() const { return patches_; }
   std::size_t particles() const { return fits_.X().size(); }
-  /// f(b) for the particles of this rank.
+  /// Calls f(b) for the local particles.
   template <class F>
   void each_own(F const& f) const {
     for (Index b = fits_.own().first; b < fits_.own().last; ++b) f(static_cast<std::size_t>(b));
   }
   /// Surface vectors A_b, D per particle.
   PartFilled<double> surface_vectors() const;
-  /// A_b - sum_a V_a G_ab, D per particle; without `corrected`, of gradients without correction. On ranks the closure
-  /// needs the coefficients of neighbours, too. `size`: largest |G_ab| per particle a of this rank, if asked for.
+  /// A_b - sum_a V_a G_ab, D per particle, with the gradients of `corrected` or, if null, without correction. On ranks,
+  /// `corrected` must have the coefficients of ghosts. `size`: if given, receives the largest |G_ab| per local particle
+  /// a.
   PartFilled<double> residual(Closure const* corrected = nullptr, PartFilled<double>* size = nullptr) const;
-  /// Of a body with mirror planes; of one that ranks share.
+  /// Mirror images and halo of a body that has them.
   struct Whole {
     Fold<D> const* fold = nullptr;
-    HaloPlan const* halo = nullptr;  ///< of neighbours, without fields
+    HaloPlan const* halo = nullptr;  ///< of ghosts, without fields
   };
-  /// The smallest change of the gradients that brings the residual below `tolerance` times what it was; by the loops of
-  /// a machine, over lists or the lattice that the particles fill. Collective on ranks that share the body. What comes
-  /// out is measured; it may not have converged.
+  /// Computes the smallest change of the gradients that reduces the residual to `tolerance` times its value, by the
+  /// loops of an instruction set, over lists or the lattice. Collective on a distributed body. The result is measured;
+  /// it may not have converged.
   Closure solve(double tolerance, Machine const& machine, LatticeLayout const* lattice, Whole const& whole) const;
 
  private:
@@ -92,7 +94,7 @@ extern template class Divergence<1>;
 extern template class Divergence<2>;
 extern template class Divergence<3>;
 
-/// f(b, share) with the integral of a motion over a patch as the sum of shares of particles: an expansion about the
+/// Calls f(b, share) with the weights of particles in the integral of a motion over a patch: an expansion about the
 /// nearest particle by its fit.
 template <int D, class F>
 void each_share(Fits<D> const& fits, SurfacePatch const& patch, F const& f) {

@@ -7,8 +7,8 @@
 namespace piola::nodal {
 namespace {
 
-/// Of a force in a body under uniform stress, in areas of a face between two particles times the stress. Solves that
-/// converge leave 2e-3 at most.
+/// Limit of a spurious force in a body under uniform stress, in areas of a face between two particles times the stress.
+/// Converged solves leave at most 2e-3.
 constexpr double most_missing = 4e-3;
 /// [1/spacing]. 1 to 3.2 on lattices, packings and random clouds; thirteen and more where the solve fails.
 constexpr double steepest_gradient = 10;

@@ -5,8 +5,8 @@
 
 namespace piola::nodal {
 
-/// Adds iterations, residual and largest gradient to `checks`. Throws InputError where gradients miss the divergence
-/// theorem, which gives forces out of nothing, or are so steep that steps become short.
+/// Adds iterations, residual and largest gradient to `checks`. Throws InputError if gradients violate the divergence
+/// theorem, which creates spurious forces, or are so steep that steps become short.
 void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpCheck>& checks);
 
 }  // namespace piola::nodal

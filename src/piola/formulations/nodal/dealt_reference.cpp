@@ -23,7 +23,7 @@ class Dealing {
 
   std::size_t slots() const { return old_.size(); }
   std::size_t old_slot(std::size_t slot) const { return old_[slot]; }
-  /// Of a slot, or of an image, which come after the slots and stay.
+  /// New slot of a slot or an image; images follow the slots and stay.
   Index new_slot(Index old) const {
     auto const k = static_cast<std::size_t>(old);
     return k < new_.size() ? static_cast<Index>(new_[k]) : old;

@@ -5,8 +5,8 @@
 
 namespace piola::nodal {
 
-/// The reference of a body that was set up in the order `from`, for the order `to` of the same particles. Neighbours of
-/// a particle keep the order that they had: sums over them have the same bits. Not of lattices.
+/// Permutes the reference of a body from the order `from` to the order `to` of the same particles. Neighbours of a
+/// particle keep their order, so sums over them have identical bits. Not for lattices.
 Reference dealt_reference(Reference r, SlotOrder const& from, SlotOrder const& to);
 
 }  // namespace piola::nodal

@@ -6,12 +6,12 @@
 
 namespace piola::nodal {
 
-/// Some of the numbers 0 ... count - 1, in ascending order.
+/// A subset of the numbers 0 ... count - 1, in ascending order.
 class Entries {
  public:
-  /// All of them.
+  /// All numbers.
   explicit Entries(Index count = 0) : count_(count) {}
-  /// Those that are marked.
+  /// The marked numbers.
   explicit Entries(std::vector<bool> const& marked) : some_(true) {
     for (std::size_t a = 0; a < marked.size(); ++a)
       if (marked[a]) numbers_.push_back(static_cast<Index>(a));

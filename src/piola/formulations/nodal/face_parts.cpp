@@ -59,7 +59,7 @@ WholeArea exact_area(SetUp const& from, Load const& load) {
   return sum;
 }
 
-/// That of the body itself, without its images. Collective on ranks that share the body.
+/// Area in the body itself, without its images. Collective on a distributed body.
 template <int D>
 WholeArea area_of(SetUp const& from, Fits<D> const& fits, PartFilled<FacePart> const& parts) {
   Range const own{fits.own().first, std::min(fits.own().last, from.order.particles)};

@@ -7,14 +7,13 @@ namespace piola::nodal {
 
 struct FacePartsOf {
   std::array<double, 3> const& h;   ///< spacings [m]
-  std::vector<SetUpCheck>& checks;  ///< gets the area of each load, beside the exact one
+  std::vector<SetUpCheck>& checks;  ///< receives the computed area of each load, with the exact one
 };
 
-/// What particles answer for of the faces that loads act on, consistent with quadratic fields. Flat faces have their
-/// own normal. A pressure on a curved face pushes on the vectors of the sampled body's surface, so that it has no
-/// resultant on a closed one. All other loads act on the area of the exact surface: where sides of blocks beside an
-/// oblique edge are taken for those of the wrong face, the areas of a load are scaled. Collective on ranks that share
-/// the body.
+/// Weights of particles on loaded faces, exact for quadratic fields. Flat faces have their own normal. A pressure on a
+/// curved face acts along the vectors of the sampled body's surface, so that it has no resultant on a closed one. All
+/// other loads act on the exact area: the areas of a load are scaled if cell sides beside an oblique edge are assigned
+/// to the wrong face. Collective on a distributed body.
 template <int D>
 std::vector<PartFilled<FacePart>> face_parts(SetUp const& from, Fits<D> const& fits, Divergence<D> const& divergence,
                                              FacePartsOf const& of);

@@ -7,7 +7,7 @@
 
 namespace piola::nodal {
 
-/// f(integral_constant D)
+/// Calls f(integral_constant D).
 template <class F>
 auto with_dimension(int D, F const& f) {
   if (D == 1) return f(std::integral_constant<int, 1>{});
@@ -21,13 +21,13 @@ struct Fields : FieldSet {
   static int second(int D) { return D * (D + 1) / 2; }
   static int terms(int D) { return D + second(D); }
   static int values(int D) { return 1 + terms(D); }
-  /// Strain and viscous stress at every point, and three numbers of the cell.
+  /// Strain and viscous stress at every point, and three values of the cell.
   static int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
 
   static int points(int D) { return D == 3 ? 4 : 1 << D; }
   static int solid_values(int D) { return SolidPlaces::point(points(D), D); }
 
-  /// `has_solids`: some cell is of a solid in rate form.
+  /// `has_solids`: some cell has a solid in rate form.
   explicit Fields(int D, bool has_viscosity = false, bool has_solids = false)
       : D_(D), with_viscosity(has_viscosity), with_solids(has_solids) {}
   int const D_;
@@ -52,10 +52,10 @@ struct Fields : FieldSet {
   ListedField C_measured{*this, "StretchOfLastMeasurement", "1", D_*(D_ + 1) / 2, Role::evolved};
   ListedField change{*this, "ChangeSinceMeasurement", "1", 2, Role::derived};
   ListedField kept{*this, "MotionAtStepStart", "1", 3 * D_ + 1, Role::derived};
-  // Allocated where there is viscosity:
+  // Allocated only with viscosity:
   ListedField viscous{*this, "ViscousHistory", "1", viscous_values(D_), Role::evolved};
   ListedField viscous_kept{*this, "ViscousHistoryAtStepStart", "1", viscous_values(D_), Role::derived};
-  // Allocated where there are solids in rate form:
+  // Allocated only with solids in rate form:
   ListedField history{*this, "SolidHistory", "1", solid_values(D_), Role::evolved};
   ListedField history_kept{*this, "SolidHistoryAtStepStart", "1", solid_values(D_), Role::derived};
 };

@@ -29,7 +29,7 @@ double weight_of(double square, double reach) {
   return inside * inside / (square * std::sqrt(square));
 }
 
-/// What ranks tell each other of a round of fits.
+/// Reduction payload of a round of fits.
 struct SaidOfFits {
   bool complete = true;
   Index hopeless = std::numeric_limits<Index>::max();

@@ -22,31 +22,30 @@ using Points = std::vector<std::array<double, 3>>;
 
 /// Neighbours of every particle, or of some, both directions of each pair, in increasing order.
 struct Pairs {
-  std::vector<std::int64_t> begin;  ///< per particle, one more at the end; of others nothing is between two
+  std::vector<std::int64_t> begin;  ///< per particle, one more at the end; particles not chosen have an empty range
   std::vector<Index> neighbour;
-  std::vector<double> weight;  ///< the same in both directions
+  std::vector<double> weight;  ///< equal in both directions
 
   std::size_t first(std::size_t a) const { return static_cast<std::size_t>(begin[a]); }
   std::size_t end(std::size_t a) const { return static_cast<std::size_t>(begin[a + 1]); }
   std::size_t at(std::size_t k) const { return static_cast<std::size_t>(neighbour[k]); }
-  /// The most that neighbours are apart in the order of particles.
+  /// Largest distance of neighbours in the order of particles.
   Index farthest() const;
 };
 
-/// Per particle of a lattice the first one that is as far from every face, or at least `beyond` spacings as well.
+/// Per particle of a lattice: the first one with equal distances from all faces, where distances of `beyond` spacings
+/// or more count as equal.
 std::vector<Index> alike_in_lattice(LatticeShape const& shape, int beyond);
 
-/// The pairs of some particles of a lattice nearer than `reach`, those at it not among them, without weights. The
-/// neighbours of a lattice need no search.
+/// Pairs of the particles `rows` of a lattice nearer than `reach` (exclusive), without weights and without a search.
 Pairs lattice_pairs(LatticeShape const& shape, double reach, Entries const& rows);
 
-/// Of a lattice that ranks share: the particles of one of them, their neighbours, and the first of each kind.
+/// For a distributed lattice: the local particles, their neighbours, and the first particle of each kind.
 Entries lattice_rows(LatticeShape const& shape, double reach, Range own, std::vector<std::size_t> const& first);
 
-/// f(a, mine) for the particles a of `rows` in order, which adds to numbers of a itself and of others at most `reach`
-/// places away, but to those b of a range alone for which mine(b): threads have parts of the range for their own and
-/// see all particles that may add to them, so that each number gets its summands in the order of a for any number of
-/// threads and ranks.
+/// Deterministic parallel scatter. Calls f(a, mine) for the particles of `rows` in ascending order; f may add to
+/// entries b with |b - a| <= reach, and only where mine(b) is true. Each thread owns a part of `range` and processes
+/// every a that can reach it, so each entry gets its summands in the same order for any number of threads and ranks.
 template <class F>
 void scatter_in_order(Range range, Entries const& rows, Index reach, F const& f) {
   Index const n = range.last - range.first, parts = exec_host::team(n);
@@ -64,12 +63,12 @@ void scatter_in_order(Range range, Entries const& rows, Index reach, F const& f)
   });
 }
 
-/// The pairs of some particles nearer than the larger of their two reaches.
+/// Pairs of the particles `rows` nearer than the larger of their two support radii.
 Pairs find_pairs(Points const& X, std::span<double const> reach, Entries const& rows);
 
-/// A particle's neighbours and itself, for the particles of a range, and others that are marked already.
+/// The particles of a range, their neighbours, and the particles marked already.
 Entries with_neighbours(Pairs const& pairs, Range range, std::vector<bool> marked);
-/// Of the particles of a rank the neighbours that it does not have.
+/// Ghosts: neighbours of local particles that are not local.
 std::vector<Index> read_of_others(Pairs const& pairs, Range own);
 
 /// The fits of a cloud:  e_ab = s_ab A_a^-1 p(r_ab),  A_a = sum_b s_ab p p^T,  p without the constant,
@@ -80,24 +79,24 @@ class Fits {
   static constexpr int terms = Quadratic<D>::terms;
   using Monomials = std::array<double, static_cast<std::size_t>(terms)>;
 
-  /// lattice: the one that the points fill, if they do; a neighbourhood is fitted once then, however often it occurs.
-  /// shared: ranks share the points, and each fits its own and their neighbours. Collective then.
+  /// lattice: the lattice that the points fill, if any; each distinct neighbourhood is then fitted once. shared: the
+  /// points are distributed, and each rank fits its local points and their neighbours; then collective.
   explicit Fits(Points const& X, std::optional<LatticeShape> const& lattice = std::nullopt,
                 std::optional<SharedSlots> const& shared = std::nullopt);
 
-  /// What this rank has to find something for: its own points, or all.
+  /// Local points of this rank, or all.
   Range own() const { return shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())}; }
   std::optional<SharedSlots> const& shared() const { return shared_; }
-  /// Those whose fits and pairs are here: own ones and their neighbours.
+  /// Points with fits and pairs on this rank: local points and their neighbours.
   Entries const& rows() const { return rows_; }
   bool has(std::size_t a) const { return pairs_.end(a) > pairs_.first(a); }
 
-  /// Whether all reaches are the usual one, and the neighbours of a lattice those of its loops.
+  /// Whether all support radii are `usual_reach`, and the neighbours on a lattice are those of its loops.
   bool usual() const { return usual_; }
-  /// A particle whose neighbours determine no quadratic at any reach; -1: none.
+  /// A particle whose neighbours determine no quadratic at any support radius; -1: none.
   Index hopeless() const { return hopeless_; }
   Pairs const& pairs() const { return pairs_; }
-  /// Hands the pairs over; nothing else may be asked for after it.
+  /// Moves the pairs out. No other member may be called afterwards.
   Pairs take_pairs() { return std::move(pairs_); }
   Points const& X() const { return X_; }
   /// (A^-1)_kl of a particle.
@@ -105,23 +104,22 @@ class Fits {
     return inverse_[(kind_.empty() ? a : static_cast<std::size_t>(kind_[a])) * static_cast<std::size_t>(terms * terms) +
                     static_cast<std::size_t>(k * terms + l)];
   }
-  /// The first particle whose neighbours stand as those of a, in the same order: of a lattice; a itself in other
-  /// clouds.
+  /// The first particle of a lattice with an identical neighbourhood in the same order; a itself in clouds.
   std::size_t alike(std::size_t a) const { return alike_.empty() ? a : static_cast<std::size_t>(alike_[a]); }
   /// p of a pair, without the constant.
   Monomials monomials_of(std::size_t a, std::size_t b) const;
-  /// e_ab: how the derivatives at a, first and second, depend on the value at b.
+  /// e_ab: the weight of the value at b in the first and second derivatives at a.
   Monomials derivatives(std::size_t a, std::size_t pair) const;
-  /// s of a particle with itself, in fits that count its own value: that of a neighbour at distance one.
+  /// Weight s of a particle with itself in fits that include its own value: that of a neighbour at distance one.
   double own_weight(std::size_t a) const;
 
  private:
   void fit_lattice(LatticeShape const& shape);
   void fit_cloud();
   void find_cloud();
-  /// Whether all reaches are long enough; those that are not have become longer.
+  /// Enlarges the support radii of failed fits. Returns whether all fits are good.
   bool lengthen(std::vector<char> const& fits);
-  /// Finds the inverse stored at `at`.
+  /// Computes the inverse of particle a and stores it at `at`.
   bool fit(std::size_t a, std::size_t at);
 
   Points const& X_;
@@ -131,7 +129,7 @@ class Fits {
   Pairs pairs_;
   PartFilled<double> inverse_;
   std::vector<Index> alike_;
-  std::vector<std::int32_t> kind_;  ///< of a lattice: where the inverse of a particle is
+  std::vector<std::int32_t> kind_;  ///< of a lattice: index of the inverse of a particle
   Index hopeless_ = -1;
   bool usual_ = true;
 };

@@ -7,14 +7,14 @@
 
 namespace piola::nodal {
 
-/// Vector fields of a body with mirror planes, D numbers per particle, images after the body's own: the images follow.
+/// Vector fields of a body with mirror planes, D values per particle, images after the body's own particles.
 template <int D>
 class Fold {
  public:
   Fold(MirrorImages const& images, std::size_t particles) : images_(images), particles_(particles) {}
 
   std::size_t particles() const { return particles_; }  ///< without images
-  /// Gives images what their sources have, and particles on a plane nothing across it.
+  /// Sets images from their sources, and removes components across a plane on particles that lie on it.
   void extend(PartFilled<double>& u) const {
     for (std::size_t a = 0; a < particles_; ++a)
       for (std::size_t c = 0; c < D; ++c)
@@ -23,8 +23,8 @@ class Fold {
       u[image * D + c] = sign * u[source * D + c];
     });
   }
-  /// The transpose, in the product of products(), and then extend: makes a preconditioner of the whole body one of
-  /// symmetric fields.
+  /// Transpose of extend() in the product of products(), followed by extend(): turns a preconditioner of the whole body
+  /// into one of symmetric fields.
   void gather(PartFilled<double>& z) const {
     each_image([&](std::size_t image, std::size_t source, std::size_t c, double sign) {
       z[source * D + c] += sign * z[image * D + c];
@@ -33,7 +33,7 @@ class Fold {
       for (std::size_t c = 0; c < D; ++c) z[a * D + c] *= images_.multiplicity(static_cast<Index>(a));
     extend(z);
   }
-  /// Sums over the body itself, one per column.
+  /// Scalar products over the body itself, one per column.
   std::array<double, static_cast<std::size_t>(D)> products(PartFilled<double> const& u,
                                                            PartFilled<double> const& v) const {
     std::array<double, static_cast<std::size_t>(D)> sum{};
@@ -42,7 +42,7 @@ class Fold {
         sum[c] += u[a * D + c] * v[a * D + c] / images_.multiplicity(static_cast<Index>(a));
     return sum;
   }
-  /// Between two planes quadratics are no null space of anything.
+  /// Between two planes the matrix has no quadratic null space.
   bool endless() const {
     for (std::size_t axis = 0; axis < D; ++axis)
       if (images_.endless(axis)) return true;

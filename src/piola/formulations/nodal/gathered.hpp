@@ -4,18 +4,18 @@
 
 namespace piola::nodal {
 
-/// Memory of what sweeps read of neighbours: X, x, mu and the stress. For lists a record per particle and sweep; for
-/// lattices component after component, with zeros around.
+/// Storage of the data that sweeps read from neighbours: X, x, mu and the stress. Lists: one record per particle and
+/// sweep. Lattices: component after component, padded with zeros.
 class Gathered {
  public:
   Gathered() = default;
   Gathered(Gathered const&) = delete;
   Gathered& operator=(Gathered const&) = delete;
 
-  /// Of records complete_record() is due for all that are read.
+  /// Call complete_record() afterwards for all records that are read.
   void place_records(Fields& fields, int D, Index slots);
   void complete_record(int D, Index slot);
-  /// guard: slots that loops over a lattice may read beside the first and the last one.
+  /// guard: slots that loops over a lattice may read before the first and after the last one.
   static void place_lattice(Fields& fields, Index slots, Index guard);
   std::size_t bytes() const { return first_.bytes() + second_.bytes(); }
 

@@ -36,7 +36,7 @@ Part part_of(Fits<D> const& fits, SurfacePatch const& patch, double counts) {
   return part;
 }
 
-/// Joins the parts that are too small to others; what is left.
+/// Merges places that are too small into others; returns the rest.
 std::vector<Part> without_slivers(std::vector<Part> const& all) {
   std::vector<Part> parts, slivers;
   double largest = 0;

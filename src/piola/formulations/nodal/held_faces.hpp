@@ -6,10 +6,10 @@
 
 namespace piola::nodal {
 
-/// The parts of the surface that supports hold, one for each particle along it: the mean over the part, with the motion
-/// expanded about the nearest particle by its fit. The weights are those by which a traction on the part is handed to
-/// particles, so that reactions can balance any uniform stress. Parts smaller than a quarter of a spacing's area are
-/// joined to the nearest one. `h`: spacings [m].
+/// Surface places that supports hold, one for each particle along the surface: the mean over the place, with the motion
+/// expanded about the nearest particle by its fit. The weights are those that distribute a traction on the place to
+/// particles, so that reactions can balance any uniform stress. Places smaller than a quarter of a spacing's area are
+/// merged into the nearest one. `h`: spacings [m].
 template <int D>
 std::vector<HeldPlace> held_faces(SetUp const& from, Fits<D> const& fits, std::vector<SurfacePatch> const& patches,
                                   std::array<double, 3> const& h);

@@ -3,15 +3,15 @@
 #include "piola/math/lanes.hpp"
 #include <cstdint>
 
-/// Particles that fill a lattice, as loops see them: plain data that crosses between machines.
+/// Lattice data for loops: plain data, independent of the instruction set.
 namespace piola::nodal {
 
-/// A row of a lattice beside a particle's own: steps along the second and the third direction.
+/// Offset of a lattice row from a particle's row: steps along the second and the third direction.
 struct LatticeRow {
   int j, k;
 };
 
-/// Rows within reach, one of each two that are opposite.
+/// Offsets of rows within the support radius, one of each two opposite rows.
 template <int D>
 struct LatticeRows;
 template <>
@@ -34,9 +34,9 @@ struct LatticeRows<3> {
 /// Rows along the longest direction, one after the other in memory.
 struct LatticeTable {
   std::ptrdiff_t row = 0, plane = 0;  ///< slots to the neighbour along the second and the third direction
-  int place[3][6] = {};               ///< of i^d / d! times monomial m of (j, k) among the monomials of X, Y, Z
+  int place[3][6] = {};               ///< index of i^d / d! times monomial m of (j, k) among the monomials of X, Y, Z
   /// Per group of lanes, a bit per lane: whether the body has a row at +-pair, for every pair; then whether it has the
-  /// places i + 1, i - 1, i + 2, i - 2. nullptr: no lattice.
+  /// positions i + 1, i - 1, i + 2, i - 2. nullptr: no lattice.
   std::uint8_t const* present = nullptr;
 };
 

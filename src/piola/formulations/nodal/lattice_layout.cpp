@@ -14,7 +14,7 @@ LatticeShape shape_of(ParticleSet const& set, Body const& body) {
   auto const D = static_cast<std::ptrdiff_t>(set.dimension);
   std::stable_sort(shape.axis.begin(), shape.axis.begin() + D,
                    [&](std::size_t a, std::size_t b) { return body.lattice[a] > body.lattice[b]; });
-  // The longest direction last: shares of ranks, which are runs of slots, are slabs across it.
+  // The longest direction last: partitions, which are runs of slots, are slabs across it.
   std::rotate(shape.axis.begin(), shape.axis.begin() + 1, shape.axis.begin() + D);
   for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) shape.count[c] = body.lattice[shape.axis[c]];
   return shape;

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-/// Bodies that fill a lattice: their order in memory and their neighbours.
+/// Memory order and neighbours of bodies that fill a lattice.
 namespace piola::nodal {
 
-/// A lattice that a body fills without a gap, in the order of its slots: rows along the first direction, one after the
-/// other along the second, planes along the third.
+/// A lattice that a body fills without gaps, in slot order: rows along the first direction, consecutive along the
+/// second, planes along the third.
 struct LatticeShape {
   int dimension = 3;
   std::array<std::size_t, 3> axis{0, 1, 2};  ///< of X, Y, Z, for the first, second, third direction
@@ -27,23 +27,23 @@ struct LatticeShape {
   Index slot(std::array<int, 3> const& at) const { return (at[2] * count[1] + at[1]) * count[0] + at[0]; }
 };
 
-/// Slots of a body: row after row where it fills a lattice, plane after plane along its longest side; else in pencils.
+/// Order of slots: row by row and plane by plane along the longest side on a lattice; else pencils.
 SlotOrder slot_order(ParticleSet const& set, Body const& body);
 
-/// The lattice that a body fills in this order, if it does.
+/// The lattice that a body fills in this order; empty if none.
 std::optional<LatticeShape> lattice_shape(ParticleSet const& set, Body const& body, SlotOrder const& order);
 
-/// What loops need of a lattice, for a machine of so many lanes.
+/// Lattice data for loops with a given number of SIMD lanes.
 class LatticeLayout {
  public:
   LatticeLayout(LatticeShape const& shape, Index slots, int lanes);
-  /// Valid as long as the layout.
+  /// Valid during the lifetime of the layout.
   LatticeTable table() const {
     LatticeTable t = table_;
     t.present = present_.data();
     return t;
   }
-  /// Slots beside the first and the last one that loops may read.
+  /// Slots before the first and after the last one that loops may read.
   Index guard() const { return guard_; }
 
  private:

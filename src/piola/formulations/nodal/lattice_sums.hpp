@@ -8,17 +8,16 @@
 #include <immintrin.h>
 #endif
 
-/// Lambdas that stand for the body of a loop: sums stay in registers only if they are inlined.
+/// For lambdas in loop bodies: sums stay in registers only if the lambdas are inlined.
 #define PIOLA_INLINED __attribute__((always_inline))
 
 /// Sums over the neighbours of particles that fill a lattice. Lanes are consecutive particles of rows along the first
-/// direction, r = (i, j, k) with i along the row; weights s P(r) are constants. Sums over j and k come first, for every
-/// particle of a block once: of the rows at +-(j, k) the even monomials see sums, the odd ones differences. Then these
-/// are added up along i with their neighbours in the row. Fewer loads and operations by a factor of three than pair by
-/// pair.
+/// direction, r = (i, j, k) with i along the row. Weights s P(r) are constants. Sums over j and k come first, once for
+/// every particle of a block: over the rows at +-(j, k) even monomials need sums, odd ones differences. Then these are
+/// added along i. This needs a third of the loads and operations of a sum over pairs.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// s of two particles of a lattice at the square of a distance; zero out of reach.
+/// s of two particles of a lattice by their squared distance; zero outside the support.
 constexpr double lattice_weight(int square) {
   constexpr double distance[6]{0, 1, 1.4142135623730951, 1.7320508075688772, 2, 2.23606797749979};
   if (square < 1 || square > 5) return 0;
@@ -26,7 +25,7 @@ constexpr double lattice_weight(int square) {
   return inside * inside / (square * distance[square]);
 }
 
-/// f(integral_constant 0 ... N - 1)
+/// Calls f(integral_constant k) for k = 0 ... N - 1.
 template <int N, class F>
 [[gnu::always_inline]] PIOLA_FN void unrolled(F const& f) {
   [&]<int... n>(std::integer_sequence<int, n...>) PIOLA_INLINED { (f(std::integral_constant<int, n>{}), ...); }
@@ -45,7 +44,7 @@ struct LanesPresent {
   }
 };
 inline constexpr LanesPresent lanes_present{};
-/// Not a product: what stands beside a row need not be a number.
+/// Not a product: memory beside a row may hold NaN.
 PIOLA_FN Lanes load_present(double const* p, std::uint8_t bits) {
   return select(load<Lanes>(lanes_present.of[bits]) > 0.5, load<Lanes>(p), Lanes(0.0));
 }
@@ -53,13 +52,13 @@ PIOLA_FN Lanes load_present(double const* p, std::uint8_t bits) {
 PIOLA_FN Lanes load_present(double const* p, std::uint8_t bits) { return bits != 0 ? *p : 0.0; }
 #endif
 
-/// What is summed over j and k: monomials of degree two in them, the constant first, times i^d / d!.
+/// Quantities summed over j and k: monomials up to degree two in them, the constant first, times i^d / d!.
 template <int D>
 struct RowSums {
   using T = Quadratic<D - 1>;
   static constexpr int across = T::values;  ///< monomials of j and k
   static constexpr int pairs = LatticeRows<D>::pairs;
-  /// Particles beside a block whose sums over j and k it needs: whole groups of lanes.
+  /// Number of particles beside a block whose sums over j and k it needs: whole groups of lanes.
   static constexpr Index margin = (2 + lane_count - 1) / lane_count * lane_count;
   static constexpr Index room = exec::block_size + 2 * margin;
 
@@ -76,7 +75,7 @@ struct RowSums {
   static constexpr double weight(int d, int h) {
     return lattice_weight(d * d + row(h).j * row(h).j + row(h).k * row(h).k);
   }
-  /// Whether sums over rows at +-d have a part of monomial m.
+  /// Whether sums over rows at +-d contain monomial m.
   static constexpr bool has(int d, int m) {
     if (d > 0 && m == 0) return true;
     for (int h = 0; h < pairs; ++h)
@@ -85,7 +84,7 @@ struct RowSums {
   }
 };
 
-/// Both sweeps. Fields are component after component.
+/// Both sweeps. Fields are stored component after component.
 template <int D>
 struct LatticeSums {
   using S = RowSums<D>;
@@ -95,9 +94,9 @@ struct LatticeSums {
 
   LatticeTable table;
   Index slots;
-  View x, products, own;  ///< products: x_c mu_J; without data where there is no mu
+  View x, products, own;  ///< products: x_c mu_J; without data if there is no mu
   View mu, stress;
-  bool corrected;  ///< whether there is mu; else N is not made
+  bool corrected;  ///< whether there is mu; else N is not computed
 
   /// out (T_c, N_c) per component c:  T = sum_b s (x_b - x_a) P(r),  N = sum_b s (x_b - x_a) mu_b.
   PIOLA_FN void of_motion(Range b, exec::Scratch const& out) const {
@@ -144,7 +143,7 @@ struct LatticeSums {
   PIOLA_FN std::uint8_t const* shifts(Index i) const { return bits(i) + 2 * S::pairs; }
   PIOLA_FN static double const* component(View const& f, Index i, int c) { return f.data + c * f.component_stride + i; }
 
-  /// f(group of lanes, its place in buffers), for the block and what is beside it in the body.
+  /// Calls f(group of lanes, index in buffers) for the block and its margin in the body.
   template <class F>
   PIOLA_FN void each_with_margin(Range b, F const& f) const {
     Index const first = b.first < S::margin ? 0 : b.first - S::margin;
@@ -182,7 +181,7 @@ struct LatticeSums {
     });
   }
 
-  /// T of component c from sums over j and k.
+  /// Computes T of component c from sums over j and k.
   PIOLA_FN void add_rows(Buffer const* q, Index i, Index at, int c, exec::Scratch const& out) const {
     std::uint8_t const* const shift = shifts(i);
     Lanes const middle = lanes_of(x, i)[c];
@@ -234,7 +233,7 @@ struct LatticeSums {
     return load<Lanes>(q[0] + at) + near + far;
   }
 
-  /// q: what a particle in the row at +-(j, k) hands to those of this row at i = 0, +1, -1, +2, -2 before it.
+  /// q: contributions of the row at +-(j, k) to particles of this row at i = 0, +1, -1, +2, -2 before it.
   PIOLA_FN void fill_stress_rows(Index i, int c, Buffer* q, Index at) const {
     std::uint8_t const* const present = bits(i);
     auto const field = [&](int d, int m) PIOLA_INLINED { return component(stress, i, c * used + table.place[d][m]); };

@@ -9,17 +9,17 @@
 #include <immintrin.h>
 #endif
 
-/// Sums over the neighbours of one particle, taken from a list. A pair's coefficients  c = s (P(r), mu)  stand in one
+/// Sums over the neighbours of one particle, taken from a list. The coefficients c = s (P(r), mu) of a pair form one
 /// vector, which multiplies whole rows: of the motion of the neighbour in the first sweep, of its stress in the second.
-/// Nothing is transposed and nothing is added across lanes but at the end.
+/// Nothing is transposed; lanes are added only at the end.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// Where things stand in the records of particles. A coefficient vector has the monomials first, then mu, then zeros.
+/// Layout of the particle records. A coefficient vector has the monomials first, then mu, then zeros.
 template <int D>
 struct Records {
   static constexpr int values = Quadratic<D>::values, used = values + D;
   static constexpr int width = (used + 7) / 8 * 8;  ///< of a coefficient vector, in doubles
-  // Motion: X in spacings, x, mu, the number one.
+  // Motion: X in spacings, x, mu, the constant one.
   static constexpr int position = D, mu = 2 * D, one = 3 * D;
   static constexpr int motion_size = 3 * D < 8 ? 8 : 16;
   static constexpr int stress_size = D * width;  ///< D rows (Y_i, Z_i)
@@ -47,7 +47,7 @@ struct ListSums {
     }
   }
 
-  /// sum_b s ( Y_b P(-r) + Z_b mu_a ): what the neighbours' stresses take from the particle.
+  /// sum_b s ( Y_b P(-r) + Z_b mu_a ): contribution of the neighbours' stresses.
   PIOLA_FN Vec<D> of_stress(Index a) const {
     double const* const own = motion_of(a);
     double rows[D * R::width];
@@ -82,14 +82,14 @@ struct ListSums {
 };
 
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
-/// Coefficient vectors of three dimensions in two registers: products of permuted values.
+/// Coefficient vectors of three dimensions in two registers, as products of permuted values.
 struct Coefficients {
   __m512i low_a = _mm512_setr_epi64(9, 0, 1, 2, 0, 1, 2, 1), low_b = _mm512_setr_epi64(9, 9, 9, 9, 0, 1, 2, 2);
   __m512i high_a = _mm512_setr_epi64(0, 0, 6, 7, 8, 10, 10, 10), high_b = _mm512_setr_epi64(2, 1, 9, 9, 9, 9, 9, 9);
   __m512d half = _mm512_setr_pd(1, 1, 1, 1, 0.5, 0.5, 0.5, 1);
   __m512d low, high;
 
-  /// d: r, three values without meaning here, mu_1, mu_2;  rest: mu_3, one, zeros.
+  /// d: r, three unused values, mu_1, mu_2;  rest: mu_3, one, zeros.
   void operator()(__m512d d, __m512d rest, double s) {
     __m512d const weight = _mm512_set1_pd(s);
     low = _mm512_mul_pd(_mm512_mul_pd(_mm512_permutex2var_pd(d, low_a, rest), _mm512_permutex2var_pd(d, low_b, rest)),
@@ -141,8 +141,8 @@ inline Vec<3> ListSums<3>::of_stress(Index a) const {
   return sum;
 }
 
-/// The opposite of load_records for successive records: value c of lane l goes to base[l * stride + c]. N is a multiple
-/// of 8.
+/// Inverse of load_records for successive records: value c of lane l goes to base[l * stride + c]. N is a multiple of
+/// 8.
 template <int N>
 PIOLA_FN void store_records(double* base, std::ptrdiff_t stride, Lanes const (&f)[N]) {
   static_assert(N % 8 == 0);
@@ -161,7 +161,7 @@ PIOLA_FN void store_records(double* base, std::ptrdiff_t stride, Lanes const (&f
 }
 #endif
 
-/// Hands component c of the rows (Y, Z) of the lanes at i to the second sweep: to records for lists; component after
+/// Stores component c of the rows (Y, Z) of the lanes at i for the second sweep: in records for lists, component after
 /// component for lattices.
 template <int D>
 PIOLA_FN void put_row(WriteView const& stress, Index i, int c, Lanes (&row)[Records<D>::width]) {

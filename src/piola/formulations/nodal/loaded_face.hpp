@@ -8,7 +8,7 @@
 
 namespace piola::nodal {
 
-/// The part of a body's surface that a load acts on, or a support holds, patch by patch.
+/// The part of a body's surface that a load acts on, or a support holds, as patches.
 template <int D>
 class LoadedFace {
  public:
@@ -34,24 +34,24 @@ class LoadedFace {
       if (faces_[static_cast<std::size_t>(patch.axis)]) area_[static_cast<std::size_t>(patch.particle)] += patch.area;
   }
 
-  /// Cosine between the patch and the exact surface there; zero where the load does not act.
+  /// Cosine between patch and exact surface; zero if the load does not act there.
   double cosine(SurfacePatch const& patch) const { return std::max(0.0, facing(patch)); }
 
-  /// Which of the load's particles answers for it, where the cosine is not zero.
+  /// Index of the load's particle that a patch belongs to. Precondition: cosine(patch) is not zero.
   std::size_t owner(SurfacePatch const& patch) const { return place_of(static_cast<std::size_t>(patch.particle)); }
 
-  /// Whether it is part of that surface. Sides of blocks beside a pole may look away from it a little.
+  /// Whether the patch is part of that surface. Sides of cells beside a pole may face away from it a little.
   bool has(SurfacePatch const& patch) const { return facing(patch) > -0.5; }
 
  private:
   using Point = std::array<double, 3>;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  /// A patch may be nearest to a particle behind the loaded ones. It belongs to one of these if that is not farther
-  /// away than this [spacings]: where a curved surface cuts a corner off a cell, which then has less than `corner` of
-  /// the surface, or on irregular clouds.
+  /// A patch may be nearest to a particle behind the loaded ones. It belongs to a loaded particle if that is not
+  /// farther away than this [spacings]: if a curved surface cuts a corner off a cell, which then has less than `corner`
+  /// of the surface, or on irregular clouds.
   static constexpr double beside = 1.01, corner = 0.5, behind = 0.75;
 
-  /// -1 where the load does not act.
+  /// -1 if the load does not act.
   double facing(SurfacePatch const& patch) const {
     auto const axis = static_cast<std::size_t>(patch.axis);
     if ((load_.normal && !patch.outermost) || !faces_[axis]) return -1;
@@ -59,13 +59,13 @@ class LoadedFace {
     return k == none ? -1 : turned(patch, axis) * load_.normal_of(k)[axis] * (patch.upper ? 1 : -1);
   }
 
-  /// -1 of an image that looks the other way than its source.
+  /// -1 for an image with the opposite orientation of its source.
   double turned(SurfacePatch const& patch, std::size_t axis) const {
     auto const particle = static_cast<std::size_t>(patch.particle);
     return particle < particles_ ? 1 : images_->sign(static_cast<Index>(particle - particles_))[axis];
   }
 
-  /// Which of the load's particles answers for what is nearest to a.
+  /// Index of the load's particle that takes the patches nearest to particle a.
   std::size_t place_of(std::size_t a) const {
     if (place_[a] != none) return place_[a];
     std::size_t found = none;
@@ -88,9 +88,9 @@ class LoadedFace {
   Fits<D> const& fits_;
   MirrorImages const* images_;
   std::size_t particles_;
-  std::array<bool, 3> faces_{};     ///< the surface faces along these axes
-  std::vector<std::size_t> place_;  ///< of a slot among the load's particles
-  std::vector<double> area_;        ///< of a slot's patches along these axes, in spacings
+  std::array<bool, 3> faces_{};     ///< axes that the surface faces
+  std::vector<std::size_t> place_;  ///< slot -> index of the load's particle
+  std::vector<double> area_;        ///< area of a slot's patches along these axes, in spacings
 };
 
 }  // namespace piola::nodal

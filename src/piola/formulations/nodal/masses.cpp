@@ -91,7 +91,7 @@ Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, Mas
   return x;
 }
 
-/// What cells hand over; of a lattice each kind of cell once.
+/// Transfers between cells; on a lattice once per kind of cell.
 template <int D>
 Exchange<D> hand_over(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of) {
   std::vector<Index> const alike = of.lattice ? alike_in_lattice(*of.lattice, static_cast<int>(reach))
@@ -114,8 +114,8 @@ Exchange<D> hand_over(Points const& X, PartFilled<ScaledCell> const& cells, Mass
   return x;
 }
 
-/// Masses from what cells hand over, and the cells that are restrained until none of them makes a particle too light.
-/// Ranks tell each other in each round who is light and who is restrained.
+/// Computes particle masses from the transfers between cells and limits the transfers iteratively (factor theta per
+/// cell) until no mass is below `least` times that of its cell. One halo exchange of flags per round.
 class Restraint {
  public:
   template <int D>
@@ -172,7 +172,7 @@ class Restraint {
     if (halo_) ranks::take_largest(any);
     return any > 0;
   }
-  /// Of particles of this rank: with those that others name, of which some particle of this rank is a neighbour.
+  /// Extends a list of local particles by the ghosts that other ranks list.
   std::vector<std::size_t> with_those_of_others(std::vector<std::size_t> all) {
     if (!halo_) return all;
     for (std::size_t const a : all) marked_[a] = 1;
@@ -184,14 +184,14 @@ class Restraint {
   }
   bool is_light(std::size_t b) const { return mass_[b] < least_ * cells_[b].volume; }
 
-  /// m_b anew.
+  /// Recomputes m_b.
   void add(std::size_t b) {
     double sum = cells_[b].volume;
     for (std::size_t k = pairs_.first(b); k < pairs_.end(b); ++k)
       sum += theta_[pairs_.at(k)] * handed_[opposite(b, k)] - theta_[b] * handed_[k];
     mass_[b] = sum;
   }
-  /// Of the pair k of b the entry of the other particle. Neighbours are in increasing order.
+  /// Index of the pair k of b in the list of the other particle. Neighbours are in increasing order.
   std::size_t opposite(std::size_t b, std::size_t k) const {
     auto const a = pairs_.at(k);
     auto const first = pairs_.neighbour.begin() + static_cast<std::ptrdiff_t>(pairs_.first(a));
@@ -225,7 +225,7 @@ class Restraint {
   double least_;
   Range own_;
   PartFilled<double> theta_;   ///< the share that a cell still hands out
-  PartFilled<double> marked_;  ///< 1 while ranks tell each other who is light, or whose cell was restrained
+  PartFilled<double> marked_;  ///< 1 during an exchange for light particles or restrained cells
   PartFilled<double> mass_;
   std::optional<HaloPlan> halo_;
 };

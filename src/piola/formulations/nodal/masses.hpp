@@ -6,10 +6,10 @@
 namespace piola::nodal {
 
 /// Masses over the density, in units of the spacings: sum_b m_b (1, X, XX) is the integral over the body of (1, X, XX).
-/// Cells that would make a particle lighter than `least` of its own cell hand over less; the total is exact in any
-/// case, the rest with `match` where a small correction can do it. Theory: docs/theory/nodal.md, section 3.4. lattice:
-/// the one that the particles fill, if they do. shared: ranks share the particles; each has the masses of its own then,
-/// and of others zeros. Collective then.
+/// Cells transfer less mass if a particle would become lighter than `least` of its own cell. The total is exact in any
+/// case, the moments with `match` if a small correction suffices. Theory: docs/theory/nodal.md, section 3.4. lattice:
+/// the one that the particles fill, if any. shared: distributed particles; then collective, and masses of remote
+/// particles are zero.
 struct MassesOf {
   double least;
   std::optional<LatticeShape> const& lattice;

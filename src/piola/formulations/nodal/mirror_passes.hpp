@@ -7,8 +7,8 @@
 /// Passes over the particles on mirror planes. Theory: docs/theory/nodal.md, section 6.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// Whether a component changes its sign in a mirror across `axis`: of monomials (1, p) with the components of a vector
-/// after them, as in Records.
+/// Whether a component changes its sign in a mirror across `axis`: monomials (1, p), followed by the components of a
+/// vector, as in Records.
 template <int D>
 constexpr bool turns(int m, int axis) {
   constexpr int values = Quadratic<D>::values;
@@ -20,8 +20,8 @@ constexpr bool turns(int m, int axis) {
   return odd;
 }
 
-/// The four points of a cell on a plane are no mirror image of themselves. The mean over them and their images is what
-/// the whole body has there: of the stress the even components.
+/// The four points of a cell on a plane are not symmetric about it. Averages over them and their images, as in the
+/// whole body: only the even components of the stress remain.
 template <int D>
 struct KeepEven {
   MirroredParticle const* particles;
@@ -38,7 +38,7 @@ struct KeepEven {
   }
 };
 
-/// What is on a plane stays there.
+/// Keeps particles on a plane in it.
 template <int D>
 struct StayOnPlanes {
   MirroredParticle const* particles;

@@ -22,7 +22,7 @@ Mat<3> first_piola(NodalBody const& body, Index i) {
   return P;
 }
 
-/// Of the cell, positive in tension [Pa]: of its mean volume ratio where the law has a volumetric part.
+/// Pressure of the cell, positive in tension [Pa]: at its mean volume ratio if the law has a volumetric part.
 double cell_pressure(NodalBody const& body, Index i) {
   if (is_solid(body.material(i).material)) return -NodalBody::value(body.state().history, i, SolidPlaces::pressure);
   double p = 0;
@@ -165,7 +165,7 @@ void observe_each(NodalBody const& body, int body_number, PartFilled<double> con
   }
 }
 
-/// Of the cells, where somebody asks for it. Collective where ranks share the body.
+/// Smooths the pressure of the cells if a field needs it. Collective if the body is distributed.
 PartFilled<double> smooth_pressure(NodalBody const& body, std::string_view field) {
   return field == "Pressure" ? body.smoothing()(cell_pressures(body)) : PartFilled<double>{};
 }

@@ -37,7 +37,7 @@ constexpr std::array choices{Choice{
     "assumption", "about the directions that a body does not have; as_dimension: 1D uniaxial_strain, 2D plane_strain",
     assumption_words}};
 
-/// What Diagnostics::more holds (observe.cpp).
+/// Columns of Diagnostics::more (observe.cpp).
 constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, DiagnosticInfo{"repeated_steps", "1"},
                                  DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
                                  DiagnosticInfo{"internal_energy", "J"}};

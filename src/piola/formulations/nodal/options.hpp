@@ -6,11 +6,11 @@
 
 namespace piola::nodal {
 
-/// What a user may choose, with every default resolved.
+/// User options with all defaults resolved.
 struct Options {
   double least_mass = 0.3;                                ///< of a particle, over that of its cell
   double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
-  double energy_tolerance = 1e-3;  ///< of the largest energy, for what Verlet steps make of it; 0: any
+  double energy_tolerance = 1e-3;  ///< error of Verlet steps, relative to the largest energy; 0: any
   bool solids = false;             ///< whether some material is a solid in rate form
   bool stress_free = false;        ///< plane stress, uniaxial stress
   double cfl = 0;                  ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
@@ -19,8 +19,7 @@ struct Options {
 /// Registry entry: keys, meanings, defaults, laws.
 FormulationInfo info();
 
-/// Options of a body with these materials, its own and those of its parts. Throws InputError for laws that cannot be
-/// used.
+/// Options of a body with these materials: the main one and those of its parts. Throws InputError for unusable laws.
 Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
                      double cfl);
 

@@ -34,7 +34,7 @@ struct SumMotion {
   }
 };
 
-/// The same of a lattice, a block at a time.
+/// As above for a lattice, a block at a time.
 template <int D>
 struct SumLatticeMotion {
   static constexpr int sums = D * LatticeSums<D>::used;
@@ -43,7 +43,7 @@ struct SumLatticeMotion {
   PIOLA_FN void operator()(Range b, exec::Scratch const& out) const { lattice.of_motion(b, out); }
 };
 
-/// x_c mu_J, which the first sweep over a lattice adds up.
+/// x_c mu_J, which the first sweep over a lattice sums.
 template <int D>
 struct MultiplyByCorrections {
   View x, mu;
@@ -57,7 +57,7 @@ struct MultiplyByCorrections {
   }
 };
 
-/// The same of particles of other ranks, which need not say it themselves.
+/// x_c mu_J of ghosts, computed locally instead of received.
 template <int D>
 struct MultiplyOthers {
   MultiplyByCorrections<D> pass;
@@ -85,7 +85,7 @@ struct SumForces {
   }
 };
 
-/// The same of a lattice, a block at a time.
+/// As above for a lattice, a block at a time.
 template <int D>
 struct SumLatticeForces {
   LatticeSums<D> lattice;
@@ -131,12 +131,12 @@ struct Kick {
   }
 };
 
-/// Copies x, v and a, or takes them back.
+/// Saves x, v and a, or restores them.
 template <int D>
 struct CopyMotion {
   View x, v, a;
   WriteView x_out, v_out, a_out;
-  int from, to;  ///< first component of x among what is read and written: v and a follow
+  int from, to;  ///< index of the first component of x to read and to write: v and a follow
 
   PIOLA_FN void operator()(Index i) const {
     x_out.vector<D>(i, x.vector<D, Lanes>(i));
@@ -145,7 +145,7 @@ struct CopyMotion {
   }
 };
 
-/// Copies the least J, or takes it back.
+/// Saves the least J, or restores it.
 struct CopyLeast {
   View from;
   WriteView to;
@@ -173,7 +173,7 @@ struct LargestChange {
     double most = 0;
     for (Index i = b.first; i < b.last; ++i) {
       double const here = change.scalar<double>(i);
-      if (here > most) most = here;  // false for what slots without a particle hold, which is no number
+      if (here > most) most = here;  // false for NaN, in slots without a particle
     }
     partial[k] = most;
   }

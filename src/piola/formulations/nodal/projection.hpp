@@ -5,9 +5,9 @@
 /// The matrix of the divergence theorem, by the loops of the step. Theory: docs/theory/nodal.md, section 3.3.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// Takes the sums of x over neighbours to the least-squares quadratic c_a about each particle, itself included. Then
-/// (M x)_b = sum_a s V_a (x_b - c_a.P(X_b - X_a)), a = b included: rows Y_a = V_a c_a give the sum over neighbours, and
-/// what b has of itself is left in `a`.
+/// Turns the sums of x over neighbours into the least-squares quadratic c_a about each particle, itself included. Then
+/// (M x)_b = sum_a s V_a (x_b - c_a.P(X_b - X_a)), a = b included: rows Y_a = V_a c_a give the sum over neighbours; the
+/// part of b itself is stored in `a`.
 template <int D>
 struct ProjectQuadratic {
   static constexpr int values = Quadratic<D>::values, used = Records<D>::used, width = Records<D>::width;
@@ -41,7 +41,7 @@ struct ProjectQuadratic {
   }
 
  private:
-  /// Place of an entry of a symmetric matrix in its upper triangle, row by row.
+  /// Index of an entry of a symmetric matrix in its upper triangle, row by row.
   static constexpr int entry(int m, int n) {
     int const row = m < n ? m : n, column = m < n ? n : m;
     return row * values - row * (row - 1) / 2 + column - row;

@@ -48,7 +48,7 @@ void ProjectionMatrix<D>::each_own(F const& f) const {
 template <int D>
 void ProjectionMatrix<D>::share(HaloPlan const& halo) {
   state_.slots = share_of(slots_, ranks::own(), ranks::count());
-  if (state_.first.data == nullptr) state_.first = weights_.ref();  // of which nothing is told, nor read by neighbours
+  if (state_.first.data == nullptr) state_.first = weights_.ref();  // neither sent nor read at neighbours
   halo_ = halo;
   tell_sums<D>(*halo_, state_);
   state_.halo = &*halo_;
@@ -113,7 +113,7 @@ void ProjectionMatrix<D>::fill(Fits<D> const& fits, PartFilled<ScaledCell> const
   });
 }
 
-/// Of each particle; of a lattice each kind once.
+/// For each particle; on a lattice once per kind.
 template <int D>
 void ProjectionMatrix<D>::fill_sums_and_inverses(Fits<D> const& fits, PartFilled<double>& explained) {
   bool const lattice = state_.lattice.present != nullptr;

@@ -18,22 +18,21 @@ class ProjectionMatrix {
  public:
   static constexpr int values = Quadratic<D>::values;
 
-  /// halo: of neighbours, without fields, where ranks share the body: each has its own rows then, and what is said
-  /// about particles is of its own.
+  /// halo: of ghosts, without fields, if the body is distributed: each rank then has the rows of its local particles.
   ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, Machine const& machine,
                    LatticeLayout const* lattice, HaloPlan const* halo);
   ProjectionMatrix(ProjectionMatrix const&) = delete;
   ProjectionMatrix& operator=(ProjectionMatrix const&) = delete;
 
-  /// Collective on ranks.
+  /// Collective.
   void apply(PartFilled<double> const& x, PartFilled<double>& image);
   PartFilled<double> const& diagonal() const { return diagonal_; }
-  /// Of the normal equations of particle i.
+  /// Inverse entry (m, n) of the normal equations of particle i.
   double inverse(Index i, int m, int n) const {
     int const row = std::min(m, n), column = std::max(m, n);
     return inverse_.at(groups_ ? groups_->place(i) : i, row * values - row * (row - 1) / 2 + column - row);
   }
-  /// Hands over those of the quadratics of the last product, which was the last one: values x D per particle.
+  /// Moves out the quadratics of the last product: values x D per particle. Call after the last apply().
   std::unique_ptr<Field> take_coefficients() { return std::move(coefficients_); }
 
  private:
@@ -53,7 +52,7 @@ class ProjectionMatrix {
   Range own_;
   Fields fields_{D};
   Gathered gathered_;
-  std::optional<AlikeGroups> groups_;  ///< of a lattice: those that share inverses
+  std::optional<AlikeGroups> groups_;  ///< of a lattice: groups with equal inverses
   Field inverse_, weights_;
   std::unique_ptr<Field> coefficients_;
   PartFilled<std::int64_t> begin_;

@@ -2,10 +2,10 @@
 #pragma once
 #include "piola/math/tensor.hpp"
 
-/// Quadratic polynomials about a particle, in units of the spacing: their monomials and what derivatives are of them.
+/// Quadratic polynomials about a particle, in units of the spacing: monomials and derivatives.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// Neighbours of a particle are nearer than this, in spacings, unless they determine a quadratic badly: 56 inside a
+/// Default support radius in spacings, enlarged if neighbours do not determine a quadratic well: 56 neighbours inside a
 /// cubic lattice.
 inline constexpr double usual_reach = 2.4;
 
@@ -17,7 +17,7 @@ struct Quadratic {
   static constexpr int values = 1 + terms;        ///< with it
   static constexpr int points = D == 3 ? 4 : 1 << D;
 
-  /// Place of d2/dX_J dX_K among the second derivatives.
+  /// Index of d2/dX_J dX_K among the second derivatives.
   static constexpr int at(int J, int K) { return J == K ? J : D == 2 ? 2 : 6 - J - K; }
   /// Point q of the quadrature: mean zero, covariance one; D = 3: a tetrahedron, else the corners of a square.
   static constexpr double point(int q, int m) {
@@ -26,8 +26,7 @@ struct Quadratic {
   }
 };
 
-/// p = (1; r1, ..; r1^2/2, ..; r2 r3, r1 r3, r1 r2): with the derivatives of a field at r = 0 as coefficients, the
-/// field.
+/// p = (1; r1, ..; r1^2/2, ..; r2 r3, r1 r3, r1 r2). A quadratic field is p times its derivatives at r = 0.
 template <int D, class V>
 PIOLA_FN void monomials(Vec<D, V> const& r, V (&p)[Quadratic<D>::values]) {
   p[0] = V(1.0);

@@ -7,8 +7,8 @@
 
 namespace piola::nodal {
 
-/// Cells and surface of a body in slot order and in units of its spacings. With mirror planes the body is the whole
-/// one: after its own particles come their images, and what belongs to a particle on a plane is that of the whole body.
+/// Cells and surface of a body in slot order and in units of its spacings. With mirror planes it is the whole body:
+/// images follow the body's own particles, and data of a particle on a plane are those of the whole body.
 struct ScaledBody {
   Points X;
   PartFilled<ScaledCell> cells;
@@ -20,7 +20,7 @@ struct ScaledBody {
 
 constexpr std::size_t moment_axis[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
 
-/// Gives back the memory of the cells of all particles but these.
+/// Frees the memory of the cells of all particles except `of`.
 void keep_cells(ScaledBody& body, Entries const& of);
 
 /// Measures the cells of the body and continues it behind its mirror planes.

@@ -54,7 +54,7 @@ std::array<double, static_cast<std::size_t>(D* D)> cholesky(ScaledCell const& ce
                                X[1], X[2], what));
 }
 
-/// What the loops of D dimensions read, from what the fits have found.
+/// Builds the data of the loops of D dimensions from the results of the fits.
 template <int D>
 class Tables {
  public:
@@ -128,7 +128,7 @@ class Tables {
                                   [&](Index k) { f(first_ + static_cast<std::size_t>(k)); });
   }
 
-  /// What is told, or known, of own particles and of those that they read.
+  /// Fills the reference data (V, X, mu) of the particles of this rank and of their ghosts.
   void fill_seen(Closure const& closure) {
     Entries const& rows = fits_.rows();
     exec_host::for_each_in_set_up(rows.size(), [&](Index k) {
@@ -279,9 +279,8 @@ PartFilled<ScaledCell> heavy_cells(SetUp const& from, PartFilled<ScaledCell> con
   return cells;
 }
 
-/// Whether a lattice is so long for what it is across that sums over it lose digits of its large multipliers: on
-/// 251 x 5 x 5 particles the solve for the divergence theorem does not converge over the lattice, over lists it takes
-/// 42 iterations.
+/// Whether a lattice is so slender that sums over it lose digits of its large multipliers: on 251 x 5 x 5 particles the
+/// solve for the divergence theorem does not converge over the lattice; over lists it takes 42 iterations.
 bool is_slender(SetUp const& from) {
   constexpr int longest = 60;  // times the next direction
   int most = 0, next = 0;
@@ -293,8 +292,8 @@ bool is_slender(SetUp const& from) {
   return from.set.dimension > 2 && most > longest * next;
 }
 
-/// The lattice of a body that loops may take for one. Pressures that follow a face ask for gradients particle by
-/// particle, which lists give, images have no place in a lattice, and neither has a body that is dealt out.
+/// The lattice of a body for loops, if possible. Lists are needed by follower pressures, which use gradients particle
+/// by particle, by images, which are not on the lattice, and by shuffled bodies.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
   if (follows || from.images != nullptr || shuffle_takes_lists() || is_slender(from)) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranks: each works on its share of the slots and has memory for that and for what its particles read of others, which
-// comes by messages. The slots of a particle are the same on all ranks, so nothing else of the body changes.
+// Distribution over ranks: each rank owns a range of slots, and stores data for these and for their ghosts, which are
+// updated by messages. Slots of particles are numbered alike on all ranks, so the rest of the body is unchanged.
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/formulations/nodal/told.hpp"
@@ -27,7 +27,7 @@ void NodalBody::mark_halo() {
   with_dimension(D_, [&](auto dimension) { tell_sums<dimension>(*halo_, state_); });
 }
 
-/// Of neighbours, those themselves or those that images copy. Sums over a lattice have the same neighbours.
+/// The neighbours of local particles, with images replaced by their sources. Equal for sums over a lattice.
 std::vector<Index> NodalBody::slots_read() const {
   std::vector<Index> read;
   for (Index i = own().first; i < own().last; ++i)

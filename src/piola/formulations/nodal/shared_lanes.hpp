@@ -6,13 +6,12 @@
 
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// Where the particles of two materials meet within a group of lanes, the pass of the second law writes all its lanes;
-/// this keeps what the first law gave to its own, and puts it back. One group per pair of materials, so it costs
-/// nothing.
+/// Saves and restores results in a SIMD group that holds particles of two materials: the pass of the second law
+/// overwrites all lanes; put_back() restores the lanes of the first. At most one group per pair of materials.
 template <int D>
 class SharedLanes {
  public:
-  /// Of the slots [group, own): those of other materials before the first one of its own.
+  /// Saves the slots [group, own), which precede the first slot of the second material in the group.
   SharedLanes(BodyState const& body, Index group, Index own) : body_(body), group_(group), own_(own) {
     int at = 0;
     each([&](FieldRef const& field, int components) {
@@ -32,7 +31,7 @@ class SharedLanes {
   }
 
  private:
-  /// What UpdateStress writes and depends on the law. F, C and its change come from the motion alone.
+  /// Fields that UpdateStress writes and that depend on the law. F, C and its change depend on the motion alone.
   template <class Visit>
   void each(Visit const& visit) const {
     visit(body_.second, D * Records<D>::width);

@@ -38,7 +38,7 @@ void Smoothing::each_particle(F const& f) const {
                                 [&](Index k) { f(static_cast<std::size_t>(range_.first + k)); });
 }
 
-/// What neighbours read of others.
+/// Exchanges the ghost values.
 void Smoothing::tell(PartFilled<double>& values) const {
   if (halo_ != nullptr) exchange_once(*halo_, {.data = values.data()}, 1);
 }

@@ -11,11 +11,11 @@ namespace piola::nodal {
 /// Theory: docs/theory/nodal.md, section 7.
 class Smoothing {
  public:
-  /// Of all particles; or, where ranks share the body, for those that this one has, with a halo of neighbours, without
-  /// fields. Collective then, as all that follows.
+  /// For all particles; or, on a distributed body, for the local ones, with a halo of ghosts without fields. Then all
+  /// members are collective.
   Smoothing(Reference const& reference, int dimension, Range own, HaloPlan const* halo = nullptr);
 
-  /// S^2 f, values per slot; on ranks of own ones.
+  /// Returns S^2 f, values per slot; on ranks those of local particles.
   PartFilled<double> operator()(PartFilled<double> f) const;
 
  private:
@@ -26,7 +26,7 @@ class Smoothing {
   PartFilled<double> once(PartFilled<double> f) const;
   void tell(PartFilled<double>& values) const;
 
-  /// The particle of pair k, or that of which it is the image.
+  /// The particle of pair k, or the source of an image.
   std::size_t owner(std::size_t k) const { return static_cast<std::size_t>(reference_.owner(neighbour_[k])); }
 
   Reference const& reference_;

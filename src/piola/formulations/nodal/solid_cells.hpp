@@ -8,27 +8,26 @@
 #include "piola/math/embedding.hpp"
 #include "piola/math/scalar.hpp"
 
-/// Cells of solids in rate form: their stresses follow from the state that the last step left at their points, and from
-/// the deformation gradients now. Theory: docs/theory/nodal.md, "Solids in rate form".
+/// Cells of solids in rate form: their stresses follow from the state that the last step stored at their points, and
+/// from the present deformation gradients. Theory: docs/theory/nodal.md, "Solids in rate form".
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// A solid as UpdateStress asks for the stresses of cells. The law behind it is hidden in two functions, so that passes
-/// are compiled once for all solids: what goes by formula is done in lanes, the return to the yield surface and the
-/// pressure one by one.
+/// Interface of a solid for UpdateStress. The law is hidden behind two functions, so that passes are compiled once for
+/// all solids: formulas run in lanes; return mapping and pressure run one by one.
 template <int D>
 class SolidCells {
  public:
   static constexpr bool small_strain = false, volumetric_split = false;
   static constexpr int points = Quadratic<D>::points;
 
-  /// What is asked for.
+  /// Requested stress.
   enum class Wanted {
     as_left,  ///< the stress at the end of the last step
-    trial,    ///< of a trial step, which keeps no state and knows no yield
-    end       ///< at the end of a step, whose state is kept
+    trial,    ///< of a trial step, which stores no state and has no yield
+    end       ///< at the end of a step, whose state is stored
   };
 
-  /// Of the particles of a material, dt [s] after the last step. `law` must outlive this.
+  /// For the particles of a material, dt [s] after the last step. `law` must outlive this.
   template <class Law>
   SolidCells(Law const& law, MaterialRange const& range, BodyState const& body, double dt, Wanted wanted)
       : law_(&law),
@@ -126,8 +125,8 @@ class SolidCells {
     for (int q = 0; q < points; ++q) energy.P[q] = energy.P[q] - cell.pressure * H[q];
   }
 
-  /// Deviators and spread of the points at the gradients F. Where a point yields, its spread is left the same share as
-  /// its deviator, but for a part that stays elastic, so that no point is turned inside out.
+  /// Deviators and spread of the points at the gradients F. At a yielding point, the spread is scaled by the factor of
+  /// the deviator, except for a part that stays elastic, so that no point is inverted.
   PIOLA_FN void flow(Index i, Cell& cell, Mat<3, Lanes> const (&F)[points], Lanes const& rho) const {
     constexpr double stays = 0.01;
     Lanes before[points], now[points];
@@ -145,8 +144,8 @@ class SolidCells {
     }
   }
 
-  /// What the yield surface leaves of the trial deviator S of a point, as a share of it. Cells of other materials, and
-  /// empty ones, are left alone.
+  /// Factor that the yield surface leaves of the trial deviator S of a point. Cells of other materials, and empty ones,
+  /// are skipped.
   PIOLA_FN Lanes return_to_yield(Index i, int q, SymMat<3, Lanes>& S, Lanes const& pressure, Lanes const& rho) const {
     using At = SolidPlaces;
     double left[6][lane_count], share[lane_count];
@@ -197,7 +196,7 @@ class SolidCells {
     }
     return cell;
   }
-  /// But for what return_to_yield has kept.
+  /// Stores the state, except what return_to_yield has stored.
   PIOLA_FN void keep(Index i, Cell const& cell) const {
     double own[lane_count];
     for (int l = 0; l < lane_count; ++l) own[l] = owns(i + l) ? 1 : 0;

@@ -161,8 +161,7 @@ class Solver final : public Formulation, public SetUpChecked {
   }
 
  private:
-  /// Brings the fields for observers up to date; nothing that steps read changes. Collective where ranks share the
-  /// body.
+  /// Updates the fields for observers; the state for steps is unchanged. Collective if the body is distributed.
   void refresh(NodalBody& body) const {
     if (body.observed()) return;
     body.set_observed(true);
@@ -210,7 +209,7 @@ double Solver::calm_time_step() const {
   return unrest > 0 && energy > 0 ? std::sqrt(energy / unrest) : std::numeric_limits<double>::infinity();
 }
 
-/// All ranks have what there is to say about the first particle that failed.
+/// Replicates the values of the first failed particle for its error message.
 void Solver::tell_failures() {
   failed_neighbours_.assign(bodies_.size(), 0);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {

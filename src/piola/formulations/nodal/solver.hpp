@@ -7,10 +7,10 @@
 
 namespace piola::nodal {
 
-/// Makes a nodal run. Throws InputError (unknown machine, too few particles across, laws that it cannot use).
+/// Creates a nodal run. Throws InputError (unknown instruction set, too few particles across, unusable laws).
 std::unique_ptr<Formulation> make(Assembly const& assembly);
 
-/// What is odd about one body of a case that this formulation can run.
+/// Adds warnings about one body of a valid case.
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts);
 
 }  // namespace piola::nodal

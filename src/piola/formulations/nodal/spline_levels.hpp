@@ -15,7 +15,7 @@ namespace piola::nodal {
 template <int D>
 class SplineLevels {
  public:
-  /// Places in spacings. shared: ranks share them, and each has a part of the splines of the finest level.
+  /// Positions in spacings. shared: distributed positions; each rank has a part of the splines of the finest level.
   SplineLevels(Points const& X, std::optional<SharedSlots> const& shared);
 
   /// A field whose sum of squares of third derivatives is `probe_square` everywhere; D columns alike.
@@ -23,8 +23,8 @@ class SplineLevels {
   /// stiffness: of the matrix, per volume and square of third derivatives.
   void set_stiffness(double stiffness) { stiffness_ = stiffness; }
   static constexpr double probe_square = D;
-  /// z += what the levels say to r; D values per particle. On ranks, for which it is collective, each has those of its
-  /// own particles right, and r is that of all particles afterwards.
+  /// z += preconditioned r; D values per particle. Collective: z is valid for local particles, and r is replicated
+  /// afterwards.
   void add(PartFilled<double>& r, PartFilled<double>& z);
 
  private:
@@ -38,9 +38,9 @@ class SplineLevels {
   void add_to_splines(PartFilled<double> const& r);
   static void restrict_to(Level const& fine, Level& coarse);
   static void prolong(Level const& coarse, Level& fine);
-  /// Which interval of the finest level particle a is in, along an axis.
+  /// Index of the interval of the finest level that contains particle a, along an axis.
   int interval(std::size_t a, std::size_t axis) const;
-  /// f(number of the spline, its value) for the splines of the finest level at particle a.
+  /// Calls f(number of the spline, its value) for the splines of the finest level at particle a.
   template <class F>
   void visit(std::size_t a, F const& f) const;
 

@@ -14,9 +14,9 @@ namespace {
 constexpr int cycle = 4;          ///< right-hand sides of a cycle of Lanczos' method
 constexpr int first_cycles = 12;  ///< at most, from a random start
 constexpr int later_cycles = 3;   ///< at most, from the mode of the last measurement
-/// Of the square of the frequency: a measurement ends when its error is known to be less.
+/// Relative error of the squared frequency below which a measurement ends.
 constexpr double accuracy = 0.05;
-constexpr double shortest = 25, longest = 50;  ///< steps of calm motion between measurements
+constexpr double shortest = 25, longest = 50;  ///< slow steps between measurements
 constexpr double steady = 0.01;                ///< the interval grows where the frequency has changed by less
 /// Or this change of a strain, but not within fewer steps unless it is much.
 constexpr double change = 0.1, fewest = 4, much = 0.3;
@@ -28,17 +28,17 @@ constexpr double calm_share = 0.85, brisk_share = 0.75, violent_share = 0.45;
 constexpr double brisk_pace = 20, violent_pace = 8;
 /// At the start strains have not yet shown how fast they change.
 constexpr double first_share = 0.15;
-/// The unrest asks for no right-hand side, but for two sums over particles: it is looked at in every step while it
-/// decides on the next one or strains change fast, else once in so many. It counts at once where it grows. The largest
-/// value is forgotten where it was below a share of it for so many steps of calm motion: energy would drift with steps
-/// that follow every change.
+/// The energy error indicator costs two sums over particles and no right-hand side. It is evaluated in every step while
+/// it limits the next one or strains change fast, else in every `glance`-th. Increases count at once. The largest value
+/// is dropped after it was below a fraction of itself for `lasting` slow steps: steps that follow every change would
+/// make the energy drift.
 constexpr int glance = 4;
 constexpr double lasting = 50, calmer = 0.7;
 /// Where a cell is crushed the steps that had to be halved say more than the last measurement: each makes the next ones
 /// shorter, down to a share, and steps that went well make them longer again.
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
 
-/// What ranks tell each other of a vector, and of the unrest.
+/// Reduction payload of a vector and of the energy error indicator.
 struct SaidOfExtent {
   exec::ExactSums<1> square;
   double most;
@@ -134,7 +134,7 @@ void StabilityMonitor::put_moved(Vector const& x, double scale, Vector const& mo
   });
 }
 
-/// Of the internal forces at the positions that the body has now.
+/// Accelerations by internal forces at the present positions.
 StabilityMonitor::Vector StabilityMonitor::accelerations() {
   int const D = body_.state().dimension;
   FailureSlot failure;
@@ -314,7 +314,7 @@ double StabilityMonitor::calm_step() const { return step_at(calm_share); }
 
 double StabilityMonitor::step_at(double fraction) const {
   if (is_given()) return body_.options().cfl * body_.state().constants.unit_step;
-  // Viscous forces of the step before take from the limit: sqrt(1 + xi^2) - xi with their share xi of critical damping.
+  // Viscous forces of the last step reduce the limit: sqrt(1 + xi^2) - xi, with xi their fraction of critical damping.
   auto const& s = body_.state();
   double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);
   return caution_ * fraction * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();

@@ -6,71 +6,72 @@
 
 namespace piola::nodal {
 
-/// Follows the step limit 2 / omega of one body, with omega the largest frequency of its forces about the current
-/// state: Lanczos' method, which starts from the mode found last. Measured again after 25 steps, after up to 50 while
-/// nothing changes, and as soon as a strain has changed by 0.1. The state is left as it was.
+/// Monitors the step limit 2 / omega of one body, with omega the largest frequency of its forces about the current
+/// state. Uses Lanczos' method from the last mode. Repeated after 25 steps, after up to 50 while nothing changes, and
+/// as soon as a strain has changed by 0.1. The state is left unchanged.
 class StabilityMonitor {
  public:
-  /// Right-hand sides for the measurement at the start, and for later ones per step of calm motion.
+  /// Cost of the step-limit estimate in right-hand sides: of the first estimate, and per step while strains change
+  /// slowly.
   static constexpr double setup_stages = 25, stages_per_step = 0.1;
-  /// For estimates: steps that grow by this factor from step() at the start to calm_step() are as many more than those
-  /// of calm_step() alone as the short steps before the first measurement in motion are.
+  /// For estimates: growth factor per step from step() at the start to calm_step() that gives as many additional steps
+  /// as the short ones before the first measurement in motion.
   static constexpr double growth_at_start = 1.043;
-  /// What all ranks add in a step: sums of the unrest in every fourth step of calm motion and in all before the first
-  /// measurement, and those of measurements. In steps that others make shorter the unrest is looked at each time, but
-  /// measurements are further apart.
+  /// Allreduces per step: energy error indicator in every fourth slow step and in all steps before the first
+  /// measurement, and measurements. In externally shortened steps the indicator is reduced each time, but measurements
+  /// are rarer.
   static constexpr double collectives_per_step = 0.9, more_if_shortened = 0.3;
 
-  /// B dt^2 may take this of the tolerance for the energy. As steps become shorter while B grows from B_0, B dt^2 / 6
-  /// ln(B / B_0) comes on top.
+  /// Fraction of the energy tolerance for B dt^2. As steps become shorter while B grows from B_0, B dt^2 / 6 ln(B /
+  /// B_0) is added.
   static constexpr double share_of_tolerance = 0.8;
-  /// No step is shorter for that than this share of what is stable: a body that was at rest and has just been hit has
-  /// all of its energy in few particles, and more to come.
+  /// The energy tolerance reduces no step below this fraction of the stable one: a body at rest that has just been hit
+  /// has all of its energy in few particles, and more energy follows.
   static constexpr double least_of_limit = 0.2;
 
-  /// Measures from a random start; nothing is measured, then or later, where the case gives the step.
+  /// Measures from a random start, unless the case prescribes the step.
   StabilityMonitor(NodalBody& body, Machine const& machine);
 
-  /// Counts the step dt [s] that was just taken, and measures again what is due. `halvings`: how often it had to be
-  /// halved.
+  /// Registers the step dt [s] just taken, and repeats due measurements. `halvings`: number of halvings of the step.
   void update(double dt, int halvings);
-  /// Step to take [s]: a fraction of the stability limit, smaller the faster strains change.
+  /// Next step [s]: a fraction of the stability limit, smaller the faster strains change.
   double step() const;
-  /// Step [s] after the first measurement in motion where strains change slowly.
+  /// Step [s] after the first measurement in motion if strains change slowly.
   double calm_step() const;
-  /// Largest frequency that was measured last, and never less than that of the start [1/s].
+  /// Largest frequency of the last measurement, and never less than that of the start [1/s].
   double frequency() const;
 
-  /// The largest energy of the body at the measurements so far [J].
+  /// Largest energy of the body at the measurements so far [J].
   double energy() const { return energy_; }
-  /// B = (v.K.v + a.M.a) / 8 [J/s2], which a vibration keeps: Verlet steps let its energy rise and fall by B dt^2.
+  /// Energy error indicator B = (v.K.v + a.M.a) / 8 [J/s2], which a vibration conserves: Verlet steps make its energy
+  /// oscillate by B dt^2.
   double unrest() const { return unrest_; }
 
-  /// Everything that the next step depends on, but for the strains of the last measurement, which are a field. On ranks
-  /// collective, and rank 0 has all of it.
+  /// State that determines the next step, except the strains of the last measurement, which are a field. Collective;
+  /// complete on rank 0.
   std::vector<double> state() const;
   /// Collective.
   void load(StateReader& reader, std::string const& name);
 
-  /// Whether the case gives the step.
+  /// Whether the case prescribes the step.
   bool is_given() const { return body_.options().cfl > 0; }
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
  private:
-  using Vector = std::vector<double>;  ///< D values per particle of this rank, in the order of slots
-  /// An approximate eigenvalue omega^2, and by how much the nearest true one differs at most.
+  using Vector = std::vector<double>;  ///< D values per local particle, in the order of slots
+  /// An approximate eigenvalue omega^2, and a bound on its distance from the nearest exact one.
   struct Estimate {
     double square = 0, error = 0;
   };
-  /// Of component c of the particle in slot i in a Vector.
+  /// Index in a Vector of component c of the particle in slot i.
   std::size_t place(Index i, int c) const;
-  /// f(slot) for the particles of this rank.
+  /// Calls f(slot) for the local particles.
   template <class F>
   void each_particle(F const& f) const;
-  /// f(place) for the numbers of a Vector that this rank has.
+  /// Calls f(place) for the local entries of a Vector.
   template <class F>
   void each_number(F const& f) const;
-  /// sum m u.u and the largest |u_k|, of all ranks.
+  /// sum m u.u and the largest |u_k|, over all ranks.
   struct Extent {
     double square, most;
   };
@@ -90,18 +91,18 @@ class StabilityMonitor {
 
   NodalBody& body_;
   Machine const& machine_;
-  Vector mode_;            ///< empty where nothing is measured
+  Vector mode_;            ///< empty if nothing is measured
   double frequency_ = 0;   ///< 1/s, at the last measurement
   double start_ = 0;       ///< 1/s, at the start
   double steps_ = 0;       ///< since the last measurement
-  double caution_ = 1;     ///< share of the step that is left after steps that had to be halved
-  double pace_ = 0;        ///< steps between the last two measurements; 0: there was one alone
+  double caution_ = 1;     ///< remaining fraction of the step after halved steps
+  double pace_ = 0;        ///< steps between the last two measurements; 0: only one so far
   double interval_ = 0;    ///< steps to the next measurement while strains change little
-  double waited_ = 0;      ///< since the last measurement, in steps of calm motion
-  double energy_ = 0;      ///< the largest that was measured [J]
+  double waited_ = 0;      ///< steps since the last measurement, in equivalents of slow steps
+  double energy_ = 0;      ///< largest measured energy [J]
   double unrest_ = 0;      ///< see unrest() [J/s2]
-  double lately_ = 0;      ///< the largest unrest since it was last forgotten or kept, and for how long
-  double lately_age_ = 0;  ///< that was, in steps of calm motion
+  double lately_ = 0;      ///< largest indicator since its last reset or confirmation
+  double lately_age_ = 0;  ///< age of that, in equivalents of slow steps
 };
 
 }  // namespace piola::nodal

@@ -15,10 +15,10 @@ class Step {
  public:
   explicit Step(BodyState& body) : b_(body), halo_{body.halo} {}
 
-  /// From t^n to t^(n+1) = t^n + dt. With dt = 0 nothing moves and the accelerations of the state are made.
+  /// From t^n to t^(n+1) = t^n + dt. With dt = 0 only the accelerations are computed.
   void operator()(double dt) {
     if (b_.follows) turn_loads(false);
-    if (dt > 0) drive(dt);  // v^(n+1/2) where it is prescribed
+    if (dt > 0) drive(dt);  // v^(n+1/2) in prescribed directions
     exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
     accelerate(dt);
     if (b_.follows) turn_loads(true);
@@ -29,8 +29,8 @@ class Step {
     if (dt > 0) arrive(dt);
   }
 
-  /// a of the internal forces at x: -dPi/dx over the masses, and of viscous ones if `dt` [s] is what has passed since
-  /// the last step.
+  /// Computes a of the internal forces at x: -dPi/dx over the masses, and of viscous forces if `dt` [s], the time since
+  /// the last step, is given.
   void accelerate(double dt = -1) {
     sweep<false>(dt);
     exec::for_each_item(b_.mirrored_count, KeepEven<D>{b_.mirrored, write(b_.second)});
@@ -79,7 +79,7 @@ class Step {
             corrected};
   }
 
-  /// The first sweep, block by block with the pass that uses its sums.
+  /// The first sweep, block by block, with the pass that uses its sums.
   void fused(Range slots, exec::PointPass const& then) {
     if (on_lattice())
       exec::for_each_block(slots, FusedBlock<SumLatticeMotion<D>>{{of_lattice()}, then});
@@ -132,7 +132,7 @@ class Step {
     for (Index k = 0; k < b_.material_count; ++k) update_stress<Observed>(b_.materials[k], dt);
   }
 
-  /// Of the particles of one material that this rank has.
+  /// For the local particles of one material.
   template <bool Observed>
   void update_stress(MaterialRange const& range, double dt) {
     Range const slots = groups_of(range);
@@ -173,7 +173,7 @@ class Step {
   }
 
   static Index group_of(Index slot) { return slot - slot % lane_count; }
-  /// The particles of one material that this rank has, in whole groups of lanes.
+  /// The local particles of one material, in whole groups of lanes.
   Range groups_of(MaterialRange const& range) const {
     if (range.first == range.last) return {};
     Index const first = group_of(range.first), last = group_of(range.last + lane_count - 1);

@@ -3,11 +3,10 @@
 #include "piola/exec/parallel.hpp"
 #include "piola/exec/view.hpp"
 
-/// Reading many components of a field at once, and sweeps that work on a block at a time.
+/// Reads many components of a field at once; sweeps over blocks.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// Components of a group of lanes, of a field whose particles stand side by side: without asking at every component
-/// how they stand.
+/// Components of a group of lanes that are contiguous in memory; the layout is evaluated once, not per component.
 struct LanesOfField {
   double const* data;
   std::ptrdiff_t component_stride;

@@ -3,12 +3,12 @@
 #include "piola/math/scalar.hpp"
 #include "piola/math/tensor.hpp"
 
-/// Plane stress and uniaxial stress: the stretch of the directions that a body does not have, at one point.
-/// Theory: docs/theory/nodal.md, section 2.
+/// Plane stress and uniaxial stress: the stretch of the missing directions at one point. Theory: docs/theory/nodal.md,
+/// section 2.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// The stretch l of the directions from D on with P_cc(F, l) = 0: F comes with any, and leaves with that one. Secant
-/// steps from the stretch of linear elasticity; every lane goes its own way and stops by itself.
+/// Finds the stretch l of the directions from D on with P_cc(F, l) = 0. In: F with any value; out: F with the solution.
+/// Secant steps from the stretch of linear elasticity; each lane iterates and stops independently.
 template <int D, class Law>
 class StressFree {
  public:
@@ -25,7 +25,7 @@ class StressFree {
     for (int n = 0; n < most_steps && any(moving); ++n) {
       put(F, l);
       Lanes const force = lateral_force(F), slope = (force - force_before) / (l - before);
-      // Never to less than half or more than twice.
+      // At least half and at most twice the present stretch.
       Lanes const next = minimum(maximum(Lanes(l - force / slope), 0.5 * l), 2.0 * l), step = next - l;
       force_before = select(moving, force, force_before);
       before = select(moving, l, before);
@@ -36,7 +36,7 @@ class StressFree {
   }
 
  private:
-  /// 1 / (1 + nu' (j - 1)) for a part j of the volume ratio: exact for a small strain, and of the right size beyond.
+  /// 1 / (1 + nu' (j - 1)) for the in-plane volume ratio j: exact for small strain, and of the right size beyond.
   PIOLA_FN Lanes start(Mat<3, Lanes> const& F) const {
     Lanes const j = D == 2 ? Lanes(F(0, 0) * F(1, 1) - F(0, 1) * F(1, 0)) : F(0, 0);
     return 1.0 / (1.0 + lateral_ * (j - 1.0));
@@ -47,7 +47,7 @@ class StressFree {
   PIOLA_FN Lanes lateral_force(Mat<3, Lanes> const& F) const { return law_.first_piola(F)(2, 2); }
 
   Law const& law_;
-  double lateral_;  ///< of linear elasticity, lateral strain over that of the body's own directions, with its sign
+  double lateral_;  ///< of linear elasticity: lateral strain over in-plane strain, with its sign
 };
 
 }  // namespace piola::nodal::inline PIOLA_MACHINE

@@ -32,7 +32,7 @@ struct CellEnergy {
       whole();
   }
 
-  /// The same where directions from D on are free of stress, each point by itself: what it has of them in F is found.
+  /// As above if the directions from D on are free of stress, each point by itself: F is completed by the solution.
   /// Nothing locks there, so that every point has the energy of its own volume ratio.
   template <int D>
   PIOLA_FN void without_lateral_stress() {
@@ -142,7 +142,8 @@ struct UpdateStress {
   }
 
  private:
-  /// Of a component of F^T F / 2 since the step was measured, compared with where it was: 0.1 is a tenth of a stretch.
+  /// Largest change of a component of F^T F / 2 since the last measurement of the step, relative to its value there:
+  /// 0.1 is a tenth of a stretch.
   PIOLA_FN Lanes largest_change(Index i, Mat<D, Lanes> const& F) const {
     SymMat<D, Lanes> const measured = C_measured.symmetric<D, Lanes>(i);
     Lanes most = Lanes(0.0);

@@ -6,12 +6,12 @@
 
 namespace piola::nodal {
 
-/// What the sweeps over a body tell other ranks: positions, and rows (Y_i, Z_i) of stress.
+/// Adds the fields of ghost exchanges of a body: positions, and rows (Y_i, Z_i) of stress.
 template <int D>
 void tell_sums(HaloPlan& halo, BodyState const& state) {
   using R = Records<D>;
   halo.add(state.x, 0, D);
-  halo.add(state.first, 0, 0);  // products of x, and of a record only x changes
+  halo.add(state.first, 0, 0);  // products of x; in a record only x changes
   if (state.lattice.present != nullptr)
     halo.add(state.second, 0, D * R::used);
   else

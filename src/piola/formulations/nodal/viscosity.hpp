@@ -7,8 +7,8 @@
 /// Dissipation of a cell, off by default. Theory: docs/theory/nodal.md, section 5.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// What is remembered of a cell: per point the strain E and the viscous stress S at the end of the last step; the mean
-/// volume ratio of the body's own directions and the shock pressure Q there; the energy dissipated so far per volume.
+/// History of a cell. Per point: the strain E and the viscous stress S at the end of the last step. Per cell: the mean
+/// in-plane volume ratio, the shock pressure Q, and the dissipated energy per volume.
 template <int D>
 struct ViscousHistory {
   static constexpr int strain = SymMat<D>::size, points = Quadratic<D>::points;
@@ -22,7 +22,7 @@ struct ViscousHistory {
 template <int D>
 struct Viscosity {
   using At = ViscousHistory<D>;
-  double dt;  ///< since the last step; 0: the history begins; negative: not asked for
+  double dt;  ///< since the last step; 0: the history begins; negative: no viscous stress
   ViscousConstants constants;
   View before;
   WriteView after;

@@ -5,8 +5,8 @@
 #include "piola/formulations/taylor_sph/rates.hpp"
 
 /// The adjoint exchange: forces leave a cell by the transpose of the gradient that strains it, so that energy and
-/// momenta balance on any set of particles. A cell's virtual particle is its one point; gradients are those of its
-/// corners, not kernel sums. Theory, with the balance of energy: docs/theory/taylor-sph.md.
+/// momenta balance on any set of particles. A cell's virtual particle is its single point; gradients are those of its
+/// corners instead of kernel sums. Theory, with the energy balance: docs/theory/taylor-sph.md.
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// The rotation of a spin (L - L^T)/2 over dt by Cayley's formula, (1 - W/2)^-1 (1 + W/2): orthogonal to round-off.
@@ -35,7 +35,7 @@ PIOLA_FN SymMat<D, T> turned(SymMat<D, T> const& s, Mat<D, T> const& R) {
   return r;
 }
 
-/// Jaumann's rate over a step: half the strain, the turn, the other half.
+/// Jaumann rate over a step: half the strain, the rotation, the other half.
 template <int D, class Law, class T>
 PIOLA_FN void advance_stress(Law const& law, Constants const& k, Mat<D, T> const& L, double dt, SymMat<D, T>& s,
                              T& across) {
@@ -48,7 +48,7 @@ PIOLA_FN void advance_stress(Law const& law, Constants const& k, Mat<D, T> const
   for (int c = 0; c < SymMat<D>::size; ++c) s.c[c] = s.c[c] + (0.5 * dt) * rate.in_plane.c[c];
 }
 
-/// L : D : L, twice the power density that a velocity gradient would have on its own stress per time [Pa/s2].
+/// L : D : L, twice the power density of a velocity gradient on its own stress per time [Pa/s2].
 template <int D, class Law, class T>
 PIOLA_FN T elastic_square(Law const& law, double lateral, Mat<D, T> const& L) {
   SymMat<3, T> const d = rate_of_deformation<D>(L, lateral), rate = law.stress_rate(d);
@@ -57,7 +57,7 @@ PIOLA_FN T elastic_square(Law const& law, double lateral, Mat<D, T> const& L) {
   return sum;
 }
 
-/// The corners of a cell as both cell passes read them, at half time.
+/// The corners of a cell at half time, for both cell passes.
 template <int D>
 struct CornerMotion {
   CornerPositions<D> place;
@@ -181,7 +181,7 @@ struct AdvanceVelocities {
   View mass, acceleration;
   WriteView drift;
   BoundaryItem const* items;  ///< of the particles from `first` on, or nullptr
-  Index first, last;          ///< particles of the range
+  Index first, last;          ///< number of particles in the range
   double* partial;
   double dt;
 
@@ -237,7 +237,7 @@ struct StrainCells {
   double const* real;
   View drift;
   double* virtual_;
-  Index last;  ///< cells
+  Index last;  ///< number of cells
   double* partial;
   double dt;
 
@@ -275,7 +275,7 @@ struct StrainCells {
       if (!cells.simplices && k.hourglass_stiffness > 0) follow_patterns(corner, cell, L, i);
     return cell.volume * elastic_square<D>(law, k.lateral, L);
   }
-  /// Places of half time and mean velocities: x^h = x + dt/2 v with v = 2 <v> - v of now.
+  /// Positions at half time and mean velocities: x^h = x + dt/2 v with v = 2 <v> - present v.
   PIOLA_FN void load(Index i, CornerMotion<D>& corner) const {
     using R = Record<D>;
     corner.place.count = cells.corners;
@@ -311,7 +311,7 @@ struct StrainCells {
   }
 };
 
-/// Stresses and places of the real particles: L_i = sum_J V_J L_J / (n W_i), W_i = sum_J V_J / n, the adjoint of the
+/// Stresses and positions of the real particles: L_i = sum_J V_J L_J / (n W_i), W_i = sum_J V_J / n, the adjoint of the
 /// mean over corners and exact for linear velocities. Sums W L:D:L, per block.
 template <int D, class Law>
 struct AdvanceStresses {
@@ -370,7 +370,7 @@ struct AdvanceStresses {
   }
 };
 
-/// Volumes of the real particles from those of their cells, as the records hold them.
+/// Volumes of the real particles from those of their cells, in the form of the records.
 template <int D>
 struct GatherVolumes {
   Constants k;

@@ -60,8 +60,7 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   shuffle_.moved = nullptr;
 }
 
-/// Particles are born where the initial displacement puts them, free of stress and with the given density: their masses
-/// follow the cells.
+/// Particles start at the initial displacement, free of stress and with the given density: masses follow the cells.
 void TaylorBody::weigh_displaced(Assembly const& assembly) {
   Points x = X_;
   for (Index i = 0; i < particles(); ++i)
@@ -76,7 +75,7 @@ void TaylorBody::weigh_displaced(Assembly const& assembly) {
   for (std::size_t i = 0; i < X_.size(); ++i) mass_[i] *= after[i] / before[i];
 }
 
-/// Under the adjoint exchange masses are the shares of the cells, m_i = rho0 sum V_J / n, of where particles are born.
+/// With the adjoint exchange masses are parts of the cells at the initial positions, m_i = rho0 sum V_J / n.
 void TaylorBody::weigh_cells(Assembly const& assembly) {
   Points x = X_;
   for (Index i = 0; i < particles() && !assembly.initial_displacement.empty(); ++i)
@@ -273,7 +272,7 @@ void TaylorBody::fill_cell_tables(Points const& x) {
   state_.cells.adjoint = options_.adjoint;
 }
 
-/// What the adjoint exchange keeps per cell, and the cells around each particle, in their order.
+/// Allocates the cell data of the adjoint exchange, and the cells around each particle, in their order.
 void TaylorBody::fill_cell_memory() {
   if (!options_.adjoint) return;
   int const corners = cells_.corners;

@@ -16,11 +16,11 @@
 
 namespace piola::taylor_sph {
 
-/// What a checkpoint holds of one body, particle by particle in Id order.
+/// Checkpoint data of one body, particle by particle in Id order.
 struct Snapshot {
   std::vector<double> x, v, drift, displacement;  ///< D per particle; displacement: fixed configuration
   std::vector<double> stress, across, volume;     ///< SymMat<D>, 1, 1 per particle
-  std::vector<double> x_of_lists, x_of_cells;     ///< positions when lists and cells were made
+  std::vector<double> x_of_lists, x_of_cells;     ///< positions at the last construction of lists and of cells
   std::vector<double> corners;                    ///< of the cells
   std::vector<double> cell_stress, cell_across;   ///< adjoint: SymMat<D>, 1 per cell; empty: means of the corners
   std::vector<double> cell_hourglass;             ///< adjoint, boxes: patterns * D per cell
@@ -28,12 +28,12 @@ struct Snapshot {
                               ///< momenta, exchange loss, last step
 };
 
-/// Wall time spent besides the steps themselves [s].
+/// Wall time in addition to the steps [s].
 struct SetupSeconds {
   double triangulation = 0, lists = 0;
 };
 
-/// A particle that has no place among the cells any more, and what became of it in words.
+/// A particle that no longer fits into the cells, and the reason in words.
 struct Lost {
   Index particle = 0;
   std::string what;
@@ -42,19 +42,19 @@ struct Lost {
 /// Whether every point of the body's lattice is a particle (particles on cracks count once).
 bool is_whole_lattice(ParticleSet const& set, Body const& body);
 
-/// One body of a Taylor-SPH run: owns its memory, hands its state to the loops, answers in Id order.
+/// One body of a Taylor-SPH run: owns its memory, passes its state to the loops, is addressed in Id order.
 class TaylorBody {
  public:
-  /// `assembly` is only read here. Throws InputError (too few neighbours, shapes that cannot be triangulated).
+  /// Reads `assembly` only here. Throws InputError (too few neighbours, shapes that cannot be triangulated).
   TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Machine const& machine);
   TaylorBody(TaylorBody const&) = delete;
   TaylorBody& operator=(TaylorBody const&) = delete;
 
-  /// From `time` to time + dt.
+  /// Advances from `time` to time + dt.
   void step(double time, double dt);
-  /// Multiplies the velocities that nothing prescribes, and notes the energy.
+  /// Multiplies the velocities that are not prescribed, and adds the lost energy to damping_loss().
   void damp(double factor);
-  /// Adds to the velocity of a particle [m/s]; pushed() after the last of several.
+  /// Adds to the velocity of a particle [m/s]; call pushed() after the last one.
   void push(Index i, std::array<double, 3> const& change);
   void pushed() { power_ = boundary_power(); }
   double kinetic_energy() const;                         ///< [J]
@@ -62,24 +62,24 @@ class TaylorBody {
   double stable_time_step() const;                       ///< cfl * spacing / c in the current configuration [s]
   double next_release(double time) const { return boundary_.next_release(time); }
 
-  // Particles are local: numbers from the body's first particle on.
+  // Particles are numbered from the body's first particle on.
   Index particles() const { return static_cast<Index>(X_.size()); }
   std::array<double, 3> X(Index i) const { return X_[at(i)]; }
   std::array<double, 3> x(Index i) const;
   std::array<double, 3> v(Index i) const;
   std::array<double, 3> displacement(Index i) const;
-  /// Where a particle is now; x() stays where it was in the configuration of the start [m].
+  /// Current position of a particle [m]; x() stays in the reference configuration if that is fixed.
   std::array<double, 3> place(Index i) const;
   SymMat<3> stress(Index i) const;     ///< Cauchy stress [Pa]
   double volume_ratio(Index i) const;  ///< rho0 / rho
   double mass(Index i) const { return mass_[at(i)]; }
   double volume(Index i) const { return mass_[at(i)] / state_.k.rho0; }  ///< at the start
-  int neighbours(Index i) const;                                         ///< virtual particles that a real one sees
+  int neighbours(Index i) const;                                         ///< virtual neighbours of a real particle
   CellEnergy cell_energy() const;                                        ///< of the adjoint exchange, else zero
-  /// Adjoint: dt^2/8 sum V L:D:L [J]. The sum of energies less this only falls, but for the work from outside.
+  /// Adjoint: dt^2/8 sum V L:D:L [J]. The sum of energies minus this never rises, except by external work.
   double staggering_energy() const;
 
-  std::vector<double> parting() const;  ///< by particle: strain that the stress does not have; zeros if fixed
+  std::vector<double> parting() const;  ///< by particle: strain drift; zeros in the fixed configuration
 
   Snapshot snapshot() const;
   void restore(Snapshot const& snapshot);
@@ -88,17 +88,17 @@ class TaylorBody {
   Body const& body() const { return body_; }
   Options const& options() const { return options_; }
   double external_work() const { return work_; }
-  /// Adds what supports and loads did in the last step.
+  /// Adds the impulses of supports and loads in the last step.
   void add_actions(Actions& actions) const;
   long list_updates() const { return list_updates_; }
   long triangulations() const { return triangulations_; }
   SetupSeconds const& seconds() const { return seconds_; }
   bool inverted() const { return measures_.inverted; }
-  /// Set once the cells or lists of a moving body cannot be made anew.
+  /// Set once the cells or lists of a moving body cannot be rebuilt.
   std::optional<Lost> const& lost() const { return lost_; }
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
-  /// What all ranks are told of it in a step; nothing where that was not counted: the exchange of estimates.
+  /// Communication pattern of the body; empty if not modelled: the exchange of estimates.
   Talk talk() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }
@@ -110,7 +110,7 @@ class TaylorBody {
   double* record(Index i) const;
   std::array<double, 6> record_stress(Index i) const;  ///< SymMat<D>
   int D() const { return state_.dimension; }
-  std::ptrdiff_t stress_place() const { return 2 * std::ptrdiff_t{D()} + 1; }  ///< in a record
+  std::ptrdiff_t stress_place() const { return 2 * std::ptrdiff_t{D()} + 1; }  ///< index in a record
 
   void set_constants(Assembly const& assembly, std::size_t body);
   Cells first_cells(ParticleSet const& set) const;
@@ -119,7 +119,7 @@ class TaylorBody {
   void place_initially(Assembly const& assembly);
   Points positions() const;
   Points middles(Points const& x) const;
-  /// Memory, order of slots, tables for the cells that are there.
+  /// Sets memory, order of slots, and tables for the present cells.
   void arrange(Points const& x_of_cells);
   void order_slots(std::vector<Index> const& on_boundary);
   void order_cells();
@@ -146,9 +146,9 @@ class TaylorBody {
     Index particle;
     std::array<double, 3> impulse;
   };
-  /// `tractions`: what acted on the particles; nothing: to be found from the surface of half time.
+  /// `tractions`: applied to the particles; empty: computed from the surface at half time.
   void add_impulses(double time, double dt, std::vector<Push> const* tractions = nullptr);
-  /// add(load, place, impulse) of each particle.
+  /// Calls add(load, place, impulse) for each particle.
   template <class F>
   void visit_pushes(double time, double dt, std::vector<Push> const* tractions, F const& add);
   void turn_boundary(double ahead);
@@ -161,15 +161,15 @@ class TaylorBody {
   Body body_;
   Options options_;
   Machine const* machine_;
-  Points X_, start_;  ///< reference positions, and where particles start without stress
+  Points X_, start_;  ///< reference positions, and positions at which particles start without stress
   std::vector<double> mass_, kernel_volume_;
   std::vector<Crack> cracks_;
   std::vector<std::int8_t> crack_side_;
   double largest_radius_ = 0;  ///< of a simplex inside the body, at the start [m]
   Boundary boundary_;
-  Cells cells_, boxes_;  ///< local corners
+  Cells cells_, boxes_;  ///< corners numbered within the body
   Points x_of_lists_, x_of_cells_, surface_positions_;
-  Shuffle shuffle_;  ///< tests deal out tiles of particles inside, of those on the surface, and of cells
+  Shuffle shuffle_;  ///< tests shuffle tiles of interior particles, of surface particles, and of cells
   std::vector<Index> slot_of_, local_of_, slot_of_cell_, cell_in_slot_;
   std::vector<std::int64_t> id_in_slot_;
   Memory real_, virtual_;
@@ -188,12 +188,12 @@ class TaylorBody {
   std::optional<Lost> lost_;
   double first_spacing_ = 0;                   ///< at the start [m]
   bool free_ = false;                          ///< no support: momentum changes by loads alone
-  std::array<double, 6> momentum_{};           ///< linear and angular, that a free body must have
+  std::array<double, 6> momentum_{};           ///< linear and angular, which a free body must conserve
   std::vector<Impulse> of_support_, of_load_;  ///< in the last step
   double work_ = 0, power_ = 0, damping_loss_ = 0;
   double last_step_ = 0;  ///< [s]
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
-  long hasty_updates_ = 0;  ///< list updates in successive steps, up to now
+  long hasty_updates_ = 0;  ///< consecutive steps with list updates
   SetupSeconds seconds_;
 };
 

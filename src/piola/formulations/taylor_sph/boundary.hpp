@@ -11,26 +11,27 @@
 
 namespace piola::taylor_sph {
 
-/// What is prescribed on the surface of one body and at its supports: the sides that meet at a particle with their
-/// normals, the tractions on them (zero where nothing loads them), the velocities of supports; and the work that these
-/// do. Particles are local: numbers from the body's first particle on. Theory: docs/theory/taylor-sph.md.
+/// Prescribed values on the surface of one body and at its supports: the sides that meet at a particle with their
+/// normals, the tractions on them (zero without load), the velocities of supports; and their work. Particles are
+/// numbered from the body's first particle on. Theory: docs/theory/taylor-sph.md.
 class Boundary {
  public:
   Boundary(Assembly const& assembly, std::size_t body);
 
-  /// Particles with something prescribed, in increasing order: those of the surface but for the tips of cracks, and
-  /// those of supports. The order of items. Throws InputError if a traction is given where there is no surface.
+  /// Sets up the particles with prescribed values and returns them in increasing order, the order of items: those of
+  /// the surface except the tips of cracks, and those of supports. Throws InputError if a traction is given without a
+  /// surface.
   std::vector<Index> const& arrange(Surface const& surface, Points const& x, Shuffle const& shuffle);
 
-  /// For a step from `time` to time + dt. `x`: positions by which normals are taken; `stress_now(k)`: the stress of the
-  /// item's particle, which counts as what was prescribed before where it was not: at time 0 and after a release.
-  /// Velocities before are those that the particles have.
+  /// Before a step from `time` to time + dt. `x`: positions for the normals. `stress_now(k)`: the stress of the item's
+  /// particle, used as the earlier prescribed value if there was none: at time 0 and after a release. Earlier
+  /// velocities are those of the particles.
   void prepare(double time, double dt, Points const& x, std::function<std::array<double, 3>(Index)> const& velocity,
                std::function<std::array<double, 6>(Index)> const& stress_now);
-  /// As `prepare`, of the velocities alone, and of normals where there are tractions.
+  /// As prepare(), for the velocities alone, and for normals if there are tractions.
   void prepare_speeds(double time, double dt, Points const& x,
                       std::function<std::array<double, 3>(Index)> const& velocity);
-  /// How many sides meet at a particle; 0 inside.
+  /// Number of sides that meet at a particle; 0 in the interior.
   int sides(Index particle) const { return static_cast<int>(sides_[static_cast<std::size_t>(particle)].size()); }
   std::vector<Index> const& particles() const { return particles_; }
   BoundaryItem* items() { return items_.data(); }
@@ -39,15 +40,15 @@ class Boundary {
   double power(std::function<std::array<double, 3>(Index)> const& velocity,
                std::function<std::array<double, 6>(Index)> const& stress) const;
 
-  /// add(load, particle, value): the load is numbered in the order of the assembly.
+  /// add(load, particle, value): loads are numbered as in the assembly.
   using AddLoad = std::function<void(std::size_t, Index, std::array<double, 3> const&)>;
   /// Forces of tractions at a time, with the sides of the last preparation [N per unit of missing directions].
   void each_traction(double time, AddLoad const& add) const;
-  /// Takes the normals and areas of sides from these positions.
+  /// Updates normals and areas of sides for these positions.
   void turn(Points const& x);
-  /// Force of the stress of a particle on the sides that meet there, with the normals of the last preparation [N].
+  /// Force of the stress of a particle on its sides, with the normals of the last preparation [N].
   std::array<double, 3> force_on_sides(Index particle, std::array<double, 6> const& stress) const;
-  bool holds() const;  ///< there is a support on this body
+  bool holds() const;  ///< whether this body has a support
 
   bool has_tractions() const { return !tractions_.empty(); }
   bool has_accelerations() const { return !accelerations_.empty(); }
@@ -62,16 +63,16 @@ class Boundary {
     std::size_t support;
     std::array<double, 3> direction;
   };
-  /// A traction on the sides that face `normal`.
+  /// A traction on the sides with the normal `normal`.
   struct Traction {
     std::size_t load;
     std::array<double, 3> normal;
   };
-  /// Facets around a particle that make one smooth side.
+  /// Facets around a particle that form one smooth side.
   struct Side {
     std::vector<Index> facets;
-    std::array<double, 3> reference_normal, normal, area;  ///< area: of the particle's share [m^(D-1)]
-    std::vector<std::size_t> tractions;                    ///< loads
+    std::array<double, 3> reference_normal, normal, area;  ///< area: of the particle's part [m^(D-1)]
+    std::vector<std::size_t> tractions;                    ///< indices of loads
   };
   void sort_facets(Surface const& surface, Points const& x);
   void add_to_side(Index particle, Index facet, std::array<double, 3> const& area);
@@ -90,11 +91,11 @@ class Boundary {
   std::vector<std::vector<Traction>> loaded_;  ///< per particle
   std::vector<bool> tip_;                      ///< tips of cracks
   std::vector<Support> supports_;
-  std::vector<Load> tractions_, accelerations_;                     ///< tractions: `particles` empty
-  std::vector<std::size_t> traction_number_, acceleration_number_;  ///< in the assembly
+  std::vector<Load> tractions_, accelerations_;                     ///< tractions have no `particles`
+  std::vector<std::size_t> traction_number_, acceleration_number_;  ///< indices in the assembly
   Surface surface_;
   std::vector<std::vector<Side>> sides_;  ///< per particle
-  std::vector<Index> particles_;          ///< of items
+  std::vector<Index> particles_;          ///< particles of the items
   std::vector<BoundaryItem> items_;
 };
 

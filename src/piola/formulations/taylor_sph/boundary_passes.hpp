@@ -4,10 +4,10 @@
 #include "piola/math/solve.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 
-/// Real particles with prescribed velocities or tractions. A component that is prescribed has a gradient of full rank
-/// from its known value; one that is free has, where the sources lie in one layer, only its tangential derivative; and
-/// the velocity's derivative along the normal that is missing then follows from the rate of the traction. With these
-/// three rules nothing is left open. Theory: docs/theory/taylor-sph.md.
+/// Real particles with prescribed velocities or tractions. A prescribed component has a gradient of full rank from its
+/// known value. A free one has, if the sources lie in one layer, only its tangential derivative; the missing derivative
+/// of the velocity along the normal follows from the rate of the traction. These three rules determine all gradients.
+/// Theory: docs/theory/taylor-sph.md.
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// Components of a symmetric tensor in the order of SymMat, shear ones times sqrt(2): an orthonormal basis.
@@ -51,14 +51,14 @@ PIOLA_FN KernelSums<D, double> lane_of(KernelSums<D, Lanes> const& s, int l) {
   return r;
 }
 
-/// Least-squares solution of A^T c = q that leaves out directions which A does not see.
+/// Least-squares solution of A^T c = q without the directions that A does not see.
 template <int D>
 struct PseudoInverse {
   Mat<D> A;
   Eigen<D> e;
-  double least;  ///< eigenvalues of A A^T below are left out
+  double least;  ///< eigenvalues of A A^T below this are dropped
 
-  /// `weakest`: smallest eigenvalue of A A^T beside the largest; `scale`: size of A where nothing cancels.
+  /// `weakest`: threshold for eigenvalues of A A^T relative to the largest; `scale`: size of A without cancellation.
   PIOLA_FN PseudoInverse(Mat<D> const& of, double weakest, double scale) : A(of) {
     SymMat<D> N{};
     for (int i = 0; i < D; ++i)
@@ -114,14 +114,14 @@ PIOLA_FN void estimate_known(KernelSums<D, double> const& sums, double const (&k
   Mat<D> A;
   for (int a = 0; a < D; ++a)
     for (int b = 0; b < D; ++b) A(a, b) = sums.xg(a, b);
-  // Nothing is extrapolated from a known value: what the sources see at all is good.
+  // Nothing is extrapolated from a known value: every direction that the sources see is used.
   constexpr double weakest = 1e-8;
   PseudoInverse<D> const solve(A, weakest, moment_size<D>(sums));
   for (int c = 0; c < Record<D>::fields; ++c) gradient[c] = solve(sums.fg[c] - known[c] * sums.g);
 }
 
-/// Replaces what is prescribed in an estimate: values by those of half time, the average of both ends of the step, and
-/// gradients by those about these values. Directions of velocity and rows of stress are orthonormal, so the rest stays.
+/// Replaces prescribed parts of an estimate: values by the mean of both ends of the step, and gradients by those about
+/// these values. Directions of velocity and rows of stress are orthonormal, so the other parts do not change.
 template <int D>
 struct PrescribedEstimate {
   static constexpr int n = Record<D>::stress;
@@ -178,7 +178,7 @@ struct PrescribedEstimate {
 PIOLA_FN bool solve_small(double const (&M)[36], double const (&b)[6], int n, double (&a)[6]) {
   double A[36];
   for (int k = 0; k < 36; ++k) A[k] = k / 6 < n && k % 6 < n ? M[k] : (k / 6 == k % 6 ? 1.0 : 0.0);
-  // Unused rows are those of the identity, scaled so that they do not spoil the ratio of pivots.
+  // Unused rows are those of the identity, scaled so that they do not affect the ratio of pivots.
   double scale = 0;
   for (int k = 0; k < n; ++k) scale = maximum(scale, std::fabs(M[7 * k]));
   for (int k = n; k < 6; ++k) A[7 * k] = scale;
@@ -186,8 +186,8 @@ PIOLA_FN bool solve_small(double const (&M)[36], double const (&b)[6], int n, do
   return n > 0 && solve_in_place<6>(A, a) > 1e-9;
 }
 
-/// Adds to L what the rates of prescribed tractions ask for: a_l along_l (x) normal_l such that each row of the stress
-/// rate D:d becomes the prescribed one.
+/// Adds to L the part required by the rates of prescribed tractions: a_l along_l (x) normal_l such that each row of the
+/// stress rate D:d becomes the prescribed one.
 template <int D, class Law>
 PIOLA_FN void add_missing_derivatives(Law const& law, double lateral, BoundaryItem const& item, double dt, Mat<D>& L) {
   double M[36] = {}, b[6] = {}, a[6] = {};
@@ -266,7 +266,7 @@ struct BoundaryStep {
   }
 };
 
-/// Gives prescribed velocities and stresses their values of the end of the step.
+/// Sets prescribed velocities and stresses to their values at the end of the step.
 template <int D>
 struct Impose {
   double* real;

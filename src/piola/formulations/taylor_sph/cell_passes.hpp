@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/taylor_sph/sums.hpp"
 
-/// Virtual particles of moving bodies: the middle of a cell, its volume and its shape.
+/// Virtual particles of moving bodies: centre, volume and shape of a cell.
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// Corners of a cell, or of one per lane.
@@ -49,8 +49,8 @@ PIOLA_FN Lanes spanned(Vec<D, Lanes> const (&e)[D]) {
   if constexpr (D == 3) return dot(cross(e[0], e[1]), e[2]);
 }
 
-/// Largest content of a side of what the edges span: of a parallelepiped's faces, and for simplices also of the side
-/// opposite to the first corner.
+/// Largest side of the span of the edges: of a parallelepiped's faces, and for simplices also of the side opposite to
+/// the first corner.
 template <int D>
 PIOLA_FN Lanes largest_side(Vec<D, Lanes> const (&e)[D], bool simplices) {
   Lanes square(1.0);
@@ -103,8 +103,8 @@ PIOLA_FN CellGradients<D> cell_gradients(CornerPositions<D> const& corners, bool
   return r;
 }
 
-/// Length that a wave may cross in a step of the adjoint exchange [m]: 2 / sqrt(n lambda), lambda the largest
-/// eigenvalue of sum_k g_k (x) g_k, of 3D cells a bound at most 7 % above it.
+/// Length limit of a wave in a step of the adjoint exchange [m]: 2 / sqrt(n lambda), lambda the largest eigenvalue of
+/// sum_k g_k (x) g_k, for 3D cells a bound at most 7 % above it.
 template <int D>
 PIOLA_FN Lanes adjoint_spacing(CellGradients<D> const& cell, int corners) {
   SymMat<D, Lanes> s{};
@@ -118,7 +118,7 @@ PIOLA_FN Lanes adjoint_spacing(CellGradients<D> const& cell, int corners) {
     return 2.0 / square_root(static_cast<double>(corners) * largest);
   }
   if constexpr (D == 3) {
-    // lambda^8 <= |S^8|, with S over its trace so that no power leaves the range of numbers.
+    // lambda^8 <= |S^8|, with S over its trace so that no power over- or underflows.
     Lanes const sum = s.c[0] + s.c[1] + s.c[2];
     Mat<D, Lanes> power;
     for (int a = 0; a < D; ++a)
@@ -130,7 +130,8 @@ PIOLA_FN Lanes adjoint_spacing(CellGradients<D> const& cell, int corners) {
   }
 }
 
-/// Places virtual particles and measures their cells; per block: largest strain, smallest quality, spacing and volume.
+/// Moves virtual particles to the centres of their cells and measures these; per block: largest strain, smallest
+/// quality, spacing and volume.
 template <int D>
 struct PlaceVirtuals {
   CellTable cells;
@@ -148,7 +149,7 @@ struct PlaceVirtuals {
       Lanes const box = spanned<D>(edge);
       Lanes shortest(1e300), longest(0.0);
       compare_distances(corners, i, strain, shortest, longest);
-      // A wave crosses a cell between its nearest sides; a right-angled simplex counts as the box that it is part of.
+      // A wave crosses a cell between its nearest sides; a right-angled simplex counts as the box that contains it.
       Lanes const height = box / largest_side<D>(edge, cells.simplices);
       spacing = minimum(spacing, cells.adjoint
                                      ? adjoint_spacing<D>(cell_gradients<D>(corners, cells.simplices), corners.count)
@@ -172,7 +173,7 @@ struct PlaceVirtuals {
 
  private:
   static constexpr double factorial() { return D == 3 ? 6 : D; }
-  /// The height of a simplex over its largest side is 1/sqrt(D) of the edge of the box that it is a corner of.
+  /// The height of a simplex over its largest side is 1/sqrt(D) of the edge of the box of which it is a corner.
   PIOLA_FN Lanes height_of_box(Lanes const& height) const {
     constexpr double root = D == 1 ? 1 : D == 2 ? 1.4142135623730951 : 1.7320508075688772;
     return cells.simplices ? root * height : height;

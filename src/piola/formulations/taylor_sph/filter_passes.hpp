@@ -3,9 +3,9 @@
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/rates.hpp"
 
-/// The hourglass filter: patterns of a box of the lattice that its middle does not see, of velocity and of stress, are
-/// damped. They are what is left of the corner values without their linear part, so linear fields stay untouched on any
-/// shape of box (as the hourglass vectors of Flanagan and Belytschko 1981), and so do fields of one coordinate.
+/// The hourglass filter damps patterns of velocity and of stress in a box of the lattice that its centre does not see:
+/// the corner values without their linear part. Linear fields stay unchanged on any shape of box (as the hourglass
+/// vectors of Flanagan and Belytschko 1981), and so do fields of one coordinate.
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// Patterns of signs over the corners of a box: products of two or three of the coordinates' signs.
@@ -13,7 +13,7 @@ template <int D>
 struct Patterns {
   static constexpr int count = D == 1 ? 0 : D == 2 ? 1 : 4;
   static constexpr int corners = 1 << D;
-  static constexpr int mask[4] = {3, 6, 5, 7};  // which coordinates' signs
+  static constexpr int mask[4] = {3, 6, 5, 7};  // coordinates whose signs are multiplied
   static constexpr double sign(int pattern, int corner) {
     int bits = corner & mask[pattern], odd = 0;
     for (int number = mask[pattern]; number != 0; number &= number - 1) ++odd;
@@ -66,8 +66,8 @@ struct MeasurePatterns {
   }
 };
 
-/// Takes the share `eps` of the mean pattern of the boxes around a particle out of its velocity and stress; sums the
-/// energy that goes with it, per block.
+/// Removes the fraction `eps` of the mean pattern of the boxes around a particle from its velocity and stress; sums the
+/// removed energy, per block.
 template <int D, class Law>
 struct DampPatterns {
   Law law;

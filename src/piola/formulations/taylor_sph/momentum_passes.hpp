@@ -4,7 +4,7 @@
 #include "piola/formulations/taylor_sph/state.hpp"
 
 /// Linear and angular momentum of a body, and the rigid motion that restores them: interpolation between two sets of
-/// particles does not conserve them by itself.
+/// particles does not conserve them.
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// Sums the motion of the real particles of a range.

@@ -19,7 +19,7 @@ using Point = std::array<double, 3>;
 constexpr double skin = 0.2;
 constexpr double largest_strain = 0.2;  ///< of squared distances: 10 % in length
 
-/// Cells are made anew when one has lost this much of its quality.
+/// Cells are rebuilt when the quality of one falls below this fraction of its initial value.
 constexpr double least_quality = 0.3;
 constexpr long least_steps = 10;  ///< between two triangulations
 
@@ -309,7 +309,7 @@ void TaylorBody::renew_lists() {
 /// Delaunay's triangulation of where the particles are now, of it what lies in a cell of before: the cells of before
 /// cover the body, however deformed they are. False if nothing would change.
 bool TaylorBody::triangulate_anew() {
-  constexpr long hasty = 5;  // a triangulation as soon as one may be counts as so many lists
+  constexpr long hasty = 5;  // a triangulation at the earliest possible time counts as this number of lists
   if (triangulations_ > 0 && steps_since_triangulation_ <= least_steps) hasty_updates_ += hasty;
   steps_since_triangulation_ = 0;
   if (!cracks_.empty() || options_.lattice_cells) return false;
@@ -374,7 +374,7 @@ Snapshot TaylorBody::snapshot() const {
   return s;
 }
 
-/// Its own, as its record has it.
+/// Pointer to the stress of a cell inside its record.
 double* TaylorBody::cell_stress(Index cell) const {
   return state_.virtual_ + static_cast<std::ptrdiff_t>(slot_of_cell_[at(cell)]) * record_stride(D()) + stress_place();
 }

@@ -4,12 +4,12 @@
 #include "piola/formulations/taylor_sph/body.hpp"
 #include <span>
 
-/// What users see of a Taylor-SPH state; reads, never writes.
+/// Observed quantities of a Taylor-SPH state; read-only.
 namespace piola::taylor_sph {
 
 void observe(TaylorBody const& body, ParticleSet const& set, Observation& observation);
 
-/// The fields that Taylor-SPH offers to frames and probes.
+/// The fields of Taylor-SPH for frames and probes.
 std::vector<FieldInfo> observed_fields();
 
 /// values[id * components + c] of one field for the particles of one body. Throws std::invalid_argument for an unknown

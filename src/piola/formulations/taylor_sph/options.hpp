@@ -5,19 +5,19 @@
 
 namespace piola::taylor_sph {
 
-/// What a user may choose, with every default resolved.
+/// User options with all defaults resolved.
 struct Options {
-  bool moving = true;  ///< updated Lagrangian; else the configuration of the start
+  bool moving = true;  ///< updated Lagrangian; else in the initial configuration
   GradientForm form = GradientForm::linear_exact;
-  Kernel const* kernel = nullptr;  ///< of estimates
+  Kernel const* kernel = nullptr;  ///< for estimates
   bool adjoint = true;             ///< the adjoint exchange between the two sets; else estimates by kernel sums
-  double memory = 0.2;             ///< adjoint: share of the cells' own stress
-  double hourglass_stiffness = 0;  ///< adjoint: of the patterns of boxes, in shares of D_11
+  double memory = 0.2;             ///< adjoint: weight of the cells' own stress
+  double hourglass_stiffness = 0;  ///< adjoint: of the patterns of boxes, as a fraction of D_11
   bool lattice_cells = false;      ///< virtual particles in the middle of lattice boxes; else of simplices
-  bool stress_free = false;        ///< the missing directions: free of stress, else held
+  bool stress_free = false;        ///< the missing directions: free of stress, else fixed
   double smoothing_length = 1;     ///< h in particle spacings
-  double hourglass = 0;            ///< share of the hourglass pattern taken away by each step
-  bool conserve = true;            ///< momenta of bodies without supports, exactly
+  double hourglass = 0;            ///< fraction of the hourglass pattern removed in each step
+  bool conserve = true;            ///< conserve momenta of bodies without supports exactly
   double cfl = 1;                  ///< c dt / spacing
 };
 
@@ -25,7 +25,7 @@ struct Options {
 FormulationInfo info();
 
 /// Options of a body of that dimension. `cfl`: nan for the default; `whole_lattice`: every point of its lattice is a
-/// particle. Throws InputError with all that cannot work.
+/// particle. Throws InputError with all errors.
 Options read_options(FormulationSpec const& spec, int dimension, double cfl, bool whole_lattice);
 
 }  // namespace piola::taylor_sph

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether positions and stress of a moving body still tell of the same motion.
+// Strain drift: consistency of positions and stress of a moving body.
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/math/solve.hpp"
@@ -36,8 +36,8 @@ double size(Mat<3> const& m, int D) {
 
 }  // namespace
 
-/// Of each particle, the largest of its cells: |(F F^T - 1)/2 - e| - |e|^2 with the deformation gradient F that the
-/// corners show and the elastic strain e of their mean stress, D^-1:s. Both are the same but for second-order terms.
+/// Per particle, the largest of its cells: |(F F^T - 1)/2 - e| - |e|^2 with the deformation gradient F of the corners
+/// and the elastic strain e of their mean stress, D^-1:s. Both are equal except for second-order terms.
 std::vector<double> TaylorBody::parting() const {
   std::vector<double> out(X_.size(), 0);
   if (!state_.k.moving) return out;

@@ -2,8 +2,8 @@
 #pragma once
 #include "piola/formulations/taylor_sph/rates.hpp"
 
-/// What one particle does in a step of Taylor-SPH; equations of Serroukh and Mabssout (2022), repaired as
-/// docs/theory/taylor-sph.md tells.
+/// Operations on one particle in a step of Taylor-SPH; equations of Serroukh and Mabssout (2022), as corrected in
+/// docs/theory/taylor-sph.md.
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// Mean over the corners of the cells of the lanes that start at i of values per real particle.
@@ -64,8 +64,9 @@ struct HalfStep {
   }
 };
 
-/// Where a real particle is at half time, seen from which the virtual particles lie: it drifts on as in the step
-/// before. Its own velocity may hold a checkerboard that the virtual particles do not see and that must not move it.
+/// Position of a real particle at half time, relative to which the virtual particles are evaluated: it drifts as in the
+/// last step. Its own velocity may contain a checkerboard that the virtual particles do not see and that must not move
+/// it.
 template <int D>
 PIOLA_FN Vec<D, Lanes> half_time_place(Constants const& k, Lanes const (&own)[Record<D>::values],
                                        WriteView const& drift, Index i, double dt) {
@@ -140,7 +141,7 @@ struct FullStep {
   }
 };
 
-/// Largest of what each block of real particles has grown to.
+/// Maxima over each block of real particles.
 template <int D>
 struct LargestVolume {
   double const* real;

@@ -23,7 +23,7 @@ void TaylorBody::push(Index i, std::array<double, 3> const& change) {
   }
 }
 
-/// By the loops of step.hpp: each array that is told in full, and the messages that these and sums go in.
+/// Follows the loops of step.hpp: each replicated array, and the messages that carry these and the sums.
 Talk TaylorBody::talk() const {
   bool const moving = state_.k.moving;
   int const flat = D() == 2 ? 1 : 0, at_rest = moving ? 0 : D(), stride = record_stride(D());

@@ -26,7 +26,7 @@ PIOLA_FN Vec<D, T> divergence(Estimate<D, T> const& e) {
   return r;
 }
 
-/// -S = omega.sigma - sigma.omega with omega = (L - L^T)/2, eqs. (2)-(4): what a turning frame does to the stress.
+/// -S = omega.sigma - sigma.omega with omega = (L - L^T)/2, eqs. (2)-(4): effect of rotation on the stress.
 template <int D, class T>
 PIOLA_FN SymMat<D, T> turning(SymMat<D, T> const& sigma, Mat<D, T> const& L) {
   SymMat<D, T> r{};
@@ -39,15 +39,15 @@ PIOLA_FN SymMat<D, T> turning(SymMat<D, T> const& sigma, Mat<D, T> const& L) {
   return r;
 }
 
-/// A stress with the component across the plane, which a body of two dimensions has beside its own.
+/// A stress with its out-of-plane component, which a body of two dimensions stores separately.
 template <int D, class T>
 struct PlaneStress {
   SymMat<D, T> in_plane;
   T across;
 };
 
-/// Rate of deformation d = (L + L^T)/2 (5), (6) in three dimensions: directions that a body does not have are held
-/// (lateral = 0) or contract as far as frees them of stress.
+/// Rate of deformation d = (L + L^T)/2 (5), (6) in three dimensions: missing directions are fixed (lateral = 0) or
+/// contract so that they are free of stress.
 template <int D, class T>
 PIOLA_FN SymMat<3, T> rate_of_deformation(Mat<D, T> const& L, double lateral) {
   SymMat<3, T> d;
@@ -72,7 +72,7 @@ PIOLA_FN PlaneStress<D, T> elastic_rate(Law const& law, double lateral, Mat<D, T
   return r;
 }
 
-/// dsigma/dt = D : d - S (2) [Pa/s]. In the fixed configuration, which is geometrically linear, nothing turns.
+/// dsigma/dt = D : d - S (2) [Pa/s]. The fixed configuration is geometrically linear and has no rotation.
 template <int D, class Law, class T>
 PIOLA_FN PlaneStress<D, T> stress_rate(Law const& law, Constants const& k, Mat<D, T> const& L,
                                        SymMat<D, T> const& sigma) {

@@ -16,9 +16,9 @@ Impulse TaylorBody::momentum() {
   return r;
 }
 
-/// The scheme prescribes velocities and evaluates stress, so that no force of a support enters it. Supports bear what
-/// loads do not explain of the change of momentum. Among several supports the traction of the stress on their surface
-/// decides; what is left is shared out as by a rigid motion of what they hold.
+/// The scheme prescribes velocities and evaluates stress, so that no force of a support enters it. Supports receive the
+/// part of the momentum change that loads do not explain. It is divided among several supports by the traction of the
+/// stress on their surface; the rest is distributed as by a rigid motion of the held particles.
 void TaylorBody::find_reactions(Impulse const& before, double dt) {
   of_support_.assign(of_support_.size(), {});
   if (free_) return;

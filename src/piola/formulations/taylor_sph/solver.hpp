@@ -7,10 +7,10 @@
 
 namespace piola::taylor_sph {
 
-/// Throws InputError for what it cannot build: mirror planes, laws without a rate form, thin bodies.
+/// Throws InputError for unsupported cases: mirror planes, laws without a rate form, thin bodies.
 std::unique_ptr<Formulation> make(Assembly const& assembly);
 
-/// What is odd about one body of a case that this formulation can run.
+/// Adds warnings about one body of a valid case.
 void doubt(Assembly const& assembly, std::size_t body, BodyDoubts& doubts);
 
 }  // namespace piola::taylor_sph

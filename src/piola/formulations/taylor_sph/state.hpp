@@ -6,33 +6,32 @@
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/set_pairs.hpp"
 
-/// One body of a Taylor-SPH run as its loops see it: plain data that crosses between machines.
+/// State of one body for the loops: plain data, independent of the instruction set.
 namespace piola::taylor_sph {
 
-/// How values and gradients are estimated from the sources around a target.
+/// Estimate of values and gradients from the sources around a target.
 enum class GradientForm {
   linear_exact,  ///< about the centroid of the weights: linear fields exactly, on any set
-  printed        ///< eqs. (19), (20): the interpolated value counts as that of the target's own place
+  printed        ///< eqs. (19), (20): the interpolated value is used at the target's position
 };
 
 struct Constants {
   double rho0;           ///< density at the start [kg/m^3]
   double kernel_volume;  ///< volume of a real particle in kernel sums, at the start [m^D]
-  double lateral;        ///< strain rate of a direction without stress over minus that along the body; 0: held
+  double lateral;        ///< strain rate of a stress-free direction over minus that along the body; 0: fixed
   double modulus;        ///< D_11 of the body's assumption: c = sqrt(D_11 / rho) [Pa]
-  double hourglass;      ///< share of the hourglass pattern that each step takes away
+  double hourglass;      ///< fraction of the hourglass pattern removed in each step
   GradientForm form;
-  Kernel const* kernel;            ///< of estimates
-  bool moving;                     ///< updated Lagrangian; false: the configuration of the start, geometrically linear
+  Kernel const* kernel;            ///< for estimates
+  bool moving;                     ///< updated Lagrangian; false: initial configuration, geometrically linear
   bool loaded;                     ///< there are accelerations
   bool adjoint = false;            ///< the adjoint exchange; else estimates by kernel sums
-  double memory = 0;               ///< adjoint: share of the cells' own stress
-  double hourglass_stiffness = 0;  ///< adjoint, boxes: of their patterns, in shares of D_11
+  double memory = 0;               ///< adjoint: weight of the cells' own stress
+  double hourglass_stiffness = 0;  ///< adjoint, boxes: of their patterns, as a fraction of D_11
 };
 
-/// A particle as its neighbours read it: one record of `stride` doubles,
-///   x (D) | volume in kernel sums | v (D) | Cauchy stress (SymMat<D>)
-/// Virtual particles have the same record, with the values of half time.
+/// Record of a particle for its neighbours: `stride` doubles, x (D) | volume in kernel sums | v (D) | Cauchy stress
+/// (SymMat<D>). Virtual particles have the same record, with the values at half time.
 template <int D>
 struct Record {
   static constexpr int stress = D * (D + 1) / 2;
@@ -43,18 +42,18 @@ struct Record {
 };
 constexpr int record_stride(int dimension) { return dimension == 3 ? Record<3>::stride : Record<2>::stride; }
 
-/// What is prescribed at a particle of the surface, or of a support, during one step. Rows of stress are orthonormal in
+/// Prescribed values at a particle of the surface, or of a support, during one step. Rows of stress are orthonormal in
 /// the space of stresses with shear components times sqrt(2) (Mandel), in the order of SymMat.
 struct BoundaryItem {
   int held = 0;                            ///< velocity: orthonormal directions with a prescribed speed
   double direction[3][3];                  ///< unit vectors
-  int support[3];                          ///< that holds it, in the order of the assembly
+  int support[3];                          ///< indices in the assembly
   double speed_before[3], speed_after[3];  ///< at the start and at the end of the step [m/s]
   int rows = 0;                            ///< stress: combinations with a prescribed value
   double row[6][6];
   double before[6], after[6];  ///< [Pa]
-  /// Row k concerns the traction on `normal` along `along`: the velocity's derivative along `normal` is not seen by
-  /// the particles inside and follows from the rate of that traction.
+  /// Row k concerns the traction on `normal` along `along`: the velocity's derivative along `normal` is not seen by the
+  /// interior particles and follows from the rate of that traction.
   double along[6][3], normal[6][3];
 };
 
@@ -63,9 +62,9 @@ struct CellTable {
   int corners = 0;
   bool simplices = true;
   Index const* corner = nullptr;              ///< corner k of lane l of group g: [(g * corners + k) * lanes + l]
-  double const* reference_square = nullptr;   ///< of the distance of each pair of corners, when lists were made [m2]
-  double const* reference_quality = nullptr;  ///< volume / (longest edge)^D, when cells were made
-  bool adjoint = false;                       ///< waves cross cells as the adjoint exchange lets them
+  double const* reference_square = nullptr;   ///< squared distance of each pair of corners at the last list update [m2]
+  double const* reference_quality = nullptr;  ///< volume / (longest edge)^D at the last construction of cells
+  bool adjoint = false;                       ///< wave speed limits of the adjoint exchange apply
 };
 
 /// The cells around each real particle, for the adjoint exchange.
@@ -74,9 +73,9 @@ struct CellsAround {
   Index const* entry = nullptr;  ///< cell * corners + number of the corner
 };
 
-/// What cells keep and hand on under the adjoint exchange; a cell's own stress stands in its record.
+/// State and output of cells under the adjoint exchange; a cell's own stress is in its record.
 struct CellMemory {
-  double* across = nullptr;     ///< stress across the plane [Pa]
+  double* across = nullptr;     ///< out-of-plane stress [Pa]
   double* force = nullptr;      ///< on each corner [N], D per corner
   double* gradient = nullptr;   ///< volume times velocity gradient, D * D per cell
   double* hourglass = nullptr;  ///< amplitudes of the patterns of a box [m]
@@ -95,15 +94,15 @@ struct HourglassTable {
   Index const* box_of = nullptr;  ///< per slot, 2^D entries: box * 2^D + corner number, or -1
 };
 
-/// What the cells say about a moving body.
+/// Measures of the cells of a moving body.
 struct CellMeasures {
-  double strain = 0;      ///< largest relative change of a squared distance since lists were made
-  double quality = 1;     ///< smallest quality over that when cells were made
+  double strain = 0;      ///< largest relative change of a squared distance since the last list update
+  double quality = 1;     ///< smallest quality relative to that at the last construction of cells
   double spacing = 0;     ///< smallest distance that a wave may cross in a step [m]
   double dilation = 1;    ///< largest volume of a real particle over that at the start
-  bool inverted = false;  ///< a cell has turned inside out
+  bool inverted = false;  ///< a cell is inverted
 
-  /// What other cells say; the dilation is of particles.
+  /// Merges the measures of other cells; the dilation is of particles.
   void add(CellMeasures const& other) {
     strain = maximum(strain, other.strain);
     quality = minimum(quality, other.quality);
@@ -120,9 +119,9 @@ struct BodyState {
   Index interior_count = 0, boundary_count = 0, virtual_count = 0;
   double* real = nullptr;      ///< records
   double* virtual_ = nullptr;  ///< records
-  FieldRef out_of_plane;       ///< stress across the plane [Pa]
-  FieldRef drift;              ///< velocity with which particles moved in the step before [m/s]
-  FieldRef displacement;       ///< in the fixed configuration, where positions stay [m]
+  FieldRef out_of_plane;       ///< out-of-plane stress [Pa]
+  FieldRef drift;              ///< displacement velocity of particles in the last step [m/s]
+  FieldRef displacement;       ///< in the fixed configuration, where positions are constant [m]
   FieldRef acceleration;       ///< of loads, at half time [m/s2]
   FieldRef mass;               ///< [kg]
   SetPairTable to_virtual, to_real;
@@ -135,11 +134,11 @@ struct BodyState {
   FailureSlot* failure = nullptr;
   double filter_loss = 0;    ///< energy taken by the hourglass filter since the start [J]
   double exchange_loss = 0;  ///< energy taken by the adjoint exchange since the start [J]
-  double work = 0;           ///< adjoint: of all that acts from outside, in the last step [J]
+  double work = 0;           ///< adjoint: external work in the last step [J]
 };
 
-/// Positions in sums over a body: mass, mass x, mass x (x) x (XX YY ZZ XY YZ XZ), momentum, moment of momentum;
-/// components that a body does not have are zero.
+/// Indices of sums over a body: mass, mass x, mass x (x) x (XX YY ZZ XY YZ XZ), momentum, moment of momentum; missing
+/// components are zero.
 struct MotionSums {
   static constexpr int mass = 0, x = 1, xx = 4, v = 10, moment = 13, size = 16;
 };
@@ -148,10 +147,10 @@ struct MotionSums {
 struct CellEnergy {
   double stored = 0;     ///< V t:D^-1:t / 2 of the cells' own stress
   double hourglass = 0;  ///< of the patterns of boxes
-  double square = 0;     ///< V L:D:L of the velocities of now
+  double square = 0;     ///< V L:D:L of the present velocities
 };
 
-/// The loops of one machine (instruction set). Every entry takes bodies of 1, 2 or 3 dimensions.
+/// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
 struct Machine {
   char const* name;
   int lanes;
@@ -160,15 +159,16 @@ struct Machine {
   void (*impose)(BodyState& body);                         ///< prescribed speeds and stresses at the end of the step
   void (*filter)(BodyState& body);                         ///< hourglass filter
   void (*motion)(BodyState& body, double* sums);           ///< MotionSums of the real particles
-  void (*add_rigid)(BodyState& body, double const* rate);  ///< to the velocities: spin, push, centre
-  CellMeasures (*place)(BodyState& body);                  ///< virtual particles into the middle of their cells
+  void (*add_rigid)(BodyState& body, double const* rate);  ///< adds to the velocities: spin, push, centre
+  CellMeasures (*place)(BodyState& body);                  ///< moves virtual particles to the centres of their cells
   void (*adjoint_step)(BodyState& body, double dt);        ///< a whole step by the adjoint exchange
   CellEnergy (*cell_energy)(BodyState& body);              ///< of the adjoint exchange
 };
 
-/// The machine of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not usable here.
+/// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not
+/// usable here.
 Machine const* find_machine(char const* name);
-/// Names of the machines in this program that this processor can run, best first; ends with nullptr.
+/// Names of the instruction sets in this program that this processor can run, best first; ends with nullptr.
 char const* const* machine_names();
 /// As find_machine; throws InputError if there is none.
 Machine const& choose_machine(char const* name);

@@ -11,8 +11,8 @@
 
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
-/// The parts of a step of one body, in their order; solver.cpp calls them. On several ranks each works on its part of
-/// the slots; then all have all of them, so that what is not in a loop over particles is the same everywhere.
+/// The parts of a step of one body, in their order; solver.cpp calls them. On several ranks each rank computes its
+/// range of slots; then the results are replicated, so that code outside loops over particles is the same everywhere.
 template <int D, class Kernel, class Law>
 class Step {
  public:
@@ -40,7 +40,7 @@ class Step {
   }
   /// Prescribed values at t^(n+1).
   void impose() { exec::for_each_item(b_.boundary_count, Impose<D>{b_.real, b_.items, b_.boundary.first}); }
-  /// The hourglass filter, where the lattice has patterns to filter.
+  /// The hourglass filter, if the lattice has patterns to filter.
   void filter() {
     if constexpr (D > 1) {
       Range const boxes{0, b_.hourglass.boxes};
@@ -92,7 +92,7 @@ class Step {
     for (auto const& part : end.squares) square -= part.value();
     b_.exchange_loss += 0.5 * (1 - b_.k.memory) * dt * dt * square;
   }
-  /// Of all ranks, by each of them alone.
+  /// Energies of the cells of all ranks; not collective.
   CellEnergy cell_energy() {
     using Pass = CellEnergies<D, Law>;
     exec::for_each_block(b_.virtuals,
@@ -100,7 +100,7 @@ class Step {
     auto const sum = exec::add_partials<Pass::results>(b_.partial, exec::block_count(b_.virtuals));
     return {sum.v[0], sum.v[1], sum.v[2]};
   }
-  /// Virtual particles into the middle of their cells.
+  /// Moves virtual particles to the centres of their cells.
   CellMeasures place() {
     Range const cells = own_part(b_.virtuals);
     exec::for_each_block(cells, PlaceVirtuals<D>{b_.cells, b_.real, b_.virtual_, b_.partial});
@@ -129,7 +129,7 @@ class Step {
   static WriteView write(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   using Arrays = std::vector<SlotArray>;
   using Sum = exec::ExactSums<1>;
-  /// Of the loops over several ranges.
+  /// Sums of the loops over several ranges.
   template <int N, class S = Sum>
   struct Sums {
     S of[N];
@@ -137,7 +137,7 @@ class Step {
       for (int k = 0; k < N; ++k) of[k].add(other.of[k]);
     }
   };
-  /// What is known at the end of a step.
+  /// Sums of a step and arrays that it changes.
   struct AtEnd {
     explicit AtEnd(FailureSlot const& failure) : first(failure) {}
     Sum squares[2];
@@ -147,13 +147,13 @@ class Step {
       first.add(other.first);
     }
   };
-  /// All ranks have all of these arrays, and the sums of all ranks: in one message.
+  /// Replicates all of these arrays and reduces the sums over ranks, in one message.
   template <class T, class... More>
   static void complete_and_add(T& sums, Arrays arrays, More const&... more) {
     (arrays.insert(arrays.end(), more.begin(), more.end()), ...);
     complete_slots_and_add(std::span<SlotArray const>(arrays), sums);
   }
-  /// Of real particles and of cells, what steps change.
+  /// Arrays of real particles and of cells that steps change.
   Arrays records() const {
     return {{b_.real, Record<D>::stride, b_.interior}, {b_.real, Record<D>::stride, b_.boundary}};
   }
@@ -176,7 +176,7 @@ class Step {
             {b_.memory.gradient, std::ptrdiff_t{D} * D, b_.virtuals},
             {b_.memory.hourglass, std::ptrdiff_t{D} * b_.memory.patterns, b_.virtuals}};
   }
-  /// Of what a loop over these slots has left in `partial`.
+  /// Sum over the blocks of these slots in `partial`.
   template <int N>
   void add_blocks(Range own, exec::ExactSums<N>& sums) const {
     for (Index k = 0; k < exec::block_count(own); ++k) sums.add(b_.partial + static_cast<std::ptrdiff_t>(k) * N);

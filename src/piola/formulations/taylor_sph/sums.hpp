@@ -6,12 +6,12 @@
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/neighbours/records.hpp"
 
-/// Kernel sums over the sources around a target, and the values and gradients that follow from them. Numbers of
-/// equations are those of Serroukh and Mabssout (2022).
+/// Kernel sums over the sources around a target, and the resulting values and gradients. Numbers of equations are those
+/// of Serroukh and Mabssout (2022).
 namespace piola::taylor_sph::inline PIOLA_MACHINE {
 
 /// Sums over sources J with weights w = W_IJ Omega_J and g_J = Omega_J grad W_IJ = s (x_J - x_I), x from the target.
-/// Constant factors of the kernel are left out: they drop out of all that follows.
+/// Constant factors of the kernel are omitted, because they cancel.
 template <int D, class V>
 struct KernelSums {
   static constexpr int fields = Record<D>::fields;

@@ -9,10 +9,10 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// What particles of one material bear before they fail differs (W. Weibull, J. Appl. Mech. 18, 1951, pp. 293-297):
-/// fracture strains and spall pressures are times x, with the probability 1 - exp(-ln 2 (V/V0) x^m) to be below x in a
-/// volume V. In the volume V0 half of them fail at the numbers of the material; bigger volumes fail sooner, so that
-/// finer particles are no stronger as a body.
+/// Scatter of the failure strength between particles of one material (W. Weibull, J. Appl. Mech. 18, 1951, pp.
+/// 293-297): fracture strains and spall pressures are multiplied by x, with the probability 1 - exp(-ln 2 (V/V0) x^m)
+/// to be below x in a volume V. In the volume V0 half of them fail at the numbers of the material. Larger volumes fail
+/// sooner, so that finer particles do not strengthen the body.
 struct Scatter {
   static constexpr std::array parameters{
       Parameter{"weibull_modulus", "1", "m, of the scatter of fracture strains and spall pressures between particles",

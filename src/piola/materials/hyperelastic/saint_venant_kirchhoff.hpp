@@ -28,7 +28,7 @@ struct SaintVenantKirchhoff : ElasticConstants {
     for (int i = 0; i < 3; ++i) S(i, i) = S(i, i) + volume;
     return F * S;
   }
-  /// The same: H and J have no energy of their own.
+  /// As first_piola(): H and J have no energy of their own.
   template <class T>
   PIOLA_FN Mat<3, T> stress(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
     return first_piola(F);

@@ -7,7 +7,7 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// What the flow stress of a point may depend on, besides the plastic strain rate.
+/// State on which the flow stress of a point may depend, in addition to the plastic strain rate.
 struct FlowState {
   double plastic_strain = 0;  ///< equivalent
   double temperature = 0;     ///< [K]

@@ -25,7 +25,7 @@ class IsotropicHardening {
     return mises > yield ? (mises - yield) / (three_mu + modulus_) : 0;
   }
 
-  /// The same of several points.
+  /// As increment(), for several points.
   template <class V>
   PIOLA_FN V increments(V const& mises, double three_mu, V const& plastic_strain) const {
     V const yield = yield_ + modulus_ * plastic_strain;

@@ -22,7 +22,7 @@ class PerfectPlasticity {
     return mises > yield_ ? (mises - yield_) / three_mu : 0;
   }
 
-  /// The same of several points.
+  /// As increment(), for several points.
   template <class V>
   PIOLA_FN V increments(V const& mises, double three_mu, V const&) const {
     return select(mises > yield_, (mises - yield_) / three_mu, V(0.0));

@@ -5,12 +5,12 @@
 
 namespace piola::contact {
 
-/// What one thing does to another.
+/// Force and moment of one object on another.
 struct Between {
   Vec<3> force, moment;  ///< [N], [N m]
 };
 
-/// Forces of many points: the same bits in whichever order they come.
+/// Reproducible sum of the forces at many points, independent of their order.
 class BetweenSum {
  public:
   void add(Vec<3> const& force, Vec<3> const& moment) {

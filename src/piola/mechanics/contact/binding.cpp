@@ -24,7 +24,7 @@ struct Ties::Binding {
   ParticleSet const& set;
   std::vector<Surface> const& surfaces;
   Carriers const& carriers;
-  std::vector<Mat<3>> F;                   ///< by carrier
+  std::vector<Mat<3>> F;                   ///< by host particle
   std::vector<std::vector<Plane>> planes;  ///< by body and point
 
   Binding(ParticleSet const& particles, std::vector<Surface> const& all, Carriers const& of,

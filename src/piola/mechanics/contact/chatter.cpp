@@ -9,7 +9,7 @@ namespace {
 
 /// Times c/dp: measured on cases/contact/incline, where less leaves a vibration that lowers friction near its angle.
 constexpr double rate = 10;
-/// Of the cube of its trace: what has less has no inertia about one of its axes, to round-off.
+/// Threshold relative to the cube of the trace: below it there is no inertia about one of the axes, to round-off.
 constexpr double flat_inertia = 1e-9;
 
 /// f(i) for all particles of a cluster.

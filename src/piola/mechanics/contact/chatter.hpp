@@ -5,25 +5,25 @@
 
 namespace piola::contact {
 
-/// Damping of the vibration that friction excites under surfaces without any dissipation. A cluster is a carrier and
-/// its neighbours. Where its points rub, velocities go towards those of the rigid motion of the cluster with the same
-/// momenta; what this takes is at most a share of the heat of friction there in the same step. Momenta are kept, and
-/// kinetic energy never rises. Theory: docs/theory/contact.md, section 4.
+/// Damping of the vibration that friction excites under surfaces without dissipation. A cluster is a host particle and
+/// its neighbours. If its points slide with friction, velocities are relaxed towards the rigid motion of the cluster
+/// with equal momenta. The dissipation is at most a given fraction of the friction heat there in the same step. Momenta
+/// are conserved, and kinetic energy never rises. Theory: docs/theory/contact.md, section 4.
 class ChatterDamping {
  public:
   ChatterDamping() = default;
-  /// shares: by body, of the heat of friction; 0 damps nothing.
+  /// shares: by body, largest fraction of the friction heat that is dissipated; 0: no damping.
   ChatterDamping(Carriers const& carriers, std::vector<Surface> const& surfaces, std::vector<double> const& shares,
                  int dimension);
   bool any() const { return !clusters_.empty(); }
 
   struct State {
     std::vector<Vec<3>> const &x, &v;           ///< by index into ids() [m], [m/s]
-    std::vector<double> const& inverse_masses;  ///< the same [1/kg]
-    std::vector<double> const& heat;            ///< by carrier, of the last step [J]
+    std::vector<double> const& inverse_masses;  ///< by index into ids() [1/kg]
+    std::vector<double> const& heat;            ///< by host particle, of the last step [J]
     double dt;                                  ///< [s]
   };
-  /// Finds impulses.
+  /// Computes the impulses.
   void look(Carriers const& carriers, State const& now);
   /// Indices of ids() with an impulse, ascending, and impulses by index [N s].
   std::vector<Index> const& damped() const { return damped_; }
@@ -32,9 +32,9 @@ class ChatterDamping {
  private:
   struct Cluster {
     Index carrier;
-    double stiffness;  ///< M dp^(D-2): over the mass of a particle the square of c/dp [N/m]
-    double share;      ///< of the heat
-    double weight;     ///< so that the weights of all clusters around a particle sum to 1 at most
+    double stiffness;  ///< M dp^(D-2); divided by the mass of a particle: the square of c/dp [N/m]
+    double share;      ///< fraction of the heat
+    double weight;     ///< the weights of all clusters around a particle sum to at most 1
   };
   struct Motion {
     Vec<3> centre, velocity, spin;

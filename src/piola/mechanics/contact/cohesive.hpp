@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
-/// Traction of a joint by its jump: a linear spring that softens linearly once it was opened too far. Theory:
+/// Traction of a joint by its jump: a linear spring with linear softening after a critical opening. Theory:
 /// docs/theory/ties.md.
 namespace piola::contact {
 
 struct CohesiveLaw {
   double stiffness = 0;                                       ///< K [Pa/m]
   double strength = std::numeric_limits<double>::infinity();  ///< t_max [Pa]
-  double last = std::numeric_limits<double>::infinity();      ///< delta_max: nothing holds any more [m]
+  double last = std::numeric_limits<double>::infinity();      ///< delta_max: complete failure [m]
   double shear2 = 1;                                          ///< beta^2
 
   double first() const { return strength / stiffness; }  ///< delta_0: softening begins [m]
@@ -30,21 +30,21 @@ inline double envelope(CohesiveLaw const& law, double opening) {
   return opening < law.last ? law.strength * (law.last - opening) / (law.last - law.first()) : 0;
 }
 
-/// Traction by opening after the largest opening d: the way back goes straight to the origin [Pa/m].
+/// Traction over opening after the largest opening d [Pa/m]: unloading goes straight to the origin.
 inline double secant(CohesiveLaw const& law, double d) {
   return d <= law.first() ? law.stiffness : envelope(law, d) / d;
 }
 
-/// What has become heat at the largest opening d [J/m2].
+/// Energy dissipated at the largest opening d [J/m2].
 inline double lost_energy(CohesiveLaw const& law, double d) {
   if (d <= law.first()) return 0;
   double const e = std::min(d, law.last), t = envelope(law, e);
   return 0.5 * law.strength * law.first() + 0.5 * (law.strength + t) * (e - law.first()) - 0.5 * t * e;
 }
 
-/// A jump in parts. n: outward normal of the body whose point moved by `jump` from where it belongs.
+/// Components of a jump. n: outward normal of the body whose point has moved by `jump` from its tied position.
 struct Separation {
-  double open = 0;  ///< positive: apart [m]
+  double open = 0;  ///< positive: open [m]
   Vec<3> slide;     ///< along the surface [m]
 };
 inline Separation separation(Vec<3> const& jump, Vec<3> const& n) {
@@ -58,7 +58,7 @@ inline double effective_opening(CohesiveLaw const& law, Separation const& s) {
   return std::sqrt(apart * apart + law.shear2 * dot(s.slide, s.slide));
 }
 
-/// Energy per area of a joint and its slopes.
+/// Energy per area of a joint and its derivatives.
 struct Bond {
   double energy = 0;          ///< [J/m2]
   Vec<3> by_jump, by_normal;  ///< [Pa], [J/m2]
@@ -69,7 +69,7 @@ inline Bond elastic_bond(double stiffness, Vec<3> const& jump) {
   return {0.5 * stiffness * dot(jump, jump), stiffness * jump, {}};
 }
 
-/// After the largest opening d. Pressed together a joint is as stiff as it was new.
+/// After the largest opening d. Under compression a joint keeps its initial stiffness.
 inline Bond cohesive_bond(CohesiveLaw const& law, Vec<3> const& jump, Vec<3> const& n, double d) {
   Separation const s = separation(jump, n);
   double const k = secant(law, d), across = s.open > 0 ? k : law.stiffness, along = k * law.shear2;

@@ -90,7 +90,7 @@ void ColourContact::make_lists(std::vector<Vec<3>> const& x, std::vector<double>
   for (std::size_t k = 0; k < masses.size(); ++k) listed_alive_[k] = masses[k] > 0 ? 1 : 0;
 }
 
-/// Only what is near the box around the other body is looked at.
+/// Only particles near the box around the other body are listed.
 void ColourContact::list(Pass& pass, std::vector<Vec<3>> const& x, std::vector<double> const& masses) const {
   double const reach = pass.kernel.support + skin_;
   std::vector<Index> const &own = bodies_[pass.body].at, &other = bodies_[pass.other].at;

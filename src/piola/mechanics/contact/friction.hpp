@@ -5,19 +5,19 @@
 #include <cmath>
 #include <limits>
 
-/// Coulomb friction of a touched point by a spring that is dragged along. Theory: docs/theory/contact.md, section 4.
+/// Coulomb friction of a contact point by an elastic-slip spring. Theory: docs/theory/contact.md, section 4.
 namespace piola::contact {
 
-/// How much friction two surfaces have.
+/// Friction law of two surfaces.
 struct FrictionLaw {
-  double kinetic = 0;                                            ///< mu_k, where they slide fast
-  double still = 0;                                              ///< mu_s of surfaces at rest; 0: as mu_k
-  double decay_speed = 0;                                        ///< v_d, between the two [m/s]
-  double shear_limit = std::numeric_limits<double>::infinity();  ///< tau_max: no shear stress is larger [Pa]
+  double kinetic = 0;                                            ///< mu_k, kinetic coefficient at high speed
+  double still = 0;                                              ///< mu_s, static coefficient; 0: equal to mu_k
+  double decay_speed = 0;                                        ///< v_d, transition speed [m/s]
+  double shear_limit = std::numeric_limits<double>::infinity();  ///< tau_max: limit of the shear stress [Pa]
   bool any() const { return kinetic > 0 || still > 0; }
 };
 
-/// mu(v) = mu_k + (mu_s - mu_k) exp(-v / v_d), v the speed of sliding [m/s].
+/// mu(v) = mu_k + (mu_s - mu_k) exp(-v / v_d) with the sliding speed v [m/s].
 inline double friction_coefficient(FrictionLaw const& law, double speed) {
   if (!(law.still > 0) || !(law.decay_speed > 0)) return law.kinetic;
   return law.kinetic + (law.still - law.kinetic) * std::exp(-speed / law.decay_speed);
@@ -34,8 +34,9 @@ struct Spring {
   Vec<3> force;    ///< on the point [N]
 };
 
-/// xi <- (1 - n (x) n) (last + jump), cut so that k |xi| <= mu f_n. last: the stretch before, turned along with the
-/// body [m]; jump: how far the point moved over the surface since then [m]; n: unit normal; k [N/m]; bound: mu f_n [N].
+/// Return mapping: xi <- (1 - n (x) n) (last + jump), scaled so that k |xi| <= bound. last: the previous stretch,
+/// rotated with the body [m]; jump: displacement of the point over the surface since then [m]; n: unit normal; k [N/m];
+/// bound: mu f_n [N].
 inline Spring dragged(Vec<3> const& last, Vec<3> const& jump, Vec<3> const& n, double k, double bound) {
   Vec<3> const all = last + jump;
   Vec<3> xi = all - dot(n, all) * n;
@@ -44,20 +45,20 @@ inline Spring dragged(Vec<3> const& last, Vec<3> const& jump, Vec<3> const& n, d
   return {xi, (-k) * xi};
 }
 
-/// What the force of a step that goes from `before` to `after` takes from the bodies over the jump [J].
+/// Work that friction takes from the bodies over the jump [J], as the force goes from `before` to `after`.
 inline double friction_work(Vec<3> const& before, Vec<3> const& after, Vec<3> const& jump) {
   return -0.5 * dot(before + after, jump);
 }
 
-/// One point that rubs, from one evaluation to the next.
+/// Friction at one point over one step.
 struct Rubbing {
   Spring spring;
-  double work = 0;    ///< that the bodies gave [J]
-  double energy = 0;  ///< in the spring [J]
+  double work = 0;    ///< taken from the bodies [J]
+  double energy = 0;  ///< stored in the spring [J]
 };
 
-/// last: the spring before, turned along with the surface; null: a new contact, which starts without one. jump [m] and
-/// dt [s] since then; n: unit normal; k [N/m]; normal force [N] and area [m2] by the law.
+/// last: the previous spring, rotated with the surface; null: a new contact, which starts without stretch. jump [m] and
+/// dt [s] since then; n: unit normal; k [N/m]; normal force [N] and area [m2] for the law.
 inline Rubbing rubbing(Spring const* last, Vec<3> const& jump, Vec<3> const& n, double k, FrictionLaw const& law,
                        double normal_force, double area, double dt) {
   Vec<3> const along = jump - dot(n, jump) * n;

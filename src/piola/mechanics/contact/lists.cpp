@@ -8,8 +8,7 @@ namespace {
 
 /// Planes move a little farther than their particles where these turn; this share of the skin leaves room for that.
 constexpr double share_of_skin = 1.0 / 3;
-/// Normals that face each other have a negative product; before the lists are made anew they turn by no more than this
-/// leaves room for.
+/// Opposing normals have a negative product; until lists are rebuilt they rotate by no more than this margin allows.
 constexpr double facing = 0.8;
 
 /// The box around some places.

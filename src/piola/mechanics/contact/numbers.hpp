@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-/// State as a list of numbers, for checkpoints: what is put is taken in the same order.
+/// State as a list of numbers, for checkpoints; read in the order of writing.
 namespace piola::contact {
 
 inline void put(std::vector<double>& all, Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); }

@@ -5,18 +5,18 @@
 
 namespace piola::contact {
 
-/// Which surface points of a body do not touch each other because they are neighbours in the body itself: their
-/// particles are nearer than four spacings along bonds of the reference configuration, each at most 1.5 spacings long.
-/// The straight distance would not do: it is short across a slit.
+/// Pairs excluded from self-contact: surface points whose host particles are nearer than four spacings along bonds of
+/// the reference configuration, each at most 1.5 spacings long. The straight distance is no criterion: it is short
+/// across a slit.
 class OwnNeighbours {
  public:
   OwnNeighbours() = default;
   OwnNeighbours(ParticleSet const& particles, std::size_t body, Carriers const& carriers, double spacing);
-  /// Whether two carriers of the body are neighbours; each is its own.
+  /// Whether two host particles of the body are neighbours; true for equal ones.
   bool hold(Index carrier, Index other) const;
 
  private:
-  Index first_ = 0;  ///< carrier of the body
+  Index first_ = 0;  ///< first host particle of the body
   std::vector<std::vector<Index>> near_;
 };
 

@@ -3,25 +3,26 @@
 #include "piola/math/tensor.hpp"
 #include <cmath>
 
-/// The gap of a surface point from the surface of another body, by blended planes, and the energy of contact. Points of
-/// a body's surface have a place y and a unit outward normal n; each is a plane. Theory: docs/theory/contact.md.
+/// The gap between a surface point and the surface of another body, by blended planes, and the energy of contact.
+/// Points of a body's surface have a position y and an outward unit normal n; each defines a plane. Theory:
+/// docs/theory/contact.md.
 namespace piola::contact {
 
-/// A point of a surface where it is now.
+/// A surface point in the current configuration.
 struct Plane {
-  Vec<3> y, n;  ///< place [m], unit outward normal
+  Vec<3> y, n;  ///< position [m], outward unit normal
 };
 
-/// How two surfaces push each other.
+/// Contact law of a pair of surfaces.
 struct PairRule {
-  double reach = 0;                   ///< R: planes farther from a point do not count [m]
+  double reach = 0;                   ///< R: planes beyond this distance have no weight [m]
   double stiffness = 0;               ///< k: pressure by depth [Pa/m]
-  double length = 0;                  ///< l: at this depth the pressure of a linear layer is doubled [m]
-  double fade_from = 0, fade_to = 0;  ///< how far beyond the rim of a face its planes still hold [m]
+  double length = 0;                  ///< l: depth at which the pressure of a linear layer is doubled [m]
+  double fade_from = 0, fade_to = 0;  ///< distances beyond the rim of a face over which its planes fade out [m]
 };
 
-/// Both surfaces of a pair are tested, q = 1/2 each; against a rigid shape only one, q = 1. Moduli of pressure waves
-/// M [Pa], spacings [m], factor: C_s.
+/// q: 1/2 for pairs of surfaces, which are both tested; 1 for a rigid shape. P-wave moduli M [Pa], spacings [m],
+/// factor: C_s.
 inline double layer_stiffness(double q, double factor, double modulus, double spacing) {
   return q * factor * modulus / spacing;
 }
@@ -32,7 +33,7 @@ inline PairRule pair_rule(double factor, double modulus_a, double spacing_a, dou
   return {2 * larger, layer_stiffness(0.5, factor, mean, dp), 0.5 * dp, 0.45 * larger, 0.75 * larger};
 }
 
-/// The weight of a plane: (1 - r^2/R^2)^3 c^2 where the normals face each other, c = n_a . n_b < 0.
+/// The weight of a plane: (1 - r^2/R^2)^3 c^2 for opposing normals, c = n_a . n_b < 0.
 inline double plane_weight(double square_over_reach, double c) {
   double const rest = 1 - square_over_reach;
   return rest > 0 && c < 0 ? rest * rest * rest * c * c : 0;
@@ -48,8 +49,8 @@ inline Layer layer(double gap, double stiffness, double length) {
   return {stiffness * square * (0.5 + 0.25 * over), stiffness * gap * (1 + over)};
 }
 
-/// theta: 1 where the planes lie opposite, 0 beyond the rim of a face. tau2: square of the distance along the face of
-/// their centroid [m2]; slope by tau2 [1/m2].
+/// theta: 1 if the planes are opposite, 0 beyond the rim of a face. tau2: squared distance of their centroid along the
+/// face [m2]; slope by tau2 [1/m2].
 struct Fade {
   double value = 1, slope = 0;
 };
@@ -61,12 +62,11 @@ inline Fade fade(double tau2, double from, double to) {
   return {s * s * (3 - 2 * s), -6 * s * (1 - s) / (b - a)};
 }
 
-/// How much of a face there is before a point: 0 where the weights Sw of all its planes are next to nothing, 1 where
-/// they are those of a face; a plane that comes into sight, or turns towards the point, does so without a jump. Slope
-/// by Sw.
+/// p: fraction of a face in front of a point: 0 if the weights Sw of all its planes are negligible, 1 for a full face.
+/// Continuous as a plane appears or rotates. Slope by Sw.
 inline Fade presence(double weight) {
   constexpr double none = 0.02,
-                   whole = 0.3;  // a flat face has pi R^2 / (4 dp^2) = 3.1 in 3D, its corner a quarter of it
+                   whole = 0.3;  // Sw of a flat face is pi R^2 / (4 dp^2) = 3.1 in 3D; at its corner a quarter of it
   if (!(weight > none)) return {0, 0};
   if (!(weight < whole)) return {1, 0};
   double const s = (weight - none) / (whole - none);
@@ -77,7 +77,7 @@ inline Fade presence(double weight) {
 struct Gap {
   double weight = 0;  ///< Sw
   double gap = 0;     ///< g [m]
-  Vec<3> centroid;    ///< mean of y_a - y_b, weighted [m]
+  Vec<3> centroid;    ///< weighted mean of y_a - y_b [m]
   bool seen() const { return weight > 0; }
   double tau2() const { return dot(centroid, centroid) - gap * gap; }
 };
@@ -102,14 +102,14 @@ Gap blended_gap(Plane const& a, Index count, Sources const& sources, double reac
   return g;
 }
 
-/// Force on a point, the slope of the energy by its normal, and what acts on F besides.
+/// Force on a point, the derivative of the energy by its normal, and additional action on F.
 struct PointLoad {
   Vec<3> force, by_normal;  ///< [N], [J]
   Mat<3> on_gradient = {};  ///< of friction: minus the force on F [N m]
 };
 
-/// What one target with area A [m2] does: the full derivative of E = A psi(g) theta p(Sw). on_source(k, load) takes the
-/// load of source k; the result is that of the target.
+/// Contribution of one target with area A [m2]: the full derivative of E = A psi(g) theta p(Sw). Calls on_source(k,
+/// load) with the load of source k; returns the load of the target.
 template <class Sources, class OnSource>
 PointLoad contact_loads(Plane const& a, double area, Gap const& g, Layer const& psi, Fade const& theta, Index count,
                         Sources const& sources, double reach, OnSource const& on_source) {
@@ -134,13 +134,13 @@ PointLoad contact_loads(Plane const& a, double area, Gap const& g, Layer const& 
   return target;
 }
 
-/// The normal of a point that rides on a particle with F: F^-T N / |F^-T N|.
+/// The normal of a point attached to a particle with F: F^-T N / |F^-T N|.
 inline Vec<3> carried_normal(Mat<3> const& F, Vec<3> const& N) {
   Vec<3> const m = transpose(inverse(F)) * N;
   return (1 / std::sqrt(dot(m, m))) * m;
 }
 
-/// dE/dF of the particle that carries a point: y = x + F S, n = F^-T N / |F^-T N|. f, q: the point's load.
+/// dE/dF of the host particle of a point: y = x + F S, n = F^-T N / |F^-T N|. f, q: the point's load.
 inline Mat<3> couple(Vec<3> const& S, Vec<3> const& N, Mat<3> const& F, PointLoad const& load) {
   Mat<3> const inverse_F = inverse(F);
   Vec<3> const m = transpose(inverse_F) * N;

@@ -7,47 +7,47 @@
 
 namespace piola::contact {
 
-/// The surface of a rigid shape where it is now.
+/// The surface of a rigid shape in its current pose.
 struct RigidSurface {
   using Kind = RigidShape::Kind;
   Kind kind = Kind::plane;
   int dimension = 3;
-  Vec<3> centre;           ///< of sphere, cylinder and box; a point of the plane [m]
+  Vec<3> centre;           ///< of sphere, cylinder and box; for a plane: a point on it [m]
   Vec<3> axis{{0, 0, 1}};  ///< unit vector: plane: outward normal; cylinder: its axis
   Vec<3> half_lengths;     ///< box: half its edges; cylinder: half its length in the first [m]
   double radius = 0;       ///< sphere, cylinder [m]
   Vec<3> velocity;         ///< [m/s]
 
-  Mat<3> turn = identity<3>();   ///< since the start, when the edges of a box lie along the axes
+  Mat<3> turn = identity<3>();   ///< rotation since the start, when the edges of a box lie along the axes
   Vec<3> angular_velocity = {};  ///< about the centre [rad/s]
   double inverse_mass = 0;       ///< of a free body [1/kg]
   Mat<3> inverse_inertia = {};   ///< of a free body, about its centre [1/(kg m2)]
 
   Vec<3> velocity_at(Vec<3> const& y) const { return velocity + cross(angular_velocity, y - centre); }
-  /// How fast unit impulses at y make it there, at most: along n, or in any directions at once [1/kg].
+  /// Upper bound of the velocity at y per unit impulse at y: along n, or in all directions [1/kg].
   double mobility(Vec<3> const& y, Vec<3> const& n) const;
   double mobility(Vec<3> const& y) const;
 };
 
-/// Where a rigid shape stands.
+/// Pose of a rigid shape.
 struct RigidPose {
   Vec<3> centre;
   Mat<3> turn = identity<3>();
 };
 inline RigidPose pose_of(RigidSurface const& shape) { return {shape.centre, shape.turn}; }
 
-/// How far the point of a shape that is now at y has come since it stood in another pose [m].
+/// Displacement since pose `last` of the material point that is now at y [m].
 inline Vec<3> moved_from(RigidPose const& last, RigidSurface const& now, Vec<3> const& y) {
   return now.centre - last.centre + (now.turn - last.turn) * (transpose(now.turn) * (y - now.centre));
 }
 
-/// No point of its surface is farther from the centre [m]; infinite of a plane.
+/// Largest distance of its surface points from the centre [m]; infinite for a plane.
 double reach_of(RigidSurface const& shape);
 
-/// Bounds how far points of its surface have come since it stood in another pose [m].
+/// Bound of the displacement of its surface points since pose `last` [m].
 double travel_from(RigidPose const& last, RigidSurface const& now);
 
-/// The surface of a shape at the start, in a space of so many dimensions.
+/// The surface of a shape at the start, in a space of `dimension` dimensions.
 RigidSurface surface_of(RigidShape const& shape, int dimension);
 
 /// Signed distance of a point from it, negative inside [m], and its gradient, the outward normal.
@@ -57,19 +57,19 @@ struct Distance {
 };
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x);
 
-/// The face of a thin shape by which a point came in, as a sign along one of its axes: the edges of a box, first the
-/// axis of a cylinder. 0: the nearer face counts.
+/// The face by which a point entered a thin shape, as a sign along one of its axes: the edges of a box; for a cylinder
+/// first its axis. 0: the nearer face counts.
 using Sides = std::array<int, 3>;
-/// Signed distance of a point that is kept on its side: it is inside behind the face by which it came in, however deep.
+/// Signed distance of a point with a recorded entry face: it stays inside behind that face at any depth.
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x, Sides const& sides);
 
-/// Whether a shape is thinner than a length [m], along each of these axes. Spheres are not, and neither are cylinders
-/// whose diameter is less.
+/// Whether a shape is thinner than a length [m], along each of these axes. False for spheres, and for cylinders whose
+/// diameter is less.
 std::array<bool, 3> thin_along(RigidSurface const& shape, double length);
-/// How far behind the far face of a thin shape a point is that is kept on its side [m]; negative before it.
+/// Depth behind the far face of a thin shape of a point with a recorded entry face [m]; negative in front of it.
 double beyond(RigidSurface const& shape, Vec<3> const& x, Sides const& sides);
-/// The side on which a point has gone into a thin shape, or through it, by one of its wide faces since the shape was
-/// `last` and the point at `before`; nothing: it has not.
+/// The entry face if a point has entered or crossed a thin shape by one of its wide faces since the shape was at `last`
+/// and the point at `before`; else empty.
 std::optional<Sides> entered(RigidSurface const& shape, Vec<3> const& x, RigidPose const& last, Vec<3> const& before,
                              std::array<bool, 3> const& thin);
 

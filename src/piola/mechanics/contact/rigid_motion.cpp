@@ -70,7 +70,7 @@ void RigidMotion::move(std::vector<RigidSurface>& surfaces, double time, double 
   place(surfaces);
 }
 
-/// Of springs between shapes and of those to points of bodies.
+/// Bound over springs between shapes and springs to points of bodies.
 void RigidMotion::bound_frequency(System const& bodies) {
   std::vector<double> of_shapes;
   for (std::size_t k = 0; k < shapes_.size(); ++k) of_shapes.push_back(bodies.frequencies(k).of_shape);
@@ -104,7 +104,7 @@ void RigidMotion::kick(System& bodies, double time, double half) {
     Vec<3> const weight = (half * body.mass()) * value_at(shapes_[k].given.gravity, time);
     Vec<3> const impulse = half * load.force + weight, before = body.velocity;
     body.kick(impulse, half * load.moment);
-    // What holds the body gives back what is not free to act.
+    // The part of the impulse in held directions is returned.
     Vec<3> const outside = weight + body.free_part(impulse) - impulse;
     work_ += 0.5 * dot(outside, before + body.velocity);
   }

@@ -9,41 +9,41 @@
 
 namespace piola::contact {
 
-/// All rigid shapes of a run as they move: driven ones as prescribed, free ones by what bodies, gravity and other
-/// shapes do to them. It places the surfaces of a System and takes what the bodies do from it.
+/// Motion of all rigid shapes of a run: driven ones as prescribed, free ones by bodies, gravity and other shapes. Sets
+/// the surfaces of a System and reads the forces of bodies from it.
 class RigidMotion {
  public:
   RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between);
 
-  /// Puts velocities, turns and masses into the surfaces.
+  /// Sets velocities, rotations and masses of the surfaces.
   void place(std::vector<RigidSurface>& surfaces) const;
-  /// From time to time + dt [s].
+  /// Moves the surfaces from time to time + dt [s].
   void move(std::vector<RigidSurface>& surfaces, double time, double dt);
-  /// Forces between shapes as they stand, after those of the bodies.
+  /// Computes the forces between shapes in their initial pose, after those of the bodies.
   void start(System const& bodies);
-  void evaluate(System const& bodies, double dt);  ///< dt [s] after the evaluation before
-  /// The impulses of `half` [s] by the forces as they are and by gravity at a time; the velocities of the surfaces
-  /// follow.
+  void evaluate(System const& bodies, double dt);  ///< dt [s] after the last evaluation
+  /// Applies the impulses of `half` [s] by the present forces and by gravity at `time`, and updates the velocities of
+  /// the surfaces.
   void kick(System& bodies, double time, double half);
   void damp(System& bodies, double factor);
 
-  /// What other shapes and bodies do to a shape; the moment about its centre.
+  /// Load of other shapes and bodies on a shape; moment about its centre.
   RigidPairs::Load on(System const& bodies, std::size_t shape) const;
   RigidPairs::Totals const& between_shapes() const { return pairs_.totals(); }
-  double frequency2() const { return frequency2_; }                      ///< bound of free shapes [1/s2]
-  double closing_step(std::vector<RigidSurface> const& surfaces) const;  ///< also one in which nothing turns far [s]
+  double frequency2() const { return frequency2_; }                      ///< bound for free shapes [1/s2]
+  double closing_step(std::vector<RigidSurface> const& surfaces) const;  ///< step limit by contact and by rotation [s]
 
   double kinetic_energy() const;         ///< of free shapes [J]
-  double work() const { return work_; }  ///< of gravity and of what holds free shapes, since the start [J]
+  double work() const { return work_; }  ///< of gravity and of held directions of free shapes, since the start [J]
   double damping_loss() const { return damping_loss_; }  ///< [J]
   Vec<3> linear_momentum() const;                        ///< of free shapes [kg m/s]
   Vec<3> angular_momentum() const;                       ///< about the origin [kg m2/s]
   std::vector<RigidState> states(std::vector<RigidSurface> const& surfaces) const;
 
-  /// Whether some shape is free or turns: else a checkpoint needs nothing of this.
+  /// Whether some shape is free or rotates; else no state is needed in checkpoints.
   bool any() const { return any_; }
   std::vector<double> state() const;
-  /// Before the surfaces are used again; their centres and velocities are not in it.
+  /// Call before the surfaces are used again; centres and velocities of surfaces are not in the state.
   void restore(std::vector<RigidSurface>& surfaces, std::vector<double> const& state);
 
  private:
@@ -63,7 +63,7 @@ class RigidMotion {
   std::vector<Shape> shapes_;
   RigidPairs pairs_;
   double work_ = 0, damping_loss_ = 0, frequency2_ = 0;
-  double of_shapes_ = 0;  ///< square of the largest frequency that a free shape has on its springs [1/s2]
+  double of_shapes_ = 0;  ///< square of the largest frequency of a free shape on its springs [1/s2]
 };
 
 }  // namespace piola::contact

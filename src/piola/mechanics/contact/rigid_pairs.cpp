@@ -82,7 +82,7 @@ std::vector<RigidPairs::Touch> RigidPairs::touches(Pair const& pair, std::vector
   return all;
 }
 
-/// Of a body that is far off, or of what is near enough for this step and the next.
+/// Empty for a distant body; else the points that are near enough for this step and the next.
 std::vector<RigidPairs::Touch> RigidPairs::sampled_touches(std::vector<SurfaceSample> const& samples,
                                                            RigidSurface const& a, RigidSurface const& b) const {
   Vec<3> const between = a.centre - b.centre;

@@ -10,8 +10,8 @@
 namespace piola::contact {
 
 /// Contact of free rigid shapes with other rigid shapes: points of one against the distance from the other, with the
-/// layer of a deformable body between them. A few points where one of the two is a sphere or a plane; of boxes and
-/// cylinders points all over the surfaces of both in turn. Theory: docs/theory/contact.md, Rigid bodies.
+/// layer of a deformable body between them. A few points if one of the two is a sphere or a plane; for boxes and
+/// cylinders points on the surfaces of both in turn. Theory: docs/theory/contact.md, Rigid bodies.
 class RigidPairs {
  public:
   struct Setting {
@@ -19,48 +19,48 @@ class RigidPairs {
     double spacing = 0;    ///< dp [m]
     FrictionLaw friction = {};
   };
-  /// All pairs of which at least one is free; sizes: volumes of the shapes, for stiffnesses.
+  /// Creates all pairs with at least one free shape; sizes: volumes of the shapes, for stiffnesses.
   RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Setting const& setting);
 
-  /// Without a move since the evaluation before: at the start.
+  /// Evaluates the initial state, without motion before it.
   void start(std::vector<RigidSurface> const& shapes);
-  /// dt [s] after the evaluation before.
+  /// dt [s] after the last evaluation.
   void evaluate(std::vector<RigidSurface> const& shapes, double dt);
 
   struct Load {
     Vec<3> force, moment;  ///< [N]; about the centre [N m]
   };
   Load const& on(std::size_t shape) const { return loads_[shape]; }
-  /// Bounds the square of the frequency of pairs that touch [1/s2]; of_shapes: what other springs give each shape,
-  /// summed. Each of those gets its own springs added.
+  /// Bounds the square of the frequency of pairs in contact [1/s2]. of_shapes: in, the sum for each shape over other
+  /// springs; out, with the springs of its pairs added.
   double frequency2(std::vector<double>& of_shapes) const;
 
   struct Totals {
-    double energy = 0, spring_energy = 0, friction_work = 0;  ///< as of System [J]
+    double energy = 0, spring_energy = 0, friction_work = 0;  ///< as in System [J]
     double deepest = 0;                                       ///< in spacings
     double touched = 0;                                       ///< points
   };
   Totals const& totals() const { return totals_; }
-  /// The step in which no pair closes by more than half its gap and a tenth of a spacing, and which resolves a blow
-  /// [s].
+  /// The step in which no pair approaches by more than half its gap plus a tenth of a spacing, and which resolves an
+  /// impact [s].
   double closing_step(std::vector<RigidSurface> const& shapes) const;
 
-  /// What a checkpoint holds besides the places of the shapes.
+  /// State for a checkpoint, without the poses of the shapes.
   std::vector<double> state() const;
   void restore(std::vector<RigidSurface> const& shapes, std::vector<double> const& state);
 
  private:
   struct Pair {
-    std::size_t a, b;  ///< points of a against the distance from b
+    std::size_t a, b;  ///< points of a are tested against the distance from b
     double stiffness;  ///< of one point [N/m]; of sampled surfaces by area [Pa/m]
-    double area;       ///< of one point [m2]; of sampled surfaces the share of this pass
+    double area;       ///< of one point [m2]; of sampled surfaces the weight of this pass
     bool sampled;
   };
-  /// Where a pair touches, or would.
+  /// A contact point of a pair, or a possible one.
   struct Touch {
     Vec<3> y, normal;   ///< [m]; that of b
     double gap;         ///< [m]
-    double weight = 1;  ///< of sampled surfaces the area [m2]
+    double weight = 1;  ///< of sampled surfaces: the area [m2]
   };
   /// The friction of one point of a pair.
   struct Stuck {
@@ -80,12 +80,12 @@ class RigidPairs {
 
   Setting setting_;
   std::vector<Pair> pairs_;
-  std::vector<std::vector<SurfaceSample>> samples_;  ///< by shape, where a pair asks for them
+  std::vector<std::vector<SurfaceSample>> samples_;  ///< by shape, if a pair needs them
   std::vector<Load> loads_;
   std::vector<double> frequency2_;
   std::vector<RigidPose> last_;
   std::vector<Stuck> stuck_, last_stuck_;
-  double dt_ = 0;  ///< since the evaluation before [s]
+  double dt_ = 0;  ///< since the last evaluation [s]
   Totals totals_;
 };
 

@@ -17,7 +17,7 @@ struct Row {
   double length = 0;
   double at(int k) const { return length * (static_cast<double>(k) / intervals - 0.5); }
   bool is_end(int k) const { return k == 0 || k == intervals; }
-  /// What a point stands for, ends the half of others.
+  /// Length that a point represents; half for end points.
   double share(int k) const { return (is_end(k) ? 0.5 : 1.0) * length / intervals; }
 };
 

@@ -48,7 +48,7 @@ System::Rubbed System::drag(Press const& press, FrictionLaw const& law, Mat<3> c
   sums_.friction_work += now.work;
   stuck_.push_back({press.point, press.with, inverse(frame) * now.spring.stretch, now.spring.force, now.energy});
   if (!known) return {now.spring.force, 0, 0};
-  // What the spring did not take up.
+  // The slip that the spring did not take up.
   Vec<3> const along = jump - dot(n, jump) * n;
   return {now.spring.force, now.work + last->energy - now.energy,
           std::sqrt(square_of(before.stretch + along - now.spring.stretch))};

@@ -100,7 +100,7 @@ Stencil stencil_of(ParticleSet const& set, Body const& body, Around const& aroun
 Carriers::Carriers(ParticleSet const& particles, std::vector<Surface> const& surfaces)
     : dimension_(particles.dimension), of_(surfaces.size()), begin_{0} {
   std::vector<Stencil> stencils;
-  std::vector<std::int64_t> particle;  // of each carrier
+  std::vector<std::int64_t> particle;  // of each host
   for (std::size_t b = 0; b < surfaces.size(); ++b) {
     if (surfaces[b].points.empty()) continue;
     Body const& body = particles.bodies[b];

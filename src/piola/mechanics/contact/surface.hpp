@@ -9,29 +9,29 @@ namespace piola::contact {
 
 inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-/// A point of a body's surface in the reference configuration. It rides on its particle: y = x + F S.
+/// A point of a body's surface in the reference configuration, attached to its host particle: y = x + F S.
 struct SurfacePoint {
   std::int64_t particle = 0;  ///< id
   Vec<3> offset;              ///< S: from the particle to the surface [m]
   Vec<3> normal;              ///< N: outward unit normal
   double area = 0;            ///< of the reference surface [m^(Dim-1)]
-  bool image = false;         ///< behind a mirror plane: others feel it, and it feels nobody
+  bool image = false;         ///< image point behind a mirror plane: acts on other surfaces, receives no force
 };
 
-/// The surface of one body. Without points the body meets nobody.
+/// The surface of one body. Without points the body has no surface contact.
 struct Surface {
   std::vector<SurfacePoint> points;
   double spacing = 0;  ///< of its particles [m]
-  double modulus = 0;  ///< of pressure waves, kappa + 4/3 mu [Pa]
+  double modulus = 0;  ///< P-wave modulus kappa + 4/3 mu [Pa]
 };
 
-/// Deformation gradients of the particles that carry surface points: F = sum_j (x_j - x_p) (x) g_pj over the particles
-/// of the same body around p in the reference configuration, exact for linear fields. They are functions of positions
-/// alone, whatever formulation moves the body, so that forces which are derivatives of an energy of them conserve it.
+/// Deformation gradients of the host particles of surface points: F = sum_j (x_j - x_p) (x) g_pj over the particles of
+/// the same body around p in the reference configuration, exact for linear fields. They depend on positions alone, so
+/// that forces derived from an energy of F conserve it for any formulation.
 class Carriers {
  public:
-  /// One carrier for every particle that has a point; surfaces by body. Throws InputError naming the body whose
-  /// particles lie on a line or a plane around one of its points (in 3D; in 2D: on a line).
+  /// One host for every particle with a surface point; surfaces by body. Throws InputError naming the body if the
+  /// particles around one of its points lie on a line or a plane (in 2D: on a line).
   Carriers(ParticleSet const& particles, std::vector<Surface> const& surfaces);
 
   struct Neighbour {
@@ -40,10 +40,10 @@ class Carriers {
   };
   int dimension() const { return dimension_; }
   Index count() const { return static_cast<Index>(self_.size()); }
-  /// Ids of all particles whose positions matter, ascending.
+  /// Ids of all particles whose positions are read, ascending.
   std::vector<std::int64_t> const& ids() const { return ids_; }
   Index self(Index carrier) const { return self_[static_cast<std::size_t>(carrier)]; }  ///< index into ids()
-  /// The carrier of point k of a body.
+  /// The host of point k of a body.
   Index of(std::size_t body, std::size_t point) const { return of_[body][point]; }
   std::size_t first(Index carrier) const { return begin_[static_cast<std::size_t>(carrier)]; }
   std::size_t last(Index carrier) const { return begin_[static_cast<std::size_t>(carrier) + 1]; }

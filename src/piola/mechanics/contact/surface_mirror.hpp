@@ -3,7 +3,7 @@
 
 namespace piola::contact {
 
-/// A mirror plane of a body: coordinate `axis` is `at` [m] on it, and the body is on the side of the sign.
+/// A mirror plane of a body: coordinate `axis` equals `at` [m] on it; the body is on the side given by the sign.
 struct SurfaceMirror {
   int axis = 0;
   double at = 0, side = 1;

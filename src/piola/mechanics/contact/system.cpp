@@ -130,7 +130,7 @@ void System::add_between(Run const& run, Vec<3> const& f) {
     sums_.on_first[{run.body, body}].add(-1.0 * f, -1.0 * moment);  // what a body does to itself is 0
 }
 
-/// Of the planes of a run that count: others are listed or not as it happens [1/kg].
+/// Over the planes of a run with weight: the choice of the other listed planes is arbitrary [1/kg].
 double System::largest_inverse_mass(Run const& run) const {
   double inverse = 0;
   for (std::size_t s = run.first; s < run.last; ++s)
@@ -159,7 +159,7 @@ void System::push_bodies() {
     Fade const theta = fade(gap.tau2(), rule.fade_from, rule.fade_to);
     double const seen = theta.value * presence(gap.weight).value;
     if (!(seen > 0)) continue;
-    // Of both passes, C_s Mbar / dpbar.
+    // For both passes, C_s Mbar / dpbar.
     note(run.target, gap.gap, 2 * rule.stiffness, rule.length, dp,
          largest_inverse_mass(run) + inverse_mass_of(run.target));
     if (!(gap.gap < 0)) continue;

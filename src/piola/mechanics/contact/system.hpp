@@ -20,37 +20,37 @@ class Numbers;
 
 inline double square_of(Vec<3> const& a) { return dot(a, a); }
 
-/// From this many spacings on a gap limits the step.
+/// Search distance: gaps below this number of spacings limit the step.
 inline constexpr double near = 0.25;
 
-/// The contacts of all surfaces of a run at one instant.
+/// Totals of all surface contacts of a run at one instant.
 struct Totals {
   double energy = 0;         ///< stored in the layers [J]
   double deepest = 0;        ///< largest depth of a point behind a surface, in spacings
   double frequency2 = 0;     ///< square of the largest frequency that contact adds [1/s2]
-  double spring_energy = 0;  ///< of friction that sticks [J]
-  double friction_work = 0;  ///< what friction took since the evaluation before, stored or turned into heat [J]
-  std::int64_t touched = 0;  ///< surface points that are pushed
+  double spring_energy = 0;  ///< of friction springs [J]
+  double friction_work = 0;  ///< work taken by friction since the last evaluation, stored or dissipated [J]
+  std::int64_t touched = 0;  ///< surface points with a contact force
 };
 
-/// Points of one surface that went through another one: they were deeper than a spacing behind it and left at the far
-/// side. Numbers of bodies; those of rigid shapes follow.
+/// Points of one surface that have passed through another one: they were deeper than a spacing behind it and left at
+/// the far side. Numbers of bodies; those of rigid shapes follow.
 struct Passed {
   std::size_t of = 0, through = 0;
   std::int64_t points = 0;
 };
 
-/// Contact between bodies, and between bodies and rigid shapes, by blended planes on oriented surface points. It sees
-/// positions and gives forces; both by index into ids().
+/// Contact between bodies, and between bodies and rigid shapes, by blended planes on oriented surface points. Input:
+/// positions; output: forces; both by index into ids().
 class System {
  public:
-  /// What happens between a body and another one, itself, or a rigid shape.
+  /// Contact setting between a body and another one, itself, or a rigid shape.
   struct Touch {
-    bool meets = false;   ///< whether they are kept apart here
+    bool meets = false;   ///< whether they are in surface contact
     double factor = 0.5;  ///< C_s
     FrictionLaw friction;
   };
-  /// [body][other]: bodies first, then rigid shapes; the same for [a][b] and [b][a].
+  /// [body][other]: bodies first, then rigid shapes; symmetric.
   using Setting = std::vector<std::vector<Touch>>;
   System(ParticleSet const& particles, std::vector<Surface> surfaces, std::vector<RigidSurface> rigids,
          Setting setting);
@@ -59,29 +59,29 @@ class System {
   Carriers const& carriers() const { return carriers_; }
   /// Inverse masses by index into ids() [1/kg].
   void set_masses(std::vector<double> const& masses);
-  /// Mirror planes of a body, whose images are among its surface points.
+  /// Mirror planes of a body. Their images are among its surface points.
   void set_mirrors(std::size_t body, std::vector<SurfaceMirror> mirrors) { mirrors_[body] = std::move(mirrors); }
-  /// Whether body b pushes body a here.
+  /// Whether bodies a and b are in surface contact here.
   bool meets(std::size_t a, std::size_t b) const { return setting_[a][b].meets; }
-  /// Body `other`, or a rigid shape, whose number follows those of the bodies, does not push this surface point of a
-  /// body, or does so again.
+  /// Excludes the contact of this surface point with body `other`, or includes it again. Rigid shapes are numbered
+  /// after the bodies.
   void leave_out(std::size_t body, std::size_t point, std::size_t other, bool out);
-  /// Particles have lost their surface for good, by index into ids(): their points push nothing and are pushed by
-  /// nothing from now on. Not in state(): to be called before restore() again.
+  /// Removes the points of particles that have lost their surface permanently, by index into ids(). Not in state():
+  /// call before restore() again.
   void drop(std::vector<char> const& lost);
-  /// What it stores because it pushes this point [J].
+  /// Energy stored by the contact of this point with `other` [J].
   double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
   RigidSurface& rigid(std::size_t k) { return rigids_[k]; }
   RigidSurface const& rigid(std::size_t k) const { return rigids_[k]; }
   std::vector<RigidSurface>& rigids() { return rigids_; }
   std::vector<RigidSurface> const& rigids() const { return rigids_; }
 
-  /// Forces [N] at x [m]: functions of x and of the places of rigid shapes and, with friction, of the springs and of
-  /// where all was at the evaluation before, dt [s] ago.
+  /// Computes the forces [N] at x [m]: functions of x and of the poses of rigid shapes and, with friction, of the
+  /// springs and the positions of the last evaluation, dt [s] ago.
   void evaluate(std::vector<Vec<3>> const& x, double dt);
-  /// The same without a move since then: at the start.
+  /// As evaluate(), without motion before it: at the start.
   void start(std::vector<Vec<3>> const& x);
-  /// What came of the last evaluation, for a checkpoint; places of rigid shapes are not in it.
+  /// State after the last evaluation, for a checkpoint, without the poses of rigid shapes.
   std::vector<double> state() const;
   void restore(std::vector<Vec<3>> const& x, std::vector<double> const& state);
   std::vector<Vec<3>> const& forces() const { return forces_; }
@@ -90,41 +90,41 @@ class System {
   Totals const& totals() const { return totals_; }
   std::vector<Passed> const& passed() const { return passed_; }  ///< since the start
   using Between = contact::Between;
-  /// What ties do to a rigid shape beside contact; the moment about its centre. springs: as in Frequencies [1/s2].
+  /// Sets the load of ties on a rigid shape; moment about its centre. springs: as in Frequencies [1/s2].
   void tie_rigid(std::size_t k, Between const& load, double springs) { ties_on_rigid_[k] = {load, springs}; }
-  /// What bodies do to a rigid shape; the moment about its centre.
+  /// Force of bodies on a rigid shape; moment about its centre.
   Between on_rigid(std::size_t k) const {
     Between const &pushed = on_rigid_[k], &tied = ties_on_rigid_[k].load;
     return {pushed.force + tied.force, pushed.moment + tied.moment};
   }
   /// Springs between a free rigid shape and the points near it: the largest square of the frequency that one of them
-  /// gives its point, and the sum of the squares that they give the shape [1/s2]. The sum of both is a bound.
+  /// gives its point, and the sum of the squares for the shape [1/s2]. The sum of both is a bound.
   struct Frequencies {
     double of_points = 0, of_shape = 0;
   };
   Frequencies frequencies(std::size_t k) const {
     return {frequencies_[k].of_points, frequencies_[k].of_shape + ties_on_rigid_[k].springs};
   }
-  /// What body b does to body a; the moment about the origin.
+  /// Force of body b on body a; moment about the origin.
   Between const& between(std::size_t a, std::size_t b) const { return between_[a][b]; }
 
-  /// What a particle with surface points feels and has felt.
+  /// Contact values of a particle with surface points.
   struct AtParticle {
     std::int64_t id = 0;
     double pressure = 0;  ///< of contact, mean over its points [Pa]
-    double gap = 0;       ///< smallest one; at most `near` spacings, beyond which nobody looks [m]
-    double slid = 0;      ///< way that it has slid, most of its points [m]
-    double heat = 0;      ///< of friction, its half [J/m2]
+    double gap = 0;       ///< smallest gap of its points [m], capped at the search distance of `near` spacings
+    double slid = 0;      ///< sliding distance, maximum over its points [m]
+    double heat = 0;      ///< half of the friction heat [J/m2]
   };
   std::vector<AtParticle> at_particles() const;
 
-  /// What damps the chatter of points that rub; shares of the heat of friction by body.
+  /// Enables chatter damping; shares: by body, largest fraction of the friction heat.
   void damp_chatter(std::vector<double> const& shares);
-  /// The impulses of that after the last evaluation, which must have been one with friction. v [m/s].
+  /// Chatter-damping impulses after the last evaluation, which must have been one with friction. v [m/s].
   ChatterDamping const& chatter(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v);
   bool damps_chatter() const { return rubs_ && chatter_.any(); }
 
-  /// The step in which the fastest pair of near points closes a tenth of a spacing [s]. v [m/s].
+  /// The step in which the fastest pair of near points approaches by a tenth of a spacing [s]. v [m/s].
   double closing_step(std::vector<Vec<3>> const& v) const;
   std::size_t bytes() const;
 
@@ -137,25 +137,25 @@ class System {
     bool image;
   };
   struct Run {
-    Index target;      ///< a point
+    Index target;      ///< index of a point
     std::size_t body;  ///< of the sources
     std::size_t first, last;
   };
 
-  /// What pushes a point on something.
+  /// Contact force of a point on another object.
   struct Press {
     std::int64_t point;
     std::size_t with;  ///< see Stuck
     double force;      ///< along the normal [N]
     double stiffness;  ///< [N/m]
-    double area;       ///< share of this pass [m2]
+    double area;       ///< weight of this pass [m2]
   };
   struct Rubbed {
     Vec<3> force;               ///< on the point [N]
     double heat = 0, slid = 0;  ///< [J], [m]
   };
 
-  /// Points of a rigid shape that are tested against the planes of a body, where its own points are too far apart.
+  /// Points of a rigid shape that are tested against the planes of a body, where the body's own points are too coarse.
   struct ShapePass {
     std::size_t body, rigid;
     ShapePoints points;
@@ -168,7 +168,7 @@ class System {
     Plane plane = {};
     Gap gap = {};
   };
-  /// A point that is kept on its side of a thin shape.
+  /// A point with a recorded entry face of a thin shape.
   struct Kept {
     Index point;
     std::size_t rigid;
@@ -179,7 +179,7 @@ class System {
     std::int64_t point;
     std::size_t with;  ///< see Stuck
     Vec<3> normal;
-    bool counts;  ///< it is deeper than a spacing
+    bool counts;  ///< whether it is deeper than a spacing
     bool operator<(Deep const& o) const { return with != o.with ? with < o.with : point < o.point; }
   };
 
@@ -200,7 +200,7 @@ class System {
     return !is_dropped(at(point)) && with_rigid(points_[at(point)].body, rigid).meets &&
            !is_left_out(at(point), surfaces_.size() + rigid);
   }
-  /// Whether the point itself is tested against the shape, too; not where points of the shape cover all of it.
+  /// Whether the point itself is tested against the shape; false if points of the shape cover all of it.
   bool is_tested(Index point, std::size_t rigid) const {
     return is_met(point, rigid) && covered_[points_[at(point)].body][rigid] == 0;
   }
@@ -262,12 +262,12 @@ class System {
   Carriers carriers_;
   std::vector<Point> points_;
   std::vector<std::vector<PairRule>> rules_;
-  std::vector<OwnNeighbours> own_;  ///< by body: empty but for bodies that meet themselves
-  bool rubs_ = false;               ///< whether anything has friction
-  double dt_ = 0;                   ///< since the evaluation before [s]
+  std::vector<OwnNeighbours> own_;  ///< by body: empty without self-contact
+  bool rubs_ = false;               ///< whether any pair has friction
+  double dt_ = 0;                   ///< since the last evaluation [s]
   std::vector<double> inverse_mass_;
-  std::vector<Vec<3>> listed_at_;         ///< positions of carriers when the lists were made [m]
-  std::vector<RigidPose> listed_rigids_;  ///< and rigid shapes
+  std::vector<Vec<3>> listed_at_;         ///< positions of host particles at the last list update [m]
+  std::vector<RigidPose> listed_rigids_;  ///< poses of rigid shapes at the last list update
   double skin_ = 0;                       ///< [m]
   std::vector<char> left_out_;            ///< by point and other, or empty
   std::vector<char> dropped_;             ///< by point, or empty
@@ -279,7 +279,7 @@ class System {
   std::vector<std::vector<SurfaceMirror>> mirrors_ = std::vector<std::vector<SurfaceMirror>>(surfaces_.size());
   std::vector<ShapePass> shape_passes_;
   std::vector<ShapeRun> shape_runs_;
-  std::vector<double> shape_springs_;                   ///< by carrier: of points of shapes [N/m]
+  std::vector<double> shape_springs_;                   ///< by host particle: of points of shapes [N/m]
   std::vector<std::vector<char>> covered_;              ///< [body][rigid]: see ShapePoints::cover()
   std::vector<std::vector<std::array<bool, 3>>> thin_;  ///< [body][rigid]: along which axes the shape is thin
   bool any_thin_ = false;
@@ -287,34 +287,34 @@ class System {
   std::vector<Deep> deep_, last_deep_;
   std::vector<Passed> passed_;
   std::vector<Index> active_points_, active_carriers_;
-  std::vector<Mat<3>> F_;         ///< of active carriers, by carrier
+  std::vector<Mat<3>> F_;         ///< of active host particles, by host
   std::vector<Plane> planes_;     ///< of active points, by point
   std::vector<PointLoad> loads_;  ///< by point
   std::vector<char> loaded_;
   std::vector<Index> loaded_points_;
-  /// Springs of touched points, with a body, or with a rigid shape whose number follows those of the bodies; in the
-  /// order of contacts, which is that of the runs, then of near_rigid_.
+  /// Springs of contact points, with a body, or with a rigid shape, numbered after the bodies. In the order of
+  /// contacts: runs, then near_rigid_.
   struct Stuck {
     std::int64_t point;     ///< of a shape: its key
-    std::size_t with;       ///< of a shape's points: the number of their pass, which follows those of the shapes
+    std::size_t with;       ///< of a shape's points: the number of their pass, counted after the shapes
     Vec<3> stretch, force;  ///< [m] in the reference configuration of the point, [N]
     double energy;          ///< [J]
     bool operator<(Stuck const& o) const { return with != o.with ? with < o.with : point < o.point; }
   };
   std::vector<Stuck> stuck_, last_stuck_;
-  std::vector<double> gap_;           ///< by point: smallest one of the last evaluation [m]
+  std::vector<double> gap_;           ///< by point: smallest gap of the last evaluation [m]
   std::vector<double> normal_force_;  ///< by point: outward, of the last evaluation [N]
   struct Trace {
     double slid = 0, heat = 0;  ///< [m], [J]
   };
-  std::vector<Trace> traces_;  ///< by point, where anything has friction
+  std::vector<Trace> traces_;  ///< by point, if any pair has friction
   ChatterDamping chatter_;
-  std::vector<double> heat_;    ///< by carrier, of the last evaluation, where chatter is damped [J]
-  std::vector<Mat<3>> last_F_;  ///< of carriers at the evaluation before; who was not active then is asked for later
+  std::vector<double> heat_;    ///< by host particle, of the last evaluation, with chatter damping [J]
+  std::vector<Mat<3>> last_F_;  ///< of host particles at the last evaluation; inactive ones are computed on demand
   std::vector<char> knows_F_, knows_last_F_;
-  /// Sources of a target that rubs: share, F^-1 r.
+  /// Sources of a sliding target: weight, F^-1 r.
   std::vector<std::pair<double, Vec<3>>> rubbed_;
-  std::vector<Vec<3>> last_x_;        ///< of the evaluation before
+  std::vector<Vec<3>> last_x_;        ///< of the last evaluation
   std::vector<RigidPose> last_pose_;  ///< of rigid shapes
   std::vector<Vec<3>> forces_;
   std::vector<Index> pushed_;
@@ -328,12 +328,13 @@ class System {
   std::vector<Frequencies> frequencies_;
   std::vector<std::vector<Between>> between_;
   Totals totals_;
-  /// Sums of an evaluation over points, which may come in any order.
+  /// Sums of an evaluation over points, in any order.
   struct Sums {
     exec::ExactSum energy, spring_energy, friction_work;
     std::vector<BetweenSum> on_rigid;
     std::vector<exec::ExactSum> springs_of_shape;
-    std::map<std::pair<std::size_t, std::size_t>, BetweenSum> on_first;  ///< of two bodies, the one of the lower number
+    std::map<std::pair<std::size_t, std::size_t>, BetweenSum> on_first;  ///< of two bodies, on the one of the lower
+                                                                         ///< number
   };
   Sums sums_;
 };

@@ -12,32 +12,31 @@
 
 namespace piola::contact {
 
-/// The ties of a run: springs with memory between surface points of one body and the places of the other one that they
-/// lay on at the start. A jump is the same linear function of the positions of particles for ever,
-///   jump_a = y_a - sum_b N_ab (y_b + F_b R_ab) = sum_i c_ai x_i,   sum_i c_ai = 0,
-/// so that the ties are rows of numbers. Of a rigid shape it is jump_a = y_a - (c + R arm), with the arm in the axes of
-/// the shape. Particles are indices into Carriers::ids().
+/// The ties of a run: springs with memory between surface points of one body and their initial positions on the other
+/// one. A jump is a constant linear function of the positions of particles, jump_a = y_a - sum_b N_ab (y_b + F_b R_ab)
+/// = sum_i c_ai x_i with sum_i c_ai = 0, so that ties are rows of numbers. With a rigid shape jump_a = y_a - (c + R
+/// arm), with the arm in the axes of the shape. Particles are indices into Carriers::ids().
 class Ties {
  public:
   Ties() = default;
-  /// Binds what touches at x [m], the start. The set tells reference places.
+  /// Ties the surfaces in contact at x [m], the start. `set` has the reference positions.
   Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
        Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
 
-  /// What a tie found at the start.
+  /// Result of the search of a tie at the start.
   struct Found {
-    std::array<std::int64_t, 2> points{};  ///< held ones of both bodies
-    double area = 0;                       ///< that is held, the mean of both bodies [m^(Dim-1)]
+    std::array<std::int64_t, 2> points{};  ///< tied points of both bodies
+    double area = 0;                       ///< tied area, mean of both bodies [m^(Dim-1)]
     std::int64_t left = 0;                 ///< points of both that face the other body from farther away
-    double left_area = 0;                  ///< theirs, counted the same way [m^(Dim-1)]
-    double farthest = 0;                   ///< largest gap or overlap of a held point, in spacings
-    double nearest = std::numeric_limits<double>::infinity();  ///< least gap or overlap of any point, in spacings
+    double left_area = 0;                  ///< area of these, mean of both bodies [m^(Dim-1)]
+    double farthest = 0;                   ///< largest gap or overlap of a tied point, in spacings
+    double nearest = std::numeric_limits<double>::infinity();  ///< smallest gap or overlap of any point, in spacings
     double stiffness = 0;                                      ///< K [Pa/m]
   };
   std::vector<TieRule> const& rules() const { return rules_; }
   std::vector<Found> const& found() const { return found_; }
 
-  /// A surface point of a body that a tie holds to another one; rigid shapes follow the bodies.
+  /// A tied surface point of a body; `other`: the body it is tied to, or a rigid shape, numbered after the bodies.
   struct Hold {
     std::size_t body, point, other;
   };
@@ -47,31 +46,30 @@ class Ties {
   /// Rows that failed in the last evaluation, ascending.
   std::vector<std::size_t> const& released() const { return released_; }
 
-  /// Forces [N] at x [m]: functions of x and of the largest openings so far, which may grow.
+  /// Computes the forces [N] at x [m]: functions of x and of the largest openings so far, which it updates.
   void evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
   std::vector<Vec<3>> const& forces() const { return forces_; }
   std::vector<Index> const& pushed() const { return touched_; }  ///< ascending
 
   struct Totals {
     double energy = 0;  ///< stored [J]
-    double heat = 0;    ///< what failure took [J]
-    double failed = 0;  ///< share of the area that can fail
+    double heat = 0;    ///< dissipated by failure [J]
+    double failed = 0;  ///< failed fraction of the area that can fail
   };
   Totals const& totals() const { return totals_; }
   using Force = Between;
-  /// What a tie does to its first body; the moment about the origin.
+  /// Force of a tie on its first body; moment about the origin.
   Force const& on_first(std::size_t tie) const { return on_first_[tie]; }
-  /// What ties do to a rigid shape; the moment about its centre.
+  /// Force of all ties on a rigid shape; moment about its centre.
   Force const& on_rigid(std::size_t shape) const { return on_rigid_[shape]; }
-  /// The sum of the squares of the frequencies that ties give a free rigid shape on points that rest, nothing failed
-  /// [1/s2]. With frequency2 it bounds the square of the frequency of both.
+  /// Sum over ties of the squared frequencies of a free rigid shape on points at rest, without failure [1/s2]. Added to
+  /// frequency2() it bounds the square of the frequency of both.
   double springs_of_shape(std::size_t shape, std::vector<RigidSurface> const& rigids) const;
-  /// A bound of the square of the largest frequency of the ties with these inverse masses [1/kg], nothing failed
-  /// [1/s2].
+  /// Bound of the square of the largest frequency of the ties with these inverse masses [1/kg], without failure [1/s2].
   double frequency2(std::vector<double> const& inverse_masses) const;
 
   std::vector<double> state() const;
-  /// Evaluate afterwards.
+  /// Call evaluate() afterwards.
   void restore(std::vector<double> const& state);
   std::size_t bytes() const;
 
@@ -83,11 +81,12 @@ class Ties {
   struct Row {
     std::size_t tie;
     Hold hold;
-    Index carrier;  ///< of the held point
+    Index carrier;  ///< host of the tied point
     Vec<3> N;
-    double area;  ///< half of the held one: both sides pull
+    double area;  ///< half the area of the tied point, because both sides are tied
     CohesiveLaw law;
-    std::size_t first, other, last;  ///< terms of the own body, from `other` on of the other one; the first is its own
+    std::size_t first, other, last;  ///< terms of the same body, from `other` on those of the other one; the first is
+                                     ///< the host
     std::size_t rigid = no_shape;
     Vec<3> arm = {};  ///< in the axes of the rigid shape, from its centre [m]
   };
@@ -107,7 +106,7 @@ class Ties {
   void list_by_particle(std::size_t particles);
   void stretch(std::size_t row, Carriers const& carriers, std::vector<Vec<3>> const& x,
                std::vector<RigidSurface> const& rigids);
-  /// The moment that it has on the first body of the tie.
+  /// Moment of a row on the first body of the tie.
   Vec<3> turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x);
   void add_up(std::vector<BetweenSum>& on_first, std::vector<RigidSurface> const& rigids);
 
@@ -116,10 +115,10 @@ class Ties {
   std::vector<Row> rows_;
   std::vector<Term> terms_;
   std::vector<Index> touched_;
-  std::vector<std::size_t> begin_;  ///< by index into touched_: its rows
-  std::vector<Term> by_particle_;   ///< at: a row
+  std::vector<std::size_t> begin_;  ///< by index into touched_: first row
+  std::vector<Term> by_particle_;   ///< at: index of a row
   std::vector<double> opened_;      ///< by row: largest effective opening [m]
-  std::vector<double> lost_;        ///< by row: what its failure took [J]
+  std::vector<double> lost_;        ///< by row: energy dissipated by its failure [J]
   std::vector<Pull> pulls_;         ///< by row
   std::vector<std::size_t> released_;
   std::vector<Vec<3>> forces_;
